@@ -43,7 +43,7 @@ TEST_P(AtomicFileTest, ReportsAFailedRenameAndLeavesNoTemporaryFile) {
 }
 
 TEST_P(AtomicFileTest, KeepsThePreviousFileIfTheDiskIsFull) {
-  // The next write fails, because the device of the temporary file is full.
+  // The device of the temporary file is full, so the second write fails.
   ASSERT_TRUE(WriteAtomically(file_, "before", GetParam()));
   fs::create_symlink("/dev/full", DraftPath(file_, getpid()));
   const Status written = WriteAtomically(file_, "after", GetParam());

@@ -45,8 +45,8 @@ std::optional<std::string> FromBase64(std::string_view text) {
       bytes.push_back(static_cast<char>(three >> (16 - 8 * k) & 255));
     }
   }
-  // Decoding must restore the bytes exactly. In our encoding, the unused bits before the padding
-  // are zero.
+  // The text must be the one that ToBase64() makes. Its unused bits before the padding are
+  // zero.
   if (ToBase64(bytes) != text) return std::nullopt;
   return bytes;
 }

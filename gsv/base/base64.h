@@ -1,4 +1,4 @@
-// Bytes as text and back, RFC 4648, section 4 (with padding).
+// Converts bytes to Base64 text and back (RFC 4648, section 4, with padding).
 #pragma once
 
 #include <optional>

@@ -17,8 +17,8 @@ namespace gsv::base {
 
 class CdrReader {
  public:
-  // `bytes` must outlive the reader; alignment counts from their first one. `minor` is the minor
-  // version of GIOP, as 1.1 and 1.2 encode wide characters differently.
+  // `bytes` must outlive the reader; alignment counts from the first byte. `minor` is the minor
+  // version of GIOP: 1.1 and 1.2 encode wide characters differently.
   CdrReader(std::string_view bytes, bool little_endian, int minor = 2, std::size_t position = 0)
       : bytes_(bytes), position_(position), minor_(minor), little_endian_(little_endian) {
     if (position > bytes.size()) Fail();
@@ -68,7 +68,7 @@ class CdrReader {
     return std::bit_cast<T>(bytes);
   }
 
-  // Reads a length and that many bytes.
+  // Reads a sequence of octets: its length, and that many bytes.
   std::string_view Octets() {
     const std::uint32_t length = ULong();
     if (length > remaining()) Fail();
@@ -78,8 +78,8 @@ class CdrReader {
     return octets;
   }
   // Reads a string without its terminating zero. Fails if the zero is missing, or if there is
-  // another one: CORBA strings hold no zero (CORBA 3.1 part 2, 9.3.2.7), and omniORB would make a
-  // shorter string of it.
+  // another one: CORBA strings hold no zero (CORBA 3.1 part 2, 9.3.2.7), and omniORB would cut the
+  // string there.
   std::string_view String() {
     std::string_view text = Octets();
     if (text.empty() || text.find('\0') != text.size() - 1) {

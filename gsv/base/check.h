@@ -1,4 +1,4 @@
-// GSV_CHECK aborts with a message unless its condition holds. It guards against bugs, and is on in
+// GSV_CHECK aborts with a message if its condition is false. It reports bugs, and is active in
 // every build.
 #pragma once
 

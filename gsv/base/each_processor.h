@@ -1,6 +1,6 @@
-// GSV_FOR_EACH_PROCESSOR before a function compiles it with and without AVX2; the loader chooses.
-// Sanitizer builds have one version, because a sanitizer cannot start before the loader chooses.
-// Both give bit-identical results, because the compiler neither fuses nor reorders operations.
+// Compiles the function behind
+// GSV_FOR_EACH_PROCESSOR with and without AVX2; the
+// loader chooses.
 #pragma once
 
 #include "gsv/base/sanitizer.h"

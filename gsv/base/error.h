@@ -1,7 +1,7 @@
-// Expected failures as values: a code, a sentence and a place.
+// Represents expected failures as values: a code, a sentence and a place.
 //
-// A message says what was expected, what was found and what to do. `where` names the file (and
-// line), element path or address that it concerns. An error is either returned or logged, never
+// A message says what was expected, what was found and what to do. `where` names the affected
+// file (and line), element path or address. An error is either returned or logged, never
 // both.
 #pragma once
 
@@ -21,9 +21,9 @@ enum class ErrorCode {
   kNotFound,         // a name, file or offer that is not there (5 unless it is a model: 3)
   kUnavailable,      // a peer, port, display or disk that does not answer (5)
   kTimeout,          // something took longer than its limit (5)
-  kNotRunning,       // a call that is not allowed in this state (5)
-  kEnded,            // the simulation or sensor that was addressed is gone (5)
-  kCorrupt,          // bytes that do not decode (5)
+  kNotRunning,       // an operation that took longer than its time limit (5)
+  kEnded,            // a call that is not allowed in the current state (5)
+  kCorrupt,          // bytes that cannot be decoded (5)
 };
 
 struct Error {

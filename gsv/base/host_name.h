@@ -5,8 +5,8 @@
 
 namespace gsv::base {
 
-// The host name of this machine, which other machines may be unable to resolve; "localhost" if it
-// has none.
+// Returns the host name of this machine, or "localhost" if it has none. Other machines may be
+// unable to resolve the name.
 std::string HostName();
 
 }  // namespace gsv::base

@@ -1,12 +1,12 @@
-// Functions of shared libraries that are loaded at the first call; see tools/make_late_library.
+// Calls functions of shared libraries that are loaded at the first call; see tools/make_late_library.
 //
 // Threads  any.
 #pragma once
 
 extern "C" {
 
-// The function `name` of the library `file` (a soname, or a path) or of a library that it needs.
-// Loads the library if it is not loaded, and keeps it. If one of them is missing, prints the reason
-// on stderr and exits with 127, as the dynamic linker does.
+// Returns the function `name` of the library `file` (a soname, or a path) or of a library that it
+// needs. Loads the library if it is not loaded, and keeps it. If the library or the function is
+// missing, prints the reason on stderr and exits with 127, as the dynamic linker does.
 void* gsv_late_function(const char* file, const char* name) noexcept;
 }

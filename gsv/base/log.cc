@@ -66,7 +66,7 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    // Errors are written even if a flood of messages exceeds the limit.
+    // Errors are written even if the rate limit is exceeded.
     const bool is_error = message.level >= spdlog::level::err;
     LogRateLimiter& budget = is_error ? errors_ : others_;
     if (!budget.Take(message.time.time_since_epoch())) {

@@ -14,7 +14,7 @@ class LogRateLimiter {
  public:
   using Time = std::chrono::nanoseconds;  // time since any fixed instant
 
-  // A burst may have as many lines as fifty seconds allow.
+  // A burst may have as many lines as the limit allows in fifty seconds.
   explicit LogRateLimiter(std::size_t lines_per_second)
       : rate_(static_cast<double>(lines_per_second)), capacity_(50 * rate_), left_(capacity_) {}
 

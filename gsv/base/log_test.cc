@@ -24,9 +24,9 @@ TEST(LogLine, EscapesControlCharactersToStayOnOneLine) {
 
 TEST(LogLine, EscapesInvalidUtf8) {
   EXPECT_EQ(LogLine("\xff", 100, {}), "\\xff");
-  EXPECT_EQ(LogLine("\xc3", 100, {}), "\\xc3");                    // a sequence that is cut off
-  EXPECT_EQ(LogLine("\xc0\xaf", 100, {}), "\\xc0\\xaf");           // an overlong encoding
-  EXPECT_EQ(LogLine("\xed\xa0\x80", 100, {}), "\\xed\\xa0\\x80");  // a surrogate
+  EXPECT_EQ(LogLine("\xc3", 100, {}), "\\xc3");                    // an incomplete UTF-8 sequence
+  EXPECT_EQ(LogLine("\xc0\xaf", 100, {}), "\\xc0\\xaf");           // an overlong UTF-8 encoding
+  EXPECT_EQ(LogLine("\xed\xa0\x80", 100, {}), "\\xed\\xa0\\x80");  // a UTF-16 surrogate
 }
 
 TEST(LogLine, TruncatesLongMessages) {
@@ -38,7 +38,7 @@ TEST(LogLine, HidesSecrets) {
   const std::vector<std::string> secrets{"hunter2hunter2"};
   EXPECT_EQ(LogLine("token=hunter2hunter2&a=hunter2hunter2", 100, secrets),
             "token=(hidden)&a=(hidden)");
-  // Truncation must not leave half of a secret either.
+  // If a truncated message ends inside a secret, no part of the secret is shown.
   EXPECT_EQ(LogLine("token=hunter2hunter2", 10, secrets), "token=(hid (and 4 bytes more)");
 }
 
@@ -87,8 +87,8 @@ TEST(Log, SuppressesAFloodAndLogsTheNumberOfSuppressedLines) {
   EXPECT_NE(log.find("this matters\n"), std::string::npos);
   EXPECT_NE(log.find(" more lines were suppressed"), std::string::npos) << log;
   const LogCounts after = ProcessLogCounts();
-  // Every line is counted as written or as suppressed. The line that reports the suppressed ones
-  // counts as well.
+  // Every line is counted, either as written or as suppressed. The line that reports suppressed
+  // lines is also counted.
   const std::uint64_t lines = static_cast<std::uint64_t>(std::count(log.begin(), log.end(), '\n'));
   EXPECT_EQ(after.written - counts.written, lines);
   EXPECT_GE(after.suppressed - counts.suppressed, 900u);

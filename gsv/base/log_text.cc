@@ -7,7 +7,8 @@
 namespace gsv::base {
 namespace {
 
-// The length of the UTF-8 sequence at the start of `text`; 0 if it is invalid (RFC 3629).
+// Returns the length of the UTF-8 sequence at the start of `text`, or 0 if it is invalid (RFC
+// 3629).
 std::size_t SequenceLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

@@ -1,4 +1,4 @@
-// The text of a message in the log.
+// Formats messages for the log.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace gsv::base {
 
-// The message on one line: control characters and invalid UTF-8 are escaped as \n, \t, \xNN.
-// Truncated to `max_bytes`, followed by the number of missing bytes. Each of `secrets` is replaced
-// by "(hidden)".
+// Returns the message as one line: control characters and invalid UTF-8 are escaped as \n, \t,
+// \xNN. A longer line is truncated to `max_bytes`, followed by the number of missing bytes. Each of
+// `secrets` is replaced by "(hidden)".
 std::string LogLine(std::string_view message, std::size_t max_bytes,
                     const std::vector<std::string>& secrets);
 
-// The line as a JSON string in quotes. `line` comes from LogLine().
+// Returns the line as a JSON string in quotes. `line` comes from LogLine().
 std::string JsonText(std::string_view line);
 
 }  // namespace gsv::base

@@ -164,7 +164,7 @@ class ConditionVariable {
   }
 
  private:
-  // A std::unique_lock of the same mutex, which its destructor leaves locked.
+  // The std::unique_lock that the standard library needs. Its destructor leaves the mutex locked.
   struct Inner {
     explicit Inner(MutexLock& outer) : lock(outer.mutex_.mutex_, std::adopt_lock) {}
     ~Inner() { lock.release(); }

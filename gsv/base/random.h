@@ -12,22 +12,22 @@
 
 namespace gsv::base {
 
-// Four independent uniform 32-bit words for one (key, counter).
+// Returns four independent uniform 32-bit words for one (key, counter).
 std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 2> key,
                                         std::array<std::uint32_t, 4> counter);
 
-// A 64-bit hash of a string, equal on every machine (FNV-1a).
+// Returns a 64-bit hash of a string, equal on every machine (FNV-1a).
 std::uint64_t StableId(std::string_view name);
 
-// The noise of one sensor at one step. Draws are numbered, and equal for equal arguments.
+// Random numbers for one sensor at one step. Equal arguments give equal sequences of numbers.
 class Noise {
  public:
   // `stream` names the robot and sensor, see StableId(); `step` is the sampling step.
   Noise(std::uint64_t seed, std::uint64_t stream, std::uint64_t step);
 
-  // Uniform in [0, 1), 53 bits.
+  // Returns a number with 53 random bits, uniform in [0, 1).
   double Uniform();
-  // Normal with mean 0 and standard deviation 1 (Box–Muller).
+  // Returns a normal number with mean 0 and standard deviation 1 (Box–Muller).
   double Gaussian();
 
  private:

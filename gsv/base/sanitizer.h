@@ -1,4 +1,4 @@
-// The sanitizer that the program was compiled with.
+// Constants for the sanitizer that this program was compiled with.
 #pragma once
 
 namespace gsv::base {

@@ -10,11 +10,11 @@
 #define GSV_THREAD_ATTRIBUTE(x)
 #endif
 
-// Marks a class of mutexes, and a class that holds a mutex for its lifetime.
+// GSV_CAPABILITY marks a class of mutexes. The next macro marks a class that locks a mutex for its lifetime.
 #define GSV_CAPABILITY(name) GSV_THREAD_ATTRIBUTE(capability(name))
 #define GSV_SCOPED_CAPABILITY GSV_THREAD_ATTRIBUTE(scoped_lockable)
 
-// Marks members that may be accessed only while the mutex is held, and pointers whose target may
+// Mark members that may be accessed only while the mutex is locked, and pointers whose targets may
 // be.
 #define GSV_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(guarded_by(mutex))
 #define GSV_PT_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(pt_guarded_by(mutex))

@@ -9,8 +9,8 @@
 namespace gsv::base {
 namespace {
 
-// How many times an idle worker checks for a new job before it sleeps; this takes a few
-// microseconds. Jobs often come in quick succession, and waking a worker takes longer than that.
+// The number of times that an idle worker checks for a new job before it sleeps: some microseconds.
+// Jobs often follow each other quickly, and waking a worker takes longer than these checks.
 constexpr int kLooks = 400;
 
 }  // namespace
@@ -50,8 +50,8 @@ void ThreadTeam::Run(const Job& job) {
   WaitForWorkers();
 }
 
-// The workers usually finish soon, so the caller checks first. Then it sleeps, because a long piece
-// must not occupy a second processor.
+// The caller first polls, because the workers usually finish soon. Then it sleeps, so that a long
+// piece of work does not occupy a second processor.
 void ThreadTeam::WaitForWorkers() {
   for (int i = 0; i < kLooks; ++i) {
     if (state_.load(std::memory_order_acquire) == 0) return;

@@ -17,7 +17,7 @@ namespace gsv::base {
 
 class ThreadTeam {
  public:
-  // The number of processors, but at most `kMaxDefaultThreads`.
+  // Returns the number of processors, but at most `kMaxDefaultThreads`.
   static int DefaultThreads();
   static constexpr int kMaxDefaultThreads = 16;
 
@@ -30,7 +30,7 @@ class ThreadTeam {
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
   // Calls work(begin, end) for pieces of at most `grain` that cover [0, count), and returns when
-  // all are done. The caller does a single piece alone, without waking a thread. `work` does not
+  // all calls have returned. If there is only one piece, the caller does it alone. `work` does not
   // throw and calls no ParallelFor() itself.
   template <class Work>
   void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
@@ -59,18 +59,18 @@ class ThreadTeam {
   bool TryJoin();
 
   // Workers may join a job while it is open. The first thread that finds no piece left closes it,
-  // and the caller waits for the workers that have joined. Workers that wake later are not waited
-  // for.
+  // and the caller waits for the workers that have joined. It does not wait for workers that wake
+  // later.
   static constexpr unsigned kOpen = 1u << 31;
   Job job_;
   // The part of the range with which a thread begins. Equal parts in successive jobs keep data in
-  // the thread's cache. When its own part is done, the thread takes pieces of other parts.
+  // the thread's cache. When its own part is done, the thread takes pieces from the other parts.
   struct alignas(64) Part {
-    std::atomic<std::size_t> next{0};  // where the next piece begins
+    std::atomic<std::size_t> next{0};  // index at which the next piece begins
     std::size_t end = 0;
   };
   std::vector<Part> parts_;         // one per thread; the first is that of the caller
-  std::atomic<unsigned> state_{0};  // kOpen, and the number of workers that have joined
+  std::atomic<unsigned> state_{0};  // the bit kOpen, and the number of workers that have joined
   std::atomic<bool> is_stopping_{false};
   Mutex mutex_;
   ConditionVariable called_;

@@ -74,11 +74,11 @@ bool AllOthersSleep() {
   return true;
 }
 
-// Regression: threads without a piece once kept their processors busy.
+// Regression: threads without a piece of work kept their processors busy.
 TEST(ThreadTeam, ThreadsWithoutAPieceSleep) {
   constexpr int kLooks =
-      200;  // the number of consecutive checks that must succeed, because a thread that polls may
-            // also sleep for a moment
+      200;  // number of consecutive successful checks; one is not enough, because a thread that
+            // polls may also sleep for a moment
   constexpr auto kTimeout = std::chrono::seconds(30);
   std::latch begun(2), end(1);
   std::thread job([&] {

@@ -21,7 +21,8 @@ std::filesystem::path Place() {
 
 Result<std::filesystem::path> UserFolder() {
   std::filesystem::path folder = Place();
-  mkdir(folder.c_str(), 0700);  // the folder may exist already; the next check decides
+  mkdir(folder.c_str(), 0700);  // fails if the folder exists; the check below is the one that
+                                // counts
   struct stat status {};
   if (lstat(folder.c_str(), &status) != 0)
     return Fail(ErrorCode::kUnavailable, std::strerror(errno), folder);

@@ -1,4 +1,4 @@
-// The folder in which this user's processes on this machine find each other.
+// The folder through which this user's processes on this machine find each other.
 //
 // Threads  any.
 #pragma once
@@ -9,9 +9,9 @@
 
 namespace gsv::base {
 
-// $XDG_RUNTIME_DIR/gsv, or /tmp/gsv-UID if that variable is not set. Creates the folder if it does
-// not exist. Fails if that is not possible, or if others may write to the folder, as anybody may
-// create folders in /tmp.
+// Returns $XDG_RUNTIME_DIR/gsv, or /tmp/gsv-UID if that variable is not set. Creates the folder if
+// it does not exist. Fails if that is not possible, or if others may write to the folder, as
+// anybody may create folders in /tmp.
 Result<std::filesystem::path> UserFolder();
 
 }  // namespace gsv::base

@@ -144,7 +144,7 @@ std::string Drawn(std::uint64_t seed, const Parameter& parameter, std::size_t ru
   return fmt::format("{}", value);
 }
 
-// Tries each value alone, so that errors are reported before any run begins.
+// Checks each value of a parameter alone, so that errors are reported before any run begins.
 void TryValues(const Campaign& campaign, const std::string& file, base::Problems& problems) {
   Campaign alone = campaign;
   for (const Parameter& parameter : campaign.parameters) {

@@ -1,4 +1,4 @@
-// A campaign: a scenario, and parameters of it that are varied (docs/campaigns.md).
+// A campaign: a scenario, and those of its parameters that vary (docs/campaigns.md).
 //
 // Determinism  the runs, their numbers and their random draws depend only on the file.
 // Errors       name the file, the line and the column.
@@ -36,24 +36,24 @@ struct Campaign {
 
   std::size_t runs() const;  // The number of runs, at most kMaxRuns.
   // Returns the values of a run, which is counted from 0, in the order of the parameters. From run
-  // to run, the draws vary fastest, then the last list.
+  // to run, the number of the draw changes fastest, then the value of the last list.
   std::vector<std::string> ValuesOf(std::size_t run) const;
   // Returns the scenario with these values, as YAML. Fails if the scenario does not have the path
   // of a parameter.
   base::Result<std::string> ScenarioWith(const std::vector<std::string>& values) const;
-  // A text with everything that affects the runs. Equal texts mean equal runs.
+  // Returns a text of all properties that affect the runs. Equal texts mean equal runs.
   std::string Definition() const;
   std::string Identity() const;  // a hash of the definition, 16 hexadecimal digits
 };
 
 // Reads a campaign. Checks each value alone in the scenario and adds the errors to `problems`.
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
-// Reads a campaign and sets `engine` to the one that `request` names, or else to the one that the
-// file names (engine.h).
+// Reads a campaign. Sets `engine` to the one that `request` names, or else to the one in the file
+// (engine.h).
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
                                     const EngineRequest& request, Engine& engine);
 
-// The whole campaign as one text, for the machines that execute its runs.
+// Returns the whole campaign as one text, for the machines that execute its runs.
 std::string ToJson(const Campaign& campaign);
 base::Result<Campaign> CampaignInJson(const std::string& text);
 

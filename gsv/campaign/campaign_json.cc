@@ -1,4 +1,5 @@
-// A campaign as JSON, so that a queued campaign does not change when its file changes.
+// Converts a campaign to JSON. A queued campaign is stored so, and does not change when its file
+// changes.
 #include <nlohmann/json.hpp>
 
 #include "gsv/campaign/campaign.h"

@@ -165,8 +165,8 @@ TEST_F(CampaignTest, LockedOrIncompleteResultsFileLosesNothing) {
 }
 
 TEST(CampaignStatistics, IntervalsEqualPublishedValues) {
-  // The expected values are Wilson's interval of 8 in 10, and Student's interval of 1 … 5 (t =
-  // 2.7764, s = 1.5811).
+  // The expected values are Wilson's interval for 8 of 10, and Student's interval for 1, 2, 3, 4, 5
+  // (t = 2.7764, s = 1.5811).
   const Interval rate = PassRate(8, 10);
   EXPECT_EQ(rate.middle, 0.8);
   EXPECT_NEAR(rate.low, 0.4902, 1e-4);
@@ -197,7 +197,7 @@ TEST(CampaignReport, RunsAreGroupedByTheirParameters) {
   EXPECT_EQ(report.groups[0].passed, 5u);
   EXPECT_EQ(report.groups[1].passed, 10u);
   EXPECT_THAT(ToText(report), HasSubstr("slow    10    5       0.5 [0.2366, 0.7634]"));
-  // the interval is 9 ± 2.2622 · 6.0553 / √10
+  // the interval of the mean is 9 ± 2.2622 · 6.0553 / √10
   EXPECT_THAT(ToText(report), HasSubstr("9 [4.668, 13.33]"));
   EXPECT_THAT(ToHtml(report), HasSubstr("a,\"b\"&lt;"));
   EXPECT_THAT(ToCsv(results, {"speed"}), HasSubstr("\r\n1,\"a,\"\"b\"\"<\",passed,,0,0,,,1\r\n"));

@@ -1,5 +1,5 @@
 // The interface through which a job queue starts programs. `gsv campaign` implements it with
-// processes, and tests with a fake.
+// processes; tests use a fake.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@ namespace gsv::campaign {
 inline constexpr std::string_view kSucceeded = "exit code 0";
 
 struct CommandOutcome {
-  std::string ending;  // such as "exit code 0" or "signal 9"
-  std::string output;  // both stdout and stderr
+  std::string ending;  // how the command ended, such as "exit code 0" or "signal 9"
+  std::string output;  // its stdout and stderr together
 };
 
 // A program that runs in the background. Its stdin stays open until this object is destroyed. The
@@ -23,8 +23,9 @@ struct CommandOutcome {
 class StartedProgram {
  public:
   virtual ~StartedProgram() = default;
-  virtual std::string Output() = 0;  // The stdout and stderr so far.
-  virtual std::string Ending() = 0;  // In the form of CommandOutcome. Empty while the program runs.
+  virtual std::string Output() = 0;  // Returns the stdout and stderr so far.
+  virtual std::string Ending() = 0;  // Returns how the program ended, as in CommandOutcome. Empty
+                                     // while it runs.
 };
 
 // Threads  one at a time.
@@ -39,9 +40,9 @@ class CommandRunner {
       const std::vector<std::string>& command) = 0;
 };
 
-// Quotes the text as one word of a shell's command line.
+// Returns the text quoted as one word for a shell's command line.
 std::string Quoted(const std::string& text);
-// The last line that is not blank, which usually has the reason of a failure.
+// Returns the last line that is not blank, which usually contains the reason of a failure.
 std::string LastLine(const std::string& output);
 
 }  // namespace gsv::campaign

@@ -36,7 +36,8 @@ struct EngineOption {
 };
 
 struct EngineType {
-  std::string name;  // as in `engine: NAME` and --engine NAME; also the key of the engine's mapping
+  std::string name;   // the name in `engine: NAME` and --engine NAME; also the key of the engine's
+                      // mapping
   std::string title;  // the name in sentences, such as "Slurm"
   std::string help;
   std::vector<EngineOption> options;
@@ -48,25 +49,26 @@ struct EngineType {
   std::function<MakeQueue(scenario::YamlMapping& mapping)> read;
 };
 
-// All engines. The first is the default.
+// Returns all engines. The first one is the default.
 const std::vector<EngineType>& EngineTypes();
 
-// The engine options of the command line. They take precedence over the campaign's file.
+// The options of the command line that concern the engine. They override the campaign's file.
 struct EngineRequest {
-  std::string name;                                         // empty for that of the file
-  std::size_t runs_per_task = 0;                            // 0 for that of the file
-  std::map<std::string, std::vector<std::string>> options;  // values by the flag of the option
+  std::string name;                                         // empty for the engine of the file
+  std::size_t runs_per_task = 0;                            // 0 for the number in the file
+  std::map<std::string, std::vector<std::string>> options;  // values of the engine's options, by
+                                                            // the flag of the option
 };
 
-// The engine of one campaign.
+// The engine that a campaign uses.
 struct Engine {
   const EngineType* type = nullptr;
   std::size_t runs_per_task = 0;  // 0 if the driver chooses the number
   MakeQueue make_queue;           // empty if this process executes the runs
 };
 
-// Reads the keys of a campaign's file that choose where its runs are executed: `engine`, and a
-// mapping for each engine that has one.
+// Reads the keys of a campaign's file that choose where its runs are executed: `engine`, and the
+// mapping of each engine that has one.
 Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request);
 
 }  // namespace gsv::campaign

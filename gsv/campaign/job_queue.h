@@ -15,21 +15,21 @@
 namespace gsv::campaign {
 
 struct QueuedTask {
-  std::string state;   // "PENDING" while it waits, else "RUNNING" or another state of the queue
-  std::string reason;  // the reason why it waits, such as "Resources"
+  std::string state;   // "PENDING" for a waiting task, else "RUNNING" or another state of the queue
+  std::string reason;  // the reason why the task waits, such as "Resources"
 };
 
 class JobQueue {
  public:
   virtual ~JobQueue() = default;
 
-  // The maximum number of tasks of a batch, at least 1.
+  // Returns the maximum number of tasks in a batch, at least 1.
   virtual base::Result<std::size_t> MaxTasks() = 0;
   // Submits a batch, whose file must already be in the spool. Returns the job's name in the queue.
   // Returns kNotRunning if the queue refuses the batch; nothing is queued then.
   virtual base::Result<std::string> Submit(const Spool& spool, const Batch& batch) = 0;
-  // Returns the tasks of these batches that wait or run, by ShareOf(). Returns kNotFound if the
-  // queue will never run a task again. Any other error may be temporary.
+  // Returns the waiting and running tasks of these batches, by their names from ShareOf(). Returns
+  // kNotFound if the queue will never run a task again. Any other error may be temporary.
   virtual base::Result<std::map<std::string, QueuedTask>> TasksOf(
       const std::vector<Batch>& batches) = 0;
 };
@@ -39,14 +39,15 @@ class JobQueue {
 struct TaskCommand {
   std::string program;  // the path of gsv on the machine
   std::string batch_file;
-  std::string task, job, node;  // the number of the task, and the fields of its attempt's journal
+  std::string task, job, node;  // the number of the task, and the fields `job` and `node` of its
+                                // journal
   std::string jobs = "1";       // how many runs are executed at once
-  std::string more;             // further options
+  std::string more;             // more options of `gsv campaign task`
 
   std::string Text() const;
 };
 
-// A task prints this text with its journal when the journal exists, before its first run.
+// When a task's journal exists, and before the first run, the task prints this text and the journal's name.
 inline constexpr std::string_view kTaskBegins = "gsv campaign task: begins ";
 
 }  // namespace gsv::campaign

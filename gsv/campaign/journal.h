@@ -20,7 +20,7 @@
 
 namespace gsv::campaign {
 
-// Seconds since 1970 by the wall clock. This is the only clock that the machines of a queue share.
+// Returns the seconds since 1970. The machines of a queue share no other clock.
 double UnixSeconds();
 
 // Threads  any.
@@ -55,10 +55,10 @@ class JournalReader {
 
   // Returns the results since the last call.
   base::Result<std::vector<RunResult>> ReadNew();
-  // The attempt as read so far; nullopt until the first line was read.
+  // The attempt as it was read so far; nullopt before the first line was read.
   const std::optional<Attempt>& attempt() const { return attempt_; }
   bool is_over() const { return is_over_; }
-  // The runs that have begun and have no result.
+  // The numbers of runs that have begun and have no result yet.
   const std::set<std::int64_t>& open_runs() const { return open_runs_; }
   std::size_t torn_lines() const { return torn_lines_; }
   const std::filesystem::path& file() const { return file_; }
@@ -67,7 +67,7 @@ class JournalReader {
   void Take(const nlohmann::ordered_json& json, std::vector<RunResult>& results);
 
   std::filesystem::path file_;
-  std::uint64_t offset_ = 0;  // in bytes
+  std::uint64_t offset_ = 0;  // position in the file, in bytes
   std::optional<Attempt> attempt_;
   std::set<std::int64_t> open_runs_;
   std::size_t torn_lines_ = 0;

@@ -20,7 +20,7 @@ class Work {
   }
   ~Work() { is_cancelled_ = true; }
 
-  // Returns the results since the last call. Waits for a result, but only briefly.
+  // Returns the results since the last call. If there are none, waits briefly for one.
   std::vector<RunResult> Collect() {
     base::MutexLock lock(mutex_);
     changed_.wait_for(lock, kWritePeriod,
@@ -55,7 +55,7 @@ class Work {
   std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
   std::size_t idle_ GSV_GUARDED_BY(mutex_) = 0;
   std::vector<RunResult> done_ GSV_GUARDED_BY(mutex_);
-  std::vector<std::jthread> threads_;  // the last member, because the threads use all others
+  std::vector<std::jthread> threads_;  // the last member, because the threads use the others
 };
 
 }  // namespace

@@ -9,8 +9,9 @@
 namespace gsv::campaign {
 
 struct Progress {
-  std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes earlier drivers' runs
-  double seconds_left = 0;                            // wall-clock time to the end; 0 if unknown
+  std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes runs of earlier drivers
+  double seconds_left = 0;                            // estimated wall-clock time to the end; 0 if
+                                                      // unknown
 };
 
 struct LocalEngine {
@@ -22,10 +23,10 @@ struct LocalEngine {
   std::function<void(const Progress&)> report;  // called about twice a second
   std::function<bool()> is_interrupted;
 
-  // Blocks until the results contain all runs, or until it is interrupted. An interrupt cancels the
-  // runs in progress and keeps the results. Fails if the results cannot be written.
+  // Blocks until the results contain all runs, or until the user interrupts it. An interrupt
+  // cancels the runs in progress and keeps the results. Fails if the results cannot be written.
   base::Status Run(Results& results) const;
-  // Executes these runs and calls `keep` once for each. `progress` is the progress before them.
+  // Executes these runs, and calls `keep` once for each. `progress` is the progress of the campaign before these runs.
   base::Status Take(std::vector<std::int64_t> runs, Progress progress,
                     const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;
 };

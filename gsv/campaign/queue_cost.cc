@@ -11,7 +11,7 @@ namespace gsv::campaign {
 std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
   QueueCost cost;
   std::set<std::string> nodes;
-  std::map<std::string, double> waits;  // waiting time by share
+  std::map<std::string, double> waits;  // longest waiting time of each share
   std::multimap<double, int> changes;   // changes of the number of used slots, by time
   double submitted = 0, first = 0, last = 0;
   for (const Attempt& attempt : attempts) {
@@ -31,7 +31,8 @@ std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
     changes.emplace(attempt.ended, -attempt.at_once);
   }
   if (cost.tasks == 0) return std::nullopt;
-  // Of the changes at one instant, the ends of tasks come first, so that their slots count as free.
+  // If several changes have the same time, ends of tasks come first, so that their slots count as
+  // free.
   int in_use = 0, most = 0;
   for (auto change = changes.begin(); change != changes.end();) {
     const auto [begin, end] = changes.equal_range(change->first);

@@ -1,4 +1,4 @@
-// The time that a job queue costs beyond the runs themselves.
+// Computes the time that a job queue costs in addition to the runs themselves.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace gsv::campaign {
 // agree.
 struct QueueCost {
   std::size_t tasks = 0;     // number of started tasks; a task that was requeued counts again
-  std::size_t requeued = 0;  // how many of them were requeued
+  std::size_t requeued = 0;  // number of starts that followed a requeue
   std::size_t nodes = 0;
   std::size_t slots = 0;               // maximum number of concurrent runs
   double mean_wait = 0, max_wait = 0;  // from submission to the first start of a share, s

@@ -16,10 +16,10 @@ constexpr std::chrono::milliseconds kGatherPeriod{500};
 // after this time without progress, the driver prints the reason
 constexpr auto kSilence = std::chrono::seconds(30);
 constexpr std::size_t kFewTasks = 1000;
-// a run becomes an error when its tasks have ended during the run this often
+// a run becomes an error after tasks have ended this many times during the run
 constexpr std::size_t kMaxAttempts = 3;
 constexpr int kGone = 2;  // how many consecutive queries must miss a task before it counts as gone
-constexpr std::size_t kMaxLogBytes = 1000;  // how many bytes of the log an error shows
+constexpr std::size_t kMaxLogBytes = 1000;  // how many bytes of a task's log an error message shows
 
 std::string EndOf(const std::filesystem::path& file) {
   std::ostringstream text;
@@ -56,7 +56,7 @@ class Drive {
   }
 
  private:
-  // Collects results and updates the state of the runs.
+  // Collects new results and updates the state of the runs.
   base::Status TakeIn() {
     const auto gathered = Gather(spool_, results_);
     if (!gathered) return base::Fail(gathered.error());
@@ -99,7 +99,7 @@ class Drive {
       }
     }
     SayWhyNothingComes(*tasks);
-    // A task may have written results between collecting and querying.
+    // Collect once more: a task may have written results between the last collection and the query.
     if (auto ok = TakeIn(); !ok) return ok;
     if (auto ok = DropBatchesThatCameToNothing(); !ok) return ok;
     auto missing = MissingRuns();
@@ -109,7 +109,7 @@ class Drive {
     return HandOut(*std::move(missing), tasks->size());
   }
 
-  // The batches that have runs which are not done.
+  // Returns the batches that have unfinished runs.
   std::vector<Batch> OpenBatches() const {
     std::vector<Batch> open;
     for (const Batch& batch : batches_) {
@@ -125,7 +125,7 @@ class Drive {
     return looks != looks_without_.end() && looks->second >= kGone;
   }
 
-  // If only one query did not find a task, the next query decides.
+  // A task may be missing from one query by mistake. If so, the next query decides.
   bool IsAllHandedOut() const {
     return !is_waiting_to_hand_out_ &&
            std::none_of(looks_without_.begin(), looks_without_.end(),
@@ -167,8 +167,8 @@ class Drive {
     return false;
   }
 
-  // The runs that are neither done nor in the queue. Runs during which a task has ended come last.
-  // A run with too many such ends becomes an error.
+  // Returns the runs that are neither done nor in the queue. Runs during which a task ended are
+  // last in the list. A run with too many such ends becomes an error.
   base::Result<std::vector<std::int64_t>> MissingRuns() {
     std::set<std::int64_t> queued;
     for (const Batch& batch : OpenBatches()) {
@@ -253,7 +253,7 @@ class Drive {
     Batch batch;
     batch.number = batches_.empty() ? 1 : batches_.back().number + 1;
     batch.submitted = UnixSeconds();
-    // The name is unique even if somebody removes the spool and starts again.
+    // The name is unique even if the user deletes the spool and starts again.
     batch.name = fmt::format("gsv-{}-{}-{:x}", spool_.campaign().Identity().substr(0, 8),
                              batch.number, static_cast<std::int64_t>(1e3 * batch.submitted));
     batch.runs_per_task = runs_per_task;
@@ -286,7 +286,7 @@ class Drive {
   std::set<std::int64_t> done_;
   std::size_t done_before_ = 0;  // number of runs that were done when this driver started
   Progress progress_;
-  // number of queries that did not find the task, by share
+  // number of consecutive queries that did not list a task, by the task's share
   std::map<std::string, int> looks_without_;
   bool has_looked_ = false, is_silent_ = false, is_waiting_to_hand_out_ = false;
   std::size_t tasks_at_refusal_ = 0;

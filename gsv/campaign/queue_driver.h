@@ -3,7 +3,7 @@
 //
 // Each run counts once: tasks append only to their own journals (spool.h), and the results keep the
 // first result of a run. All state is in the spool and the queue, so another driver can continue.
-// Runs that the queue still holds are not submitted again, because a batch is recorded under a
+// Runs that are still in the queue are not submitted again, because a batch is recorded under a
 // unique name before it is submitted.
 #pragma once
 
@@ -19,11 +19,11 @@ namespace gsv::campaign {
 struct QueueDriver {
   JobQueue& queue;
   std::string title;  // the name of the queue in messages
-  // 0: the driver chooses a number such that there are at most 1,000 tasks, or fewer for a small
-  // queue.
+  // number of runs per task; 0 means that the driver chooses a number that gives at most 1,000
+  // tasks, or fewer for a small queue
   std::size_t runs_per_task = 0;
   double timeout = 300;  // wall-clock time limit of a run, s
-  // a folder for the files of failed runs, by its path on the nodes; may be empty
+  // folder for the files of failed runs, as a path on the nodes; may be empty
   std::string failures;
   bool waits = true;                              // if false, Run() returns after submitting
   std::chrono::milliseconds poll_period{10'000};  // time between queries of the queue
@@ -32,8 +32,8 @@ struct QueueDriver {
   // Waits for the given time. Returns true at once if the user interrupts.
   std::function<bool(std::chrono::milliseconds)> is_interrupted;
 
-  // Blocks until the results contain all runs, or until it is interrupted. After an interrupt the
-  // queue continues.
+  // Blocks until the results contain all runs, or until the user interrupts it. After an interrupt
+  // the tasks in the queue continue.
   base::Status Run(Spool& spool, Results& results) const;
 };
 

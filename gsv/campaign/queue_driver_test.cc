@@ -1,4 +1,4 @@
-// The driver of job queues, with a queue and nodes that the test simulates.
+// Tests the driver of job queues with a queue and nodes that the test simulates.
 #include "gsv/campaign/queue_driver.h"
 
 #include <deque>
@@ -54,8 +54,8 @@ class QueueDriverTest : public ::testing::Test {
     return campaign;
   }
 
-  // Simulates a node. It takes the task and does its first `count` runs. If `crashes` is true, it
-  // begins one more. Then the task leaves the queue.
+  // Simulates a node. It takes the task and does its first `count` runs. If `crashes` is true, the
+  // task begins one more run and ends during it. Then the task leaves the queue.
   void Do(const std::string& share, std::size_t count = 1000, bool crashes = false) {
     const auto task = queue_.held.extract(share);
     ASSERT_FALSE(task.empty()) << share;
@@ -76,7 +76,8 @@ class QueueDriverTest : public ::testing::Test {
   void DoAll() {
     while (!queue_.held.empty()) Do(queue_.held.begin()->first);
   }
-  // Adds an event that occurs while the driver waits. The driver is interrupted after the last one.
+  // Adds an event that occurs while the driver waits. The driver is interrupted after the last
+  // event.
   void Then(std::function<void()> event) { events_.push_back(std::move(event)); }
 
   base::Status Drive(const std::function<void(QueueDriver&)>& set = {}) {
@@ -128,12 +129,12 @@ TEST_F(QueueDriverTest, RunsPerTaskAreChosenSoThatOneBatchSuffices) {
   Then([this] { DoAll(); });
   ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.runs_per_task = 0; }));
   ASSERT_EQ(queue_.submitted.size(), 1u);
-  EXPECT_EQ(queue_.submitted[0].runs_per_task, 4u);  // the rounded-up quotient of 10 and 3
+  EXPECT_EQ(queue_.submitted[0].runs_per_task, 4u);  // 10 / 3, rounded up
 }
 
 TEST_F(QueueDriverTest, RunsOfALostTaskAreSubmittedAgainAfterTwoQueries) {
   Then([this] {
-    Do("batch-0001-task-0000", 0, true);  // the task ended while it did run 0
+    Do("batch-0001-task-0000", 0, true);  // the task ended during run 0
     queue_.held.erase("batch-0001-task-0003");
   });
   Then([this] { EXPECT_EQ(queue_.submitted.size(), 1u) << "after one look"; });

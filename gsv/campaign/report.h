@@ -1,4 +1,4 @@
-// Reports a campaign's results by parameters, with confidence intervals.
+// Makes reports of a campaign's results: groups of runs with confidence intervals.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace gsv::campaign {
 
-// The runs that have the same values of the grouping parameters.
+// The runs with equal values of the grouping parameters.
 struct Group {
   std::vector<std::string> values;  // values of the grouping parameters
   std::size_t runs = 0, passed = 0;
@@ -22,19 +22,21 @@ struct Report {
   std::int64_t planned = 0;
   std::vector<std::string> parameters;  // the parameters by which the runs are grouped
   std::vector<std::string> metrics;     // the metrics to show
-  std::vector<Group> groups;            // ordered by their first runs
+  std::vector<Group> groups;            // in the order of their first runs
   // A sentence about the queue's overhead. Empty if the campaign has no queue.
   std::string queue;
 };
 
-// `by` names the parameters to group by; if it is empty, these are the ones with at most 12 values.
-// `metrics` names the metrics to show, and may be empty.
+// `by` names the parameters to group by; if it is empty, the parameters with at most 12 values are
+// used. `metrics` names the metrics to show, and may be empty.
 Report MakeReport(const std::vector<RunResult>& results, std::vector<std::string> by,
                   const std::vector<std::string>& parameters, std::vector<std::string> metrics);
 
 std::string ToText(const Report& report);
-std::string ToSvg(const Report& report);   // Draws the fraction of passed runs by group.
-std::string ToHtml(const Report& report);  // Returns one page that needs no other file.
+std::string ToSvg(const Report& report);   // Draws a bar chart: the fraction of passed runs in each
+                                           // group.
+std::string ToHtml(const Report& report);  // Returns the report as one HTML page without further
+                                           // files.
 // Returns one line per run: run, parameters, status, state_hash, times, metrics (RFC 4180).
 std::string ToCsv(const std::vector<RunResult>& results,
                   const std::vector<std::string>& parameters);

@@ -191,7 +191,7 @@ base::Status Results::Insert(const std::vector<Attempt>& attempts) {
 }
 
 base::Result<std::vector<Attempt>> Results::Attempts() {
-  // Files of versions without shares have no such table.
+  // Files of older versions, which had no shares, do not contain this table.
   const auto tables = database_.Ask("SELECT COUNT(*) FROM sqlite_schema WHERE name = 'attempts'");
   if (!tables) return Refused(tables.error());
   std::vector<Attempt> attempts;

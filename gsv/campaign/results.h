@@ -1,4 +1,4 @@
-// The results of a campaign's runs: one SQLite file.
+// Stores the results of a campaign's runs in one SQLite file.
 //
 // Format   tables `campaign` (key, value), `runs` (run, parameters, status, message, state_hash,
 //          sim_time_s, wall_s, recording, metrics; parameters and metrics are JSON objects) and
@@ -25,25 +25,25 @@ namespace gsv::campaign {
 struct RunResult {
   std::int64_t run = 0;
   std::string status;   // "passed", "failed" or "error"
-  std::string message;  // the reason why it did not pass
+  std::string message;  // the reason why the run did not pass
   std::string state_hash;
   double sim_time = 0, wall_time = 0;  // in s
-  std::string recording;               // the path of a file; empty if there is none
+  std::string recording;               // path of the recording; empty if there is none
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-  // JSON numbers by the name of the metric
+  // values of metrics, as JSON numbers by the metric's name
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
 };
 
 // An attempt: one process that executed a share of the runs on one machine.
 struct Attempt {
-  std::string journal;  // the file of the journal
-  std::string share;    // the name of its share; other attempts may have the same one
-  std::string job;      // the queue's name of the job; empty if there is no queue
+  std::string journal;  // file name of the attempt's journal
+  std::string share;    // name of the share; several attempts may have the same share
+  std::string job;      // the queue's id of the job; empty if there is no queue
   std::string node;     // the name of the machine
-  int at_once = 1;      // how many runs it executes at once
-  double submitted = 0, started = 0, ended = 0;  // in s since 1970; `ended` as far as it is known
+  int at_once = 1;      // maximum number of runs at the same time
+  double submitted = 0, started = 0, ended = 0;  // in s since 1970; `ended` is the last known time
   std::size_t runs = 0;                          // number of executed runs
-  double run_seconds = 0;                        // sum of their wall-clock times, s
+  double run_seconds = 0;                        // sum of the runs' wall-clock times, s
 
   friend bool operator==(const Attempt&, const Attempt&) = default;
 };
@@ -51,8 +51,8 @@ struct Attempt {
 class Results {
  public:
   // Opens the file for a driver, and creates it if it does not exist. Fails for a file of another
-  // campaign, for a file that does not hold results, and if another process still writes it after
-  // `timeout` (kNotRunning). A process that only collects results ends soon.
+  // campaign, and for a file that contains no results. If another process writes the file, waits up
+  // to `timeout`, then fails with kNotRunning. A process that only collects results ends soon.
   static base::Result<std::unique_ptr<Results>> OpenToAdd(
       const std::string& file, const Campaign& campaign,
       std::chrono::milliseconds timeout = std::chrono::milliseconds(0));
@@ -60,14 +60,14 @@ class Results {
   static base::Result<std::unique_ptr<Results>> Open(const std::string& file);
   ~Results();
 
-  // Adds all of them or none. A run that already has a result keeps it. An attempt replaces the
-  // earlier one with the same journal.
+  // Adds all results or, in case of an error, none. A run that already has a result keeps it. An
+  // attempt replaces an earlier one with the same journal.
   base::Status Add(const std::vector<RunResult>& results,
                    const std::vector<Attempt>& attempts = {});
 
   base::Result<std::set<std::int64_t>> DoneRuns();
   base::Result<std::size_t> NotPassed();
-  base::Result<std::vector<RunResult>> All();  // Returns all results, ordered by number.
+  base::Result<std::vector<RunResult>> All();  // Returns all results, ordered by run number.
   // Returns all attempts, ordered by the instant at which they started.
   base::Result<std::vector<Attempt>> Attempts();
   base::Result<std::int64_t> PlannedRuns();
@@ -78,7 +78,7 @@ class Results {
   Results(broker::Database database, std::string file)
       : database_(std::move(database)), file_(std::move(file)) {}
   base::Status Begin(const Campaign& campaign);
-  // Returns SQLite's error with the file and the remedy.
+  // Returns SQLite's error with the name of the file and what to do.
   tl::unexpected<base::Error> Refused(const base::Error& error) const;
   base::Status Insert(const std::vector<RunResult>& results);
   base::Status Insert(const std::vector<Attempt>& attempts);

@@ -1,5 +1,5 @@
 // The engine `slurm`. It uses job arrays and Slurm's own commands sbatch, squeue and scontrol
-// (slurm.schedmd.com; 20.11 or newer). It does not need accounting (sacct).
+// (slurm.schedmd.com; 20.11 or newer). Slurm's accounting (sacct) is not needed.
 #include <charconv>
 #include <sstream>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMaxTasks = 1001;  // Slurm's default for MaxArraySize
 
 struct SlurmOptions {
-  std::string partition, time_limit;  // for sbatch; empty for the queue's default
+  std::string partition, time_limit;  // options of sbatch; empty for the queue's defaults
   std::vector<std::string> options;   // further options for sbatch
 };
 
@@ -39,7 +39,7 @@ bool IsNumber(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Returns the job id from "17" or "17;cluster", which follows any other output of sbatch.
+// Returns the job id from the last line of sbatch's output: "17" or "17;cluster".
 std::string JobIn(const std::string& output) {
   std::istringstream lines(output);
   std::string job;
@@ -146,7 +146,7 @@ class SlurmQueue final : public JobQueue {
                         "the cluster, or with --engine local",
                         command.front());
     }
-    // A command that ended by itself has refused. The effect of a command that was killed is
+    // A command with an exit code was refused. If a command was killed, its effect is
     // unknown.
     const bool has_refused = outcome->ending.starts_with("exit code");
     return base::Fail(

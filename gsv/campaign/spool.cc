@@ -79,7 +79,7 @@ base::Result<Spool> Spool::Make(const fs::path& folder, const Campaign& campaign
   if (error) {
     return base::Fail(base::ErrorCode::kUnavailable, "cannot be made: " + error.message(), folder);
   }
-  // Shards that start at the same time write the same content.
+  // Shards that start at the same time may write this file together; they write the same content.
   const fs::path whole = fs::absolute(folder, error);
   if (!fs::exists(whole / "plan.json", error)) {
     if (auto ok = base::WriteAtomically(whole / "plan.json", ToJson(campaign),

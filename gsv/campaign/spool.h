@@ -1,5 +1,5 @@
 // The folder in which machines with a shared file system store the results of a campaign's tasks.
-// It is NAME.runs beside the results.
+// The folder is NAME.runs beside the results.
 //
 // Format   plan.json            the campaign at the time of the first submission
 //          batch-0001.json      a submitted batch: its runs, and the number of runs per task
@@ -19,8 +19,8 @@
 
 namespace gsv::campaign {
 
-// Runs that were submitted together. They are divided into tasks, which are numbered from 0 and
-// have the same number of runs each.
+// Runs that were submitted together as tasks. The tasks are numbered from 0 and have the same
+// number of runs each.
 struct Batch {
   int number = 1;
   std::string name;      // the unique name of the job in the queue
@@ -33,13 +33,13 @@ struct Batch {
 
   std::size_t tasks() const { return (runs.size() + runs_per_task - 1) / runs_per_task; }
   std::vector<std::int64_t> RunsOf(std::size_t task) const;
-  // Returns the name of a task's share, which is used in journals.
+  // Returns the name of a task's share, which journals contain.
   std::string ShareOf(std::size_t task) const;
 };
 
 base::Result<Batch> ReadBatch(const std::filesystem::path& file);
 
-// Returns the name of share I of N, for runs that were not submitted by a queue of GSV.
+// Returns the name of share `index` of `count`, for runs that another queue than GSV's started.
 std::string ShardName(std::size_t index, std::size_t count);
 
 class Spool {
@@ -61,10 +61,14 @@ class Spool {
   base::Status Put(const Batch& batch) const;
   void Remove(const Batch& batch) const;
 
-  // Returns the results since the last call: those of all attempts, or of the attempts at one
+  // Returns the results since the last call: those of all attempts, or only those of one
   // share.
   base::Result<std::vector<RunResult>> Collect(const std::string& share = "");
-  const std::map<std::string, JournalReader>& read() const { return readers_; }  // by file name
+  const std::map<std::string, JournalReader>& read() const {
+    return readers_;
+  }  // the journals
+     // that were read,
+     // by file name
   std::vector<Attempt> Attempts() const;
 
  private:
@@ -76,7 +80,7 @@ class Spool {
   std::map<std::string, JournalReader> readers_;
 };
 
-// Adds new entries of the spool's journals to the results. Returns the number of added runs.
+// Copies new entries of the spool's journals to the results. Returns the number of added runs.
 base::Result<std::size_t> Gather(Spool& spool, Results& results);
 
 }  // namespace gsv::campaign

@@ -105,7 +105,8 @@ TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineIsIgnored) {
   EXPECT_EQ(results->front().metrics, Result(2).metrics);
   EXPECT_EQ(results->front().wall_time, 0.25);
   EXPECT_TRUE(reader.open_runs().empty());
-  // A killed task, a full disk, or the caches of two machines may leave such files.
+  // Such incomplete files remain after a killed task or a full disk, or if two machines have
+  // different caches.
   ASSERT_TRUE((*journal)->Add(Result(3)));
   ASSERT_EQ(spool->Collect()->size(), 1u);
   const std::string whole = text(reader.file());
@@ -135,7 +136,7 @@ TEST_F(SpoolTest, RunOfSeveralAttemptsCountsOnce) {
     ASSERT_TRUE((*journal)->End());
   }
   ASSERT_TRUE(Gather(*spool, **results));
-  // A later reader finds the same results, and Gather() adds nothing.
+  // Another reader finds the same results. Gather() has nothing to add.
   auto later = Spool::Open(folder_);
   ASSERT_TRUE(Gather(*later, **results));
   EXPECT_THAT(*(*results)->DoneRuns(), ElementsAre(0, 1));
@@ -165,7 +166,7 @@ TEST(QueueCostTest, WaitsOverheadAndGapsAddUp) {
   EXPECT_EQ(cost->requeued, 1u);
   EXPECT_EQ(cost->nodes, 2u);
   EXPECT_EQ(cost->slots, 2u);
-  EXPECT_EQ(cost->mean_wait, 4);  // the mean of 2, 3 and 7
+  EXPECT_EQ(cost->mean_wait, 4);  // the mean of the waiting times 2, 3 and 7
   EXPECT_EQ(cost->max_wait, 7);
   EXPECT_EQ(cost->run_seconds, 9.5);
   EXPECT_EQ(cost->task_seconds, 13);

@@ -1,11 +1,11 @@
 // The engine `ssh`. It has a list of hosts, each with a number of slots, and starts tasks on them
 // with the program `ssh`. The hosts see the campaign's folder under the same path as this machine.
 //
-// The queue is in the driver, which keeps the tasks that wait for a slot. A running task ends with
-// its connection, because its stdin closes. A host has failed if it is unreachable, or if a task
-// ends there before its journal exists. Its task goes to another host. The host is paused for a
-// while, longer after each failure. A task that ends later without success is dropped, and the
-// driver submits the rest of its runs again.
+// The driver itself manages the queue and keeps the tasks that wait for a slot. A running task ends
+// with its connection, because its stdin closes. A host counts as failed if it is unreachable, or
+// if a task ends there before its journal exists. That task goes to another host. The host gets no
+// tasks for a while, longer after each failure. A task that ends later without success is dropped,
+// and the driver submits the rest of its runs again.
 #include <algorithm>
 #include <charconv>
 #include <deque>
@@ -25,19 +25,19 @@ using std::chrono::seconds;
 
 constexpr int kMaxSlots = 256;
 constexpr std::size_t kMaxHosts = 1000;
-// many small tasks, so that all slots end at about the same time
+// number of tasks per slot: many small tasks end all slots at about the same time
 constexpr std::size_t kTasksPerSlot = 8;
-// connections to one host; sshd drops more (MaxStartups 10)
+// maximum number of connections being opened to a host; sshd drops more (MaxStartups 10)
 constexpr std::size_t kMaxConnecting = 8;
-// consecutive failures of every host after which the queue gives up
+// the queue gives up after this many consecutive failures of every host
 constexpr int kMaxFailures = 3;
 constexpr seconds kFirstRest{5}, kMaxRest{60};
-constexpr seconds kStartTimeout{60};  // time limit from the start of ssh to the begin of the task
+constexpr seconds kStartTimeout{60};  // maximum time from the start of ssh to the begin of the task
 constexpr seconds kEndMargin{60};     // added to the time that the task's runs may take
 
 struct SshOptions {
   struct Host {
-    std::string name;  // in the form that ssh takes: HOST, USER@HOST or an alias
+    std::string name;  // as ssh accepts it: HOST, USER@HOST or an alias
     std::size_t slots = 1;
   };
   std::vector<Host> hosts;
@@ -93,7 +93,8 @@ class SshQueue final : public JobQueue {
  private:
   struct Host {
     SshOptions::Host settings;
-    std::size_t running = 0, connecting = 0;  // number of tasks, and of those that have not begun
+    std::size_t running = 0, connecting = 0;  // number of tasks, and how many of them have not
+                                              // begun
     int failures = 0;                         // consecutive failures
     SshClock::time_point rests_until{};
     std::string reason;
@@ -101,7 +102,7 @@ class SshQueue final : public JobQueue {
   struct Task {
     std::string job, share, number;
     std::string batch_file, log;
-    seconds time_limit;  // from its begin
+    seconds time_limit;  // counted from the begin of the task
   };
   struct Running {
     Task task;
@@ -146,12 +147,13 @@ class SshQueue final : public JobQueue {
       return;
     }
     const std::string last = LastLine(output);
-    const bool is_lost = !running.has_begun || ending == "exit code 255";  // ssh itself has failed
+    const bool is_lost = !running.has_begun || ending == "exit code 255";  // ssh returns exit code
+                                                                           // 255 if it fails itself
     if (is_lost) Fail(host, last.empty() ? ending : last);
     if (!running.has_begun) waiting_.push_back(std::move(running.task));
   }
 
-  // All tasks of a host fail together, and count as one failure.
+  // Marks a host as failed. All its tasks fail together, and count as one failure.
   void Fail(Host& host, const std::string& reason) {
     host.reason = reason;
     if (context_.now() < host.rests_until) return;
@@ -172,7 +174,8 @@ class SshQueue final : public JobQueue {
     }
   }
 
-  // A host that has failed gets only one task at first.
+  // Returns the number of tasks that the host can take. After a failure, it gets only one task at
+  // first.
   std::size_t FreeSlots(const Host& host) const {
     if (context_.now() < host.rests_until || host.connecting >= kMaxConnecting) return 0;
     const std::size_t slots = host.failures > 0 ? 1 : host.settings.slots;
@@ -224,7 +227,7 @@ class SshQueue final : public JobQueue {
   std::list<Running> running_;
 };
 
-// Parses "HOST" or "HOST:SLOTS", as mpirun does.
+// Parses "HOST" or "HOST:SLOTS", the notation of mpirun.
 std::optional<SshOptions::Host> HostIn(const std::string& text) {
   SshOptions::Host host;
   const std::size_t colon = text.find(':');

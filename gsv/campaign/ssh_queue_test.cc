@@ -1,4 +1,4 @@
-// Tests the engine `ssh` with an ssh and a clock that the test controls.
+// Tests the engine `ssh` with a fake of ssh and a fake clock.
 #include <fstream>
 #include <sstream>
 
@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// An ssh process that was started. The test may use it even after the queue has dropped it.
+// A started ssh process. The test may use it even after the queue has dropped it.
 struct Session {
   std::vector<std::string> command;
   std::string output, ending;
@@ -160,7 +160,8 @@ TEST_F(SshQueueTest, TasksOfAHostThatCannotBeReachedGoToAnother) {
   session(1).End("exit code 0");
   EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING", "2:PENDING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n2");
-  // After its pause the host gets one task. It gets tasks for all slots once that task has begun.
+  // After the pause, the host gets one task. When that task has begun, all slots of the host get
+  // tasks.
   now_ += seconds(5);
   EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING", "2:RUNNING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n1");
@@ -179,7 +180,7 @@ TEST_F(SshQueueTest, FailingHostIsPausedLongerEachTime) {
   MakeQueue("{hosts: [n1, n2]}");
   Submit(2);
   QueryTasks();
-  session(0).Begin();  // the host n1 continues to work
+  session(0).Begin();  // the host n1 is still in use
   for (const int rest : {5, 10, 20, 40, 60}) {
     ASSERT_EQ(Hosts().back(), "n2");
     ssh_.sessions.back()->End("exit code 127", "sh: 1: exec: /usr/bin/gsv: not found\n");
@@ -255,7 +256,7 @@ TEST_F(SshQueueTest, ATaskThatExceedsTheTimeOfItsRunsIsEnded) {
   QueryTasks();
   session(0).Begin();
   QueryTasks();
-  now_ += seconds(159);  // the limit is 100 s for its run and 60 s more
+  now_ += seconds(159);  // the time limit is 100 s for the task's run plus 60 s
   EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING"));
   now_ += seconds(1);
   EXPECT_THAT(QueryTasks(), IsEmpty());

@@ -7,7 +7,7 @@
 
 namespace gsv::geometry {
 
-// Returns the corners in the order of binary numbers: x changes fastest, z slowest.
+// Returns the corners: x changes fastest and z slowest, as in the order of binary numbers.
 inline std::array<Vector3, 8> CornersOf(const Bounds& box) {
   std::array<Vector3, 8> corners;
   for (unsigned i = 0; i < corners.size(); ++i) {

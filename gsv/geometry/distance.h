@@ -1,4 +1,4 @@
-// The distance of a point from the surface of a shape.
+// Computes the distance of a point from the surface of a shape.
 #pragma once
 
 #include "gsv/geometry/shape.h"

@@ -1,7 +1,7 @@
-// Motion in the plane at a constant twist: closed form.
+// Computes motion in the plane at a constant twist, in closed form.
 //
-// A base that moves at (vx, vy) in its own frame while it turns at w follows a circular arc. With
-// a = w t, its displacement in the frame it starts in is
+// A base that moves at (vx, vy) in its own frame while it turns at w follows a circular arc. With a
+// = w t, its displacement in its frame at the start is
 //   x = (vx sin a - vy (1 - cos a)) / w,   y = (vx (1 - cos a) + vy sin a) / w.
 //
 // Units  metres, radians, seconds.
@@ -13,9 +13,9 @@
 
 namespace gsv::geometry {
 
-// The sine and cosine of an angle. Small angles, as of one step, avoid the library's argument
-// reduction, which is several times slower: the first omitted term of the series is below 2^-68 of
-// the result.
+// The sine and cosine of an angle. For small angles, a series avoids the argument reduction of
+// the library, which is several times slower. Its first omitted term is below 2^-68 of the
+// result.
 struct SineCosine {
   explicit SineCosine(double angle) {
     if (!(std::abs(angle) < 0.125)) {
@@ -23,7 +23,7 @@ struct SineCosine {
       return;
     }
     const double q = angle * angle;
-    // 1 - q / (2·3) (1 - q / (4·5) (…)) and 1 - q / (1·2) (1 - q / (3·4) (…)).
+    // The nested form of the series: 1 - q / (2·3) (1 - q / (4·5) (…)) and 1 - q / (1·2) (1 - q / (3·4) (…)).
     double s = 1 - q * (1.0 / 110);
     s = 1 - q * (1.0 / 72) * s;
     s = 1 - q * (1.0 / 42) * s;
@@ -39,12 +39,12 @@ struct SineCosine {
   double sine = 0, cosine = 1;
 };
 
-// A position in the plane and a heading, as the heading's cosine and sine.
+// A position in the plane and a heading. The heading is stored as its cosine and sine.
 struct PlanarPosition {
   double x = 0, y = 0;
   double cosine = 1, sine = 0;
 
-  // Corrects rounding errors of the length of the heading, which must be nearly 1.
+  // Scales the heading to length 1. Its length must be nearly 1, up to rounding errors.
   void Normalize() {
     const double correction = 1.5 - 0.5 * (cosine * cosine + sine * sine);
     cosine *= correction, sine *= correction;
@@ -61,8 +61,8 @@ inline Vector2 PointAt(Vector2 point, const PlanarPosition& at) {
 
 // The velocity of a point of the base, in the base's frame.
 struct Twist {
-  double x = 0, y = 0;  // m/s forward, to the left
-  double angular = 0;   // rad/s counter-clockwise
+  double x = 0, y = 0;  // velocity forward and to the left, m/s
+  double angular = 0;   // angular velocity, counter-clockwise, rad/s
   friend bool operator==(const Twist&, const Twist&) = default;
 };
 

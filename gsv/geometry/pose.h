@@ -66,7 +66,7 @@ inline Pose Inverse(const Pose& a_from_b) {
 // Returns a pose on level ground: at (x, y, z), rotated by `yaw` about z.
 Pose PlanarPose(double x, double y, double z, double yaw);
 
-// Returns the same angle in (-pi, pi].
+// Returns the equivalent angle in (-pi, pi].
 double WrapAngle(double angle);
 
 bool IsFinite(const Vector3& v);

@@ -18,7 +18,7 @@ TEST(Quaternion, TurnsXToYByAQuarterTurnAboutZ) {
 }
 
 TEST(Quaternion, RollPitchYawTurnsAboutTheFixedAxesInThatOrder) {
-  // After a roll of 90° the y axis points up; after a yaw of 90° it still does.
+  // A roll of 90° makes the y axis point up. A following yaw of 90° does not change that.
   const Quaternion q = FromRollPitchYaw({kPi / 2, 0, kPi / 2});
   ExpectNear(q * Vector3{0, 1, 0}, {0, 0, 1});
   ExpectNear(q * Vector3{1, 0, 0}, {0, 1, 0});

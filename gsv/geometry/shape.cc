@@ -10,8 +10,8 @@
 namespace gsv::geometry {
 namespace {
 
-// A point of the profile that is rotated about z: its distance from the axis, its height, its
-// normal in that half-plane, and the height in the texture.
+// A point of a profile that is rotated about z: its distance from the axis, its height, its normal
+// in that half-plane, and its height in the texture.
 struct ProfilePoint {
   double radius = 0, z = 0;
   double normal_out = 0, normal_up = 0;
@@ -30,7 +30,7 @@ std::uint32_t NextVertex(const TriangleMesh& mesh) {
 }
 
 Vector2 Direction(int step, int segments) {
-  // The last step equals the first bit by bit, so that the seam is closed.
+  // The last angle equals the first one bit by bit, so that the surface is closed at the seam.
   const double angle = 2 * kPi * (step % segments) / segments;
   return {std::cos(angle), std::sin(angle)};
 }
@@ -77,8 +77,8 @@ void AddDisc(double radius, double z, int facing, int segments, TriangleMesh& me
   }
 }
 
-// Adds a rectangle, as seen from the tip of its normal: `right` and `up` are half its width and
-// height.
+// Adds a rectangle. `right` and `up` are half its width and half its height, for a viewer who looks
+// at its front.
 void AddRectangle(const Vector3& centre, const Vector3& right, const Vector3& up,
                   const Vector3& normal, TriangleMesh& mesh) {
   const std::uint32_t first = NextVertex(mesh);
@@ -119,7 +119,7 @@ void SpreadTexture(std::vector<ProfilePoint>& profile) {
 std::pair<Vector3, Vector3> HalfAxes(const Plane& plane) {
   const Vector3 n = Normalized(plane.normal);
   const Vector3 z{0, 0, 1};
-  // The rotation is the smallest one from z to the normal; for the opposite normal it is half a
+  // Rotate by the smallest rotation from z to the normal. If the normal is -z, rotate by half a
   // turn about x.
   const Quaternion turn = n.z < -1 + 1e-12
                               ? Quaternion{0, 1, 0, 0}
@@ -191,7 +191,7 @@ struct Tessellator {
     mesh = *shape.triangles;
     const Vector3& s = shape.scale;
     const double mirrored = s.x * s.y * s.z < 0 ? -1 : 1;
-    // Normals transform with the cofactors of the scale.
+    // Normals are transformed with the cofactors of the scale matrix.
     const Vector3 cofactors = mirrored * Vector3{s.y * s.z, s.x * s.z, s.x * s.y};
     for (Vector3& p : mesh.positions) p = Scaled(p, s);
     for (Vector3& n : mesh.normals) n = Normalized(Scaled(n, cofactors));

@@ -46,11 +46,11 @@ struct Mesh {
 using Shape = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone, Plane, Mesh>;
 
 // Returns the surface as triangles with normals and texture coordinates; for a Mesh, a scaled copy.
-// Round shapes have `segments` (at least 3) around. Their vertices are on the true surface. The
+// Round shapes have `segments` (at least 3) around the axis, with vertices on the true surface. The
 // maximum deviation is radius * (1 - cos(pi / segments)), or twice that if doubly curved.
 TriangleMesh Tessellate(const Shape& shape, int segments = 32);
 
-// Returns the smallest box around the shape along its frame's axes. For a Plane: its rectangle.
+// Returns the smallest box around the shape along its frame's axes. The box of a Plane is that of its rectangle.
 Bounds BoundsOf(const Shape& shape);
 
 }  // namespace gsv::geometry

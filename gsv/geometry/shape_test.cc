@@ -67,7 +67,7 @@ struct Solid {
 
 std::vector<Solid> Solids() {
   // Knud Thomsen's formula for an ellipsoid's area is approximate. For an oblate spheroid the exact
-  // area is known: a = 1, c = 0.5, e² = 1 - c²/a².
+  // area is known. Here a = 1, c = 0.5, e² = 1 - c²/a².
   const double e = std::sqrt(0.75);
   const double spheroid = 2 * kPi * (1 + 0.25 / e * std::atanh(e));
   std::vector<Solid> solids;

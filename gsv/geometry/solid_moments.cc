@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-// A solid that is symmetric to each coordinate plane, except for the position of its centroid.
+// Returns the moments of a solid that is symmetric to the three planes through its centroid.
 SolidMoments Symmetric(double volume, const Vector3& centroid, double xx, double yy, double zz) {
   SolidMoments moments;
   moments.volume = volume;
@@ -86,7 +86,8 @@ SolidMoments Of(const Mesh& mesh) {
     AddTetrahedron(corner(0), corner(1), corner(2), sum);
   }
   if (sum.volume == 0) return {};
-  const double sign = sum.volume < 0 ? -1 : 1;  // the mesh is inside out, or mirrored
+  const double sign = sum.volume < 0 ? -1 : 1;  // the normals of the mesh point inwards, or it is
+                                                // mirrored
   const Vector3 c = 1 / sum.volume * sum.centroid;
   SolidMoments moments;
   moments.volume = sign * sum.volume;
@@ -113,7 +114,7 @@ SolidMoments MomentsOf(const Shape& shape) {
 }
 
 VolumeBelow BelowHeight(const TriangleMesh& mesh, const Pose& world_from_mesh, double height) {
-  // Points are relative to a point of the plane.
+  // Positions are relative to a point in the cutting plane.
   const Vector3 origin{world_from_mesh.position.x, world_from_mesh.position.y, height};
   VolumeBelow sum;
   for (const auto& triangle : mesh.triangles) {

@@ -20,9 +20,9 @@ struct SolidMoments {
 // the result for an open mesh depends on the position of its origin. It may be inside out.
 SolidMoments MomentsOf(const Shape& shape);
 
-// The part of a closed mesh below the plane z = `height` in the world: its volume and the integral
-// of the position over it. The result is exact. The cut needs no lid, because a lid and a point of
-// the plane enclose no volume.
+// The part of a closed mesh below the plane z = `height` in the world: its volume, and the integral
+// of the position over it. The result is exact. The cut face needs no triangles, because with a
+// point of the plane they would enclose no volume.
 struct VolumeBelow {
   double volume = 0;     // m³
   Vector3 first_moment;  // m⁴, in the world

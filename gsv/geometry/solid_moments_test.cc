@@ -47,7 +47,7 @@ TEST(SolidMoments, OfAMirroredMeshEqualThoseOfItsMirrorImage) {
   ExpectNear(MomentsOf(mesh), expected, 1e-9);
 }
 
-// Fine meshes of round shapes are close to the closed forms.
+// The moments of fine meshes of round shapes are close to the closed forms.
 TEST(SolidMoments, OfRoundShapesEqualThoseOfTheirMeshes) {
   for (const Shape& shape : {Shape(Sphere{0.7}), Shape(Cylinder{0.5, 2}), Shape(Capsule{0.4, 1}),
                              Shape(Ellipsoid{{0.3, 0.5, 0.8}}), Shape(Cone{0.6, 1.5})}) {
@@ -66,8 +66,8 @@ TEST(BelowHeight, CutsABoxAtTheSurface) {
   EXPECT_NEAR(below.first_moment.z / below.volume, (-0.5 + 0.25) / 2, 1e-12);
 }
 
-// A cube of edge 1 that is rotated by 45° about x has, below its centre, a triangle with a height
-// of half the diagonal.
+// A cube of edge 1 is rotated by 45° about x. The part below its centre is a triangle whose height
+// is half the diagonal.
 TEST(BelowHeight, CutsATurnedCubeAtTheSurface) {
   const Mesh cube = MeshOf(Box{{1, 1, 1}});
   const Pose turned{{}, FromAxisAngle({1, 0, 0}, pi / 4)};

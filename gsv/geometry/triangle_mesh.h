@@ -10,7 +10,7 @@
 
 namespace gsv::geometry {
 
-// A run of triangles that share one material slot.
+// A range of triangles with the same material slot.
 struct MeshPart {
   std::string name;  // the submesh's name in its file; may be empty
   std::uint32_t first_triangle = 0;
@@ -33,7 +33,7 @@ struct Bounds {
   Vector3 min, max;
 };
 
-// Returns the bounding box; the origin for a mesh without vertices.
+// Returns the bounding box. For a mesh without vertices it is the origin.
 Bounds BoundsOf(const TriangleMesh& mesh);
 
 }  // namespace gsv::geometry

@@ -1,4 +1,4 @@
-// Vectors with two and three components in double precision.
+// Vectors with two and three components of double precision.
 //
 // Plain data with a fixed order of operations: equal inputs give equal bits (docs/adr/003).
 #pragma once

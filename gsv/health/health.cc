@@ -20,7 +20,7 @@ std::string Number(double value) {
   return text;
 }
 
-// "0", "0.3 m/s", "0.3 m/s and -0.5 rad/s"
+// Returns a text such as "0", "0.3 m/s" or "0.3 m/s and -0.5 rad/s".
 std::string CommandText(const world::DriveCommand& command) {
   std::string text;
   const auto add = [&](double value, const char* unit) {

@@ -1,9 +1,9 @@
 // The health of robots: whether each one moves, stands, is stuck, touches something, is late or
-// dead; its last command and its actual motion; and what limits it. Computed from a simulation's
-// status and the readings of range sensors.
+// dead; its last command and its actual motion; and the obstacle that limits it. The state is
+// computed from a simulation's status and the readings of range sensors.
 //
 // Units        metres, radians, seconds; instants of simulated time.
-// Determinism  all but `late` is a function of the states of the run.
+// Determinism  everything except `late` depends only on the states of the run.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ const char* ToString(State state);
 
 enum class Level : std::uint8_t { kFine = 0, kWarning = 1, kError = 2 };
 
-// A short distance that a sensor measures.
+// A short distance that a sensor measures, and that may limit the robot's motion.
 struct Limit {
   std::string sensor;
   double value = 0;  // m
@@ -34,38 +34,39 @@ struct Limit {
 struct RobotHealth {
   std::string robot;
   State state = State::kMoving;
-  // kWarning: stuck, in contact, late, or its behaviour has run for 10 s while it stood still.
+  // kWarning if the robot is stuck, in contact or late, or if its behaviour has run for 10 s without motion.
   Level level = Level::kFine;
   base::SimTime since{0};  // of `state`
   world::DriveCommand command;
   double linear = 0, angular = 0;  // the actual motion, m/s and rad/s
   std::optional<Limit> limit;      // set for a robot that stands or is stuck
-  std::string contact;             // a body that the robot touches; empty: none
-  std::string summary;             // "has not moved", "has been stuck", "has been dead"
-  std::string reason;              // "commanded 0, sonar_00 reads 0.26 m"; empty: none
+  std::string contact;             // a body that the robot touches; empty if there is none
+  std::string summary;             // such as "has not moved", "has been stuck" or "has been dead"
+  std::string reason;              // such as "commanded 0, sonar_00 reads 0.26 m"; empty if there
+                                   // is none
 };
 
 struct Report {
   base::SimTime time{0};
   std::int64_t step = 0;
   base::SimTime stuck_after{0};
-  std::array<std::uint32_t, kStates> counts{};  // by State
-  std::vector<RobotHealth> robots;              // by name; without stations
+  std::array<std::uint32_t, kStates> counts{};  // number of robots in each State
+  std::vector<RobotHealth> robots;              // ordered by name; without stations
 
   std::uint32_t CountOf(State state) const { return counts[static_cast<std::size_t>(state)]; }
 };
 
-// Returns the health of a robot in `status`, without its limit.
+// Returns the health of a robot in `status`, without `limit`.
 RobotHealth HealthOf(const simulation::RobotStatus& robot,
                      const simulation::SimulationStatus& status);
-// Sets the limit, which is a part of the reason.
+// Sets `limit`, and adds it to the reason.
 void SetLimit(std::optional<Limit> limit, RobotHealth& health);
 
-// Returns "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".
+// Returns a sentence such as "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".
 std::string Sentence(const RobotHealth& health, base::SimTime now);
-// Returns "stood still from 15.7 s: …", for the end of a run; empty for a robot that moves.
+// Returns a sentence for the end of a run, such as "stood still from 15.7 s: …"; empty for a robot that moves.
 std::string FinalSentence(const RobotHealth& health);
-// Returns "3 move, 1 stands, 1 is stuck".
+// Returns a summary such as "3 move, 1 stands, 1 is stuck".
 std::string Summary(const Report& report);
 
 }  // namespace gsv::health

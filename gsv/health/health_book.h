@@ -1,8 +1,8 @@
-// Keeps the health of a simulation's robots up to date, with the range sensors of those that do not
+// Updates the health of a simulation's robots, and reads the range sensors of robots that do not
 // move.
 //
-// Bounded  readings per update. A robot that stands keeps its last reading, which is renewed every
-//          5 s of simulated time.
+// Bounded  the number of readings per update. A robot that stands still keeps its last reading,
+//          which is renewed every 5 s of simulated time.
 // Threads  one at a time.
 #pragma once
 
@@ -26,13 +26,13 @@ struct SensorAccess {
 // Reads sensors through Simulation::Watch(). `simulation` must outlive the result.
 SensorAccess SensorsOf(simulation::Simulation& simulation);
 
-// The shortest distance that the robot's range sensors (such as sonars and lidars) measure, if it
-// is less than 1 m.
+// Returns the shortest distance that the robot's range sensors (sonars, lidars, …) measure, if it
+// is below 1 m.
 std::optional<Limit> FindLimit(const std::string& robot, const SensorAccess& access);
 
 class HealthBook {
  public:
-  // `robots_read`: the number of robots whose sensors one update reads.
+  // `robots_read` is the maximum number of robots whose sensors one update reads.
   explicit HealthBook(std::size_t robots_read = 64) : robots_read_(robots_read) {}
 
   Report Update(const simulation::SimulationStatus& status, base::SimTime stuck_after,

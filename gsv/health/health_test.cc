@@ -124,7 +124,7 @@ TEST(Health, ABehaviourThatDoesNotWaitIsLate) {
   EXPECT_EQ(health::HealthOf(robot, status).state, State::kStanding);
 }
 
-// Robots with a sonar each, which counts its readings.
+// Makes robots with one sonar each, and counts readings of the sonars.
 class HealthBookTest : public ::testing::Test {
  protected:
   HealthBookTest() {

@@ -56,7 +56,7 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
 
  protected:
   void AddRobots(const EndlessBehaviour::Body& body) {
-    for (int i = 0; i < 40; ++i) {  // so many robots that several threads take turns
+    for (int i = 0; i < 40; ++i) {  // enough robots that several threads execute turns
       const std::string name = "robot_" + std::to_string(i);
       const int column = i % 10, row = i / 10;
       auto behaviour = HostedEndless("patient", Wait);
@@ -123,7 +123,7 @@ TEST_P(EndlessTurn, RequestsThatNeedTheWorldAreRefused) {
   EXPECT_EQ(simulation_->snapshot()->state.time, 100ms);
 }
 
-// A caller that began to wait before the simulation was stuck gets an answer as well.
+// A reset that was requested before the simulation got stuck is refused as well.
 TEST_P(EndlessTurn, WaitingResetIsRefused) {
   std::promise<void> entered;
   AddRobots([&](gsv::Robot& robot) {

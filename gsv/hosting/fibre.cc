@@ -10,10 +10,11 @@ namespace {
 
 using Stacks = boost::context::protected_fixedsize_stack;
 
-// Size in the address space; only used pages cost memory. A guard page is below the stack.
+// The size of a fibre's stack in the address space. Only used pages cost memory. Below is a guard
+// page.
 constexpr std::size_t kStackBytes = 256u << 10;
 
-// Leaves the stack after the body has returned or was unwound.
+// Switches away from the fibre's stack after the body has returned or was unwound.
 struct Departure {
   SanitizerStack& stack;
   ~Departure() { stack.BeforeLeavingForGood(); }
@@ -54,8 +55,8 @@ void Fibre::Resume() {
 }
 
 void Fibre::Suspend() {
-  // The data that are passed into the fibre. An exception may be passed as well; it then unwinds
-  // the body.
+  // The data that are passed into the fibre: a return context, or an exception that unwinds the
+  // body.
   struct Arrival {
     SanitizerStack& stack;
     ~Arrival() { stack.AfterEntering(); }

@@ -23,9 +23,9 @@ class Fibre {
   Fibre(const Fibre&) = delete;
   Fibre& operator=(const Fibre&) = delete;
 
-  // Called from outside. Runs the body until it calls Suspend() or returns.
+  // Runs the body until it calls Suspend() or returns. Called from outside of the body.
   void Resume();
-  // Called from the body. Returns to the caller of Resume().
+  // Suspends the body and returns from Resume(). Called from the body.
   void Suspend();
 
   bool has_ended() const { return has_ended_; }

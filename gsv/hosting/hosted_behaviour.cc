@@ -57,7 +57,7 @@ base::Status HostedBehaviour::Start() {
   return {};
 }
 
-// An exception of the behaviour ends its run, not the simulation.
+// An exception of the behaviour ends the behaviour, not the simulation.
 void HostedBehaviour::Run() { failure_ = RunToItsEnd(*behaviour_, *robot_); }
 
 void HostedBehaviour::EndTurn(simulation::Turn& turn) {
@@ -84,7 +84,7 @@ void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
   robot_->SetTurn(nullptr);
 }
 
-// Takes a controller's turn, which is the part of Controller::Run() between two waits.
+// Executes a controller's turn: the part of Controller::Run() between two waits.
 void HostedBehaviour::Control(simulation::Turn& turn) {
   DriveCommand command;
   if (!next_) {

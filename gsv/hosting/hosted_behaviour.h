@@ -50,13 +50,13 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   std::unique_ptr<Behaviour> behaviour_ GSV_GUARDED_BY(mutex_);
   std::unique_ptr<LocalRobot> robot_ GSV_GUARDED_BY(mutex_);
   std::atomic<simulation::ClockId> clock_ = 0;
-  // The fibre of a started behaviour that needs one.
+  // The fibre of a started behaviour; null for a Controller, which needs no fibre.
   std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);
-  // Set for a started behaviour that needs no fibre.
+  // The started behaviour if it is a Controller, which needs no fibre; else null.
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
   std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // the instant of a controller's next turn
   std::vector<Reading> readings_ GSV_GUARDED_BY(mutex_);
-  // the error that ended the run; empty if there was none
+  // the error that ended the behaviour; empty if there was none
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -17,7 +17,7 @@ using simulation::RunToEnd;
 using simulation::Simulation;
 using simulation::StatusOf;
 
-// A behaviour that runs a function of the test.
+// A behaviour that executes a function of the test.
 class Scripted final : public Behaviour {
  public:
   using Body = std::function<void(gsv::Robot&, Sonar&)>;
@@ -51,7 +51,7 @@ class Approach final : public Controller {
   }
 };
 
-// Approaches like the controller, but with explicit waits and on a fibre.
+// Drives like Approach, but with explicit waits, on a fibre.
 void ApproachInALoop(gsv::Robot& robot, Sonar&) {
   std::vector<Reading> readings;
   DriveCommand command;
@@ -102,8 +102,8 @@ TEST(HostedBehaviour, ControllerEqualsTheSameLoopOnAFibre) {
   EXPECT_EQ(HashOfACrowd(3, 1, as_controller), HashOfACrowd(3, 1, as_loop));
 }
 
-// The other run has the behaviour on its own thread, and uses the calls that the servants of a
-// remote behaviour make.
+// A second run has the behaviour on a thread of its own, and makes the calls of a remote
+// behaviour's servants.
 TEST(HostedBehaviour, HasTheSameHashAsTheRemoteBehaviour) {
   auto outside = simulation::Make(Lockstep(2s));
   auto behaviour = std::make_shared<simulation::ThreadBehaviour>(
@@ -273,7 +273,7 @@ class Sweeper final : public Controller {
     Ranges swept, alone;
     for (int i = 0; i < kSonars; ++i) {
       EXPECT_EQ(readings.at(i).sensor, "s" + std::to_string(i));
-      // One of the tests silences the first sensor.
+      // One of the tests disables the first sensor.
       if (i > 0) EXPECT_EQ(readings.at(i).time, robot_->Now());
       swept.push_back(readings.at(i).values.at(0));
       alone.push_back(sonars_[i]->Range());
@@ -294,7 +294,7 @@ TEST(HostedBehaviour, ReadsManySonarsAsOneAfterTheOther) {
   const auto look = [&](const Sweeper::Ranges& swept, const Sweeper::Ranges& alone) {
     EXPECT_EQ(swept, alone);
     for (const double range : swept) echoes += range < 4;
-    // A viewer reads the same sensor; from then on, the behaviour gets the same samples.
+    // When a viewer reads the same sensor too, the behaviour still gets the same samples.
     if (++cycles == 5) EXPECT_EQ(simulation->Watch("robot", "s2")->values.at(0), swept[2]);
   };
   ASSERT_TRUE(simulation->AddRobot(
@@ -326,7 +326,7 @@ TEST(HostedBehaviour, ASilentSonarAmongManyKeepsItsRange) {
                         }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   ASSERT_GT(silent.size(), 15u);
-  EXPECT_NE(silent[2], silent[6]);  // before the fault, the value changes
+  EXPECT_NE(silent[2], silent[6]);  // before the fault, the values differ
   for (std::size_t i = 11; i < silent.size(); ++i) EXPECT_EQ(silent[i], silent[10]);
 }
 

@@ -1,4 +1,4 @@
-// A joint of a robot for a behaviour in this process.
+// Implements a robot's joint for a behaviour in this process.
 //
 // Threads  the thread of the behaviour's turn.
 #pragma once

@@ -1,4 +1,4 @@
-// Behaviours command and read joints, both inside the process of the simulation and outside it.
+// Tests that behaviours inside and outside of the simulation's process command and read joints.
 #include <gmock/gmock.h>
 
 #include "gsv/hosting/hosted_behaviour.h"
@@ -21,7 +21,7 @@ model::Link Box(const std::string& name, const geometry::Vector3& size, double z
   return link;
 }
 
-// A box with a lift on top. The lift weighs 19.6 N.
+// A box with a vertical slider (a lift) on top. The lift weighs 19.6 N.
 std::shared_ptr<const model::Model> Lift(model::Movement movement) {
   auto model = std::make_shared<model::Model>();
   model->name = "lift";
@@ -120,7 +120,7 @@ TEST(LocalJoint, EffortLiftsAWeightAgainstGravity) {
     if (robot.SleepFor(500ms)) velocity = joint.Read().velocity;
   }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The force exceeds the weight of the 2 kg by one newton.
+  // The commanded force is one newton above the weight of the 2 kg.
   EXPECT_NEAR(velocity, 0.25, 0.005);
 }
 

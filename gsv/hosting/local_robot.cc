@@ -27,7 +27,7 @@ SensorTraits TraitsOf(const model::SensorDescription& description,
           description.parameters};
 }
 
-// With fewer beams, each beam is cast separately.
+// Below this number of beams, each beam is cast separately.
 constexpr std::size_t kMinSweep = 3;
 
 void CopyValue(double value, SimTime time, Reading& to) {
@@ -88,7 +88,7 @@ class LocalPort final : public SensorPort {
 }  // namespace
 
 void LocalRobot::Note(const base::Error& error) {
-  // The end of a run is not an error.
+  // If the run has ended, this is not an error.
   if (is_running_.exchange(false) && error.code != base::ErrorCode::kEnded) {
     error_ = error.Sentence();
   }
@@ -156,8 +156,8 @@ base::Status LocalRobot::CommandDevice(const MountedSensor& actuator,
 
 base::Result<sensing::Reading> LocalRobot::ReadBlocked(const MountedSensor& sensor) {
   GSV_CHECK(suspend_);
-  // The behaviour may end while the image is being made, and then this stack frame no longer
-  // exists.
+  // `reading` is on the heap: the behaviour may end while the image is made, and then this stack
+  // frame no longer exists.
   auto reading = std::make_shared<base::Result<sensing::Reading>>();
   turn_->Block([reading, agent = agent_, name = sensor.name()] { *reading = agent->Read(name); });
   suspend_();
@@ -170,7 +170,7 @@ bool LocalRobot::HasOnlyFastSensors() const {
 }
 
 void LocalRobot::SweepInto(std::vector<Reading>& readings, bool are_named) {
-  // Only this thread writes the count.
+  // Only this thread writes `count`, so no atomic increment is needed.
   auto& count = sweeps_->count;
   count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   const SimTime time = turn_->snapshot_time();

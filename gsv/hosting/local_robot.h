@@ -1,5 +1,5 @@
-// The Robot of a behaviour in this process. During a turn its calls go to the turn. Before the
-// first turn, in Init(), they go to the agent.
+// Implements the class Robot for a behaviour in this
+// process.
 //
 // Threads  the thread of the behaviour's turn.
 #pragma once
@@ -18,8 +18,8 @@ namespace gsv::hosting {
 
 class LocalRobot final : public Robot {
  public:
-  // Suspends the behaviour: returns from its turn to the simulation, and returns to the behaviour
-  // when the next turn begins.
+  // The function that suspends the behaviour until its next turn: it returns from the current turn
+  // to the simulation.
   using Suspend = std::function<void()>;
 
   explicit LocalRobot(std::shared_ptr<simulation::Agent> agent) : agent_(std::move(agent)) {}
@@ -27,16 +27,16 @@ class LocalRobot final : public Robot {
   // Sets the current turn, or null between turns.
   void SetTurn(simulation::Turn* turn);
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
-  // Ends the run for the behaviour: from now on waits and calls return at once.
+  // Ends the run for the behaviour. From now on, waits and calls return at once.
   void End() { is_running_ = false; }
   void Note(const base::Error& error);
 
-  // Whether all open sensors are fast, and the readings of an exchange, ordered by name.
+  // The next two functions: whether all open sensors are fast, and their readings, ordered by name.
   bool HasOnlyFastSensors() const;
-  // `are_named` means that `readings` are those of the last call, and that nobody has changed them.
+  // If `are_named`, `readings` come from the last call unchanged, so that their names are already set.
   void ReadOpenSensors(std::vector<Reading>& readings, bool are_named = false);
 
-  // Implementation of Robot.
+  // The members of Robot.
   const std::string& name() const override { return agent_->robot(); }
   double footprint_radius() const override { return agent_->footprint_radius(); }
   std::vector<SensorTraits> Sensors() override;
@@ -50,18 +50,18 @@ class LocalRobot final : public Robot {
   bool IsRunning() const override { return is_running_; }
   std::string error() const override { return error_; }
 
-  // Reads a sensor. Returns nullopt if the run is over, or if the sensor fails, which ends the run.
+  // Reads a sensor. Returns nullopt if the run is over. A sensor that fails ends the run.
   std::optional<sensing::Reading> Read(simulation::MountedSensor& sensor);
 
-  // kInvalidArgument is returned to the caller; any other failure ends the run.
+  // Sends a message. kInvalidArgument is returned to the caller; any other failure ends the run.
   base::Status Send(const simulation::MountedSensor& radio, const std::string& receiver,
                     const std::string& content);
 
   base::Status CommandDevice(const simulation::MountedSensor& actuator,
                              world::DeviceCommand command);
 
-  // Joints, by index in the robot's model. Both functions do nothing after the end of the run. A
-  // refused command ends the run.
+  // Command or read a joint, by its index in the model. Both functions do nothing after the end of
+  // the run. A refused command ends the run.
   void CommandJoint(int joint, const world::JointCommand& command);
   std::optional<simulation::JointReading> ReadJoint(int joint);
 
@@ -77,22 +77,22 @@ class LocalRobot final : public Robot {
   const std::shared_ptr<simulation::Agent> agent_;
   simulation::Turn* turn_ = nullptr;
   Suspend suspend_;
-  // At the first call, casts the beams of this turn if allowed. Whether they were cast.
+  // Casts all beams of this turn together at the first call, if that is allowed. Returns whether they were cast.
   bool HasSwept();
   void PlanSweeps();
   void SweepInto(std::vector<Reading>& readings, bool are_named);
 
   std::vector<SensorPtr> open_;  // ordered by name
-  std::size_t ray_sensors_ = 0;  // how many of the open sensors cast rays
+  std::size_t ray_sensors_ = 0;  // how many open sensors cast rays
 
-  // The beams of open sensors, to be cast together.
+  // The beams of the open sensors, which are cast together.
   static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
   sensing::BeamSet beams_;
-  std::vector<std::size_t> beam_of_;  // the number in beams_ of each open sensor, or kNoBeam
+  std::vector<std::size_t> beam_of_;  // index of each open sensor's beam in beams_, or kNoBeam
   std::vector<double> values_;        // the values of the beams in this turn
   std::shared_ptr<simulation::Sweeps> sweeps_;
   bool has_swept_ = false;  // whether the beams were cast in this turn
-  std::size_t named_ = 0;   // number of unchanged names in the readings
+  std::size_t named_ = 0;   // number of readings whose names are already set
   std::atomic<bool> is_running_{true};
   std::string error_;
 };

@@ -1,5 +1,5 @@
-// Behaviours in shared libraries, gsv-NAME.so, which can run as programs or inside gsv. A library
-// stays loaded. It is trusted: a crash in it ends this process.
+// Loads behaviours from shared libraries, gsv-NAME.so, which can run as programs or inside gsv. A
+// library stays loaded. Plug-ins are trusted: a crash in one ends this process.
 //
 // Threads  any.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace gsv::hosting {
 
-// Returns the file of the behaviour in the first folder that has one, or an empty text.
+// Returns the file of the behaviour, from the first folder that has one, or an empty text.
 std::string FindPlugin(const std::string& behaviour, const std::vector<std::string>& folders);
 
 // Fails if the file is not a library, if it is not a behaviour, or if it was built for another

@@ -6,7 +6,7 @@ namespace gsv::hosting {
 namespace {
 
 // After the last command the behaviour waits for ever instead of finishing, because the hash of a
-// run depends on that.
+// run depends on whether behaviours have finished.
 constexpr base::SimTime kNever = base::SimTime::max() / 2;
 
 }  // namespace
@@ -48,7 +48,7 @@ void RecordedCommands::TakeTurn(simulation::Turn& turn) {
   turn.WaitUntil(next_ < commands_.size() ? commands_[next_].time : kNever);
 }
 
-// Skips a command that can no longer be given. The difference then shows in the run.
+// Applies a command. If the command is no longer possible, skips it; the run then differs visibly.
 void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn) const {
   if (const auto* drive = std::get_if<world::DriveCommand>(&command.command)) {
     turn.Command(*drive);

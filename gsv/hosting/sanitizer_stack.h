@@ -28,12 +28,12 @@ class SanitizerStack {
   void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
   void AfterPreparing() {}
 
-  // Call these from outside: the first one just before the thread switches to this stack, and the
-  // second one just after it has returned.
+  // Call the first function just before the thread switches to this stack, and the second one just
+  // after the thread is back.
   void BeforeEntering() { __sanitizer_start_switch_fiber(&outside_frames_, bottom_, size_); }
   void AfterLeaving() { __sanitizer_finish_switch_fiber(outside_frames_, nullptr, nullptr); }
 
-  // Call these on this stack: the first one just after each entry, and the second one just before
+  // Call the first function just after each entry to this stack, and the second one just before
   // each exit.
   void AfterEntering() {
     __sanitizer_finish_switch_fiber(frames_, &outside_bottom_, &outside_size_);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::byte, 4> kEncapsulation{std::byte{0}, std::byte{1}, std::byte{0},
                                                   std::byte{0}};
 
-// Fast DDS rounds the size of a message up to a multiple of four bytes.
+// Fast DDS rounds the size of a message up to a multiple of four, so up to three bytes may follow.
 constexpr std::size_t kMostTrailingBytes = 3;
 
 }  // namespace
@@ -37,7 +37,7 @@ CdrReader::CdrReader(std::span<const std::byte> bytes) {
     return;
   }
   bytes_ = bytes.subspan(kEncapsulation.size());
-  // The last two bytes are options, which do not affect reading.
+  // The last two bytes of the header are options, which do not affect reading.
   if (bytes[0] != kEncapsulation[0] || bytes[1] != kEncapsulation[1]) {
     Fail("expected little-endian CDR (encapsulation 00 01)");
   }

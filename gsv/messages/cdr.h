@@ -44,8 +44,8 @@ class CdrWriter {
   void Write(std::string_view text);
   void WriteCount(std::size_t count);
 
-  // Writes `size` bytes of numbers of one kind, in their memory representation. If there are none,
-  // it writes nothing, not even padding.
+  // Writes `size` bytes of numbers of one type, in their memory representation. Writes nothing, not
+  // even padding, if `size` is 0.
   void WriteBlock(const void* data, std::size_t size, std::size_t alignment) {
     if (size == 0) return;
     const std::size_t padding = (origin_ - out_.size()) & (alignment - 1);
@@ -84,8 +84,8 @@ class CdrReader {
   std::size_t ReadCount(std::size_t element_size);
   void ReadBlock(void* data, std::size_t size, std::size_t alignment);
 
-  // Returns an error if a value did not fit, or if the message has more bytes than the padding that
-  // some writers append.
+  // Returns an error if a value did not fit, or if bytes remain that are not the padding of some
+  // writers.
   base::Status Finish() const;
 
  private:

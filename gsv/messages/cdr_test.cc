@@ -27,7 +27,7 @@ Bytes Encoded(const Message& message) {
   return bytes;
 }
 
-// The expected bytes in these tests were written by hand from the rules at the head of cdr.h.
+// The expected bytes in these tests were written by hand from the rules at the top of cdr.h.
 
 TEST(Cdr, WritesAHeaderThenLittleEndianFields) {
   EXPECT_THAT(Encoded(builtin_interfaces::Time{-2, 0x01020304}),

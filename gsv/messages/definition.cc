@@ -56,7 +56,7 @@ base::Result<Definition> Definition::Parse(std::string_view name, std::string_vi
   std::string type = definition.root_;
   std::size_t begin = 0;
   while (begin <= text.size()) {
-    // A line of '=' and a line with the name of the next type separate types.
+    // A line of '=' and a line with the name of the next type separate two types.
     std::size_t end = text.find("\n====", begin);
     if (end == std::string_view::npos) end = text.size();
     if (auto ok = definition.AddStruct(type, text.substr(begin, end - begin)); !ok) {
@@ -144,7 +144,7 @@ base::Status Definition::Check() const {
   return {};
 }
 
-// Reads the bytes of one message.
+// Decodes the bytes of one message to JSON.
 class Decoder {
  public:
   Decoder(const Definition& definition, std::span<const std::byte> cdr)
@@ -152,7 +152,7 @@ class Decoder {
         in_({reinterpret_cast<const char*>(cdr.data()) + 4, cdr.size() - 4},
             cdr[1] == std::byte{1}) {}
 
-  // Returns false if the bytes do not fit the type.
+  // Reads a struct. Returns false if the bytes do not fit its type.
   bool Read(const std::string& type, ordered_json& out) {
     out = ordered_json::object();
     for (const Definition::Field& field : definition_.structs_.at(type)) {

@@ -27,7 +27,7 @@ class Definition {
   static base::Result<Definition> Parse(std::string_view name, std::string_view text);
 
   // Decodes a message as JSON, with its fields in order. Octets (images, point clouds) become
-  // {"bytes": COUNT}, because users do not read them as text.
+  // {"bytes": COUNT}, because nobody reads them as text.
   base::Result<nlohmann::ordered_json> Decode(std::span<const std::byte> cdr) const;
 
  private:

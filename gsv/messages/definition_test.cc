@@ -35,8 +35,8 @@ b/Part part
 MSG: b/Part
 bool on
 string<=10 unit)");
-  // The fields are kind 7, padding, at (1.0, -2.0), "ab", two steps after their count, on, padding,
-  // and "m".
+  // The fields in the message are: kind 7, padding, position (1.0, -2.0), "ab", two steps after
+  // their count, on = true, padding, "m".
   const auto message =
       definition.Decode(Cdr({0, 1, 0, 0,                                                     //
                              7, 0, 0, 0, 0,   0,   0,    0,                                  //
@@ -64,7 +64,7 @@ TEST(Definition, OctetsAreCounted) {
   EXPECT_EQ((*message)["last"], 9);
 }
 
-// Each message that the generated code has encoded must be read exactly to its end.
+// The decoder must consume every message of the generated code exactly.
 TEST(Definition, ReadsEveryTypeOfGsv) {
   ForEachType([](const Schema& schema, auto message) {
     const Definition definition = Parsed(schema.name, schema.text);

@@ -1,5 +1,5 @@
-// For tests: sets each field of a message, in order, to the next value of a simple series.
-// interop_test.mjs has the same rule, so that both sides expect equal values without sharing code.
+// For tests: sets each field of a message, in order, to the next value n of a simple
+// series.
 #pragma once
 
 #include <cstddef>

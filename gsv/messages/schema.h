@@ -1,12 +1,12 @@
-// The description of a message type for programs that read its messages later: in a recording, or
-// over a network.
+// Describes a message type for programs that read its messages later, from a recording or over a
+// network.
 #pragma once
 
 #include <string_view>
 
 namespace gsv::messages {
 
-// All views are valid until the program ends.
+// All string views are valid until the program ends.
 struct Schema {
   std::string_view name;      // such as "sensor_msgs/msg/Range"
   std::string_view encoding;  // always "ros2msg"
@@ -15,7 +15,7 @@ struct Schema {
   std::string_view text;
 };
 
-// The schema of a generated message type: SchemaOf<sensor_msgs::Range>().
+// Returns the schema of a generated message type: SchemaOf<sensor_msgs::Range>().
 template <typename Message>
 const Schema& SchemaOf();
 

@@ -1,4 +1,4 @@
-// Determines which collisions can collide with each other: SDFormat's <category_bitmask> and
+// Decides which collisions can collide with each other, by SDFormat's <category_bitmask> and
 // <collide_bitmask>.
 #pragma once
 
@@ -8,12 +8,12 @@ namespace gsv::model {
 
 struct CollisionFilter {
   std::uint16_t category = 0xFFFF;  // the category of the collision itself
-  std::uint16_t collides = 0xFFFF;  // the categories with which it collides
+  std::uint16_t collides = 0xFFFF;  // the categories that it collides with
   friend bool operator==(const CollisionFilter&, const CollisionFilter&) = default;
 };
 
-// Whether two collisions can collide, as SDFormat 1.9 defines it for <category_bitmask>: it is
-// enough if one of them collides with the other's category.
+// Whether two collisions can collide, as SDFormat 1.9 defines it for <category_bitmask>: one of
+// them must collide with the other's category.
 inline bool Meet(const CollisionFilter& a, const CollisionFilter& b) {
   return ((a.category & b.collides) | (b.category & a.collides)) != 0;
 }

@@ -23,7 +23,8 @@ std::optional<CollisionIndex> InAny(const Model& model, int link, std::string_vi
   return std::nullopt;
 }
 
-// "robot::base::bumper": the link's name may itself be scoped, and the model's may come first.
+// Finds a scoped name such as "robot::base::bumper". The link's name may itself be scoped, and the
+// model's name may come first.
 std::optional<CollisionIndex> Scoped(const Model& model, std::string_view name) {
   const std::size_t end = name.rfind("::");
   if (end == std::string_view::npos) return std::nullopt;

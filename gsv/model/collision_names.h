@@ -1,4 +1,4 @@
-// The names of the collisions of a contact sensor.
+// Finds the collisions that a contact sensor names.
 #pragma once
 
 #include <optional>
@@ -17,16 +17,16 @@ struct CollisionIndex {
   friend bool operator==(const CollisionIndex&, const CollisionIndex&) = default;
 };
 
-// The parameter of a contact sensor with the names, one per line; empty: all collisions.
+// The name of the contact sensor's parameter that lists collisions, one per line; empty means all.
 inline constexpr const char* kCollisionNames = "collision";
 
 // Returns the names in the sensor's description, without SDFormat's "__default__".
 std::vector<std::string> CollisionNamesOf(const SensorDescription& sensor);
 
-// Returns the collision with that name for a sensor on `link`: of that link, else of another. The
-// name may be scoped ("base::bumper", "robot::base::bumper"). It may also be the name that Gazebo
-// gives to a collision of a merged link ("base_fixed_joint_lump__bumper_collision_1"). Nothing if
-// there is none.
+// Returns the collision with that name for a sensor on `link`, first on that link, then on others.
+// The name may be scoped ("base::bumper", "robot::base::bumper"). It may also be the name that
+// Gazebo gives to a collision of a merged link ("base_fixed_joint_lump__bumper_collision_1").
+// Returns nullopt if there is none.
 std::optional<CollisionIndex> FindCollision(const Model& model, int link, std::string_view name);
 
 }  // namespace gsv::model

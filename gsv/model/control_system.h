@@ -16,7 +16,7 @@ struct JointInterfaces {
 struct ControlSystem {
   std::string name;
   std::string type;      // "system", "actuator" or "sensor"
-  std::string hardware;  // the class of its hardware plugin
+  std::string hardware;  // the class of the hardware plugin
   std::vector<JointInterfaces> joints;
 };
 

@@ -14,15 +14,15 @@ enum class DriveKind {
   kSynchro,       // all wheels turn and steer together; moves along its heading
   kAckermann,     // steered front wheels: cannot turn on the spot
   kMecanum,       // moves sideways as well
-  kVelocity,      // no wheels: takes the commanded velocity
-  kNone,          // the base does not move; only joints take commands
+  kVelocity,      // moves sideways as well; four wheels with rollers
+  kNone,          // the base does not move; only joints can be commanded
 };
 
-// The origin of a drive.
+// Where a drive's description comes from.
 enum class DriveOrigin {
-  kPlugin,   // an element of the model's file
-  kGuessed,  // the shapes of its wheels, see drive_guess.h
-  kChosen,   // the user, see drive_choice.h
+  kPlugin,   // an element of the model file
+  kGuessed,  // guessed from the shapes of the wheels, see drive_guess.h
+  kChosen,   // chosen by the user, see drive_choice.h
 };
 
 struct Range {
@@ -32,10 +32,11 @@ struct Range {
 
 // The slip of a wheel, without unit: its contact slides at compliance * |rolling speed| * friction
 // force / normal force, as in WheelSlip of Gazebo. With 0 there is no slip up to the friction
-// limit. At a pull of a tenth of the load, a compliance of 1 gives a slip ratio of a tenth.
+// limit. Example: if the friction force is a tenth of the normal force, a compliance of 1 gives a
+// slip ratio of a tenth.
 struct Slip {
   double longitudinal = 0;  // along the wheel's rolling direction
-  double lateral = 0;       // along its axle
+  double lateral = 0;       // along the wheel's axle
   bool is_none() const { return longitudinal == 0 && lateral == 0; }
 };
 
@@ -47,17 +48,17 @@ struct Drive {
   std::vector<int> steered;       // kAckermann: steering joints
   double wheel_separation = 0.3;  // distance between the left and right contact points
   double wheel_radius = 0.1;
-  // kDifferential: the true radii of the wheels over wheel_radius, the drive's parameter.
+  // kDifferential: the true radius of each wheel, as a factor of wheel_radius, which the drive assumes.
   double left_wheel_scale = 1, right_wheel_scale = 1;
   double wheel_base = 0;        // kAckermann, kMecanum: distance from front to rear axle
   double steering_limit = 0.5;  // kAckermann
   Range linear_velocity, angular_velocity;
   Range linear_acceleration, angular_acceleration;
-  Slip slip;  // for wheels that have no slip of their own
-  // The base brakes after this time without a command; zero: never.
+  Slip slip;  // used for wheels without a slip of their own
+  // After this time without a command the base brakes; zero means never.
   base::SimTime command_timeout{0};
   DriveOrigin origin = DriveOrigin::kPlugin;
-  std::string choice;  // kChosen: the text of drive_choice.h
+  std::string choice;  // kChosen: the user's text, see drive_choice.h
 };
 
 }  // namespace gsv::model

@@ -113,7 +113,8 @@ std::string Names(const Model& model, const std::vector<int>& joints) {
   return names;
 }
 
-// Appends the joints with these names. A name with "+" that no joint has is a list of names.
+// Appends the joints with these names. A name that contains "+" is a list of names, unless a joint
+// has that name.
 base::Status FindJoints(const Model& model, const std::vector<std::string>& names,
                         std::vector<int>& joints) {
   if (names.empty()) return {};
@@ -138,8 +139,8 @@ base::Status FindJoints(const Model& model, const std::vector<std::string>& name
   return {};
 }
 
-// Returns the initial drive: the model's own or the guessed one, if it has that kind; else one with
-// the same wheels.
+// Returns the drive to start from: the model's own or the guessed one if it is of that kind, else a
+// new one with the same wheels.
 Drive StartFrom(const Model& model, DriveKind kind) {
   if (model.drive && model.drive->kind == kind) return *model.drive;
   Drive guess = GuessDrive(model);

@@ -1,6 +1,6 @@
-// The drive that a user chooses for a robot, and the conversion of a model to a robot.
+// Lets users choose the drive of a robot, and makes a robot of any model.
 //
-// A choice is a text, the same on the command line, in scenarios and in recordings:
+// A choice is a text with the same form on the command line, in scenarios and in recordings:
 //
 //   KIND[,KEY=VALUE]…   diff,left=front_left,left=rear_left,right=front_right,right=rear_right
 //
@@ -28,18 +28,18 @@ struct DriveChoice {
   std::optional<double> radius, separation, wheel_base, steering_limit;
 };
 
-// Returns kInvalidArgument with the expected form.
+// Parses a choice. Fails with kInvalidArgument and describes the expected form.
 [[nodiscard]] base::Result<DriveChoice> ParseDriveChoice(const std::string& text);
 
-// Returns the model as a robot. `choice` is a text as above. If it is empty, the model's own drive
-// or else the guessed one is used. If there is none, only joints and sensors are used. Returns the
-// same model if nothing changes. Returns kBadModel if the model lacks the chosen joints, or if
-// there is no choice and it has no drive, wheels, movable joints or sensors.
+// Returns the model as a robot. `choice` is a text as above, or empty for the model's own drive or
+// a guessed one. A model without either only has joints and sensors. Returns the same model if
+// nothing changes. Fails with kBadModel if the model lacks the chosen joints, or if `choice` is
+// empty and the model has no drive, wheels, movable joints or sensors.
 [[nodiscard]] base::Result<std::shared_ptr<const Model>> AsRobot(std::shared_ptr<const Model> model,
                                                                  const std::string& choice);
 
-// Returns, for example, "differential, guessed from wheels left_wheel, right_wheel; radius 0.1 m,
-// separation 0.4 m". The model must have a drive.
+// Returns a description such as "differential, guessed from wheels left_wheel, right_wheel; radius
+// 0.1 m, separation 0.4 m". The model must have a drive.
 std::string DescribeDrive(const Model& model);
 
 }  // namespace gsv::model

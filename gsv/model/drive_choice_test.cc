@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Two wheels of radius 0.1 m, 0.4 m apart, and one of 0.08 m behind.
+// A model with two wheels of radius 0.1 m, 0.4 m apart, and a wheel of radius 0.08 m behind them.
 std::shared_ptr<Model> TwoWheels() {
   auto model = std::make_shared<Model>();
   model->name = "cart";

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kAcross = 0.9;  // cosine between an axis and the model's y axis
+constexpr double kAcross = 0.9;  // minimum cosine between an axle and the model's y axis
 // wheels below this fraction of the largest wheel's radius are not driven
 constexpr double kIdlerRadius = 0.8;
 // wheels nearer to the middle than this fraction of the half track are casters
@@ -29,7 +29,7 @@ const Joint& JointAt(const Model& model, int joint) {
 
 double Width(const Range& range) { return range.max - range.min; }
 
-// The horizontal distance from the swivel to the wheel, perpendicular to the wheel's axis.
+// Returns the horizontal distance from the swivel joint to the wheel, perpendicular to the axle.
 double Trail(const Model& model, const Wheel& wheel) {
   const Vector3 arm = wheel.centre - JointAt(model, *wheel.swivel).model_from_joint.position;
   const Vector3 forward = Normalized(Cross(wheel.axis, {0, 0, 1}));
@@ -86,7 +86,8 @@ void KeepDriven(const Model& model, std::vector<Wheel>& wheels) {
   }
 }
 
-// Adds the wheels to the left and to the right of the centre between the outermost wheels.
+// Finds the wheels to the left and to the right of the middle of the outermost wheels, and adds
+// them to the drive.
 bool AddSides(const std::vector<Wheel>& wheels, Drive& drive) {
   if (wheels.empty()) return false;
   const auto [right, left] =
@@ -103,8 +104,8 @@ bool AddSides(const std::vector<Wheel>& wheels, Drive& drive) {
   return true;
 }
 
-// Whether the rollers are at 45°: then friction is small along the diagonal, as the direction of
-// friction shows.
+// Whether the wheel is a mecanum wheel: its rollers are at 45°, so friction is small along a
+// diagonal.
 bool HasDiagonalRollers(const Model& model, const Wheel& wheel) {
   if (IsNamed(model, wheel, {"mecanum"})) return true;
   const Link& link = model.links[static_cast<std::size_t>(JointAt(model, wheel.joint).child)];

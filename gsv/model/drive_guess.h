@@ -1,6 +1,6 @@
-// Guesses the drive of a robot from its wheels if its file names none.
+// Guesses the drive of a robot from its wheels, if the file describes no drive.
 //
-// Rule    the wheels are those of FindWheels() whose axes point across the model.
+// Rule    wheels are those that FindWheels() returns with an axle across the model (along y).
 //         - A wheel on a joint about the vertical is a caster if that joint has no limits, and if
 //           the wheel is behind the joint or if there are fixed wheels. Otherwise it is steered.
 //         - Wheels that are clearly smaller than the largest, wheels in the middle between left and

@@ -1,4 +1,4 @@
-// Robots of well-known kinds, as in public descriptions, made of shapes.
+// Guesses the drives of well-known kinds of robots. Their models are made of simple shapes.
 #include "gsv/model/drive_guess.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using testing::UnorderedElementsAre;
 constexpr double kQuarter = std::numbers::pi / 2;
 const geometry::Quaternion kAxisLeft = geometry::FromAxisAngle({1, 0, 0}, -kQuarter);
 
-// A box as a base, with mounted parts. Tests add these parts.
+// A robot whose base is a box. Tests add wheels and other parts.
 class Robot {
  public:
   Robot() {
@@ -59,7 +59,7 @@ class Robot {
     return AddJoint(name + "_joint", parent, link, JointKind::kContinuous, kAxisLeft);
   }
 
-  // A link that rotates about the vertical, with a wheel in it.
+  // Adds a link that rotates about the vertical, with a wheel on it.
   void AddSwivel(const std::string& name, double x, double y, double trail, Range range,
                  double radius = 0.1) {
     const int yoke = AddLink(name + "_yoke", {x + trail, y, radius}, std::nullopt);

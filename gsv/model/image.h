@@ -7,8 +7,8 @@
 
 namespace gsv::model {
 
-// Rows from top to bottom, pixels from left to right, `channels` (3: RGB, 4: RGBA) bytes each,
-// sRGB-encoded; pixels.size() == width * height * channels.
+// Rows are from top to bottom, pixels from left to right. A pixel has `channels` bytes (3: RGB, 4:
+// RGBA), sRGB-encoded. pixels.size() == width * height * channels.
 struct Image {
   int width = 0;
   int height = 0;

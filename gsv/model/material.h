@@ -14,10 +14,10 @@ struct Colour {
   friend bool operator==(const Colour&, const Colour&) = default;
 };
 
-// The metallic-roughness model of glTF 2.0. Maps are shared between materials and may be null;
-// a map multiplies the matching factor.
+// The metallic-roughness model of glTF 2.0. Maps are shared between materials and may be null; a
+// map is multiplied with the factor of the same name.
 struct Material {
-  Colour base_colour{0.7, 0.7, 0.7, 1};  // a < 1 is transparent
+  Colour base_colour{0.7, 0.7, 0.7, 1};  // transparent if a < 1
   Colour emissive{0, 0, 0, 1};
   double metalness = 0;
   double roughness = 0.8;
@@ -25,7 +25,7 @@ struct Material {
   std::shared_ptr<const Image> normal_map;
   std::shared_ptr<const Image> metallic_roughness_map;  // G: roughness, B: metalness
   std::shared_ptr<const Image> emissive_map;
-  // The alpha of the map is a mask (transparent below one half), and not blended.
+  // If true, the map's alpha is a mask (transparent below one half); otherwise alpha is blended.
   bool alpha_mask = false;
   bool double_sided = false;
 };

@@ -1,4 +1,4 @@
-// The surroundings of a world's bodies that push them: wind, and fluids that they float in.
+// Wind and fluids, which push the bodies of a world.
 //
 // Units  SI; heights are z in the world.
 #pragma once
@@ -10,15 +10,15 @@
 
 namespace gsv::model {
 
-// Wind as in Gazebo's WindEffects. It pushes each link that has wind at its centre of mass, with
-// `drag` times its mass times the relative velocity of the wind.
+// Wind as in Gazebo's WindEffects. If wind is enabled for a link, the force on its centre of mass
+// is `drag` times its mass times the velocity of the wind relative to the link.
 struct Wind {
   geometry::Vector3 velocity;  // m/s
-  double drag = 1;             // in 1/s: <force_approximation_scaling_factor>
+  double drag = 1;             // <force_approximation_scaling_factor>, 1/s
 };
 
-// A fluid as in Gazebo's Buoyancy. It lifts bodies by the weight of the displaced fluid, at the
-// centre of the displaced volume.
+// A fluid as in Gazebo's Buoyancy. It pushes bodies up with the weight of the displaced fluid, at
+// the centre of the displaced volume.
 struct Fluid {
   struct Layer {
     double above = 0;    // the height at which the layer begins, m
@@ -26,7 +26,7 @@ struct Fluid {
   };
   double density = 1000;      // density below all layers, kg/m³
   std::vector<Layer> layers;  // by ascending height; each layer ends where the next one begins
-  // The models ("boat") and links ("boat::hull") that the fluid lifts; empty for all.
+  // The models ("boat") and links ("boat::hull") that float; empty for all.
   std::vector<std::string> lifted;
 };
 

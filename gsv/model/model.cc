@@ -10,7 +10,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// Calls `visit` with each corner of the boxes around the collisions, in the model's frame.
+// Calls `visit` with each corner of each collision's bounding box, in the model's frame.
 template <typename Visit>
 void ForEachCorner(const Model& model, Visit visit) {
   for (const Link& link : model.links) {
@@ -35,7 +35,7 @@ double FootprintRadius(const Model& model) {
 double LowestPoint(const Model& model) { return LowestPoint(model, {}); }
 
 double LowestPoint(const Model& model, const geometry::Quaternion& world_from_model) {
-  // A rotation about the vertical does not change heights, not even by rounding.
+  // A rotation about the vertical must not change heights, not even by rounding errors.
   const bool is_level = world_from_model.x == 0 && world_from_model.y == 0;
   double lowest = 0;
   bool any = false;

@@ -23,14 +23,14 @@ struct Visual {
   std::string name;
   geometry::Pose link_from_visual;
   geometry::Shape shape;
-  // One per material slot of a mesh; other shapes use the first. Never empty.
+  // The materials of a mesh's slots, one each; other shapes use the first. Never empty.
   std::vector<Material> materials{Material{}};
   bool cast_shadows = true;
-  std::optional<double> temperature = std::nullopt;  // in K; nullopt: that of the air
+  std::optional<double> temperature = std::nullopt;  // in K; nullopt: the temperature of the air
 };
 
-// A wheel that slips, as Gazebo's WheelSlip describes it: the normal force is a constant, so that
-// slip is proportional to the friction force.
+// A wheel that slips, as in Gazebo's WheelSlip: the normal force is a constant, so that slip is
+// proportional to the friction force.
 struct SlippingWheel {
   Slip slip;
   double normal_force = 0;  // > 0, N
@@ -40,14 +40,14 @@ struct SlippingWheel {
 // Coulomb friction, slip and restitution, as in SDFormat's <surface>.
 struct Surface {
   double friction = 1.0;   // along friction_direction
-  double friction2 = 1.0;  // friction across that direction
+  double friction2 = 1.0;  // friction coefficient across friction_direction
   double restitution = 0.0;
   // in the collision's frame, of unit length; zero for the world's x axis
   geometry::Vector3 friction_direction;
   // Velocity at which the surfaces slide on each other, per friction force, m/(s N): <slip1> and
   // <slip2>, along and across friction_direction.
   double slip = 0, slip2 = 0;
-  // Soft ground: the slip of wheels that roll on this surface, in addition to their own.
+  // Soft ground: this slip is added to the slip of wheels that roll on the surface.
   Slip wheel_slip;
   CollisionFilter filter;
 };
@@ -61,7 +61,7 @@ struct Collision {
 
 struct Inertial {
   double mass = 1.0;             // kg
-  geometry::Pose link_from_com;  // principal frame of the inertia below
+  geometry::Pose link_from_com;  // pose of the frame in which the moments below are given
   // Moments and products of inertia about the centre of mass, kg m².
   double ixx = 1, iyy = 1, izz = 1, ixy = 0, ixz = 0, iyz = 0;
 };
@@ -73,14 +73,14 @@ struct Link {
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
   bool has_gravity = true;
-  bool has_wind = false;  // whether the wind of the world pushes it
-  // whether it moves only by its drive or the command of its joint, and not by forces
+  bool has_wind = false;  // whether wind pushes the link
+  // whether forces do not move the link, but only its drive or the command of its joint
   bool is_kinematic = false;
-  // The fraction of its velocity that it loses in each step of the world's length, in [0, 1]:
+  // The fraction of its velocity that the link loses in each step of the world's length, in [0, 1]:
   // SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
   double linear_decay = 0, angular_decay = 0;
-  // For a wheel: it slips if it has a slip of its own, or rolls on soft ground. Its axle is the axis
-  // of the joint above it.
+  // For a link that is a wheel: set if the wheel slips by itself or rolls on soft ground. Its axle
+  // is the axis of the joint above it.
   std::optional<SlippingWheel> wheel = std::nullopt;
 };
 
@@ -89,18 +89,18 @@ enum class JointKind {
   kRevolute,
   kContinuous,
   kPrismatic,
-  // one of three consecutive joints that form a ball joint, see SplitJoint() in gsv/formats
+  // one of three consecutive joints that together form a ball joint, see SplitJoint() in gsv/formats
   kBall,
-  kScrew,  // rotates, and slides by thread_pitch times the angle
+  kScrew,  // rotates, and slides by thread_pitch times the rotation
 };
 
-// Whether a joint takes commands: a position, a velocity or an effort.
+// Whether joints of this kind accept commands: a position, a velocity or an effort.
 inline bool TakesCommands(JointKind kind) {
   return kind != JointKind::kFixed && kind != JointKind::kBall;
 }
 
 // A joint that follows another one, as gears do: its position is multiplier * (leader - reference) +
-// offset. With rigid-body dynamics the leader feels the reaction.
+// offset. With rigid-body dynamics, the reaction acts on the leader.
 struct Mimic {
   int leader = 0;  // index in Model::joints
   double multiplier = 1, offset = 0, reference = 0;
@@ -111,15 +111,15 @@ struct Mimic {
 struct JointGains {
   double p = 1, i = 0, d = 0;
   Range integral{-1, 1};      // limits of the term i ∫e dt, N m or N
-  Range effort{-1000, 1000};  // limits of the sum; effort_limit applies as well
+  Range effort{-1000, 1000};  // limits of the sum of all terms; effort_limit also applies
   double offset = 0;          // added to the sum, N m or N
 };
 
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kFixed;
-  int parent = -1;  // index of the parent link; -1: the world
-  int child = 0;    // link index
+  int parent = -1;  // index of the parent link; -1 for the world
+  int child = 0;    // index of the child link
   // The joint's frame in the model at zero position. The child rotates about or slides along
   // `axis`.
   geometry::Pose model_from_joint;
@@ -131,42 +131,47 @@ struct Joint {
   double friction = 0;
   double thread_pitch = 0;  // in m/rad, for kScrew
   std::optional<Mimic> mimic = std::nullopt;
-  // How commands of a position and of a velocity are followed with rigid-body dynamics (default: as
-  // fast as the joint's limits allow).
+  // The controllers that follow position and velocity commands with rigid-body dynamics (default:
+  // as fast as the joint's limits allow).
   std::optional<JointGains> position_gains = std::nullopt, velocity_gains = std::nullopt;
 };
 
-// "revolute", "prismatic", …
+// Returns "revolute", "prismatic", …
 const char* NameOf(JointKind kind);
 
-// Returns the index of the joint with that name that accepts commands, or -1.
+// Returns the index of the joint with that name if the joint accepts commands, else -1.
 int FindJoint(const std::vector<Joint>& joints, const std::string& name);
 
 // An initial command of a joint, from the model's own controllers.
 struct JointTarget {
-  enum class Kind { kPosition, kVelocity, kEffort };  // rad or m; rad/s or m/s; N m or N
-  int joint = 0;                                      // index of the joint in Model::joints
+  enum class Kind {
+    kPosition,
+    kVelocity,
+    kEffort
+  };              // unit of the value: rad or m; rad/s or m/s;
+                  // N m or N
+  int joint = 0;  // index of the joint in Model::joints
   Kind kind = Kind::kPosition;
   double value = 0;
 };
 
-// The movement of a model with a drive.
+// How a model with a drive moves.
 enum class Movement {
   kPlanar,  // planar kinematics on level ground
-  kRigid,   // rigid-body dynamics: its wheels roll, it climbs, tips and is pushed
+  kRigid,   // rigid-body dynamics: wheels roll, and the model can climb, tip over and be pushed
 };
 
 struct Script;  // gsv/model/script.h
 
 struct Model {
-  std::string name;    // the name in the file
-  std::string source;  // the file from which it was read, for messages
+  std::string name;    // the model's name in the file
+  std::string source;  // the file of the model, for messages
   bool is_static = false;
   // The pose in the file, used in a world if no other pose is given.
   geometry::Pose default_pose;
   std::vector<Link> links;    // links[0] is the canonical link; never empty
-  std::vector<Joint> joints;  // a forest: no link is the child of two joints
-  // Joints that close loops of links: each holds two links of the forest together, with rigid-body
+  std::vector<Joint> joints;  // a forest: each link is the child of at most one joint
+  // Joints that close loops of links: each connects two links of the forest, with rigid-body
   // dynamics only. Such a joint has no position in a state, no commands, limits or losses. Its kind
   // is fixed, revolute, continuous, prismatic or ball.
   std::vector<Joint> loop_joints;
@@ -174,19 +179,19 @@ struct Model {
   std::vector<double> start_positions;     // initial positions of the joints; empty: all zero
   std::vector<SensorDescription> sensors;
   std::vector<ControlSystem> control_systems;
-  std::optional<Drive> drive;             // set for a robot that can be given a behaviour
-  Movement movement = Movement::kPlanar;  // for a model with a drive
-  std::shared_ptr<const Script> script;   // for an actor, else null
+  std::optional<Drive> drive;             // set if the model is a robot, which can have a behaviour
+  Movement movement = Movement::kPlanar;  // only for a model with a drive
+  std::shared_ptr<const Script> script;   // the motion of an actor; null for other models
 };
 
-// Returns the radius about the model's origin, in its xy plane, of a circle that contains the boxes
-// around all collisions except planes.
+// Returns the radius of a circle about the model's origin in its xy plane. The circle contains the
+// bounding boxes of all collisions except planes.
 double FootprintRadius(const Model& model);
 
-// Returns the lowest z, in the model's frame, of the boxes around all collisions except planes; 0
-// if there are none. Exact for boxes; a lower bound for tilted round shapes.
+// Returns the lowest z, in the model's frame, of the bounding boxes of all collisions except
+// planes; 0 without collisions. Exact for boxes; a lower bound for tilted round shapes.
 double LowestPoint(const Model& model);
-// Returns the lowest z relative to the origin, for a rotated model.
+// Returns the lowest z of a rotated model, relative to its origin.
 double LowestPoint(const Model& model, const geometry::Quaternion& world_from_model);
 
 }  // namespace gsv::model

@@ -19,7 +19,8 @@ Model With(const geometry::Shape& shape, const geometry::Pose& model_from_link) 
 }
 
 TEST(FootprintRadius, ReachesTheFarthestCorner) {
-  // A box of 2 x 4 has its centre at (1, 0), so its corner (2, 2) is farthest away.
+  // The box is 2 m x 4 m with its centre at (1, 0), so the corner (2, 2) is farthest from the
+  // origin.
   const Model model = With(geometry::Box{{2, 4, 1}}, {{1, 0, 0}, {}});
   EXPECT_NEAR(FootprintRadius(model), std::hypot(2.0, 2.0), 1e-12);
 }

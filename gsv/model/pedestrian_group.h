@@ -21,11 +21,11 @@ struct PedestrianGoal {
 };
 
 struct PedestrianGroup {
-  std::string name = "pedestrian";  // its members are NAME_1, NAME_2, …
+  std::string name = "pedestrian";  // pedestrians are called NAME_1, NAME_2, …
   int count = 1;
   // The goals in their order; after the last one the first follows. If there is a single goal,
-  // members stay within it. There is no path planning, so each goal must be in sight of the
-  // previous one.
+  // pedestrians stay within its disc. There is no path planning, so each goal must be in sight of
+  // the previous one.
   std::vector<PedestrianGoal> route;
   double z = 0;                                 // height of the floor
   double speed = 1.34, speed_deviation = 0.26;  // in m/s; desired speeds have a normal distribution
@@ -40,8 +40,8 @@ inline constexpr int kMaxPedestrians = 100'000;  // maximum number of pedestrian
 // (kInvalidArgument).
 base::Status Check(const PedestrianGroup& group);
 
-// Returns the model of a member: a simple figure that faces along x, with its feet at z = 0, in one
-// of kPedestrianLooks colourings, and a collision cylinder.
+// Returns the model of a pedestrian: a simple figure that faces along x, with its feet at z = 0, in
+// one of kPedestrianLooks colourings, and a collision cylinder.
 inline constexpr int kPedestrianLooks = 8;
 std::shared_ptr<const Model> PedestrianModel(const PedestrianGroup& group, int look);
 

@@ -19,15 +19,15 @@ struct Waypoint {
 
 struct Trajectory {
   std::vector<Waypoint> waypoints;  // in ascending order of time, each time once, the first at 0
-  double tension = 0;               // in [0, 1]; with 1 the motion is linear between waypoints
-  // interpolate_x: whether the gait follows the distance, and not the time
+  double tension = 0;               // in [0, 1]; 1 means straight lines between waypoints
+  // interpolate_x: the gait follows the travelled distance (true) or the time (false)
   bool animated_by_distance = false;
 };
 
 // Joint positions of a model over time: a gait.
 struct Animation {
-  base::SimTime length{0};  // the length, > 0; the animation repeats after it
-  double distance = 0;      // the distance that the gait covers in `length`, m; 0 if it is unknown
+  base::SimTime length{0};  // duration of one cycle, > 0; the animation repeats
+  double distance = 0;      // distance that one cycle covers, m; 0 if unknown
   int joint_count = 0;
   std::vector<double> positions;  // joint_count values for each of the evenly spaced keyframes
   int frame_count() const {
@@ -43,7 +43,7 @@ struct Script {
   std::shared_ptr<const Animation> animation;  // null if joints do not move
 };
 
-// The pose of a script's actor before the start, in the trajectory's frame.
+// Returns the pose of the actor before its start, in the trajectory's frame.
 inline geometry::Pose StartPose(const Script& script) {
   return script.trajectories.empty() ? geometry::Pose{}
                                      : script.trajectories.front().waypoints.front().pose;

@@ -19,14 +19,14 @@ struct SensorDescription {
   std::string type;  // "sonar", "camera", "positioning", "lidar", …
   int link = 0;      // index of the link it is mounted on
   geometry::Pose link_from_sensor;
-  double update_rate = 0;  // Hz; 0: a sample at each request, at most one per step
+  double update_rate = 0;  // Hz; 0 means a sample at each request, at most one per step
   bool visualize = false;  // whether viewers draw the readings
   Parameters parameters;
 
   friend bool operator==(const SensorDescription&, const SensorDescription&) = default;
 };
 
-// Each returns the parameter, or `otherwise` if it is absent or has another type.
+// Each function returns the parameter, or `otherwise` if it is absent or has another type.
 double NumberOr(const Parameters& parameters, const std::string& name, double otherwise);
 bool FlagOr(const Parameters& parameters, const std::string& name, bool otherwise);
 std::string TextOr(const Parameters& parameters, const std::string& name, std::string otherwise);

@@ -57,7 +57,7 @@ struct Reach {
   }
 };
 
-// The extent of shapes from an axis through `origin`, both perpendicular to the axis and along it.
+// Measures how far shapes extend from an axis through `origin`, perpendicular to it and along it.
 class Extent {
  public:
   Extent(const Vector3& origin, const Vector3& axis) : origin_(origin), axis_(axis) {
@@ -123,7 +123,7 @@ Vector3 AxisInModel(const Joint& joint) { return joint.model_from_joint.orientat
 
 std::optional<int> SwivelOf(const Model& model, int joint) {
   int link = model.joints[static_cast<std::size_t>(joint)].parent;
-  // The loop ends, because the joints are a forest.
+  // This loop ends, because the joints form a forest.
   while (link >= 0) {
     const int above = JointInto(model, link);
     if (above < 0) break;

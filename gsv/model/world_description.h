@@ -55,8 +55,9 @@ struct WorldDescription {
   double real_time_factor = 1;
   geometry::Vector3 gravity{0, 0, -9.8};
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
-  double temperature = 288.15;                                           // of the air, K
-  std::optional<GeodeticOrigin> origin;  // absent: the world has no satellite navigation
+  double temperature = 288.15;                                           // of the air at height 0,
+                                                                         // K
+  std::optional<GeodeticOrigin> origin;  // if absent, the world has no satellite navigation
   std::optional<Wind> wind;
   std::optional<Fluid> fluid;
   SceneLook scene;

@@ -8,8 +8,8 @@ namespace {
 
 using base::ErrorCode;
 
-// Avoids naming an object twice: removes `where` from the begin of the reason, or clears `where` if
-// the reason names a part of it.
+// Avoids that a message contains a name twice: removes `where` from the beginning of the reason, or
+// clears `where` if the reason contains a part of it.
 void NameOnce(base::Error& error) {
   if (error.where.empty() || !error.message.starts_with(error.where)) return;
   const std::string rest = error.message.substr(error.where.size());
@@ -17,7 +17,7 @@ void NameOnce(base::Error& error) {
   if (rest.starts_with("/")) error.where.clear();
 }
 
-// All exceptions of the module sba have one member, the reason.
+// Returns the text of an exception. All exceptions of the module sba have one member, the reason.
 template <typename Exception>
 bool Matches(const CORBA::UserException& exception, const std::string& where, ErrorCode code,
              base::Error& error) {

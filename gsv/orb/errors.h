@@ -10,18 +10,18 @@
 
 namespace gsv::orb {
 
-// Return the error for an exception of a remote call, as a sentence about the peer at `where`.
+// Return the error for an exception of a remote call to the peer at `where`.
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where);
 base::Error ToError(const CORBA::UserException& exception, const std::string& where);
 
-// Returns a sentence about the peer if certificates are the reason why the connection failed, else
-// an empty text. Call it once, on the thread that made the call.
+// Returns why the TLS connection of the last call failed, if certificates were the reason, else an
+// empty text. Call it once, on the thread that made the call.
 std::string WhyNotConnected(const CORBA::SystemException& exception);
 // Clears the reasons of earlier failures. Call it before a remote call, on the same thread.
 void ForgetConnectionFailure();
 
 // Returns whether the exception proves that the peer is gone: its port refuses connections, or the
-// object no longer exists there. A time-out does not prove it.
+// object no longer exists. A time-out does not prove it.
 bool MeansGone(const CORBA::SystemException& exception);
 
 // Calls `call` and converts its exceptions to an error about `where`.
@@ -42,10 +42,10 @@ auto Call(const std::string& where, Function call) -> base::Result<decltype(call
   }
 }
 
-// The exceptions that an operation declares.
+// The exceptions that an IDL operation declares, as bits.
 enum Raises : unsigned { kRefused = 1, kNotRunning = 2, kEnded = 4, kFailed = 8, kAll = 15 };
 
-// Throws the exception of our IDL that fits the error best among those that are declared.
+// Throws the declared exception that fits the error best.
 [[noreturn]] void Throw(const base::Error& error, unsigned raises = kAll);
 
 template <typename T>

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExtension = ".socket";  // the extension of PID-RANDOM.socket
+constexpr const char* kExtension = ".socket";  // socket files are called PID-RANDOM.socket
 
 bool IsLeftBehind(const fs::path& file) {
   if (file.extension() != kExtension) return false;

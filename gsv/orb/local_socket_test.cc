@@ -36,7 +36,7 @@ TEST_F(LocalSocket, IsInAFolderOfThisUserOnly) {
 TEST_F(LocalSocket, SocketsOfEndedProcessesAreRemovedAndOthersKept) {
   fs::create_directory(folder());
   fs::permissions(folder(), fs::perms::owner_all);
-  // No process has a number above 2^22, see proc(5).
+  // The file of a process that has ended: no process has a number above 2^22, see proc(5).
   const fs::path left = folder() / "99999999-0000abcd.socket";
   const fs::path used = folder() / (std::to_string(getpid()) + "-0000abcd.socket");
   const fs::path other = folder() / "99999999.json";

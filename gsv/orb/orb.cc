@@ -51,7 +51,8 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   const std::string message_time =
       std::to_string(std::chrono::milliseconds(options.message_time).count());
   const std::string call_timeout = std::to_string(options.call_timeout.count());
-  // It replaces the call's limit if the call has to connect first.
+  // The time limit of connecting. If a call has to connect first, this limit replaces the call's
+  // limit.
   const std::string connect_timeout =
       std::to_string(std::min<std::int64_t>(options.call_timeout.count(), 5000));
   const std::string connections = std::to_string(options.max_connections_per_server);
@@ -78,12 +79,12 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"oneCallPerConnection", "1"},
       {"supportPerThreadTimeOut", "1"},
       {"lcdMode", "0"},
-      // Bytes after a request's arguments are skipped. The strict mode closes the connection, and
-      // omniORB 4.2.5 then leaks about 9 kB.
+      // The setting skips bytes after a request's arguments. In strict mode, omniORB 4.2.5 would
+      // close the connection and leak about 9 kB.
       {"strictIIOP", "0"},
       {"traceLevel", "0"},
       {"unixTransportPermission", "0600"},
-      // without a local endpoint, this null ends the list early
+      // if there is no local endpoint, this null ends the list here
       {local_endpoint.empty() ? nullptr : "endPoint", local_endpoint.c_str()},
       {nullptr, nullptr},
   };
@@ -136,7 +137,7 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
     return base::Fail(base::ErrorCode::kUnavailable, "there is no host of this name", host);
   }
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, freeaddrinfo);
-  // Connecting a datagram socket sends nothing; it only selects the route.
+  // Connecting a datagram socket sends nothing. It selects the route, and so the local address.
   const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in local{};
   socklen_t length = sizeof local;

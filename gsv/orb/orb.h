@@ -1,6 +1,6 @@
-// The ORB of this process. It listens on loopback by default, uses TLS according to environment
-// variables (corba_access.h), limits the time of every call, closes idle connections, and accepts
-// messages large enough for images.
+// The ORB of this process. By default it listens on loopback. Environment variables select TLS
+// (corba_access.h). Every call has a time limit. Idle connections are closed. Messages may be as
+// large as images.
 //
 // Threads  StartOrb() once a process, before any other use of CORBA.
 #pragma once
@@ -16,13 +16,13 @@
 namespace gsv::orb {
 
 struct OrbOptions {
-  std::string host = "127.0.0.1";  // the address on which it listens
-  int port = 0;                    // 0 if the system chooses the port
+  std::string host = "127.0.0.1";  // the address that it listens on
+  int port = 0;                    // 0 lets the system choose the port
   bool local_socket = false;       // also listen on a local socket if possible, see local_socket.h
-  std::uint64_t max_message_bytes = 64u << 20;  // including its header
+  std::uint64_t max_message_bytes = 64u << 20;  // maximum size of a message, including its header
   std::chrono::seconds message_time{30};        // time limit for receiving a message
   std::chrono::milliseconds call_timeout{10'000};
-  // Removes arguments that crash omniORB, see broker::CheckRequest(). Null for no check.
+  // A function that removes arguments that crash omniORB, see broker::CheckRequest(). Null for no check.
   void (*check_request)(std::string& message) = nullptr;
   // The maximum number of connections to one server. A call in progress occupies its connection, so
   // use at least the number of agents that wait at the same time.
@@ -33,18 +33,18 @@ struct OrbOptions {
 // invalid, or if the address requires one.
 base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options);
 
-// Returns the process's ORB. If none was started, it starts one for outgoing calls only.
+// Returns this process's ORB. If there is none, starts one for outgoing calls only.
 base::Result<CORBA::ORB_var> CallingOrb();
 
 // Returns the root POA; the caller owns the reference.
 PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);
 
-// Returns the local address from which `host` is reached, on which peers there can be served. It is
-// "127.0.0.1" for a loopback host.
+// Returns the address of this machine that peers on `host` can use: the local address of the route
+// to `host`. For a loopback host, it is "127.0.0.1".
 base::Result<std::string> LocalAddressTowards(const std::string& host);
 
-// Returns the host and port of a reference, by TCP or TLS, such as "127.0.0.1:40123". Empty if it
-// contains none.
+// Returns the host and port in a reference, by TCP or TLS, such as "127.0.0.1:40123"; empty if
+// there is none.
 std::string AddressOf(CORBA::Object_ptr object);
 
 // Sets the time limit of calls through this reference, for all threads.

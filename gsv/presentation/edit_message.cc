@@ -19,14 +19,15 @@ constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edi
                               Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
                                   Edit::Moment::kAmidTurns};
-const std::string kDrive = " drive ";  // the word is followed by a choice, see model/drive_choice.h
+const std::string kDrive = " drive ";  // this word is followed by a drive choice, see
+                                       // model/drive_choice.h
 constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
 
 const char* ToString(model::Movement movement) {
   return movement == model::Movement::kRigid ? "rigid" : "planar";
 }
 
-// Returns the value with that name.
+// Returns the value of an enumeration with that name.
 template <typename Value, std::size_t kCount>
 std::optional<Value> Named(const std::string& name, const Value (&values)[kCount]) {
   const auto found = std::find_if(std::begin(values), std::end(values),
@@ -84,7 +85,8 @@ base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message)
   const auto kind = Named(message.kind, kKinds);
   const auto moment = Named(message.moment, kMoments);
   simulation::Edit edit;
-  // A separate field would make older recordings unreadable (ADR 034).
+  // The drive follows in the same field, because a new field would make older recordings unreadable
+  // (ADR 034).
   const std::size_t drive = message.movement.find(kDrive);
   const std::string movement = message.movement.substr(0, drive);
   if (drive != std::string::npos) edit.drive = message.movement.substr(drive + kDrive.size());

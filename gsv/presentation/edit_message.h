@@ -1,4 +1,4 @@
-// Converts edits to messages and back, for resimulation.
+// Converts edits to messages and messages to edits, for recording and resimulation.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -9,8 +9,8 @@ namespace gsv::presentation {
 
 messages::gsv_msgs::Edit EditMessage(const simulation::Edit& edit);
 
-// Returns the edit in a message. Fails for an invalid edit, such as an unknown kind or a pose that
-// is not finite.
+// Returns the edit that a message describes. Fails if the message is invalid, for example because
+// of an unknown kind or a pose that is not finite.
 base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message);
 
 }  // namespace gsv::presentation

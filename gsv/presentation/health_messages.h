@@ -1,4 +1,4 @@
-// The health of robots and the expectations of a run as messages.
+// Converts the health of robots and the expectations of a run to messages.
 #pragma once
 
 #include "gsv/health/health.h"
@@ -7,9 +7,9 @@
 
 namespace gsv::presentation {
 
-// The message lists only robots that do not move.
+// Makes the message. It lists only robots that do not move.
 messages::gsv_msgs::Health HealthMessage(const health::Report& report);
-// Whether messages differ in more than time and actual motion, so that sending is useful.
+// Whether `message` differs from `sent` in more than time and actual motion, and so must be sent.
 bool IsNews(const messages::gsv_msgs::Health& message, const messages::gsv_msgs::Health& sent);
 
 messages::gsv_msgs::Expectations ExpectationsMessage(

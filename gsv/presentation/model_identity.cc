@@ -9,7 +9,8 @@
 namespace gsv::presentation {
 namespace {
 
-// Increase this number when the same model is written differently, so that browsers fetch it again.
+// The version of the model writer. Increase it when the same model is written differently, so that
+// browsers fetch models again.
 constexpr std::uint64_t kWriterVersion = 1;
 
 class Identity {
@@ -36,7 +37,7 @@ class Identity {
     Add(q.w), Add(q.x), Add(q.y), Add(q.z);
   }
 
-  // Scalars without padding between them, in their memory representation.
+  // Hashes scalars without padding between them, as bytes in memory.
   template <typename Element>
   void AddBlock(const std::vector<Element>& block) {
     static_assert(std::is_trivially_copyable_v<Element>);

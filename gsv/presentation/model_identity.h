@@ -1,5 +1,5 @@
-// An identifier of a model's looks: equal looks have equal identifiers on every machine and in
-// every run.
+// Computes an identifier of a model's looks: equal looks have equal identifiers on every machine
+// and in every run.
 #pragma once
 
 #include <string>

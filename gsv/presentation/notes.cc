@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kAt = "at ";
 constexpr std::string_view kEnd = " s: ";
-constexpr double kLatestNote = 9e9;  // s: limit of a time in nanoseconds
+constexpr double kLatestNote = 9e9;  // s; the latest time that fits in 64 bits of nanoseconds
 
 struct ParsedNote {
   base::SimTime time{};

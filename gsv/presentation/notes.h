@@ -1,4 +1,4 @@
-// Notes of viewers on instants of a run.
+// Notes that viewers attach to instants of a run.
 //
 // A note is an event of the simulation, of the kind kNoteEvent, whose detail has the instant and
 // the text. It is published and recorded on /gsv/notes, apart from the other events, because it is

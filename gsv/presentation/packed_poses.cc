@@ -12,7 +12,7 @@ namespace gsv::presentation {
 namespace {
 
 constexpr double kUnitsPerMetre = 1e4;
-// All components except the largest one are at most 1 / sqrt(2).
+// The largest component is left out; the others are at most 1 / sqrt(2).
 constexpr double kHalfScale = 16383.5;
 constexpr unsigned kHighestBit = 0x8000;
 

@@ -18,7 +18,7 @@ std::vector<geometry::Pose> PosesOf(const world::Snapshot& snapshot,
                                     const std::vector<PoseEntry>& list) {
   std::vector<geometry::Pose> poses;
   poses.reserve(list.size());
-  std::vector<geometry::Pose> links;  // the link poses of the body `links_of`
+  std::vector<geometry::Pose> links;  // link poses of the body with the index `links_of`
   int links_of = -1;
   for (const PoseEntry& entry : list) {
     if (entry.link < 0) {

@@ -1,4 +1,4 @@
-// The poses in gsv_msgs/Poses and their order.
+// Lists the poses of gsv_msgs/Poses in their order.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace gsv::presentation {
 
-// One of the poses: of a body (link -1: world_from_model), or of a link that moves relative to its
-// body (world_from_link).
+// Says which pose it is: that of a body (link -1: world_from_model), or that of a link that moves
+// relative to its body (world_from_link).
 struct PoseEntry {
   int body = 0;   // index in Layout::bodies
   int link = -1;  // index in Model::links
@@ -18,7 +18,7 @@ struct PoseEntry {
 // Lists each non-static body in the order of the layout, followed by its moving links.
 std::vector<PoseEntry> PoseListOf(const world::Layout& layout);
 
-// Returns the pose of each entry; `list` must be that of the snapshot's layout.
+// Returns the pose of each entry. `list` must be the list of the snapshot's layout.
 std::vector<geometry::Pose> PosesOf(const world::Snapshot& snapshot,
                                     const std::vector<PoseEntry>& list);
 

@@ -1,5 +1,5 @@
-// The status and events of a run as messages: for the viewer, and as a log and diagnostics for ROS
-// tools.
+// Converts the status and events of a run to messages: for the viewer, and as a log and diagnostics
+// for ROS tools.
 #pragma once
 
 #include "gsv/messages/diagnostic_msgs.h"
@@ -12,14 +12,14 @@ namespace gsv::presentation {
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
-// Returns an event as a log message from the robot, or from "gsv" for the simulation. A line of
-// output is the message itself, with the stream as its file: information on stdout, a warning on
-// stderr. Failures of a behaviour or the simulation are errors; failed requests are warnings.
+// Returns an event as a log message from the robot, or from "gsv" for the simulation. A line that a
+// behaviour prints becomes the message's text, with the stream in the field `file`: information for stdout,
+// a warning for stderr. Failures of a behaviour or the simulation are errors; failed requests are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 
-// Returns the diagnostics of the simulation, and then of each robot by name. The simulation has an
-// error if it has failed, and a warning while it is blocked. A robot has an error if its behaviour
-// has died, and a warning while it is unresponsive.
+// Returns the diagnostics: first those of the simulation, then those of each robot by name. The
+// simulation has an error if it has failed, and a warning while it is blocked. A robot has an error
+// if its behaviour has died, and a warning while it is unresponsive.
 messages::diagnostic_msgs::DiagnosticArray DiagnosticsMessage(
     const simulation::SimulationStatus& status);
 

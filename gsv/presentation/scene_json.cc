@@ -82,7 +82,7 @@ Json LookJson(const model::SceneLook& look) {
           {"sky", look.sky}};
 }
 
-// `known` provides the sensors' frustums.
+// Returns the sensors of a body. `known` provides the frustums of its cameras.
 Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::SensorSet& known) {
   Json sensors = Json::array();
   if (!world::HasAgent(body)) return sensors;
@@ -97,8 +97,8 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
               {"link", body.model->links[sensor.link].name},
               {"pose", PoseJson(sensor.link_from_sensor)},
               {"topic", SensorTopic(body.name, sensor.name)}};
-    // Adds units by the path of a field in the sensor's message; a path includes all fields below
-    // it.
+    // Units are listed by the path of a field in the sensor's message. A path includes all fields
+    // below it.
     if (auto units = type->layout.Units(); !units.empty()) json["units"] = std::move(units);
     const auto made = known.Of(sensor);
     if (const auto frustum = made ? (*made)->frustum() : std::nullopt) {
@@ -110,8 +110,8 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
   return sensors;
 }
 
-// Returns the movable joints, each in the frame of its child link if that link has its own pose
-// (`moving`), else in the model's frame.
+// Returns the movable joints. Each is given in the frame of its child link if that link has its own
+// pose (`moving`), else in the model's frame.
 Json JointsJson(const model::Model& model, const std::set<int>& moving) {
   Json joints = Json::array();
   for (const model::Joint& joint : model.joints) {
@@ -131,7 +131,7 @@ Json JointsJson(const model::Model& model, const std::set<int>& moving) {
   return joints;
 }
 
-// Whether this is a static body of the world file, which cannot be removed.
+// Whether this is a static body of the world file. Such a body cannot be removed.
 bool IsFixed(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
   return body.is_static() &&
@@ -140,7 +140,8 @@ bool IsFixed(const world::Layout& layout, const world::Body& body) {
          });
 }
 
-// Whether this is a body of the world file, whose model is known if it is added again.
+// Whether this body comes from the world file. If it is removed and added again, its model is
+// known.
 bool IsOfWorld(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
   return std::any_of(models.begin(), models.end(), [&](const model::PlacedModel& placed) {
@@ -189,13 +190,14 @@ Json InertialsJson(const model::Model& model) {
   return inertials;
 }
 
-// By model, of the bodies that can move.
+// Returns the inertial data of all models whose bodies can move.
 Json AllInertialsJson(const SceneSource& source) {
   std::map<const model::Model*, std::shared_ptr<const model::Model>> models;
   for (const world::Body& body : source.snapshot.layout->bodies) {
     if (!body.is_static()) models.try_emplace(body.model.get(), body.model);
   }
-  std::map<std::string, Json> by_identifier;  // in an order that does not depend on addresses
+  std::map<std::string, Json> by_identifier;  // ordered by identifier, because addresses differ
+                                              // from run to run
   for (const auto& [address, model] : models) {
     by_identifier.try_emplace(source.identify(model), InertialsJson(*model));
   }
@@ -247,8 +249,9 @@ std::optional<Bounds> VisibleBounds(const model::Model& model) {
 }  // namespace
 
 Bounds SceneBounds(const world::Snapshot& snapshot) {
-  std::map<const model::Model*, std::optional<Bounds>> of_model;  // the bounds by model, because a
-                                                                  // model may be used often
+  std::map<const model::Model*, std::optional<Bounds>> of_model;  // the bounds of each model,
+                                                                  // because many bodies may share
+                                                                  // it
   std::optional<Bounds> bounds;
   for (std::size_t i = 0; i < snapshot.layout->bodies.size(); ++i) {
     const model::Model* model = snapshot.layout->bodies[i].model.get();

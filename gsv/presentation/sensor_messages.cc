@@ -11,7 +11,7 @@ namespace {
 
 using messages::visualization_msgs::Marker;
 
-constexpr double kDash = 0.02;  // as a fraction of a beam's length
+constexpr double kDash = 0.02;  // length of a dash, as a fraction of a beam's length
 
 Marker MarkerOf(const std::string& robot, base::SimTime time) {
   Marker marker;
@@ -23,11 +23,11 @@ Marker MarkerOf(const std::string& robot, base::SimTime time) {
   return marker;
 }
 
-// Returns a marker of pairs of points.
+// Returns a marker that draws a line between each pair of points.
 Marker LinesOf(const std::string& robot, base::SimTime time,
                const std::vector<geometry::Vector3>& points_in_world) {
   Marker marker = MarkerOf(robot, time);
-  marker.scale.x = 0.01;  // the lines' width, m
+  marker.scale.x = 0.01;  // width of the lines, m
   marker.color.r = 0.2f;
   marker.color.g = 0.8f;
   marker.color.b = 1.0f;

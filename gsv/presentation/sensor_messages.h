@@ -1,4 +1,4 @@
-// The messages about robots' sensors: topics of readings, transforms, and lines that viewers draw.
+// Makes the messages about robots' sensors: topics of readings, transforms, and the lines that viewers draw.
 //
 // Frames  see gsv/sensing/frames.h.
 #pragma once
@@ -15,38 +15,40 @@
 
 namespace gsv::presentation {
 
-// Returns the topic of readings, "/pebble/camera", or of a companion message,
-// "/pebble/camera/camera_info".
+// Returns the topic of a sensor's readings, such as "/pebble/camera", or of a companion message,
+// such as "/pebble/camera/camera_info".
 std::string SensorTopic(const std::string& robot, const std::string& sensor);
 std::string CompanionTopic(const std::string& sensor_topic, const sensing::Companion& companion);
 // Returns the topics of all sensors of the robot.
 std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
                                           const std::string& robot);
 
-// Appends the transform of one sensor relative to its robot or its moving link, and for a camera
-// that of its optical frame.
+// Appends the transform of one sensor relative to its robot or its moving link. For a camera, also
+// appends the transform of its optical frame.
 void AppendSensorTransform(const world::Layout& layout, int body,
                            const model::SensorDescription& sensor, const sensing::SensorType& type,
                            base::SimTime time, messages::tf2_msgs::TFMessage& message);
 
-// Whether viewers draw lines for the readings: for types with lines, and for types with points if
-// the file sets <visualize>.
+// Whether viewers draw lines for the readings. They do for sensor types with beams, and for types
+// with points if the file sets <visualize>.
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
-// The lines of all robots at one instant: a marker per robot, and a deletion for each robot that no
-// longer has lines.
+// Collects the lines of all robots at one instant. The message has a marker for each robot, and a
+// deletion for each robot that no longer has lines.
 class BeamMarkers {
  public:
-  // Adds the lines of a reading: its beams, or for types with points short dashes at their ends.
-  // `body` is the robot's index in the snapshot's layout.
+  // Adds the lines of a reading: its beams, or short dashes at its points. `body` is the robot's
+  // index in the snapshot's layout.
   void Add(const world::Snapshot& snapshot, int body, const sensing::SensorType& type,
            const sensing::Sensor& sensor, const sensing::Reading& reading);
-  // Returns and clears what was added since the last call.
+  // Returns the lines that were added since the last call, and clears them.
   messages::visualization_msgs::MarkerArray Take(base::SimTime time);
 
  private:
-  std::map<std::string, std::vector<geometry::Vector3>> points_;  // points in the world, by robot
-  std::set<std::string> shown_;                                   // robots in the last message
+  std::map<std::string, std::vector<geometry::Vector3>> points_;  // points in the world frame, by
+                                                                  // robot
+  std::set<std::string> shown_;                                   // robots with lines in the last
+                                                                  // message
 };
 
 }  // namespace gsv::presentation

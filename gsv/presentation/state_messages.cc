@@ -9,7 +9,7 @@ namespace {
 
 std::uint64_t StepNumber(std::int64_t step) { return static_cast<std::uint64_t>(step); }
 
-// The step at an earlier instant: all steps have equal length.
+// Returns the number of the step at an earlier instant. All steps have the same length.
 std::uint64_t StepAt(base::SimTime instant, const world::State& state) {
   if (state.time.count() <= 0) return 0;
   const double part = base::ToSeconds(instant) / base::ToSeconds(state.time);

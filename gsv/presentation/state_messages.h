@@ -1,4 +1,4 @@
-// A simulation's state as ROS 2 messages.
+// Converts a simulation's state to ROS 2 messages.
 //
 // Frames  see gsv/sensing/frames.h.
 #pragma once
@@ -27,25 +27,25 @@ messages::geometry_msgs::TransformStamped StampedTransform(std::string_view pare
                                                            const geometry::Pose& parent_from_child);
 // Returns "robot/base_link", or the name of a body that is not a robot.
 std::string BodyFrame(const world::Body& body);
-// Returns the frame of a link that moves relative to its body. If the body's own frame has this
-// name, the result differs from the link's name.
+// Returns the frame of a link that moves relative to its body. The result is the link's name,
+// changed if the body's own frame has the same name.
 std::string LinkFrame(const world::Body& body, const model::Link& link);
 
-// Returns map → body for each entry of a body, and body → link for each entry of a link.
+// Returns the transforms map → body for entries of bodies, and body → link for entries of links.
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list);
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
                                            const world::Contact& contact);
 
-// Returns the command that a device follows. The device must follow one.
+// Returns the command that an actuator applies. The device must have one.
 messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& device,
                                                     const world::State& state);
 
 messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
                                                      const world::Transmission& transmission);
 
-// Returns the last command of a robot's drive. `state` must be from at least one step later.
+// Returns the last command of a robot's drive. `state` must be at least one step later than the command.
 messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world::DriveState& drive,
                                            const world::State& state);
 

@@ -1,6 +1,6 @@
-// The topics of a simulation: one table for live streams, recordings, replays and relays. A handle
-// such as topics::kPoses has the name and the message type of a topic; the table has its
-// properties. The topics of sensors are named after robots and sensors, see sensor_messages.h.
+// The topics of a simulation, in one table for live streams, recordings, replays and relays. A
+// constant such as topics::kPoses has the name and the message type of a topic. The table has its
+// other properties. The topics of sensors are named after robots and sensors, see sensor_messages.h.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@
 
 namespace gsv::presentation {
 
-// A topic with its message's type.
+// The name of a topic, and the type of its messages.
 template <typename Message>
 struct TopicOf {
   const char* name;
 };
 
-// How messages of a topic in a recording are played.
+// How a replay sends the recorded messages of a topic.
 enum class Replay {
-  kNewest,   // the newest message at each instant
-  kEach,     // each message during playback, none during a seek
-  kByClock,  // the player publishes its own messages: time and status of the replay
+  kNewest,   // at each instant, the newest message
+  kEach,     // each message during playback; none during a seek
+  kByClock,  // none; the player makes its own messages: time and status of the replay
 };
 
 struct Topic {
@@ -37,19 +37,20 @@ struct Topic {
   bool is_live = true;
   bool is_recorded = true;
   Replay replay = Replay::kNewest;
-  bool is_reproducible = true;  // equal in every run, and so hashed
+  bool is_reproducible = true;  // whether the messages are equal in every run, and are therefore
+                                // hashed
   std::size_t history = 1;      // number of earlier messages that a new live subscriber gets
 };
 
 std::span<const Topic> Topics();
-// Returns null if the topic is not in the table.
+// Returns the topic with that name, or null if the table does not contain it.
 const Topic* FindTopic(std::string_view name);
 
 namespace topics {
 
 inline constexpr TopicOf<messages::rosgraph_msgs::Clock> kClock{"/clock"};
 inline constexpr TopicOf<messages::gsv_msgs::Poses> kPoses{"/gsv/poses"};
-// The poses for viewers, rounded.
+// Rounded poses for viewers.
 inline constexpr TopicOf<messages::gsv_msgs::PackedPoses> kPackedPoses{"/gsv/packed_poses"};
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kTransforms{"/tf"};
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kSensorTransforms{"/tf_static"};
@@ -58,9 +59,9 @@ inline constexpr TopicOf<messages::gsv_msgs::SimulationStatus> kStatus{"/gsv/sta
 inline constexpr TopicOf<messages::diagnostic_msgs::DiagnosticArray> kDiagnostics{"/diagnostics"};
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kEvents{"/gsv/events"};
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kLog{"/rosout"};
-// The lines that the programs of behaviours print.
+// Lines that behaviour programs print.
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kOutput{"/gsv/output"};
-// The notes of viewers.
+// Notes of viewers.
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kNotes{"/gsv/notes"};
 inline constexpr TopicOf<messages::gsv_msgs::Health> kHealth{"/gsv/health"};
 inline constexpr TopicOf<messages::gsv_msgs::Expectations> kExpectations{"/gsv/expectations"};
@@ -71,7 +72,7 @@ inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
 // This topic is in every recording of an edited simulation, whatever topics are selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
-// The wall-clock time of steps by part.
+// The wall-clock time that each part of a step takes.
 inline constexpr TopicOf<messages::gsv_msgs::StepCosts> kStepCosts{"/gsv/step_costs"};
 inline constexpr TopicOf<messages::std_msgs::String> kViewers{"/gsv/viewers"};
 

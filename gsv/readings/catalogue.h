@@ -59,14 +59,14 @@ struct Sonar {
 struct Lidar {
   static constexpr const char* kType = "lidar";
   std::span<const double> ranges;  // one per beam; infinite if the beam hit nothing
-  // One per beam, or none if the lidar does not measure them. In a reading they follow the ranges.
-  // The layout cannot tell them apart, so that Decode() leaves all values in `ranges`.
+  // One per beam; empty if the lidar does not measure intensities. In a reading, intensities follow
+  // the ranges. The layout cannot distinguish the two, so Decode() puts all values into `ranges`.
   std::span<const double> intensities;
   static constexpr auto kFields = std::make_tuple(Value("ranges", "m", &Lidar::ranges));
 
-  // The parameter of a lidar that measures intensities: a number > 0.
+  // The name of the lidar parameter that enables intensities if its value is > 0.
   static constexpr const char* kIntensityParameter = "intensity_scale";
-  // Returns the decoded values of such a lidar with the intensities in their own member.
+  // Returns the decoded values of a lidar with intensities, with the intensities in their own member.
   Lidar WithIntensities() const {
     const std::size_t beams = ranges.size() / 2;
     return {ranges.first(beams), ranges.last(beams)};
@@ -80,24 +80,24 @@ struct Positioning {
       std::make_tuple(Value("world_from_sensor", "", &Positioning::world_from_sensor, "pose"));
 };
 
-// In the sensor's frame. The specific force of a sensor at rest is 9.8 m/s² upwards.
+// Values are in the sensor's frame. The specific force of a sensor at rest is 9.8 m/s² upwards.
 struct Imu {
   static constexpr const char* kType = "imu";
   Vector angular_velocity;
   Vector specific_force;
-  std::optional<Quaternion> world_from_sensor;  // if the IMU measures orientation
+  std::optional<Quaternion> world_from_sensor;  // empty if the IMU does not measure orientation
   static constexpr auto kFields =
       std::make_tuple(Value("angular_velocity", "rad/s", &Imu::angular_velocity),
                       Value("specific_force", "m/s²", &Imu::specific_force, "linear_acceleration"),
                       Value("world_from_sensor", "", &Imu::world_from_sensor, "orientation"));
 };
 
-// Dead reckoning by the wheels, relative to the pose at the start.
+// The robot's motion since the start, computed from the rotation of the wheels.
 struct Odometry {
   static constexpr const char* kType = "odometry";
   double x = 0, y = 0, yaw = 0;
   double linear = 0, angular = 0;
-  double lateral = 0;  // velocity to the left; missing in readings of gsv 0.1 and earlier
+  double lateral = 0;  // velocity to the left, m/s; missing in readings of gsv 0.1 and earlier
   static constexpr auto kFields =
       std::make_tuple(Value("x", "m", &Odometry::x, "pose.pose.position"),
                       Value("y", "m", &Odometry::y, "pose.pose.position"),
@@ -121,14 +121,14 @@ struct Navsat {
 
 struct Magnetometer {
   static constexpr const char* kType = "magnetometer";
-  Vector field;  // field in the sensor's frame
+  Vector field;  // magnetic field in the sensor's frame
   static constexpr auto kFields =
       std::make_tuple(Value("field", "T", &Magnetometer::field, "magnetic_field"));
 };
 
 struct Altimeter {
   static constexpr const char* kType = "altimeter";
-  double position = 0, velocity = 0;  // above the reference height
+  double position = 0, velocity = 0;  // height above the reference height, and its rate
   double reference = 0;               // reference height in the world
   static constexpr auto kFields =
       std::make_tuple(Value("position", "m", &Altimeter::position, "vertical_position"),
@@ -137,12 +137,12 @@ struct Altimeter {
 };
 
 // In the sensor's frame. The normal points from the robot to the other body. The force acts on the
-// robot: the mean over the last step. It is zero for a robot that planar kinematics moves.
+// robot: the mean over the last step. With planar kinematics, the force is zero.
 struct Touch {
   std::string other;
   Vector point, normal;
   double depth = 0;
-  double closing_speed = 0;  // speed at which the bodies met; 0: they touched before this step
+  double closing_speed = 0;  // speed at which the bodies met; 0 if they touched before this step
   Vector force;
   static constexpr auto kFields = std::make_tuple(
       Value("other", "", &Touch::other), Value("point", "m", &Touch::point),
@@ -165,7 +165,7 @@ struct ForceTorque {
                       Value("torque", "N m", &ForceTorque::torque, "wrench.torque"));
 };
 
-// rad and rad/s; of prismatic joints m and m/s.
+// Position in rad and velocity in rad/s; for prismatic joints in m and m/s.
 struct EncodedJoint {
   std::string name;
   double position = 0, velocity = 0;
@@ -181,7 +181,7 @@ struct JointEncoders {
 
 struct Battery {
   static constexpr const char* kType = "battery";
-  double voltage = 0, current = 0;  // current: drawn from the battery
+  double voltage = 0, current = 0;  // current that is drawn from the battery
   double charge = 0, capacity = 0;
   double fraction = 0;
   static constexpr auto kFields = std::make_tuple(
@@ -205,11 +205,11 @@ struct LogicalCamera {
 };
 
 struct HeardMessage {
-  std::uint64_t number = 0;  // counted from 1 since the radio was opened
+  std::uint64_t number = 0;  // number of the message, counted from 1 since the radio was opened
   double sent = 0;
   double strength = 0;
   std::string sender;          // robot
-  std::string content_base64;  // labels are text
+  std::string content_base64;  // in Base64, because labels are text
   static constexpr auto kFields = std::make_tuple(
       Value("number", "", &HeardMessage::number), Value("sent", "s", &HeardMessage::sent),
       Value("strength", "dBm", &HeardMessage::strength, "strength_dbm"),
@@ -218,14 +218,15 @@ struct HeardMessage {
 };
 struct Radio {
   static constexpr const char* kType = "radio";
-  std::vector<HeardMessage> messages;  // the oldest first
+  std::vector<HeardMessage> messages;  // ordered from the oldest to the newest
   static constexpr auto kFields = std::make_tuple(Value("messages", "", &Radio::messages));
 };
 
-// The distance to one radio anchor, as tags of ultra-wideband (UWB) radio measure it.
+// The distance to one radio anchor, as an ultra-wideband (UWB) tag measures it.
 struct Ranging {
   static constexpr const char* kType = "ranging";
-  double distance = std::numeric_limits<double>::infinity();  // infinite: not received
+  double distance = std::numeric_limits<double>::infinity();  // infinite if the anchor was not
+                                                              // received
   static constexpr auto kFields =
       std::make_tuple(Value("distance", "m", &Ranging::distance, "range"));
 };
@@ -254,7 +255,7 @@ struct Gripper {
   static constexpr const char* kType = "gripper";
   double opening = 0;
   bool told_to_open = false;
-  std::string held;  // name of the attached body; empty: none
+  std::string held;  // name of the attached body; empty if there is none
   static constexpr auto kFields = std::make_tuple(
       Value("opening", "m", &Gripper::opening, "opening_m"),
       Value("told_to_open", "", &Gripper::told_to_open), Value("held", "", &Gripper::held));
@@ -262,7 +263,7 @@ struct Gripper {
 
 struct Speaker {
   static constexpr const char* kType = "speaker";
-  std::string name;  // name of the sound; empty: silence
+  std::string name;  // name of the sound; empty for silence
   double frequency = 0, volume = 0;
   double elapsed = 0, left = 0;
   static constexpr auto kFields = std::make_tuple(
@@ -272,7 +273,7 @@ struct Speaker {
       Value("left", "s", &Speaker::left, "left_s"));
 };
 
-// The image itself is not a part of the values.
+// The image itself is not part of the values.
 struct Camera {
   static constexpr const char* kType = "camera";
   // the type of a camera with a wide-angle lens
@@ -286,7 +287,7 @@ struct Camera {
 struct DepthImage {
   static constexpr const char* kType = "depth_camera";
   int width = 0, height = 0;
-  std::span<const double> depth;  // depth along the view; infinite for the background
+  std::span<const double> depth;  // distance along the camera's axis; infinite for the background
   static constexpr auto kFields = std::make_tuple(Value("width", "px", &DepthImage::width),
                                                   Value("height", "px", &DepthImage::height),
                                                   Value("depth", "m", &DepthImage::depth));
@@ -330,7 +331,7 @@ struct NormalImage {
   bool IsComplete() const { return normals.size() == std::size_t(3) * width * height; }
 };
 
-// A box in pixels from the image's upper left corner.
+// A box in pixels, counted from the image's upper left corner.
 struct BoundingBox {
   std::string name;
   double left = 0, top = 0, right = 0, bottom = 0;

@@ -1,7 +1,7 @@
 // The layout of a reading's struct in values and labels.
 //
-// Readings of all types are passed as numbers (`values`) and names (`labels`). The struct of a type
-// (catalogue.h) lists its members in this order, each with name and unit:
+// Readings of all types are passed as lists of numbers (`values`) and of texts (`labels`). The
+// struct of a type (catalogue.h) lists its members in this order, each with name and unit:
 //
 //   struct Altimeter {
 //     double position = 0, velocity = 0, reference = 0;
@@ -39,8 +39,8 @@ struct Field {
   const char* name;  // the name of the member
   const char* unit;  // such as "m" or "rad/s"; empty if it has none, or if its parts have units
   Member Struct::*member;
-  // the field's path in the message of the type; null for the name, empty for the paths of the
-  // parts
+  // the field's path in the message of the type; null if it is the name; empty if the parts have
+  // their own paths
   const char* path;
   bool is_optional;  // whether the field may be missing at the end of the values
 };
@@ -80,14 +80,14 @@ inline constexpr bool kIsAllValues = std::is_same_v<T, std::span<const double>>;
 template <typename T>
 inline constexpr bool kIsAllLabels = std::is_same_v<T, std::span<const std::string>>;
 
-// The position up to which a reading was decoded.
+// Decodes values from the start to the end of a reading.
 class Cursor {
  public:
   Cursor(std::span<const double> values, std::span<const std::string> labels)
       : values_(values), labels_(labels) {}
 
   bool has_values() const { return !values_.empty(); }
-  // Whether every value was present and no value is left.
+  // Whether all values were present, and none is left.
   bool is_exact() const { return !is_bad_ && values_.empty() && labels_.empty(); }
 
   double Value() {
@@ -240,8 +240,8 @@ void Append(const Struct& from, Values& values, std::vector<std::string>& labels
   internal::AppendMember(from, values, labels);
 }
 
-// Decodes a reading into its struct. Spans in the struct refer to the reading. kCorrupt with the
-// place `where` if the reading does not have the size of the layout.
+// Decodes a reading into its struct. Spans in the struct refer to the reading. Fails with kCorrupt
+// and the place `where` if the reading does not have the size of the layout.
 template <typename Struct>
 base::Result<Struct> Decode(std::span<const double> values, std::span<const std::string> labels,
                             const std::string& where) {

@@ -21,7 +21,7 @@ std::string Counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-// Returns "3 values and 1 label"; empty for none.
+// Returns a text such as "3 values and 1 label"; empty if both are 0.
 std::string Counted(std::size_t values, std::size_t labels) {
   const std::string names = labels > 0 ? Counted(labels, "label") : "";
   if (values == 0) return names;
@@ -36,13 +36,13 @@ std::string Shortened(const std::string& name, const std::string& before) {
   return is_beside ? name.substr(dot) : name;
 }
 
-// Lists the names, with each unit once after the columns that share it.
+// Returns the names. A unit that several columns share appears once, after them.
 std::string Listed(const Columns& columns, Multiplicity occurs) {
   std::string text, before;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Layout::Column& column = columns[i];
     if (column.occurs != occurs) continue;
-    // Names in a group omit the name of the list.
+    // In a group, the name of the list is left out.
     std::string name = column.name;
     if (occurs == Multiplicity::kRepeated) name = name.substr(name.find('.') + 1);
     text += (text.empty() ? "" : ", ") + Shortened(name, before);

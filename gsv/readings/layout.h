@@ -12,15 +12,15 @@ namespace gsv::readings {
 
 enum class Multiplicity {
   kOnce,
-  kOptional,  // once, or missing at the end of the values
-  kRepeated,  // any number of times, to the end
+  kOptional,  // once, or missing if the values end before it
+  kRepeated,  // any number of times, up to the end of the values
 };
 
 // The path of a field through its structs, with the unit that it inherits.
 struct Place {
   std::string name;  // "touches.point.x"
   std::string unit;  // unit of the innermost field that has one
-  std::string path;  // path in the message: "contacts.point.x"
+  std::string path;  // path in the message, such as "contacts.point.x"
   Multiplicity occurs = Multiplicity::kOnce;
 
   // Returns the place of a member. If `path` is null, it is the name.
@@ -34,16 +34,16 @@ struct Layout {
     std::string path;  // path in the type's message
     Multiplicity occurs = Multiplicity::kOnce;
   };
-  // The columns in the order of a reading: first those that occur once. Repeated columns form a
-  // group, which is repeated as a whole.
+  // The columns in the order of a reading. Columns that occur once come first. Repeated columns
+  // form a group, which is repeated as a whole.
   std::vector<Column> values, labels;
 
   void AddValue(const Place& place) { values.push_back(ColumnAt(place)); }
   void AddLabel(const Place& place) { labels.push_back(ColumnAt(place)); }
 
-  // Returns a text for users: "range (m)", "each: point.x, .y, .z (m), … [other]".
+  // Returns a text for users, such as "range (m)" or "each: point.x, .y, .z (m), … [other]".
   std::string Text() const;
-  // Returns the size of a reading as a text: "6 or 10 values", "groups of 8 values and 1 label".
+  // Returns the size of a reading as a text, such as "6 or 10 values" or "groups of 8 values and 1 label".
   std::string Sizes() const;
   // Returns units by path in the message. A path applies to all fields below it.
   std::map<std::string, std::string> Units() const;
@@ -54,7 +54,7 @@ struct Layout {
   }
 };
 
-// Returns an error kCorrupt with the expected and the actual size.
+// Returns the error kCorrupt with the expected and the actual size.
 base::Error WrongSize(const Layout& layout, std::size_t values, std::size_t labels,
                       const std::string& where);
 

@@ -19,8 +19,8 @@ namespace gsv::reality {
 namespace {
 
 constexpr double kWindow = 5;  // s
-// m: tolerance for a hit of a laser. The walls of a grid map are several cells thick, and the
-// position of the surface within them is unknown.
+// The tolerance for the end of a laser beam, m. The walls of a grid map are several cells thick,
+// and the true position of the surface inside them is unknown.
 constexpr double kTolerance = 0.5;
 constexpr double k95 = 1.96;
 
@@ -123,7 +123,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
             real[i], simulated[i], count);
     }
   } else {
-    // Returns the mean over each sector of thirty degrees.
+    // Returns the mean over a sector of thirty degrees.
     const auto mean = [](const std::vector<double>& values, std::size_t from, std::size_t to) {
       double sum = 0;
       for (std::size_t i = from; i < to; ++i) sum += values[i];
@@ -142,7 +142,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
     }
   }
   Series ranges{"range", "m", {}, {}}, residuals{"residual", "m", {}, {}};
-  std::vector<double> real_mean, simulated_mean;  // by scan
+  std::vector<double> real_mean, simulated_mean;  // mean difference of each scan
   for (const ScanPair& pair : pairs) {
     std::vector<double> of_real, of_simulated;
     for (std::size_t i = 0; i < std::min(pair.real.size(), pair.exact.size()); ++i) {
@@ -189,7 +189,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   result.series.push_back(std::move(residuals));
 }
 
-// A device that stays at the first place of the log's robot.
+// Compares the readings of a device that stays where the log's robot was first.
 void CompareAtRest(const Log& log, const model::WorldDescription& world,
                    const CompareOptions& options, const TimedPose& pose, Comparison& result) {
   const std::vector<double> real = RestDifferences(log.scans);

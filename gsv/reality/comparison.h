@@ -15,8 +15,8 @@
 
 namespace gsv::reality {
 
-// One statistic. `confidence`: half the width of the 95 % interval of the simulated value; 0 if the
-// value does not vary.
+// One statistic. `confidence` is half the width of the 95 % interval of the simulated value; 0 if
+// the value does not vary.
 struct Row {
   std::string device, what, unit;
   double real = 0, simulated = 0, confidence = 0;
@@ -31,27 +31,29 @@ struct Series {
 struct Comparison {
   std::vector<Row> rows;
   std::vector<Series> series;
-  std::string warning;  // why the values say little about the device; empty if there is no reason
+  std::string warning;  // a reason why the values say little about the device; empty if there is
+                        // none
 };
 
 struct CompareOptions {
-  std::optional<model::WorldDescription> world;  // none: fitted to every other block
-  // Whether the world's walls are updated by the scans of every other block. The update shows doors
+  std::optional<model::WorldDescription> world;  // if not set, a world is fitted to every other
+                                                 // block of the log
+  // Whether the scans of every other block update the walls of the world. The update shows doors
   // that are open and objects that have moved.
   bool update_world = false;
-  std::string preset;            // the preset of the log's scanner or odometry
+  std::string preset;            // the preset of the log's scanner or odometer
   model::Parameters parameters;  // parameters that override the preset
-  // Parameters of single sonars of a ring, by beam. They override `parameters`. May be empty.
+  // Parameters of single sonars in a ring, one entry per beam, which override `parameters`. May be empty.
   std::vector<model::Parameters> beam_parameters;
   std::optional<TimedPose> start;  // pose of the robot at the first scan, in the world
   double wheel_distance = 0.3;     // m
   double height = 0.2;             // height at which the scanner is mounted, m
   std::uint64_t seed = 1;
-  int runs = 20;                // number of odometry runs, with seeds from `seed` on
-  std::size_t max_scans = 400;  // number of scans to simulate, evenly chosen
+  int runs = 20;                // number of simulated odometry runs, with consecutive seeds
+  std::size_t max_scans = 400;  // maximum number of simulated scans, evenly spaced in the log
 };
 
-// Compares everything that the log contains. Returns kInvalidArgument for a log with nothing to
+// Compares everything that the log contains. Fails with kInvalidArgument for a log with nothing to
 // compare, for a preset of another type, and for invalid parameters.
 base::Result<Comparison> Compare(const Log& log, const CompareOptions& options);
 
@@ -63,14 +65,14 @@ struct FittedParameter {
 struct FittedDevice {
   std::string type, name;
   std::vector<FittedParameter> parameters;
-  std::string warning = {};  // as that of a Comparison
+  std::string warning = {};  // as in Comparison
 };
 // Fits the parameters to the readings of the even blocks, or for odometry to all windows. For a
-// ring of sonars, returns one device for each beam, in their order. Returns kInvalidArgument in the
-// same cases as Compare().
+// ring of sonars, returns one device for each beam, in their order. Fails with kInvalidArgument in
+// the same cases as Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 
-// An SDFormat sensor for each device.
+// Returns an SDFormat sensor for each device.
 std::string ToSdf(const std::vector<FittedDevice>& devices);
 // Returns the distribution functions of all series as an SVG image.
 std::string ToSvg(const Comparison& comparison);

@@ -39,8 +39,8 @@ TEST(Comparison, RefusesALogWithoutScans) {
   EXPECT_THAT(empty.error().Sentence(), HasSubstr("the log has nothing to compare"));
 }
 
-// A robot in a room of 4 by 4 m. The log's poses are right, or they are two metres off in each
-// second block.
+// A robot in a room of 4 by 4 m. The log's poses are right or, if `is_lost`, two metres wrong in
+// every second block.
 Log InARoom(bool is_lost) {
   Log log;
   log.max_range = 10;
@@ -137,7 +137,7 @@ TEST(WorldFit, OpensAWallThatBeamsPassAndAddsOneWhereTheyEnd) {
   for (int y = 0; y < 20; ++y) map.cells[static_cast<std::size_t>(20 * y + 10)] = Cell::kOccupied;
   Log log;
   log.beam_angles = {0};
-  // The scans are along the row y = 5 cells, from x = 0.15 to 1.75 m.
+  // The scans are taken along the row y = 0.55 m (cell 5), from x = 0.15 m to 1.75 m.
   const std::vector<RangeScan> scans(5, {0, {1.6}, TimedPose{0, 0.15, 0.55, 0}});
   const OccupancyMap updated = UpdatedMap(map, log, scans);
   EXPECT_NE(updated.at(10, 5), Cell::kOccupied);

@@ -60,7 +60,7 @@ FittedDevice FitOdometry(const Log& log, const CompareOptions& options) {
   return device;
 }
 
-// The result of a function of the scans, and its 95 % interval.
+// Computes a function of the scans, and its 95 % interval.
 template <typename Estimate>
 FittedParameter Estimated(const char* name, const char* unit, const std::vector<ScanPair>& pairs,
                           const Estimate& estimate) {
@@ -96,7 +96,7 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   const double scale = device.parameters.back().value;
   device.parameters.push_back(
       Estimated("short_probability", "", pairs, [scale](const std::vector<ScanPair>& some) {
-        // Some of the short distances are drawn beyond the surface, and have no effect.
+        // Some short readings are drawn that are beyond the surface. They have no effect.
         double nearer = 0, beams = 0;
         for (const ScanPair& pair : some) {
           for (const double exact : pair.exact) {
@@ -119,7 +119,8 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   return device;
 }
 
-// A parameter of a sonar's reflections. The search changes one parameter at a time.
+// A parameter of a sonar's reflections that is searched. The search changes one parameter at a
+// time.
 struct Searched {
   const char* name;
   const char* unit;
@@ -143,7 +144,7 @@ class SonarFit {
     for (const RangeScan& scan : ScansFor(log_, true)) fitted.push_back({{}, scan.ranges, {}, {}});
     real_ = EchoShares(fitted, true);
     // The slopes of a rough surface are normally distributed, and specular_width is their deviation
-    // (Kirchhoff's approximation): walls with mouldings return sound that meets them obliquely.
+    // (Kirchhoff's approximation): walls with mouldings return sound that arrives obliquely.
     std::vector<Searched> searched = {{"specular_width", "rad", 0.1, {0.5, 2, 3, 4.5}, 0.01, 0.8},
                                       {"roughness", "", 0.1, {0.2, 0.5, 2, 4}, 1e-3, 1},
                                       {"threshold", "", 0.02, {0.5, 2, 4}, 1e-3, 0.9},
@@ -178,8 +179,8 @@ class SonarFit {
   }
 
  private:
-  // The sonars of a ring are not equally sensitive. If one of them hears fewer echoes than with the
-  // shared parameters, the difference becomes its share of lost echoes.
+  // The sonars of a ring are not equally sensitive. If a sonar returns fewer echoes than with the
+  // shared parameters, the difference becomes its fraction of lost echoes.
   base::Result<std::vector<FittedDevice>> WithLosses(const std::vector<Searched>& searched,
                                                      const FittedDevice& shared) {
     const auto pairs = PairsWith(searched);
@@ -206,8 +207,8 @@ class SonarFit {
     return PairScans(placed_, log_, options);
   }
 
-  // Chi squared of the shares of echoes: the sum of their squared differences, each divided by its
-  // variance.
+  // Returns chi squared of the fractions of echoes: the sum of their squared differences, each
+  // divided by its variance.
   base::Result<double> Cost(const std::vector<Searched>& searched) {
     const auto pairs = PairsWith(searched);
     if (!pairs) return base::Fail(pairs.error());
@@ -222,8 +223,8 @@ class SonarFit {
     return cost;
   }
 
-  // The change of the parameter that increases the cost by 3.84 (95 % for one degree of freedom),
-  // in steps of a tenth.
+  // Returns the change of the parameter that increases the cost by 3.84 (95 % for one degree of
+  // freedom), found in steps of a tenth.
   base::Result<double> IntervalOf(std::vector<Searched>& searched, Searched& each, double best) {
     const double value = each.value;
     for (double part = 0.1; part < 1; part += 0.3) {
@@ -238,7 +239,7 @@ class SonarFit {
   const Log& log_;
   const CompareOptions& options_;
   PlacedScans placed_;
-  std::vector<double> real_;  // shares of echoes, by sonar
+  std::vector<double> real_;  // fraction of readings with an echo, by sonar
 };
 
 }  // namespace
@@ -277,7 +278,7 @@ std::string ToSdf(const std::vector<FittedDevice>& devices) {
   for (const FittedDevice& device : devices) {
     if (!device.warning.empty()) sdf += "<!-- " + device.warning + " -->\n";
     sdf += fmt::format("<sensor name=\"{}\" type=\"{}\">\n", device.name, device.type);
-    // Parameters of one group ("noise.mean", "noise.stddev") share its element.
+    // Parameters of one group ("noise.mean", "noise.stddev") go into one element.
     std::map<std::string, std::string> groups;
     for (const FittedParameter& parameter : device.parameters) {
       const std::size_t dot = parameter.name.find('.');

@@ -11,7 +11,7 @@ namespace {
 
 using geometry::kPi;
 
-constexpr float kFarthest = 1;  // m: larger distances count as this
+constexpr float kFarthest = 1;  // m; larger distances are set to this
 
 TimedPose Composed(const TimedPose& a, const TimedPose& b) {
   const double cosine = std::cos(a.yaw), sine = std::sin(a.yaw);
@@ -29,7 +29,8 @@ TimedPose Inverted(const TimedPose& a) {
 LikelihoodField::LikelihoodField(const OccupancyMap& map)
     : map_(map), deviation_(std::max(0.02, map.resolution)) {
   distances_.assign(map.cells.size(), kFarthest);
-  // Dijkstra's algorithm over the eight neighbours. The distances are at most 8 % too long.
+  // Dijkstra's algorithm over the eight neighbours of a cell. The distances are at most 8 % too
+  // long.
   using Entry = std::pair<float, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
@@ -149,7 +150,7 @@ std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field)
   std::sort(best.begin(), best.end(),
             [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   best.resize(std::min(best.size(), 10 * kKept));
-  // Follows the odometry from scan to scan. Each search starts at the pose that was found last.
+  // Follows the odometry from scan to scan. Each search starts at the pose of the previous scan.
   for (Candidate& candidate : best) {
     TimedPose pose = field.Refined(log, *views[0].first, candidate.pose, 0.16);
     candidate.pose = pose;

@@ -20,8 +20,8 @@ class LikelihoodField {
  public:
   explicit LikelihoodField(const OccupancyMap& map);
 
-  // Returns the score of a scan in [0, 1]: how many of its finite ranges end on or near occupied
-  // cells. Uses every `stride`th beam.
+  // Returns the score of a scan in [0, 1]: the fraction of its finite ranges that end on or near
+  // occupied cells. Uses every `stride`th beam.
   double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
                std::size_t stride) const;
   // Returns the pose with the best score near `guess`: within `reach` m, and within a tenth of a
@@ -34,12 +34,12 @@ class LikelihoodField {
   double DistanceAt(double x, double y) const;
 
   OccupancyMap map_;
-  double deviation_ = 0.1;        // m: standard deviation of the end of a beam
+  double deviation_ = 0.1;        // standard deviation of the end of a beam, m
   std::vector<float> distances_;  // m, capped
 };
 
 // Returns the poses, in the world, of every `stride`th scan of log.scans. `start` is the pose of
-// the first one, if known.
+// the first scan, if known.
 base::Result<std::vector<TimedPose>> Localize(const Log& log, const LikelihoodField& field,
                                               const std::optional<TimedPose>& start,
                                               std::size_t stride);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kLongestStep = 1;  // s; no odometry is computed across a longer gap
 constexpr double kTruthStep =
-    0.5;  // s: long enough to average out the jitter of a reference system
+    0.5;  // s; long enough to average out the jitter of the reference system
 
-// Moves the pose along an arc.
+// Returns the pose after moving along an arc.
 TimedPose Advanced(const TimedPose& pose, double time, double way, double turn) {
   const double heading = pose.yaw + turn / 2;
   const double chord = std::abs(turn) < 1e-9 ? way : way * std::sin(turn / 2) / (turn / 2);
@@ -30,7 +30,7 @@ Relative Between(const TimedPose& from, const TimedPose& to) {
   return {cosine * dx + sine * dy, cosine * dy - sine * dx, WrappedAngle(to.yaw - from.yaw)};
 }
 
-// Returns the true poses at intervals of half a second.
+// Returns one true pose for each half second.
 std::vector<TimedPose> Thinned(const std::vector<TimedPose>& truth) {
   std::vector<TimedPose> thinned;
   for (const TimedPose& pose : truth) {

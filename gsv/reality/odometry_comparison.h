@@ -8,13 +8,13 @@
 
 namespace gsv::reality {
 
-// Returns the path of the robot from the origin on, by exact arcs. It is computed from odometry,
-// from the wheels (whose distance is `wheel_distance`, m), or from commands: the first of these
-// that the log has. `start` is the first pose.
+// Returns the path of the robot, from the origin, by exact arcs. It is computed from the odometry,
+// from the wheels (whose distance is `wheel_distance`, m), or from the commands: the first of these
+// that the log contains. `start` is the first pose.
 std::vector<TimedPose> ReckonedPath(const Log& log, double wheel_distance, TimedPose start = {});
 
-// The motion within a window of time, estimated and true: the displacement along and across the
-// heading at its start, and the rotation. Windows are consecutive.
+// The estimated and the true motion in a time window: the displacement along and across the heading
+// at the start of the window, and the rotation. Windows follow each other.
 struct MotionWindow {
   double reckoned_way = 0, reckoned_turn = 0;  // length of the chord, m; rotation, rad
   double true_way = 0, true_turn = 0;
@@ -23,8 +23,8 @@ struct MotionWindow {
 std::vector<MotionWindow> Windows(const std::vector<TimedPose>& reckoned,
                                   const std::vector<TimedPose>& truth, double seconds);
 
-// Statistics of windows: the ratios of true to estimated distance and rotation, by least squares,
-// and the standard deviations of the residuals of a window (m, rad).
+// Statistics of many windows: the ratios of true to estimated distance and rotation, by least
+// squares, and the standard deviations of the residuals (m, rad).
 struct MotionStatistics {
   double way_ratio = 1, turn_ratio = 1;
   double way_scatter = 0, turn_scatter = 0;
@@ -32,12 +32,12 @@ struct MotionStatistics {
 };
 MotionStatistics StatisticsOf(const std::vector<MotionWindow>& windows);
 
-// Returns the path that the error model of GSV's odometer (odometry_drift.h) computes from the true
-// poses, which are taken every half second.
+// Returns the path that GSV's odometer reports with its error model (odometry_drift.h) for the true
+// poses, one for each half second.
 std::vector<TimedPose> SimulatedOdometry(const std::vector<TimedPose>& truth,
                                          const sensing::OdometryDrift& drift, std::uint64_t seed);
 
-// Returns the parameters of the drift that gives windows with these statistics.
+// Returns the drift parameters that produce windows with these statistics.
 sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows);
 
 }  // namespace gsv::reality

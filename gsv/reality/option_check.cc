@@ -16,7 +16,7 @@
 namespace gsv::reality {
 namespace {
 
-// The types of the log's devices.
+// Returns the sensor types of the log's devices.
 std::vector<std::string> TypesOf(const Log& log) {
   std::vector<std::string> types;
   if (HasOdometry(log)) types.emplace_back("odometry");
@@ -25,7 +25,7 @@ std::vector<std::string> TypesOf(const Log& log) {
   return types;
 }
 
-// The names of all parameters that a device of the type has with these options.
+// Returns the names of all parameters of a device of this type, with these options.
 std::vector<std::string> ParametersOf(const std::string& type, const CompareOptions& options) {
   sensing::SensorRegistry registry;
   sensing::AddBuiltInSensors(registry);
@@ -33,11 +33,13 @@ std::vector<std::string> ParametersOf(const std::string& type, const CompareOpti
   description.name = description.type = type;
   description.parameters = options.parameters;
   if (type == "sonar")
-    description.parameters["beam"] = std::string("cone");  // it has the most parameters
+    description.parameters["beam"] = std::string("cone");  // this option gives the device the most
+                                                           // parameters
   const std::string preset = PresetOf(type, options);
   if (!preset.empty()) description.parameters["preset"] = preset;
   const sensing::AskedParameters asked;
-  (void)registry.Find(type)->create(description);  // an error is reported where the device is used
+  (void)registry.Find(type)->create(description);  // creating a device lists its parameters; errors
+                                                   // are reported later, where the device is used
   if (type == "odometry") {
     sensing::ParameterReader reader(description);
     (void)sensing::ReadOdometryDrift(reader);

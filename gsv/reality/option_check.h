@@ -6,12 +6,12 @@
 
 namespace gsv::reality {
 
-// Whether the log has poses with headings, and motion that an odometer can be compared with.
+// Whether the log contains poses with headings, and motion data that an odometer can be compared with.
 bool HasOdometry(const Log& log);
-// Whether the log has scans with poses.
+// Whether the log contains scans with poses.
 bool HasScans(const Log& log);
 
-// kInvalidArgument if no device of the log has the preset, or if none has one of the parameters.
+// Fails with kInvalidArgument if the preset fits no device of the log, or if no device has one of the parameters.
 base::Status CheckOptions(const Log& log, const CompareOptions& options);
 
 }  // namespace gsv::reality

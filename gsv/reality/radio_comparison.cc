@@ -42,7 +42,7 @@ model::SensorDescription TagOf(int anchor, const CompareOptions& options) {
   return tag;
 }
 
-// Fits a line by least squares.
+// A line that is fitted by least squares.
 struct Line {
   double at_zero = 0, slope = 0;
 };
@@ -69,7 +69,7 @@ RangingFit FittedTo(const std::vector<RadioRange>& ranges) {
     errors.push_back(range.measured - range.reference);
   }
   const Line bias = LineThrough(distances, errors);
-  // The variance is the sum of a constant and a part that grows with the square of the distance.
+  // The model of the variance is a constant plus a part proportional to the square of the distance.
   std::vector<double> squares, variances;
   double mean = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -87,7 +87,7 @@ RangingFit FittedTo(const std::vector<RadioRange>& ranges) {
 base::Result<std::vector<double>> SimulatedRanges(const Log& log, const CompareOptions& options) {
   model::WorldDescription world;
   if (options.world) world = *options.world;
-  std::map<int, std::vector<std::size_t>> places;  // indices in log.radio, by anchor
+  std::map<int, std::vector<std::size_t>> places;  // indices in log.radio, for each anchor
   for (std::size_t i = 0; i < log.radio.size(); ++i) {
     std::vector<std::size_t>& of_anchor = places[log.radio[i].anchor];
     if (of_anchor.empty()) world.models.push_back(AnchorAt(log.radio[i]));

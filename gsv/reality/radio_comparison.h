@@ -8,26 +8,26 @@
 
 namespace gsv::reality {
 
-// Returns the simulated reading for each entry of log.radio, from the robot's pose according to the
-// reference system to the anchor. Infinite: not received. Walls have an effect only if a world is
-// given.
+// Returns the simulated reading for each entry of log.radio, from the robot's pose in the
+// reference system to the anchor. Infinite means not received. Walls have an effect only if a
+// world is given.
 base::Result<std::vector<double>> SimulatedRanges(const Log& log, const CompareOptions& options);
 
-// The errors (m) of one range relative to the reference system.
+// The error of one measured and one simulated range, relative to the reference system, m.
 struct RadioErrors {
   int anchor = 0;
   double distance = 0;
   double real = 0, simulated = 0;
 };
-// The errors of one anchor ("to anchor 105"), or at some distances ("from 1 to 2 m").
+// The errors for one anchor ("to anchor 105"), or for a range of distances ("from 1 to 2 m").
 struct RadioGroup {
   std::string name;
-  std::vector<double> real, simulated;  // both without ranges that were not received
+  std::vector<double> real, simulated;  // without ranges that were not received
 };
 // Groups errors by anchor, then by metres of distance. Groups of less than 20 ranges are omitted.
 std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);
 
-// Fits a ranging sensor, whose bias and scatter are linear in the distance, to the even blocks.
+// Fits the bias and the scatter of a ranging sensor, both linear in the distance, to the even blocks.
 FittedDevice FitRanging(const Log& log);
 
 }  // namespace gsv::reality

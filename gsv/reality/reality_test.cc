@@ -83,7 +83,7 @@ model::WorldDescription TargetAt(double distance, double width, double height) {
   return world;
 }
 
-// The common setup of all tests of the small transducer.
+// The common part of all tests of the small sonar.
 class BeamTest {
  public:
   BeamTest(double threshold, double gain_range)
@@ -133,10 +133,10 @@ constexpr PanelTest kPanels[] = {{.17, -24, 26},  {.32, -23, 27},  {.46, -23, 30
                                  {1.37, -31, 35}, {1.52, -19, 28}, {1.68, -35, 32}, {1.83, -29, 29},
                                  {1.98, -29, 29}, {2.11, -31, 17}, {2.26, -15, 18}, {2.41, -23, 21},
                                  {2.57, -27, 21}};
-constexpr double kRule = 2.45, kSheet = 1.68;  // maximum distances at which the two small targets
-                                               // are detected, m
+constexpr double kRule = 2.45, kSheet = 1.68;  // maximum distances at which the rule and the
+                                               // sheet
 
-// Returns the errors (degrees) at the even or the odd distances.
+// Returns the errors (degrees) at every second distance, beginning with `first`.
 std::vector<double> PanelErrors(const BeamTest& test, std::size_t first, double step) {
   std::vector<double> errors;
   for (std::size_t i = first; i < std::size(kPanels); i += 2) {
@@ -159,7 +159,7 @@ TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
     }
   }
   std::printf("threshold %.3f gain_range %.2f cost %.3f\n", threshold, gain_range, best);
-  // The preset has the values of this fit.
+  // The preset must have the values of this fit.
   for (const sensing::Preset& preset : sensing::Presets()) {
     if (preset.name != "hc_sr04") continue;
     EXPECT_EQ(model::NumberOr(preset.parameters, "threshold", 0), threshold);
@@ -218,10 +218,11 @@ TEST_F(RealLog, OdometryDriftsAsThatOfARobotItWasNotFittedTo) {
     if (!is_target) continue;
     const bool is_met = std::abs(row.simulated / row.real - 1) <= 0.1;
     Tell(row.what + " (within 10 %)", row.unit, row.real, row.simulated, row.confidence, is_met);
-    // Robots of one type differ by this much, so a value may miss its target by its interval.
+    // Robots of the same type differ by about 10 %, so a value may deviate that much plus its
+    // interval.
     EXPECT_NEAR(row.simulated, row.real, 0.1 * row.real + row.confidence) << row.what;
   }
-  // The preset has the values of this fit.
+  // The preset must have the values of this fit.
   for (const sensing::Preset& preset : sensing::Presets()) {
     if (preset.name != "irobot_create") continue;
     EXPECT_NEAR(model::NumberOr(preset.parameters, "scale.linear", 0), drift.linear_scale, 0.005);
@@ -344,7 +345,7 @@ model::WorldDescription Arena(const fs::path& landmarks) {
   return world;
 }
 
-// A robot with two wheels that is so small that it touches nothing.
+// A robot with two wheels that is too small to touch anything.
 std::shared_ptr<model::Model> Tracker(double wheel_distance) {
   constexpr double kRadius = 0.01;
   auto model = std::make_shared<model::Model>(*simulation::Disc(kRadius));
@@ -388,7 +389,7 @@ class PathObserver final : public simulation::Observer {
   const double first_;
 };
 
-// Simulates the motor log in a world. Returns a pose for each step.
+// Simulates the robot of the motor log in a world. Returns its pose after each step.
 std::vector<TimedPose> Driven(model::WorldDescription world, const Log& log, double wheel_distance,
                               const TimedPose& start) {
   const double first = log.wheels.front().time;
@@ -420,7 +421,7 @@ std::vector<TimedPose> Driven(model::WorldDescription world, const Log& log, dou
   return observer->path;
 }
 
-// Before the first step and after the last one, the robot stands still.
+// Before the first step and after the last one, the robot does not move.
 double ErrorAt(const std::vector<TimedPose>& path, const TimedPose& place) {
   const TimedPose there =
       PoseAt(path, place.time)
@@ -443,7 +444,7 @@ PathErrors ErrorsOf(const std::vector<TimedPose>& path, const std::vector<TimedP
 }
 
 // The motor log drives a simulated robot in the rebuilt arena. Wheel distance and first heading are
-// those for which the path by exact arcs is closest to the camera's path.
+// chosen so that the path by exact arcs is closest to the camera's path.
 TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   const Log log = Read(folder_ / "arena" / "robot4_scan.txt", "arena");
   double best = kInfinity, distance = 0;
@@ -460,7 +461,7 @@ TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   const auto path =
       Driven(Arena(folder_ / "arena" / "robot_arena_landmarks.txt"), log, distance, start);
   ASSERT_FALSE(path.empty());
-  // The engine's path equals the arcs of the closed form.
+  // The path in the simulation equals the arcs in closed form.
   double apart = 0;
   for (const TimedPose& place : reckoned) apart = std::max(apart, ErrorAt(path, place));
   EXPECT_LT(apart, 0.01);
@@ -477,7 +478,7 @@ TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   row("distance at the end", 0.084, errors.end);
 }
 
-// The scans in the same arena. The bias of the laser is fitted to the even blocks.
+// Scans in the same arena. The bias of the laser is fitted to the even blocks.
 TEST_F(RealLog, ALaserScansTheArena) {
   const Log log = Read(folder_ / "arena" / "robot4_scan.txt", "arena");
   CompareOptions options;
@@ -533,7 +534,7 @@ TEST_F(RealLog, RadioRangesHaveTheBiasAndScatterOfUwb) {
   ASSERT_NE(uwb, nullptr);
   for (const FittedParameter& parameter : devices->front().parameters) {
     std::printf("%s %.5g ± %.2g\n", parameter.name.c_str(), parameter.value, parameter.confidence);
-    // The preset has the values of this fit.
+    // The preset must have the values of this fit.
     EXPECT_NEAR(model::NumberOr(uwb->parameters, parameter.name, 0), parameter.value, 5e-4)
         << parameter.name;
   }

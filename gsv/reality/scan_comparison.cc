@@ -15,7 +15,7 @@ bool IsAtRest(const TimedPose& before, const TimedPose& after) {
          std::abs(WrappedAngle(after.yaw - before.yaw)) < 1e-4;
 }
 
-// A larger change of the range means that the beam hits another surface.
+// If the range changes by more than this, the beam hits another surface.
 constexpr double kSameSurface = 0.1;  // m
 
 void AddDifferences(const std::vector<double>& before, const std::vector<double>& after,

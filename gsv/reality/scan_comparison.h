@@ -8,34 +8,34 @@
 
 namespace gsv::reality {
 
-// A real scan, and the readings at the same pose of the simulated device and of a device without
-// errors.
+// A real scan, and the simulated readings at the same pose, with and without errors of the
+// device.
 struct ScanPair {
   TimedPose pose;
-  std::vector<double> real, simulated, exact;  // in m; infinite: no echo
+  std::vector<double> real, simulated, exact;  // in m; infinite means no echo
 };
 
 // Fractions of beams (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3): within
-// `tolerance` of the exact range, shorter, without an expected echo, and longer.
+// `tolerance` of the exact range, shorter, without an echo although one is expected, and longer.
 struct Mixture {
   double hit = 0, shorter = 0, none = 0, longer = 0;
 };
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
 
 // Returns a sentence if fewer than half of the readings are within `tolerance` of a surface: then
-// the poses or the world are wrong, and the device cannot be judged. Empty otherwise.
+// the poses or the world are wrong, and the device cannot be judged. Otherwise returns an empty text.
 std::string DoubtAbout(const Mixture& real, double tolerance);
 
-// Returns the fraction of readings with an echo, for each beam.
+// Returns the fraction of readings with an echo, for each beam of the real or the simulated device.
 std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real);
 
 // Returns the differences between a beam's readings in consecutive scans of a robot at rest,
 // divided by the square root of two. Their standard deviation is that of a single reading.
 std::vector<double> RestDifferences(const std::vector<RangeScan>& scans);
-// Returns the differences of simulated readings. Pairs must be in the order of time.
+// Returns the differences of the simulated readings. `pairs` must be ordered by time.
 std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs);
 
-// Returns the median difference between real and simulated ranges of each scan.
+// Returns, for each scan, the median difference between real and simulated ranges.
 std::vector<double> MedianDifferences(const std::vector<ScanPair>& pairs);
 
 }  // namespace gsv::reality

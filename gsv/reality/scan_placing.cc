@@ -15,8 +15,8 @@ namespace gsv::reality {
 namespace {
 
 constexpr double kCell = 0.1, kUpdatedCell = 0.05, kFineCell = 0.02;  // m
-constexpr double kSmallWorld = 10;  // a world that is smaller than this is searched with fine
-                                    // cells, m
+constexpr double kSmallWorld = 10;  // if a world is smaller than this (m), poses are searched in a
+                                    // fine
 
 std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
   const std::size_t stride = std::max<std::size_t>(1, (scans.size() + most - 1) / most);
@@ -25,14 +25,14 @@ std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
   return thinned;
 }
 
-// Returns the map in which poses are searched. It is finer for a small world.
+// Returns the map in which poses are searched. A small world gets a finer map.
 base::Result<OccupancyMap> SearchMap(const model::WorldDescription& world, double height) {
   auto map = MapOfWorld(world, {kCell, height, 1});
   if (!map || std::max(map->width, map->height) * kCell > kSmallWorld) return map;
   return MapOfWorld(world, {kFineCell, height, 1});
 }
 
-// Refines a pose until the exact ranges fit the scan. Differences above kWild count as kWild.
+// Improves a pose until the exact ranges fit the scan. Differences above kWild count as kWild.
 class PosePolish {
  public:
   PosePolish(SimulatedDevice& exact, double max_range) : exact_(exact), max_range_(max_range) {}
@@ -73,12 +73,12 @@ class PosePolish {
   const double max_range_;
 };
 
-// Returns the scans with their poses in the world of the options.
+// Returns the scans with their poses in the world that the options name.
 base::Result<std::vector<RangeScan>> ScansIn(const Log& log, const CompareOptions& options) {
   if (log.is_sonar || (log.truth_has_yaw && !log.truth.empty())) return log.scans;
   const auto map = SearchMap(*options.world, options.height);
   if (!map) return base::Fail(map.error());
-  // A known bias of the ranges is subtracted before poses are searched.
+  // A known bias is subtracted from the ranges before poses are searched.
   Log unbiased = log;
   const double bias = model::NumberOr(options.parameters, "noise.mean", 0);
   for (RangeScan& scan : unbiased.scans) {
@@ -102,8 +102,8 @@ base::Result<std::vector<RangeScan>> ScansIn(const Log& log, const CompareOption
   return placed;
 }
 
-// Returns the map of the options' world, updated by scans. Afterwards the poses of all scans are
-// refined in it, because they were found in a world that was out of date.
+// Returns the map of the options' world after an update by scans. Then refines the poses of all
+// scans, because they were found in the map before the update.
 base::Result<OccupancyMap> UpdatedWorld(const Log& log, const CompareOptions& options,
                                         std::vector<RangeScan>& for_world,
                                         std::vector<RangeScan>& to_read) {
@@ -124,7 +124,7 @@ base::Result<OccupancyMap> UpdatedWorld(const Log& log, const CompareOptions& op
   return map;
 }
 
-// Divides scans into those from which a world is made and those that are compared.
+// Divides scans into those that a world is made from and those that are compared.
 void Divide(std::vector<RangeScan>& for_world, std::vector<RangeScan>& to_read, bool for_fitting) {
   std::erase_if(for_world, [](const RangeScan& scan) { return !IsForFitting(scan.time); });
   std::erase_if(to_read,
@@ -171,7 +171,7 @@ Log WithBases(Log log, const CompareOptions& options) {
   const std::vector<TimedPose> path = ReckonedPath(log, options.wheel_distance, start);
   for (RangeScan& scan : log.scans) {
     scan.base = PoseAt(path, scan.time);
-    // Scans before the first or after the last wheel reading get the pose of that reading.
+    // Scans before the first wheel reading or after the last one get the pose of that reading.
     if (!scan.base) scan.base = scan.time < path.front().time ? path.front() : path.back();
   }
   return log;

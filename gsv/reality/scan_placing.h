@@ -1,4 +1,4 @@
-// Finds the poses of a log's scans in a given or fitted world, and the simulated readings at these
+// Finds the poses of a log's scans in a given or fitted world, and simulates readings at these
 // poses.
 #pragma once
 
@@ -15,30 +15,30 @@ struct PlacedScans {
   std::vector<RangeScan> scans;  // each scan has `base`
 };
 
-// Returns the log with the poses of its scans, if they can be computed from its wheels alone.
+// Returns the log with the poses of its scans, if its wheel readings suffice to compute them.
 Log WithBases(Log log, const CompareOptions& options);
 
-// Returns the scans of the log's even blocks (`for_fitting`) or of its odd ones. A world that is
-// fitted or updated is made from the even blocks, so these cannot be used to judge the device. For
-// fitting, the first half of each even block makes the world, and the second half is compared.
-// Returns kInvalidArgument if no world or no path can be found.
+// Returns the scans of the log's even blocks (`for_fitting`) or of its odd blocks. Worlds are
+// fitted to the even blocks, so these blocks cannot be used to judge a device. If `for_fitting`,
+// the first half of each even block makes the world, and the second half is compared. Fails with
+// kInvalidArgument if no world or no path can be found.
 base::Result<PlacedScans> PlaceScans(const Log& log, const CompareOptions& options,
                                      bool for_fitting);
 
-// Returns the same scans, each with the readings of the simulated device.
+// Returns the same scans, with the readings of the simulated device.
 base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const Log& log,
                                               const CompareOptions& options);
 
-// Returns the device that the options describe.
+// Returns the sensors that the options describe.
 std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options);
 
-// Readings at or beyond the maximum range become infinite (no echo).
+// Replaces readings at or beyond the maximum range by infinity (no echo).
 void MarkMissing(std::vector<double>& ranges, double max_range);
 
 // Returns "sonar" or "lidar".
 std::string ScannerOf(const Log& log);
-// Returns the options' preset if it is of this type; else an empty text. A log may have several
-// devices, but a preset is of one type.
+// Returns the options' preset if it is for this sensor type, else an empty text. A log may have
+// devices of several types, but a preset is for one type.
 std::string PresetOf(const std::string& type, const CompareOptions& options);
 
 }  // namespace gsv::reality

@@ -1,4 +1,4 @@
-// A simulated sensor that is read at the poses of a real one, in a static world.
+// A simulated sensor that is read at given poses, those of a real sensor, in a static world.
 //
 // Determinism  Read() is a function of the seed, the description, the pose and the step.
 // Threads      one at a time.
@@ -22,7 +22,7 @@ class SimulatedDevice {
                                               std::vector<model::SensorDescription> sensors,
                                               std::uint64_t seed);
 
-  // Returns the concatenated values of all sensors, with the base at `pose`.
+  // Returns the readings of all sensors, one after the other, for a robot at `pose`.
   std::vector<double> Read(const TimedPose& pose, std::int64_t step);
 
  private:
@@ -33,8 +33,8 @@ class SimulatedDevice {
   std::unique_ptr<sensing::RaySceneCache> rays_;
 };
 
-// Returns the sensors of a log's scans: one lidar, or a sonar for each beam. `parameters` override
-// the preset. An empty preset means none.
+// Returns the sensors that correspond to a log's scans: one lidar, or a sonar for each beam.
+// `parameters` override the preset. An empty preset means none.
 std::vector<model::SensorDescription> SensorsOf(const Log& log, const std::string& preset,
                                                 const model::Parameters& parameters, double height);
 

@@ -39,7 +39,7 @@ TEST(Statistics, ComputeCorrelations) {
 }
 
 TEST(OdometryComparison, FitsTheDriftThatMadeTheLog) {
-  // A robot that drives wide arcs, half of the time in the opposite direction.
+  // A robot that drives wide arcs, left and right in turn.
   std::vector<TimedPose> truth = {{0, 0, 0, 0}};
   for (int i = 1; i < 40000; ++i) {
     TimedPose next = truth.back();

@@ -10,16 +10,19 @@
 namespace gsv::reality {
 namespace {
 
-constexpr double kSonarHalfAngle = 0.13;  // half angle within which most of the sound returns, rad
+constexpr double kSonarHalfAngle = 0.13;  // half angle of the cone that returns most of the sound,
+                                          // rad
 constexpr double kMargin = 6;             // margin around the path, for sonars and in rooms, m
 constexpr double kMaxFittedCells = 25e6;
 constexpr double kFurthest = 50;  // echoes from further away are ignored, m
 constexpr double kWidest = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
 constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // minimum log odds of a wall
-constexpr double kWall = 10;  // this exceeds the evidence of all long readings past a smooth wall
+constexpr double kWall = 10;  // larger than the sum of the evidence of all long readings that pass
+                              // a smooth wall
 
-// A sideways sonar moves along walls. Two consecutive echoes from one wall are joined by a line.
+// The beam of a sideways sonar moves along walls. Two consecutive echoes of one wall are connected
+// by a line.
 constexpr double kSideways = 1.2;    // rad
 constexpr double kSameWall = 0.4;    // m: maximum change of the range
 constexpr double kLongestGap = 2.5;  // m
@@ -44,7 +47,7 @@ class LogOdds {
     }
   }
 
-  // Marks the map's own cells as known.
+  // Marks the occupied and free cells of the given map as known.
   void AddKnown() {
     for (std::size_t i = 0; i < odds_.size(); ++i) {
       if (map_.cells[i] == Cell::kOccupied) odds_[i] += kKnown;
@@ -75,8 +78,8 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
   for (std::size_t i = 0; i < log.beam_angles.size(); ++i) {
     if (std::abs(log.beam_angles[i]) < kSideways) continue;
     double x = 0, y = 0, range = geometry::kInfinity;  // position and range of the last echo
-    TimedPose from;                                    // the pose from which it was measured
-    bool is_lost = false;                              // whether an echo was missing since then
+    TimedPose from;                                    // pose from which the echo was measured
+    bool is_lost = false;                              // whether readings without an echo followed
     for (const RangeScan& scan : scans) {
       if (!scan.base || i >= scan.ranges.size()) continue;
       if (!std::isfinite(scan.ranges[i])) {
@@ -91,8 +94,8 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
           std::hypot(next_x - x, next_y - y) < kLongestGap) {
         odds.AddWall(x, y, next_x, next_y);
       } else if (std::isfinite(range) && !is_lost && std::hypot(moved_x, moved_y) < kLongestGap) {
-        // The two echoes come from two walls. Each wall continues along the path to the middle
-        // between them.
+        // The echoes come from two different walls. Each wall is extended along the path, to the
+        // middle between the echoes.
         odds.AddWall(x, y, x + moved_x / 2, y + moved_y / 2);
         odds.AddWall(next_x - moved_x / 2, next_y - moved_y / 2, next_x, next_y);
       }
@@ -101,7 +104,7 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
   }
 }
 
-// The distance around the path within which nearly all echoes of a laser lie.
+// Returns the distance from the path within which nearly all echoes of a laser are.
 double ReachOfEchoes(const std::vector<RangeScan>& scans) {
   constexpr double kNearlyAll = 0.98;
   std::vector<double> ranges;
@@ -167,7 +170,7 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
     for (std::size_t i = 0; i < std::min(scan.ranges.size(), log.beam_angles.size()); ++i) {
       const double middle = scan.base->yaw + log.beam_angles[i];
       const double range = scan.ranges[i];
-      // Sound without an echo may have been reflected away, so it is evidence of free space only
+      // Sound without an echo may have been reflected away. So it is evidence of free space only
       // nearby.
       const double reach =
           log.is_sonar ? (std::isfinite(range) ? std::min(range, kFurthest) : 0.6) : margin;
@@ -192,8 +195,8 @@ OccupancyMap UpdatedMap(OccupancyMap map, const Log& log, const std::vector<Rang
     const double x = scan.base->x + log.sensor_forward * std::cos(scan.base->yaw);
     const double y = scan.base->y + log.sensor_forward * std::sin(scan.base->yaw);
     for (std::size_t i = 0; i < std::min(scan.ranges.size(), log.beam_angles.size()); ++i) {
-      // A beam without an echo is weak evidence of free space, because dark surfaces do not reflect
-      // it either.
+      // A laser beam without an echo is only weak evidence of free space, because dark surfaces
+      // return no echo either.
       if (!std::isfinite(scan.ranges[i])) continue;
       odds.Add(x, y, scan.base->yaw + log.beam_angles[i], scan.ranges[i], kFurthest);
     }

@@ -1,4 +1,4 @@
-// Fits a world to a log's own readings, if there is no map of the place.
+// Makes a world from a log's own readings, if there is no map of the place.
 #pragma once
 
 #include "gsv/model/world_description.h"
@@ -24,11 +24,11 @@ std::vector<RangeScan> ScansFor(const Log& log, bool for_fitting);
 base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& scans,
                                   double resolution);
 
-// Updates the map with the scans of a laser: an occupied cell becomes free if beams pass through
+// Returns the map updated by scans of a laser: an occupied cell becomes free if beams pass through
 // it, and a free cell becomes occupied if beams end in it.
 OccupancyMap UpdatedMap(OccupancyMap map, const Log& log, const std::vector<RangeScan>& scans);
 
-// Returns the walls as a world without ground, for sensors only.
+// Returns the walls as a world without a ground. Such a world is for sensors only.
 model::WorldDescription WallsOf(const OccupancyMap& map, double height);
 
 }  // namespace gsv::reality

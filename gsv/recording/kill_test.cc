@@ -1,5 +1,5 @@
-// Kills programs that record (SIGKILL) at two hundred random moments, several at once. If a program
-// gave a message to its recorder more than a second before, the message must be in its file.
+// Kills programs that record (SIGKILL) at two hundred random moments, several at once. A message
+// that a program recorded more than a second before it was killed must be in its file.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kMoments = 200;
 // The number of concurrent programs. It is smaller on slow machines. Attempts in which a program
-// waits too long for a processor do not count, and these are mostly long ones.
+// waited too long for a processor do not count, and most of these would be long ones.
 constexpr std::size_t kAtOnce = base::kSlowdown > 1 ? 6 : 20;
 constexpr std::int64_t kMillisecond = 1'000'000;  // in ns
 constexpr std::int64_t kPromised = 1000 * kMillisecond;
@@ -36,7 +36,7 @@ constexpr std::int64_t kMaxLifetime = 2500 * kMillisecond;
 constexpr std::int64_t kStall = 250 * kMillisecond;
 constexpr int kMaxRepeats = 200;
 
-// One program that records, from its start to its end.
+// A program that records, from its start until it is killed.
 class Victim {
  public:
   Victim(std::string path, std::int64_t life, int dawdling_us)
@@ -65,7 +65,7 @@ class Victim {
   int pipe() const { return pipe_; }
   std::int64_t dies_at() const { return dies_at_; }
 
-  // Reads from the program once. Returns false at the end.
+  // Reads once from the program's stdout. Returns false at its end.
   bool Listen() {
     HandOver batch[256];
     const ssize_t size = read(pipe_, batch, sizeof batch);
@@ -83,8 +83,8 @@ class Victim {
     close(pipe_);
   }
 
-  // The simulated time up to which all messages must be in the file; nullopt if the program ran too
-  // briefly. Call it after Kill().
+  // The simulated time up to which all messages must be in the file; nullopt if the program was
+  // killed too early for any guarantee. Call it after Kill().
   std::optional<base::SimTime> promised() const {
     std::optional<base::SimTime> newest;
     for (const HandOver& each : told_) {
@@ -214,7 +214,7 @@ TEST(Promise, KillingLosesASecondOfARecordingAtMost) {
   ASSERT_TRUE(folder);
   Killing killing(folder->path());
   killing.Run();
-  // An attempt lasts up to 2.5 s, so most programs had data that must survive.
+  // An attempt lasts up to 2.5 s, so most programs had recorded messages that must survive.
   EXPECT_GT(killing.with_a_promise(), kMoments / 4);
 }
 

@@ -1,4 +1,4 @@
-// Tests what the recording of a simulation contains, and the selection of topics.
+// Tests the content of a simulation's recording, and the selection of topics.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST_F(SimulationRecorderTest, BeamsCanBeRecordedWithoutReadings) {
   const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
   ASSERT_EQ(beams.size(), 11u);
   ASSERT_EQ(beams.back().markers.size(), 1u);
-  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // the points are those of the beams of
+  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // the points are the ends of the beams of
                                                          // "front" and of "back"
 }
 
@@ -176,7 +176,7 @@ TEST_F(SimulationRecorderTest, SensorsOfAStationAreRecorded) {
 TEST_F(SimulationRecorderTest, TheSceneListsTheBodyOfEachPose) {
   Record(0.5);
   const auto scenes = Attachments("scene.json");
-  ASSERT_EQ(scenes.size(), 2u);  // one scene has "back", and one is from before
+  ASSERT_EQ(scenes.size(), 2u);  // the newest scene has the sensor "back", the older one does not
   const nlohmann::json scene = Scene(scenes.back());
   ASSERT_EQ(scene["bodies"].size(), 2u);
   EXPECT_EQ(scene["bodies"][0]["name"], "robot");
@@ -185,7 +185,7 @@ TEST_F(SimulationRecorderTest, TheSceneListsTheBodyOfEachPose) {
   ASSERT_FALSE(poses.empty());
   EXPECT_EQ(poses.back().layout_version, scene["layout_version"]);
   ASSERT_EQ(poses.back().poses.size(), 7 * scene["poses"].size());
-  EXPECT_NEAR(poses.back().poses[0], 0.5, 1e-9);  // in m, after one second at 0.5 m/s
+  EXPECT_NEAR(poses.back().poses[0], 0.5, 1e-9);  // x in m, after one second at 0.5 m/s
 }
 
 TEST_F(SimulationRecorderTest, EachModelIsAttachedOnce) {

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kMaxLines = 20;
 constexpr std::size_t kMaxValueLength = 300;
-constexpr std::size_t kNumbersAPose = 7;  // of gsv_msgs/Poses
+constexpr std::size_t kNumbersAPose = 7;  // numbers of one pose in gsv_msgs/Poses
 
-// Returns the content of the last attachment with that name up to `time`, else of the first one;
-// empty if there is none.
+// Returns the content of the last attachment with that name up to `time`, or else of the first one.
+// Empty if there is none.
 std::string AttachmentOf(const McapReader& reader, std::string_view name, base::SimTime time) {
   const AttachmentIndexRecord* chosen = nullptr;
   for (const auto& each : reader.summary().attachments) {
@@ -48,7 +48,7 @@ std::vector<std::string> Without(const std::vector<std::string>& lines,
   return alone;
 }
 
-// Returns the body to which the number at `index` of a message with all poses belongs.
+// Returns the body whose pose contains the number at `index`, in a message with all poses.
 std::string BodyOfPose(const McapReader& reader, base::SimTime time, std::size_t index) {
   const auto scene =
       nlohmann::json::parse(AttachmentOf(reader, kSceneAttachment, time), nullptr, false);
@@ -95,7 +95,7 @@ std::string RobotOf(const McapReader& reader, const Difference& difference) {
     return BodyOfPose(reader, difference.time,
                       std::strtoul(difference.field.c_str() + kPoses.size(), nullptr, 10));
   }
-  if (presentation::FindTopic(topic) == nullptr) {  // the topic of a sensor: /ROBOT/SENSOR
+  if (presentation::FindTopic(topic) == nullptr) {  // this is the topic of a sensor: /ROBOT/SENSOR
     return topic.substr(1, topic.find('/', 1) - 1);
   }
   return NameInMessage(difference.message, difference.field);

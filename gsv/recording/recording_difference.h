@@ -1,5 +1,5 @@
-// Describes the difference of two recordings for people: first the difference of their scenarios,
-// then the first different message and its robot.
+// Describes for users how two recordings differ: first their scenarios, then the first different
+// message and its robot.
 #pragma once
 
 #include <optional>
@@ -14,10 +14,10 @@
 namespace gsv::recording {
 
 struct RecordingDifference {
-  // Lines that only one of the attached scenarios has, at most 20 each.
+  // Lines that are in only one of the two attached scenarios, at most 20 for each.
   std::vector<std::string> only_in_first, only_in_second;
   std::optional<Difference> messages;
-  std::string robot;  // robot or body of the first different message; empty: unknown
+  std::string robot;  // robot or body of the first different message; empty if it is unknown
 
   // Returns at most 60 lines.
   std::string Text() const;

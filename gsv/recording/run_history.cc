@@ -24,9 +24,9 @@ constexpr std::chrono::milliseconds kChunkAge{500};        // wall-clock time
 constexpr std::chrono::milliseconds kWatchedPeriod{50}, kUnwatchedPeriod{250};
 constexpr std::chrono::milliseconds kWatchedStatusPeriod{200}, kUnwatchedStatusPeriod{1000};
 constexpr std::chrono::milliseconds kReadingsPeriod{200}, kSensorListPeriod{1000};
-// An activity pauses for this multiple of the time that it took.
+// After an activity, its thread pauses for this multiple of the time that the activity took.
 constexpr int kWatchedRest = 20, kUnwatchedRest = 50;
-// This is above every sampling rate, so each sample is recorded.
+// A rate above all sampling rates, so that every sample is recorded.
 constexpr double kHistoryPosesRate = 1000;
 constexpr std::chrono::milliseconds kOpenTimeout{500}, kOpenPoll{5};
 
@@ -50,8 +50,8 @@ std::vector<std::string> NamesOf(std::initializer_list<const char*> names) {
   return {names.begin(), names.end()};
 }
 
-// The topics of the state. Contacts are left out, because they are written separately for each
-// step, and /tf, because it repeats the poses.
+// The topics of the state. Contacts are missing, because they are written for each step separately.
+// /tf is missing, because it repeats the poses.
 Selection StateSelection() {
   return {.topics = NamesOf({topics::kClock.name, topics::kPoses.name, topics::kStatus.name,
                              topics::kEvents.name, topics::kLog.name, topics::kOutput.name,
@@ -69,7 +69,7 @@ WriterOptions RingWriting() {
 
 }  // namespace
 
-// Collects the events and collisions between two rounds.
+// Collects the events and collisions between two calls of Round().
 class RunHistory::Inbox final : public simulation::Observer {
  public:
   struct Content {

@@ -1,9 +1,9 @@
-// The last minutes of a running simulation, in memory, readable as a recording.
+// Keeps the last minutes of a running simulation in memory, readable as a recording.
 //
 // A thread of the owner samples the simulation at rates of wall-clock time, so that a fast run
-// costs no more than a slow one. Sampling takes at most a twentieth of that thread's time while the
-// simulation is watched, and a fiftieth while it is not. The stepping thread only stores the events
-// and the collisions of each step.
+// costs no more than a slow one. Sampling takes at most 1/20 of that thread's time while somebody
+// watches, and 1/50 otherwise. The stepping thread only stores the events and the collisions of
+// each step.
 //
 // Records      Events, log, output, notes, commands and collisions are always recorded. Poses and
 //              status are recorded at a low rate while nobody watches. For viewers, the rate is
@@ -24,7 +24,7 @@
 
 namespace gsv::recording {
 
-// A contact of a robot with another body.
+// The begin of a contact of a robot with another body.
 struct Collision {
   base::SimTime time{};
   std::string robot, other;
@@ -34,24 +34,24 @@ class RunHistory {
  public:
   using WallTime = std::chrono::steady_clock::time_point;
 
-  // Rates of poses, in Hz of wall-clock time.
+  // Rates of poses while somebody watches and while nobody does, in Hz of wall-clock time.
   static constexpr double kWatchedRate = 20;
   static constexpr double kUnwatchedRate = 4;
 
-  // For `capacity` see ChunkRing.
+  // `capacity` is that of the ChunkRing, in bytes.
   RunHistory(const std::shared_ptr<simulation::Simulation>& simulation, std::size_t capacity);
   ~RunHistory();
 
-  // Samples the simulation, if a sample is due.
+  // Takes a sample of the simulation, if it is time for one.
   void Round(WallTime now, bool is_watched);
 
   std::size_t capacity() const { return capacity_; }
   ChunkRing::Extent extent() const;
-  // Returns the newest collisions of the run, by time; at most 500.
+  // Returns the newest collisions of the run, ordered by time; at most 500.
   std::vector<Collision> collisions() const;
 
-  // Returns a reader of what is kept now. Waits up to half a second for messages that were sampled
-  // but not yet written. kNotFound: there are none yet.
+  // Returns a reader of the messages that are kept now. Waits up to half a second for messages that
+  // were sampled but not yet written. Fails with kNotFound if there are no messages yet.
   [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
 
  private:

@@ -25,7 +25,7 @@ std::map<std::string, std::uint64_t> CountsOf(const McapReader& reader) {
 // A robot that drives towards a wall at 2 m/s.
 class RunHistoryTest : public ::testing::Test {
  protected:
-  // Takes steps and lets the history sample them, as if much time had passed.
+  // Takes steps and lets the history sample them, as if enough wall-clock time had passed.
   void Advance(int steps, bool is_watched = true) {
     ASSERT_TRUE(simulation_->Step(steps));
     ASSERT_EQ(simulation_->WaitForPhase({simulation::Phase::kPaused}, kTimeout),
@@ -57,8 +57,8 @@ TEST_F(RunHistoryTest, KeepsTheRunAsARecording) {
   EXPECT_EQ(reader->Read(reader->summary().metadata[0]).value().values.at("name"), "simulation");
   ASSERT_GE(reader->summary().attachments.size(), 1u);
   for (const auto& attachment : reader->summary().attachments) {
-    EXPECT_EQ(attachment.name, "scene.json");  // the only attachments are scenes; models come from
-                                               // the simulation
+    EXPECT_EQ(attachment.name, "scene.json");  // scenes are the only attachments; models come from
+                                               // elsewhere
   }
 }
 
@@ -75,7 +75,7 @@ TEST_F(RunHistoryTest, SamplesAtMostAtItsRates) {
   for (int i = 0; i < 100; ++i) {
     ASSERT_TRUE(simulation_->Step(1));
     (void)simulation_->WaitForPhase({simulation::Phase::kPaused}, kTimeout);
-    history_.Round(now_ + i * 1ms, true);  // at most 20 Hz: two of these rounds take a sample
+    history_.Round(now_ + i * 1ms, true);  // 20 Hz allow two samples in these rounds
   }
   EXPECT_LE(CountsOf(*Open()).at("/gsv/poses"), 3u);
 }
@@ -83,7 +83,7 @@ TEST_F(RunHistoryTest, SamplesAtMostAtItsRates) {
 TEST_F(RunHistoryTest, HasEveryEventNoteAndCollision) {
   Advance(1);
   simulation_->Emit(presentation::kNoteEvent, "", presentation::NoteDetail(5ms, "look here"));
-  Advance(200);  // after 4 m the robot has touched the wall
+  Advance(200);  // after 4 m, the robot has reached the wall
   ASSERT_EQ(history_.collisions().size(), 1u);
   EXPECT_EQ(history_.collisions()[0].robot, "robot");
   EXPECT_EQ(history_.collisions()[0].other, "wall");
@@ -111,7 +111,7 @@ TEST_F(RunHistoryTest, AResetStartsAnew) {
   Advance(1);
   EXPECT_TRUE(history_.collisions().empty());
   EXPECT_EQ(Open()->summary().end, 10ms);
-  EXPECT_EQ(before->summary().end, 2s);  // an open past does not change afterwards
+  EXPECT_EQ(before->summary().end, 2s);  // a reader does not change after it was opened
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace gsv::recording {
 namespace {
 
 // Wall-clock times: the period of checks for a destroyed simulation or a failed disk, and the age
-// at which messages are written. Together they are well below the guaranteed second, so that a busy
-// machine keeps the guarantee as well.
+// at which messages are written. Together they are well below the guaranteed second, so that the
+// guarantee also holds on a busy machine.
 constexpr std::chrono::milliseconds kPollPeriod{100};
 constexpr std::chrono::milliseconds kFlushAge{500};
 
@@ -38,7 +38,7 @@ MetadataRecord Describe(const Simulation& simulation, const StringMap& further) 
   return record;
 }
 
-// The verdict of the expectations, and the first violation.
+// Adds the verdict of the expectations, and the first violation.
 void AddVerdict(const std::vector<simulation::ExpectationState>& states, StringMap& result) {
   using Verdict = simulation::ExpectationState::Verdict;
   if (states.empty()) return;
@@ -53,7 +53,7 @@ void AddVerdict(const std::vector<simulation::ExpectationState>& states, StringM
   result["violation_s"] = fmt::format("{:g}", base::ToSeconds(first->time));
 }
 
-// Returns the result of the run, at the end of its recording.
+// Returns the result of the run for the metadata at the end of its recording.
 StringMap ResultOf(const Simulation& simulation) {
   const simulation::SimulationStatus status = simulation.status();
   StringMap result{{"phase", ToString(status.phase)},
@@ -132,7 +132,8 @@ base::Status SimulationRecorder::Stop() {
     const std::shared_ptr<Simulation> simulation = simulation_.lock();
     if (simulation) {
       if (!feed_->was_reset()) result_ = ResultOf(*simulation);
-      // The end of a run is known before its last snapshot is delivered.
+      // The run has ended, but its last snapshot may not be delivered yet. So the feed is closed
+      // with it.
       feed_->CloseAtLatest();
       simulation->RemoveObserver(feed_);
     }
@@ -166,14 +167,14 @@ void SimulationRecorder::Record(const Occurrence& occurrence) {
 
 void SimulationRecorder::Record(const Observation& observation) {
   const world::Snapshot& snapshot = *observation.snapshot;
-  // The first and the last snapshot come from the simulation itself. They may also be delivered by
-  // the feed.
+  // The first and the last snapshot come from the simulation itself. The feed may deliver the same
+  // ones.
   if (latest_ && snapshot.state.step <= latest_->state.step) {
     RecordStatusOf(observation);
     return;
   }
-  // The last snapshot may have a robot that was added after the last step. The robot is not part of
-  // the recording.
+  // The last snapshot may contain a robot that was added after the last step. This robot is not
+  // part of the recording.
   if (latest_ && snapshot.layout != latest_->layout && !observation.sensors) return;
   if (observation.sensors) {
     scene_.Attach(snapshot, *observation.sensors);
@@ -194,7 +195,7 @@ void SimulationRecorder::RecordStatusOf(const Observation& observation) {
   health_.Record(observation.snapshot, *observation.status);
 }
 
-// A replay needs the last observed state to end with it.
+// Writes the last observed state at the end, because a replay ends with it.
 void SimulationRecorder::WriteEnd() {
   if (writer_->failed()) return;
   states_.RecordNow(*latest_);

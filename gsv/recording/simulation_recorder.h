@@ -32,28 +32,28 @@ struct RecorderOptions {
   std::vector<std::string> topics;  // see Selection; empty for all topics
   WritePng write_png;               // if empty, images are recorded in the encoding of the sensors
   bool replace = false;             // whether to replace an existing file
-  // The scenario to attach. By default it is ScenarioOf() of the simulation.
+  // The scenario to attach (default: ScenarioOf() of the simulation).
   std::optional<scenario::Scenario> scenario{};
-  // Added to the metadata record "gsv.simulation".
+  // Values that are added to the metadata record "gsv.simulation".
   StringMap metadata;
 };
 
 class SimulationRecorder {
  public:
-  // Creates the file with the present scene and models, and begins to record. It does not record
-  // the past, except for the edits of a simulation that has not started; with them the run can be
-  // simulated again.
+  // Creates the file with the present scene and models, and begins to record. The past is
+  // not recorded, except for edits before the start of the simulation, which resimulation
+  // needs.
   [[nodiscard]] static base::Result<std::unique_ptr<SimulationRecorder>> Start(
       const std::shared_ptr<simulation::Simulation>& simulation, const std::string& path,
       RecorderOptions options);
   // Stops recording. Logs an error unless Stop() has returned it.
   ~SimulationRecorder();
 
-  // Writes the queue and the end of the file. Further calls do nothing. Returns the error that
-  // ended the recording early, if there was one.
+  // Ends the recording, and writes the queue and the end of the file. Later calls do nothing.
+  // Returns the error that ended the recording early, if there was one.
   base::Status Stop();
 
-  // Whether the recording continues: the simulation still exists, and the disk has not failed.
+  // Whether the recording continues. It ends with the simulation, and if the disk fails.
   bool is_recording() const;
   McapWriter::Progress progress() const { return writer_->progress(); }
 
@@ -77,12 +77,12 @@ class SimulationRecorder {
   SceneAttachments scene_;
   SourceAttachments sources_;
   std::shared_ptr<SimulationFeed> feed_;
-  std::shared_ptr<const world::Snapshot> latest_;  // the latest snapshot that was recorded
+  std::shared_ptr<const world::Snapshot> latest_;  // the last recorded snapshot
   std::atomic<bool> has_ended_ = false;
 
   base::Mutex stopping_;
   bool is_stopped_ GSV_GUARDED_BY(stopping_) = false;
-  StringMap result_;  // written before the feed is closed, and read after its end
+  StringMap result_;  // set before the feed is closed, and read after the feed's end
   std::thread thread_;
 };
 

@@ -32,15 +32,15 @@ TEST_F(SimulationRecorderTest, DoesNotAffectTheSimulation) {
 TEST_F(SimulationRecorderTest, EachTopicKeepsItsRateInSimulatedTime) {
   std::map<std::string, std::uint64_t> counts;
   for (const auto& channel : Record(0.5).channels) counts[channel.topic] = channel.messages;
-  // The counts are for one second, including both ends, at 50, 20, 10 and 5 Hz. "back" exists from
-  // the first step on.
+  // The expected numbers of messages in one second, including both ends, at 50, 20, 10 and 5 Hz.
+  // The sensor "back" exists from the first step on.
   EXPECT_EQ(counts["/clock"], 51u);
   EXPECT_EQ(counts["/gsv/poses"], 51u);
   EXPECT_EQ(counts["/tf"], 51u);
   EXPECT_EQ(counts["/robot/front"], 21u);
   EXPECT_EQ(counts["/robot/back"], 20u);
   EXPECT_EQ(counts["/gsv/beams"], 11u);
-  EXPECT_GE(counts["/gsv/status"], 6u);  // five per second, and one at the end
+  EXPECT_GE(counts["/gsv/status"], 6u);  // five in the second, and one at the end
   EXPECT_EQ(counts["/gsv/state_hash"], 2u);
   EXPECT_EQ(counts["/tf_static"], 2u);
   EXPECT_EQ(counts["/gsv/events"], 2u);  // the events "started" and "finished"
@@ -90,7 +90,7 @@ TEST_F(SimulationRecorderTest, RecordsRadioMessages) {
   EXPECT_EQ(said[0].receiver, "");
   EXPECT_EQ(std::string(said[0].content.begin(), said[0].content.end()), "hello");
   EXPECT_EQ(said[0].heard_by, (std::vector<std::string>{"b", "d"}));
-  // the message was sent at 50 ms and received with the next step, at 60 ms
+  // the message was sent at 50 ms and received in the next step, at 60 ms
   EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);
 }
 
@@ -123,7 +123,7 @@ TEST_F(SimulationRecorderTest, AddedRobotGetsANewScene) {
   const nlohmann::json last = Scene(scenes.back());
   EXPECT_EQ(last["layout_version"], poses.back().layout_version);
   EXPECT_EQ(last["bodies"].size(), 3u);
-  EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with the added robot
+  EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with the robot that was added
 }
 
 // `gsv replay --resimulate --commands` repeats the recorded commands.
@@ -138,7 +138,7 @@ TEST_F(SimulationRecorderTest, RobotThatIsAddedAgainStartsWithoutACommand) {
   ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto commands = Read<messages::gsv_msgs::Command>("/gsv/commands");
-  EXPECT_EQ(commands.size(), 10u);  // one every 50 ms, until the robot was removed
+  EXPECT_EQ(commands.size(), 10u);  // one command every 50 ms, until the robot was removed
   for (const auto& command : commands) EXPECT_EQ(command.linear_m_s, 0.5);
 }
 
@@ -154,7 +154,7 @@ TEST_F(SimulationRecorderTest, RecordsEditsFromBeforeItsStart) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto edits = Read<messages::gsv_msgs::Edit>("/gsv/edits");
-  // the scenario includes the robot, so only the other edit is recorded
+  // the scenario already includes the added robot, so only the other edit is recorded
   ASSERT_EQ(edits.size(), 1u);
   const auto edit = presentation::EditFrom(edits[0]);
   ASSERT_TRUE(edit);
@@ -221,7 +221,7 @@ TEST_F(SimulationRecorderTest, DestroyedSimulationLeavesACompleteFile) {
   EXPECT_EQ(info.end, 200ms);
 }
 
-// An expectation that is violated at 0.33 s.
+// The expectation becomes violated at 0.33 s.
 class ViolatedOnce final : public simulation::ExpectationSource {
  public:
   explicit ViolatedOnce(std::weak_ptr<simulation::Simulation> simulation)

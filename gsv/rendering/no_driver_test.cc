@@ -1,4 +1,4 @@
-// This is a separate program, because EGL searches for its drivers once per process.
+// This test is a program of its own, because EGL searches for its drivers only once per process.
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ namespace gsv::rendering {
 namespace {
 
 TEST(RendererWithoutADriver, ErrorNamesThePackageToInstall) {
-  // GLVND reads the list of drivers from this variable; this list is empty.
+  // GLVND reads the list of drivers from the file in this variable. The file does not exist.
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/driver.json", 1);
   RendererOptions options;
   options.back_end = BackEnd::kOpenGl;

@@ -63,7 +63,7 @@ TEST_F(IMAGE_SUITE, HasTheRequestedSize) {
 TEST_F(IMAGE_SUITE, OfAnEmptyWorldIsTheBackground) {
   scene_.description().scene.background = {0.25, 0.5, 0.75, 1};
   const auto image = Take({{}, {64, 48, 1, 0.1, 100}});
-  // This pixel is at the horizon, where haze brightens the sky.
+  // This pixel is at the horizon, where haze makes the sky brighter.
   const std::uint8_t* p = &image->pixels[(24 * 64 + 32) * 3];
   EXPECT_NEAR(p[0], 0.25 * 255, 45);
   EXPECT_NEAR(p[1], 0.5 * 255, 30);
@@ -160,8 +160,8 @@ TEST_F(IMAGE_SUITE, AlphaMaskShowsTheObjectBehindItsHoles) {
   material.alpha_mask = true;
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
   scene_.Add("lamp", Box{{0.1, 4, 4}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
-  // The hole is the lower right quarter. The front's is transparent. The back is hidden behind the
-  // other quarters of the front.
+  // The front panel has a transparent hole, its lower right quarter. Its other quarters hide the
+  // panel behind it.
   const auto image = Take({{}, {160, 120, 0.5, 0.1, 100}});
   const std::uint8_t* hole = &image->pixels[(75 * 160 + 95) * 3];
   EXPECT_GT(hole[2], 150);
@@ -227,8 +227,8 @@ TEST_F(IMAGE_SUITE, ShadowFollowsAnObjectThatMoved) {
   const auto before = renderer_->Draw(first, view, std::chrono::seconds(30));
   const auto after = renderer_->Draw(second, view, std::chrono::seconds(30));
   ASSERT_TRUE(before && after);
-  // The scene is symmetric in y except for the shading of the light, so one image is the mirror
-  // image of the other.
+  // The scene is symmetric in y, except for the direction of the light. So one image mirrors the
+  // other.
   int different = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
@@ -344,8 +344,8 @@ TEST_F(IMAGE_SUITE, SpotLightsOnlyItsCone) {
 TEST_F(IMAGE_SUITE, GroundReachesTheHorizon) {
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {20, 20}}, {}, Glowing(1, 0, 0), true);
   const auto image = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
-  // The ground ends 100 m away, where 1 m below the camera is f / 100 = 1.46 pixels below the
-  // centre.
+  // The ground ends 100 m away. There, 1 m below the camera is f / 100 = 1.46 pixels below the
+  // image's centre.
   EXPECT_NEAR(FindBlob(*image, 0).pixels / 160.0, 60 - 1.46, 0.6);
 }
 

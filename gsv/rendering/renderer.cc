@@ -21,9 +21,9 @@ using base::Fail;
 using base::Result;
 using Images = std::vector<std::shared_ptr<const model::Image>>;
 
-// After this many images of a batch, other snapshots get their turn.
+// After this many images of one batch, requests for other snapshots follow.
 constexpr std::size_t kMaxBatchSize = 64;
-// Unused data is removed from the card after this time without a request for an image.
+// After this time without requests, unused data are removed from the card.
 constexpr std::chrono::seconds kIdleSweep{5};
 
 using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
@@ -31,7 +31,8 @@ using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
 struct Request {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::vector<CameraView> views;
-  bool is_survey = false;  // whether the result is `truths` instead of `images`
+  bool is_survey = false;  // whether depth and label images (`truths`) are requested, instead of
+                           // `images`
   std::promise<Result<Images>> images;
   std::promise<Result<Truths>> truths;
   bool abandoned = false;  // the caller no longer waits
@@ -121,7 +122,8 @@ class Renderer::RenderThread {
   }
 
   void Run(std::promise<Result<std::string>>& started) {
-    pthread_setname_np(pthread_self(), "drawing");  // the rasteriser's threads inherit it
+    pthread_setname_np(pthread_self(), "drawing");  // the threads of the rasteriser inherit this
+                                                    // name
     const bool automatic = options_.back_end == BackEnd::kAutomatic;
     EglOptions egl = options_.egl;
     if (automatic && raster::CanRasterise()) egl.software = false;
@@ -172,7 +174,7 @@ class Renderer::RenderThread {
     }
   }
 
-  // Takes the requests for the same snapshot as the request that has waited longest.
+  // Takes all requests for the snapshot of the request that has waited longest.
   Batch TakeBatch() GSV_REQUIRES(mutex_) {
     std::erase_if(queue_, [](const auto& request) { return request->abandoned; });
     Batch batch;
@@ -216,8 +218,8 @@ class Renderer::RenderThread {
                     std::promise<Result<Product>> Request::*promise) {
     std::size_t first = 0;
     for (const auto& request : requests) {
-      // Releases the request's data before the caller continues, because the caller may count the
-      // remaining copies.
+      // Release the request's data before the caller continues, because the caller may count copies
+      // that are in use.
       request->snapshot.reset();
       const std::size_t count = request->views.size();
       if (made) {

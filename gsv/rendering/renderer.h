@@ -29,7 +29,7 @@
 namespace gsv::rendering {
 
 enum class BackEnd {
-  kAutomatic,   // a graphics card; without one, the rasteriser; on processors without AVX2, Mesa
+  kAutomatic,   // a graphics card, or else the rasteriser, or else (without AVX2) Mesa in software
   kOpenGl,      // OpenGL, on the devices that `egl` allows
   kRasteriser,  // the rasteriser; kUnavailable on processors without AVX2 and FMA
 };
@@ -37,7 +37,7 @@ enum class BackEnd {
 struct RendererOptions {
   BackEnd back_end = BackEnd::kAutomatic;
   EglOptions egl;
-  // The maximum number of pending requests; further ones are refused.
+  // The maximum number of pending requests; more are refused.
   std::size_t queue_capacity = 4096;
 };
 
@@ -48,7 +48,7 @@ class Renderer {
   static constexpr std::chrono::seconds kTimeout{60};
 
   [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
-  // Ends pending requests with kEnded.
+  // Ends all pending requests with kEnded.
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -73,7 +73,7 @@ class Renderer {
   // Profile) Mesa 22.3.6".
   const std::string& renderer_name() const { return renderer_name_; }
 
-  // Frees unused copies and returns the number of the others. Waits for the batch in progress.
+  // Frees copies that nobody uses, and returns the number of the others. Waits for the batch in progress.
   DrawCopies CountCopies();
 
  private:

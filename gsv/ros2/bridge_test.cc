@@ -16,7 +16,7 @@
 #include "gsv/ros2/testing/peer.h"
 #include "gsv/simulation/testing/test_simulation.h"
 
-// Fast DDS 2.9 deletes objects through a type of another size.
+// Fast DDS 2.9 deletes objects through a base type of another size, which AddressSanitizer reports.
 #if defined(__SANITIZE_ADDRESS__)
 extern "C" const char* __asan_default_options() { return "new_delete_type_mismatch=0"; }
 #endif
@@ -26,7 +26,8 @@ namespace {
 
 using testing::Peer;
 
-// A published robot "robot" at the origin in real time, and a peer.
+// Publishes a robot "robot", which starts at the origin in real time, to another participant
+// `peer_`.
 class BridgeTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -70,7 +71,7 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
   EXPECT_EQ(range.header.frame_id, "robot/front");
 }
 
-// Creates participants one after the other, more than are searched for on one machine.
+// Creates more participants, one after the other, than discovery looks for on one machine.
 TEST(Participant, IsFoundAfterManyOthers) {
   for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
   Peer one, other;
@@ -201,8 +202,8 @@ TEST_F(BridgeTest, TakesNoCommandsForARobotWithABehaviour) {
   ASSERT_TRUE(simulation_->Start());
   peer_->Listen("/driven/odom", "nav_msgs/msg/Odometry", kDefaultQos);
   (void)peer_->Await<messages::nav_msgs::Odometry>("/driven/odom");
-  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // now there is a second
-                                                                   // publisher
+  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // a second publisher of the same
+                                                                   // topic
   for (const dds::Endpoint& endpoint : peer_->participant().endpoints()) {
     EXPECT_NE(endpoint.topic.name, "rt/driven/cmd_vel");
   }

@@ -123,7 +123,8 @@ void CommandInput::Note(const base::Status& status, const char* topic) {
     return;
   }
   const base::ErrorCode code = status.error().code;
-  // In lockstep, and after the end of a simulation, a command may arrive at the wrong moment.
+  // A command may arrive too late: between two steps in lockstep, or after the end of the
+  // simulation.
   if (code == base::ErrorCode::kNotRunning || code == base::ErrorCode::kEnded) return;
   if (refused_++ == 0) {
     spdlog::warn("{}: {} from ROS 2 is refused: {}. Further ones are counted", robot_, topic,

@@ -1,7 +1,7 @@
-// Passes commands of ROS 2 nodes to a robot's drive and its joints.
+// Applies the commands that ROS 2 nodes send to a robot's drive and joints.
 //
 // The bytes are untrusted input. A message that cannot be decoded, or contains a number that is not
-// finite, is rejected. The first message of each such kind is logged.
+// finite, is rejected. The first rejected message of each topic is logged.
 //
 // Threads  Take…() on any threads; a command applies from the next step on.
 #pragma once
@@ -19,7 +19,7 @@ namespace gsv::ros2 {
 
 class CommandInput {
  public:
-  // `steps` may be null. While a node steps the robot, stamped commands go to `steps`.
+  // `steps` may be null (then no node steps robots). While a node steps the robot, stamped commands go to `steps`.
   explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent,
                         std::shared_ptr<NodeSteps> steps = nullptr);
 
@@ -33,7 +33,7 @@ class CommandInput {
 
   // Commands these joints to these positions, in rad or m.
   void CommandPositions(const std::vector<int>& joints, const std::vector<double>& positions);
-  // Counts a rejected message of a topic, and logs the first one.
+  // Counts a rejected message of `topic`, and logs the first one.
   void Refuse(const base::Error& error, const char* topic);
 
   std::uint64_t taken() const { return taken_; }

@@ -40,14 +40,14 @@ TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
   CommandedRobot robot;
   robot.input->TakeTwist(TwistBytes(0.5));
   EXPECT_EQ(robot.input->taken(), 1u);
-  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);  // 0.5 m/s for 1 s; the command applies from the
-                                              // second step on
+  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);  // 0.5 m/s for 1 s; the command starts with the second
+                                              // step
 }
 
 TEST(CommandInput, RejectsNonFiniteCommands) {
   CommandedRobot robot;
   Twist twist;
-  // this component is not used, but is rejected nevertheless
+  // the drive ignores this component, but NaN is rejected nevertheless
   twist.linear.z = std::numeric_limits<double>::infinity();
   messages::Bytes sideways;
   messages::Encode(twist, sideways);

@@ -1,6 +1,7 @@
-// The publisher's queue of events, and of the snapshots at which something must be published.
+// The publisher's queue of events and of snapshots for which messages are due.
 //
-// Threads  OnSnapshot() and OnEvent() as simulation::Observer; Next() from one; the rest from any.
+// Threads  OnSnapshot() and OnEvent() as simulation::Observer; Next() from one thread; other
+//          functions from any thread.
 // Bounded  a few snapshots. If the publisher does not keep up, the oldest are dropped, or in lockstep the
 //          stepping thread waits.
 #pragma once
@@ -27,14 +28,14 @@ class Feed final : public simulation::Observer {
   void OnSnapshot(const SnapshotPointer& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // Selects the snapshots to take: those at multiples of these periods.
+  // Requests snapshots at multiples of these periods.
   void SetPeriods(const std::set<base::SimTime>& periods);
 
   struct News {
     SnapshotPointer snapshot;  // null: none
     std::vector<simulation::Event> events;
   };
-  // Returns new entries, at the latest after `timeout` (wall-clock time), or when Wake() is called.
+  // Returns the new entries. Waits for one until `timeout` (wall-clock time) or until Wake() is called.
   News Next(std::chrono::milliseconds timeout);
   void Wake();
   // Closes the queue, and releases a stepping thread that waits.

@@ -20,20 +20,20 @@ inline constexpr std::string_view kRosWorldFrame = "world";
 
 class Frames {
  public:
-  // `prefix` is empty or ends with a slash.
+  // `prefix` is prepended to frame names; it is empty or ends with a slash.
   Frames(std::string prefix, const model::Model& model);
 
   std::string odom() const { return prefix_ + "odom"; }
   const std::string& base() const { return base_; }
   std::string OfLink(const model::Model& model, int link) const;
-  // Returns the frame of a sensor: that of its link if both are equal, else its own frame.
+  // Returns the frame of a sensor: its link's frame if the sensor has the same pose, else its own frame.
   std::string OfSensor(const model::Model& model, const model::SensorDescription& sensor) const;
 
-  // Appends base → fixed links, links → sensors (and optical frames, if any).
+  // Appends the transforms base → fixed links and links → sensors (and optical frames, if any).
   void AppendStatic(const model::Model& model, const std::vector<model::SensorDescription>& sensors,
                     const std::vector<bool>& is_optical, base::SimTime time,
                     messages::tf2_msgs::TFMessage& message) const;
-  // Appends odom → base, and base → moving links.
+  // Appends the transforms odom → base and base → moving links.
   void AppendMoving(const world::Snapshot& snapshot, int body, bool has_odometry,
                     messages::tf2_msgs::TFMessage& message) const;
 

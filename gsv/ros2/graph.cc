@@ -31,7 +31,7 @@ std::vector<dds::Guid> ReadGuids(std::size_t size, messages::CdrReader& reader) 
 
 base::Result<std::vector<NodeInfo>> DecodeGraphWith(std::size_t size,
                                                     std::span<const std::byte> sample) {
-  // Two empty strings and two counts.
+  // The minimum size of an encoded node, in bytes: two empty strings and two counts.
   constexpr std::size_t kSmallestNode = 16;
   messages::CdrReader reader(sample);
   std::array<std::uint8_t, 24> participant{};

@@ -1,4 +1,4 @@
-// Publishes the list of nodes for other participants: ros_discovery_info.
+// Publishes the list of nodes of this participant on the topic ros_discovery_info.
 //
 // Source  rmw_dds_common/msg/ParticipantEntitiesInfo.msg, of Humble and of Iron and later.
 #pragma once
@@ -17,11 +17,11 @@ namespace gsv::ros2 {
 // Returns the number of bytes of a Gid: 24 in Humble (16 of them are used), and 16 since Iron.
 std::size_t GidSize(Distro distro);
 
-// Appends a ParticipantEntitiesInfo.
+// Encodes a ParticipantEntitiesInfo and appends it to `out`.
 void EncodeGraph(const dds::Guid& participant, const std::vector<NodeInfo>& nodes, Distro distro,
                  messages::Bytes& out);
 
-// Reads the nodes of a ParticipantEntitiesInfo of any distribution. It is untrusted input.
+// Reads the nodes of a ParticipantEntitiesInfo of any distribution. `sample` is untrusted input.
 base::Result<std::vector<NodeInfo>> DecodeGraph(std::span<const std::byte> sample);
 
 class Graph {
@@ -34,7 +34,8 @@ class Graph {
  private:
   dds::Participant& participant_;
   const Distro distro_;
-  std::unique_ptr<dds::Writer> writer_;  // null if the participant refused it, which is logged
+  std::unique_ptr<dds::Writer> writer_;  // null if the participant refused to make it, which is
+                                         // logged
   std::optional<std::vector<NodeInfo>> sent_;
 };
 

@@ -5,9 +5,10 @@
 namespace gsv::ros2 {
 namespace {
 
-// Returns the size of a graph with the node "gsv" in "/" and one writer, for a given size of a Gid.
+// Returns the encoded size of a graph with one node "gsv" in "/" and one writer. `gid` is the size
+// of a Gid.
 std::size_t SizeFor(std::size_t gid) {
-  // The parts are: encapsulation, Gid, count; "/" and padding, "gsv", two counts, a Gid.
+  // The summands: encapsulation, Gid, number of nodes; "/" and padding, "gsv", two counts, one Gid.
   return 4 + gid + 4 + (4 + 2 + 2) + (4 + 4) + 4 + 4 + gid;
 }
 

@@ -9,10 +9,10 @@ namespace {
 struct Pixels {
   int width = 0, height = 0;
   const char* encoding = "";
-  int bytes = 0;  // a pixel
+  int bytes = 0;  // bytes per pixel
 };
 
-// Everything except the pixels.
+// Writes all fields before the pixels.
 void WriteHead(const Pixels& pixels, base::SimTime time, const std::string& frame,
                messages::CdrWriter& writer) {
   messages::std_msgs::Header header;
@@ -22,7 +22,7 @@ void WriteHead(const Pixels& pixels, base::SimTime time, const std::string& fram
   writer.Write(static_cast<std::uint32_t>(pixels.height));
   writer.Write(static_cast<std::uint32_t>(pixels.width));
   writer.Write(std::string_view(pixels.encoding));
-  writer.Write(std::uint8_t{0});  // little endian
+  writer.Write(std::uint8_t{0});  // is_bigendian: no
   writer.Write(static_cast<std::uint32_t>(pixels.width * pixels.bytes));
   writer.WriteCount(static_cast<std::size_t>(pixels.width) * pixels.height * pixels.bytes);
 }

@@ -12,10 +12,10 @@ namespace gsv::ros2 {
 
 inline constexpr const char* kImageType = "sensor_msgs/msg/Image";
 
-// rgb8 or rgba8. Appends everything except the pixels, which are the last bytes of the message.
+// Encodes an image as rgb8 or rgba8, without its pixels. The caller appends the pixels to complete the message.
 void EncodeImageHead(const model::Image& image, base::SimTime time, const std::string& frame,
                      messages::Bytes& out);
-// 32FC1, in metres; rows from the top, width × height values.
+// Encodes a depth image as 32FC1, in metres: rows from the top, width × height values.
 void EncodeDepth(int width, int height, std::span<const double> depth, base::SimTime time,
                  const std::string& frame, messages::Bytes& out);
 

@@ -1,5 +1,5 @@
-// A trajectory of joints, as MoveIt and ros2_control send it: positions at given times, with
-// interpolation.
+// A trajectory of joints, as MoveIt and ros2_control send it: positions at given times. Positions
+// between these times are interpolated.
 //
 // Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation":
 //          linear if the points have no velocities, cubic (Hermite) if they have.
@@ -35,8 +35,8 @@ struct JointTrajectory {
   std::vector<double> PositionsAt(base::SimTime time, const std::vector<double>& initial) const;
 };
 
-// Reads a JointTrajectory for some of `joints`. It is untrusted input. Fails with kCorrupt if it
-// cannot be decoded, and with kInvalidArgument if names, counts, times or values are wrong.
+// Reads a JointTrajectory for some of `joints`. `sample` is untrusted input. Fails with kCorrupt if
+// it cannot be decoded, and with kInvalidArgument if names, counts, times or values are wrong.
 base::Result<JointTrajectory> ReadJointTrajectory(std::span<const std::byte> sample,
                                                   const model::Model& model,
                                                   const std::vector<int>& joints);

@@ -1,4 +1,4 @@
-// A message that is a function of the snapshot, on one topic.
+// Publishes, on one topic, a message that depends only on the snapshot.
 #pragma once
 
 #include <functional>

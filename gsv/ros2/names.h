@@ -1,4 +1,4 @@
-// Names in ROS 2, and the corresponding names in DDS.
+// Converts names to valid ROS 2 names, and ROS 2 names to DDS names.
 //
 // Source  design.ros2.org, "Topic and Service name mapping to DDS"; REP-105 for frames.
 #pragma once

@@ -1,6 +1,6 @@
 // A ROS 2 node: its writers and readers under one name.
 //
-// Threads  one; readers are called on threads of the DDS library.
+// Threads  one; callbacks of readers run on threads of the DDS library.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ inline constexpr dds::Qos kClockQos{.depth = 1};
 inline constexpr dds::Qos kTransformQos{.depth = 100};
 inline constexpr dds::Qos kLogQos{.is_transient_local = true, .depth = 1000};
 
-// A node in the list of ros_discovery_info.
+// One node in the message of ros_discovery_info.
 struct NodeInfo {
   std::string name_space, name;
   std::vector<dds::Guid> readers, writers;
@@ -34,7 +34,7 @@ struct NodeInfo {
 class Node {
  public:
   // `participant` must outlive the node. `on_match` is called when a reader of one of its topics is
-  // added or removed. Endpoints carry the hashes of their types, except for Humble, which has none.
+  // added or removed. Endpoints carry the hashes of their types, except in Humble, which has no hashes.
   Node(dds::Participant& participant, Distro distro, std::string name_space, std::string name,
        std::function<void()> on_match);
 
@@ -42,9 +42,9 @@ class Node {
   const NodeInfo& info() const { return info_; }
 
   // `topic` is absolute or relative to the node's namespace, `type` as "std_msgs/msg/String". The
-  // writer exists as long as the node. Null if the participant refuses (this is logged).
+  // writer exists as long as the node. Returns null, and logs the reason, if the participant refuses.
   dds::Writer* Advertise(std::string_view topic, std::string_view type, const dds::Qos& qos);
-  // Also null if the participant refuses.
+  // Returns null, and logs the reason, if the participant refuses.
   dds::Reader* Subscribe(std::string_view topic, std::string_view type, const dds::Qos& qos,
                          std::function<void(std::span<const std::byte>)> on_message);
 

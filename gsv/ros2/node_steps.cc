@@ -98,7 +98,8 @@ void NodeBehaviour::Run(simulation::Agent& agent, simulation::ClockId clock) {
     const base::SimTime now = agent.Now();
     const auto command = steps_->Await(robot_, now);
     if (!command) break;
-    (void)agent.Command(*command);  // if this fails, the wait below fails as well
+    (void)agent.Command(*command);  // if this fails, the wait below fails as well and returns the
+                                    // error
     const base::SimTime next = (now / period_ + 1) * period_;
     do {
       wait = agent.SleepUntil(clock, next, kStepLease);

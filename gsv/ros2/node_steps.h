@@ -1,4 +1,4 @@
-// Lets ROS 2 nodes step robots in lockstep: a step waits for the command that carries the time of the last /clock.
+// Lets ROS 2 nodes step robots in lockstep. A step waits for the command that has the time stamp of the last /clock.
 //
 // A node answers each /clock with a TwistStamped of the same time. Commands with another time are ignored.
 //
@@ -21,22 +21,22 @@ namespace gsv::ros2 {
 // The name of the behaviour of robots that ROS 2 nodes drive.
 inline constexpr const char* kRos2Behaviour = "ros2";
 
-// The commands that nodes have sent, and the robots that wait for them.
+// Stores the commands that nodes have sent, and lets robots wait for them.
 class NodeSteps {
  public:
-  // Sets whether a node steps the robot. If `is_open` becomes false, the robot no longer waits for
+  // Sets whether a node steps the robot. When `is_open` becomes false, the robot stops waiting for
   // its node.
   void Open(const std::string& robot, bool is_open);
   bool IsOpen(const std::string& robot) const;
 
   // Stores a command that a node has sent with this time stamp.
   void Offer(const std::string& robot, base::SimTime stamp, const world::DriveCommand& command);
-  // Waits for the command with this time stamp, and repeats /clock meanwhile. Returns nullopt once
-  // the node no longer steps the robot.
+  // Waits for the command with this time stamp, and sends /clock again from time to time. Returns
+  // nullopt once the node no longer steps the robot.
   std::optional<world::DriveCommand> Await(const std::string& robot, base::SimTime time);
 
-  // `repeat` sends /clock again, for nodes that have started late or lost it. It must return at
-  // once, and may be empty.
+  // `repeat` sends /clock again, for nodes that have started late or lost it. The function must
+  // return at once, and may be empty.
   void RepeatBy(std::function<void()> repeat);
 
  private:

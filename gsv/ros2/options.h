@@ -1,4 +1,4 @@
-// The options of ROS 2, and ROS's own environment variables.
+// The options of the ROS 2 bridge, and the ROS environment variables that GSV reads.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,16 @@ namespace gsv::ros2 {
 // The period of /clock, in simulated time.
 inline constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
 
-// These distributions differ in the data that discovery exchanges.
+// The supported ROS 2 distributions. They exchange different data in discovery.
 enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
 
 struct Options {
-  std::optional<dds::Range> range{};  // if empty, from the environment, or else localhost
+  std::optional<dds::Range> range{};  // if not set: the range from the environment, else localhost
   Distro distro = Distro::kJazzy;
-  // namespaces by robot; a robot that is not listed has "/ROBOT"
+  // namespace of a robot, by the robot's name (default: "/ROBOT")
   std::map<std::string, std::string> namespaces{};
   bool is_cmd_vel_stamped = false;     // true for TwistStamped, false for Twist
-  std::shared_ptr<NodeSteps> steps{};  // the robots that nodes step; null if there are none
+  std::shared_ptr<NodeSteps> steps{};  // robots that ROS 2 nodes step; null if there are none
 };
 
 base::Result<Distro> ParseDistro(const std::string& text);
@@ -36,12 +36,12 @@ base::Status ParseNamespace(const std::string& text,
 using Environment = std::function<std::string(const char* name)>;
 std::string ProcessEnvironment(const char* name);
 
-// Reads ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and the variables of
-// security.h.
+// Reads ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and the
+// variables that security.h lists.
 base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
                                                      const Environment& environment);
 
-// Whether other machines can send and receive data.
+// Whether other machines can send data to the participant and receive its data.
 bool IsExposed(const dds::ParticipantOptions& options);
 
 }  // namespace gsv::ros2

@@ -19,12 +19,12 @@
 namespace gsv::ros2 {
 namespace {
 
-// The interval between checks of the position, in wall-clock time.
+// The period at which the thread checks the position of the replay, in wall-clock time.
 constexpr std::chrono::milliseconds kTick{5};
 constexpr std::size_t kMaxTopics = 1000;
 constexpr std::string_view kClockTopic = "/clock";
 
-// Whether an advance within one tick is a seek, and not caused by a late tick.
+// Whether the position moved so far within one tick that a seek, and not a late tick, is the cause.
 bool IsJump(base::SimTime advance, double speed) {
   return advance < base::SimTime(0) || base::ToSeconds(advance) > 1 + speed / 2;
 }
@@ -63,9 +63,9 @@ class FileBridge final : public RecordingBridge {
   Graph graph_;
   Node node_;
   dds::Writer* clock_ = nullptr;
-  std::map<std::uint16_t, dds::Writer*> writers_;  // by channel
+  std::map<std::uint16_t, dds::Writer*> writers_;  // writers by the ids of their channels
   std::optional<recording::MessageCursor> cursor_;
-  std::optional<recording::MessageRecord> next_;  // the next message, which is not published yet
+  std::optional<recording::MessageRecord> next_;  // the next message to publish
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
@@ -126,7 +126,7 @@ void FileBridge::PlayTo(base::SimTime time) {
   }
 }
 
-// Damaged parts are skipped.
+// Reads the next message. Skips damaged parts of the file.
 void FileBridge::ReadNext() {
   for (;;) {
     auto record = cursor_->Next();

@@ -1,7 +1,7 @@
-// Publishes a recording in ROS 2: its messages and /clock, as its time advances.
+// Publishes the messages of a recording in ROS 2, and /clock, while the recording is replayed.
 //
-// The file is untrusted input. Topics get valid names. Topics whose messages are not in CDR are
-// omitted.
+// The file is untrusted input. Topics are renamed to valid ROS names. Topics whose messages are not
+// in CDR are omitted.
 //
 // Threads  its own.
 #pragma once
@@ -17,14 +17,14 @@ namespace gsv::ros2 {
 
 class RecordingBridge {
  public:
-  // The position of the replay, and its speed in recorded seconds per second.
+  // The position of the replay, and its speed (recorded seconds per second of wall-clock time).
   struct Position {
     base::SimTime time{};
     double speed = 1;
   };
 
   // Opens the recording a second time. `participant` must outlive the bridge. `position` is called
-  // on the bridge's thread. After a jump, the messages from the new position on are published.
+  // on the bridge's thread. After a seek, the messages from the new position on are published.
   // Fails as McapReader::Open() does.
   static base::Result<std::unique_ptr<RecordingBridge>> Start(dds::Participant& participant,
                                                               Distro distro,

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A placeholder for the folder, which is created only if there are meshes.
+// Stands in mesh URIs for the temporary folder, which is created only if there are meshes.
 constexpr const char* kPlaceholder = "gsv-ros2-meshes://";
 
 void ReplaceAll(std::string& text, std::string_view from, const std::string& to) {

@@ -1,4 +1,4 @@
-// Makes robot_description: models as URDF, with mesh files that RViz finds on this machine.
+// Converts models to URDF for robot_description, with mesh files that RViz finds on this machine.
 //
 // Errors   a mesh that cannot be written is an error of its model.
 // Threads  one.
@@ -17,8 +17,8 @@ namespace gsv::ros2 {
 
 class RobotDescriptions {
  public:
-  // Returns the URDF of a model; it is written once. Its meshes have file:/// names in a temporary
-  // folder that exists as long as this object.
+  // Returns the URDF of a model. Each model is converted once. Meshes have file:/// URIs in a
+  // temporary folder, which is deleted with this object.
   base::Result<std::string> Of(const std::shared_ptr<const model::Model>& model);
 
  private:

@@ -94,7 +94,7 @@ bool RobotTopics::IsOf(const world::Body& body,
 
 void RobotTopics::AddSensors(const Context& context) {
   const sensing::SensorRegistry& types = context.simulation.sensor_types();
-  std::map<std::string, int> counts;  // by type
+  std::map<std::string, int> counts;  // number of sensors of each type
   for (const model::SensorDescription& description : sensors_) {
     const sensing::SensorType* const type = types.Find(description.type);
     if (type != nullptr) ++counts[type->name];

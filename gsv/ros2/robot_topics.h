@@ -30,11 +30,11 @@ class RobotTopics {
     std::function<void()> on_match;
   };
 
-  // `name_space` is a name such as "/pebble", or "/". `takes_commands`: no behaviour drives it.
+  // `name_space` is a name such as "/pebble", or "/". `takes_commands` is true if no behaviour drives the robot.
   RobotTopics(const Context& context, const world::Body& body, std::string name_space,
               bool takes_commands);
 
-  // Whether these topics are still right for the body.
+  // Whether these topics still fit the body: false after its sensors or its namespace have changed.
   bool IsOf(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
             bool takes_commands) const;
 
@@ -50,8 +50,8 @@ class RobotTopics {
   // Sends robot_description as soon as it has a reader.
   void SendDescription(RobotDescriptions& descriptions);
 
-  // Logs once when several nodes command this robot at the same time, and once when a node sends commands of
-  // another type. `endpoints` are those of other participants.
+  // Logs once if several nodes command this robot at the same time, and once if a node sends
+  // commands of another type. `endpoints` are those of other participants.
   void CheckPublishers(const std::vector<dds::Endpoint>& endpoints);
 
  private:
@@ -69,10 +69,13 @@ class RobotTopics {
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
   std::vector<bool> is_optical_;                  // whether each of sensors_ has an optical frame
-  std::vector<std::unique_ptr<Source>> sources_;  // before node_, whose readers call them
+  std::vector<std::unique_ptr<Source>> sources_;  // declared before node_, whose readers call the
+                                                  // sources
   Node node_;
-  dds::Writer* description_ = nullptr;  // null if it was sent, or if the participant refused it
-  std::string drive_type_;              // "geometry_msgs/msg/Twist"; empty: no cmd_vel topic
+  dds::Writer* description_ = nullptr;  // null after robot_description was sent, or if the
+                                        // participant refused the topic
+  std::string drive_type_;              // type of cmd_vel, such as "geometry_msgs/msg/Twist"; empty
+                                        // if there is no such topic
   dds::Reader* drive_reader_ = nullptr;
   bool has_warned_of_many_ = false;
   bool has_warned_of_type_ = false;

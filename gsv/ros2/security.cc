@@ -14,7 +14,8 @@ constexpr const char* kKeystore = "ROS_SECURITY_KEYSTORE";
 constexpr const char* kStrategy = "ROS_SECURITY_STRATEGY";
 constexpr const char* kEnclave = "ROS_SECURITY_ENCLAVE_OVERRIDE";
 
-// Whether the variable has the first of the two words. An empty variable means the second word.
+// Returns whether the variable has the value `first`. An empty variable has the value `second`.
+// Fails for other values.
 base::Result<bool> IsFirst(const Environment& environment, const char* variable, const char* first,
                            const char* second) {
   const std::string value = environment(variable);
@@ -26,7 +27,7 @@ base::Result<bool> IsFirst(const Environment& environment, const char* variable,
       variable);
 }
 
-// Returns the folder of an enclave. All its files must exist.
+// Returns the folder of an enclave. Fails if one of its files does not exist.
 base::Result<std::string> FolderOf(const std::string& keystore, const std::string& enclave) {
   if (keystore.empty()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,

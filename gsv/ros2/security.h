@@ -12,7 +12,7 @@
 
 namespace gsv::ros2 {
 
-// The files in the folder of an enclave.
+// The files that the folder of an enclave must contain.
 inline constexpr const char* kEnclaveFiles[]{
     "identity_ca.cert.pem",    "cert.pem",       "key.pem",
     "permissions_ca.cert.pem", "governance.p7s", "permissions.p7s"};

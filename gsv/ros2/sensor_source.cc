@@ -19,11 +19,11 @@ namespace {
 
 using sensing::Reading;
 
-// The usual topic and rate of a sensor type in ROS 2.
+// The usual topic and rate of sensors of one type in ROS 2.
 struct Habit {
   const char* topic;
   bool is_sensor_data;
-  double rate;  // Hz, for a sensor without its own rate
+  double rate;  // Hz, used if the sensor has no rate of its own
 };
 
 constexpr double kUsualRate = 20;
@@ -56,7 +56,7 @@ bool Append(const std::vector<std::uint8_t>& bytes, EncodedMessage& out) {
   return !bytes.empty();
 }
 
-// The same message as for recordings and viewers.
+// Returns the message that recordings and viewers also get, under its GSV type.
 SensorOutput OwnMessage(const RosSensor& sensor, std::string topic, std::string frame,
                         const dds::Qos& qos, const messages::Schema& schema) {
   return {std::move(topic), std::string(schema.name), qos,
@@ -96,7 +96,7 @@ SensorOutput OdometryMessage(const RosSensor& sensor, std::string topic, const F
           }};
 }
 
-// In the frame of the ground truth, because "map" belongs to the user's own localization.
+// Poses are in the frame of the ground truth, because "map" belongs to the user's own localization.
 SensorOutput PoseMessage(const RosSensor& sensor, std::string topic) {
   return {std::move(topic), "geometry_msgs/msg/PoseStamped", kDefaultQos,
           [name = sensor.description.name](const Reading& reading, EncodedMessage& out) {

@@ -1,4 +1,4 @@
-// Publishes a sensor of a robot: one sample gives all its messages in ROS 2.
+// Publishes a sensor of a robot. Each sample is converted to all the sensor's ROS 2 messages.
 //
 // A reading is a function of the snapshot, so the sensor is sampled here again. The value equals
 // the one that the robot's behaviour gets, and the simulation does not change.
@@ -18,37 +18,37 @@
 
 namespace gsv::ros2 {
 
-// A message in two parts. The second may be empty, or the pixels of a reading's image.
+// An encoded message in two parts. The second part contains the pixels of an image, or is empty.
 struct EncodedMessage {
   messages::Bytes head;
   std::span<const std::byte> rest;
 };
 
-// One message of a reading.
+// One of the messages that a reading is converted to.
 struct SensorOutput {
   std::string topic;  // relative to the robot's namespace
   std::string type;   // "sensor_msgs/msg/LaserScan"
   dds::Qos qos;
-  // Encodes the message into an empty one. Returns false if this reading has no such message.
+  // Encodes a reading's message into `out`, which is empty. Returns false if this reading has no such message.
   std::function<bool(const sensing::Reading& reading, EncodedMessage& out)> encode;
 };
 
 struct RosSensor {
-  std::string body;  // the robot's name in the world
+  std::string body;  // name of the robot's body in the world
   model::SensorDescription description;
   const sensing::SensorType* type = nullptr;
   std::shared_ptr<const sensing::Sensor> sensor;
   bool is_only =
-      true;  // the only one of its type on the robot, which has the usual name for its topic
+      true;  // whether it is the robot's only sensor of its type; its topic then has the usual name
 };
 
-// The messages of a sensor, by its type: "scan" of a lidar, "camera/image_raw" of a camera. If a
-// robot has several sensors of a type, the topics begin with the sensors' names. The topic of a
-// type without a usual name has the sensor's name.
+// Returns the messages of a sensor. Its type determines their topics: "scan" of a lidar,
+// "camera/image_raw" of a camera. If a robot has several sensors of a type, the topics begin with
+// the sensors' names. The topic of a type without a usual name has the sensor's name.
 std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
                                     const model::Model& model);
 
-// Hz: the sensor's own rate, or else the usual rate of its type.
+// Returns the rate in Hz: the sensor's own rate, or else the usual rate of its type.
 double RateOf(const RosSensor& sensor);
 
 class SensorSource final : public Source {

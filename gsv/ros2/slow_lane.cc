@@ -7,7 +7,8 @@
 namespace gsv::ros2 {
 namespace {
 
-// So many images are waited for at once; the renderer draws them together.
+// The number of images that are requested before the first is awaited; the renderer draws them
+// together.
 constexpr int kAtOnce = 8;
 
 }  // namespace
@@ -49,7 +50,7 @@ std::uint64_t SlowLane::skipped() const {
 }
 
 void SlowLane::Run() {
-  pthread_setname_np(pthread_self(), "ros2-images");  // those of team_ inherit it
+  pthread_setname_np(pthread_self(), "ros2-images");  // the threads of team_ inherit this name
   base::MutexLock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this]() GSV_REQUIRES(mutex_) { return !jobs_.empty() || is_stopping_; });

@@ -1,7 +1,7 @@
-// Publishes sources that take long, such as cameras, on a thread of its own, so that the others do not wait.
+// Publishes slow sources, such as cameras, on a thread of its own, so that fast sources do not wait.
 //
-// Threads  Offer(), Drain() and the destructor from one.
-// Bounded  it works on one snapshot at a time, and a few wait. When more come, the oldest is skipped.
+// Threads  Offer(), Drain() and the destructor from one thread.
+// Bounded  one snapshot is in work, and a few wait. If more come, the oldest is skipped.
 #pragma once
 
 #include <deque>
@@ -19,9 +19,9 @@ class SlowLane {
   SlowLane();
   ~SlowLane();
 
-  // Enqueues these, each of which outlives the next Drain(). `waits`: first waits until it is idle.
+  // Enqueues sources, which must exist until the next Drain(). If `waits`, first waits until the queue is empty.
   void Offer(std::vector<Source*> sources, const Moment& moment, bool waits);
-  // Waits until it is idle.
+  // Waits until all enqueued sources are published.
   void Drain();
   // The number of snapshots that were skipped.
   std::uint64_t skipped() const;
@@ -39,11 +39,11 @@ class SlowLane {
 
   mutable base::Mutex mutex_;
   base::ConditionVariable changed_;
-  std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);  // those that wait
+  std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);  // jobs that have not started
   bool is_working_ GSV_GUARDED_BY(mutex_) = false;
   std::uint64_t skipped_ GSV_GUARDED_BY(mutex_) = 0;
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::unique_ptr<base::ThreadTeam> team_;  // used by thread_ only
+  std::unique_ptr<base::ThreadTeam> team_;  // used by the thread `thread_` only
   std::thread thread_;
 };
 

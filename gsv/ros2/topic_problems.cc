@@ -12,7 +12,7 @@
 namespace gsv::ros2 {
 namespace {
 
-// The compared properties of an endpoint. Many endpoints have equal ones.
+// The properties of an endpoint that are compared. Many endpoints have the same properties.
 struct Side {
   std::string type, hash;
   bool is_reliable = false, is_transient_local = false;

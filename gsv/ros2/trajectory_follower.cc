@@ -60,7 +60,7 @@ void TrajectoryFollower::Publish(const Moment& moment) {
   if (next) Begin(*std::move(next), *moment.snapshot, body);
   if (!active_) return;
   const base::SimTime time = moment.snapshot->state.time - active_->start;
-  if (time < base::SimTime(0)) return;  // the trajectory starts later
+  if (time < base::SimTime(0)) return;  // the start is in the future
   const JointTrajectory& trajectory = active_->trajectory;
   input_->CommandPositions(trajectory.joints, trajectory.PositionsAt(time, active_->initial));
   if (!trajectory.points.empty() && time < trajectory.points.back().time) return;

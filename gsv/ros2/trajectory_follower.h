@@ -1,4 +1,4 @@
-// Lets the joints of a robot follow the trajectories that ROS 2 nodes send.
+// Moves the joints of a robot along the trajectories that ROS 2 nodes send.
 //
 // Threads  Take() on any thread; other functions on the publisher's.
 #pragma once
@@ -19,23 +19,23 @@ namespace gsv::ros2 {
 
 class TrajectoryFollower final : public Source {
  public:
-  // `joints` take commands. `on_change` is called when a trajectory arrives.
+  // `joints` are the joints that accept commands. `on_change` is called when a trajectory arrives.
   TrajectoryFollower(std::shared_ptr<CommandInput> input, std::string body,
                      std::shared_ptr<const model::Model> model, std::vector<int> joints,
                      std::function<void()> on_change);
 
-  // Replaces the trajectory by a trajectory_msgs/msg/JointTrajectory, if that is valid.
+  // Replaces the current trajectory by the JointTrajectory message in `sample`, if it is valid.
   void Take(std::span<const std::byte> sample);
 
   bool is_wanted() const override;
-  // Commands the joints for this instant.
+  // Sends the joints the positions of the trajectory at the time of `moment`.
   void Publish(const Moment& moment) override;
 
  private:
   struct Active {
     JointTrajectory trajectory;
     base::SimTime start{};
-    std::vector<double> initial;  // positions at the start
+    std::vector<double> initial;  // joint positions at the start of the trajectory
   };
 
   void Begin(JointTrajectory trajectory, const world::Snapshot& snapshot, int body);

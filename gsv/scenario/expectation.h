@@ -16,7 +16,7 @@
 
 namespace gsv::scenario {
 
-// A measured number of the run at one instant. `first` and `second` are the names in the Quantity.
+// A number that is measured at one instant of the run. `first` and `second` are members of Quantity.
 struct Quantity {
   enum class Kind {
     kX,
@@ -28,16 +28,17 @@ struct Quantity {
     kTurning,          // turning rate of `first` about the vertical, rad/s, absolute value
     kTravelled,        // distance that `first` has travelled, m
     kDistance,         // horizontal distance between the origins of `first` and `second`, m
-    kContact,  // 1 if `first` touches `second` (if empty: anything except the ground), else 0
-    kSensor,   // a value of the sensor `second` of `first`
+    kContact,  // 1 if `first` touches `second` (if that is empty: anything except the ground), else
+               // 0
+    kSensor,   // a value that the sensor `second` of the robot `first` measures
     kEnded,    // 1 if the behaviour of `first` has finished or died, else 0
     kTime,     // simulated time, s
-    // The time for which `first` was commanded to move and did not, s; 0 if it moves or is not
-    // commanded to (simulation/history/motion_history.h). If `first` is empty: the longest time of
-    // all robots.
+    // The time for which `first` did not move although it was commanded to, s; 0 if it moves or has
+    // no command (simulation/history/motion_history.h). If `first` is empty, the longest such time
+    // of all robots.
     kStuck,
   };
-  // The way to compute one number from the values of a reading.
+  // How one number is computed from the values of a reading.
   enum class Take { kMin, kMax, kMean, kOne };
 
   Kind kind = Kind::kTime;
@@ -51,17 +52,17 @@ struct Formula {
   enum class Kind { kAtom, kNot, kAll, kAny, kAlways, kEventually, kUntil };
 
   Kind kind = Kind::kAtom;
-  // For kAtom, which holds if the quantity is in [min, max]. A quantity that is not available is in
-  // no interval.
+  // For kAtom. The atom holds if the quantity is in [min, max]. If the quantity is not available,
+  // the atom does not hold.
   Quantity quantity{};
-  // kStuck: negative means Specification::stuck_after.
+  // For kStuck, a negative value means Specification::stuck_after.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  // The operands. kUntil has two: the first one holds until the second one does. kNot, kAlways and
+  // The operands. kUntil has two: the first must hold until the second holds. kNot, kAlways and
   // kEventually have one.
   std::vector<Formula> parts{};
-  double from = 0;             // in s after the instant of evaluation
-  std::optional<double> by{};  // nullopt for the end of the run
+  double from = 0;             // begin of the window, s after the instant of evaluation
+  std::optional<double> by{};  // end of the window; nullopt for the end of the run
   SourcePlace source{};
 };
 

@@ -11,7 +11,7 @@ namespace {
 using FormulaKind = Formula::Kind;
 using QuantityKind = Quantity::Kind;
 
-constexpr double kMax = 1e9;                    // the limit of any measured number
+constexpr double kMax = 1e9;                    // maximum absolute value of a measured number
 constexpr double kNear = 0.25;                  // default tolerance of a position, m
 constexpr double kYawNear = 0.261799387799149;  // default tolerance of a yaw, rad (15 degrees)
 constexpr double kStuckAfterOfRun = -1;         // see Formula::min
@@ -38,7 +38,7 @@ class FormulaReader {
  public:
   explicit FormulaReader(const YamlPlace& place) : place_(place) {}
 
-  // Reads a formula from `mapping`, which has one operator and its arguments.
+  // Reads the formula in `mapping`: one operator and its arguments.
   Formula Read(YamlMapping& mapping, int depth) {
     Formula formula;
     if (is_too_large()) return formula;
@@ -70,7 +70,7 @@ class FormulaReader {
     return formula;
   }
 
-  // If there are too many formulas, this was already reported, and reading stops.
+  // Whether there are too many formulas. This is reported once, and reading stops.
   bool is_too_large() const { return count_ > kMaxFormulas; }
 
  private:
@@ -145,7 +145,8 @@ class FormulaReader {
   Formula Until(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kUntil, Several(node, m, key, depth, 2));
   }
-  // `first` before `second`: `second` does not occur before `first` has occurred without `second`.
+  // Reads `first` before `second`: `second` must not occur before `first` has occurred without
+  // `second`.
   Formula Before(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     auto parts = Several(node, m, key, depth, 2);
     Formula none_of_second = Not(parts[1]);
@@ -279,7 +280,7 @@ class FormulaReader {
   Formula NeverCollides(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kAlways, {Not(Contact(node, m, key, depth))});
   }
-  // A robot's name, or {robot, after}; without a robot it is about all of them.
+  // Reads a robot's name, or {robot, after}. Without a robot, the formula applies to all robots.
   Formula Stuck(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     Formula atom = Atom(QuantityKind::kStuck, "", kStuckAfterOfRun, kMax);
     if (node.IsScalar()) {
@@ -291,7 +292,7 @@ class FormulaReader {
     if (const auto after = of.Number("after", 0.1, kMaxDuration)) atom.min = *after;
     return atom;
   }
-  // `never: stuck` is about all robots.
+  // Reads `never`. `never: stuck` applies to all robots.
   Formula Never(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     Formula condition;
     if (!node.IsScalar()) {

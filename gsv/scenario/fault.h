@@ -1,5 +1,5 @@
 // The faults of a run. A fault is applied at the first instant at or after its time, before any
-// agent is woken or reads.
+// agent wakes or reads a sensor.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@
 namespace gsv::scenario {
 
 // The place of a key in its file, such as "room.yaml:7:5", for errors that are found later. All
-// places compare equal.
+// places compare as equal, so that they do not affect comparisons.
 struct SourcePlace {
   std::string text;
   friend bool operator==(const SourcePlace&, const SourcePlace&) { return true; }
 };
 
-// A pose in the world, in metres and radians: that of a robot at the start, or of a body that is
-// placed. The numbers are kept unchanged, so that a repeated run starts bit-identical.
+// A pose in the world, in metres and radians: the start pose of a robot, or the pose that a body is
+// moved to. The numbers are kept unchanged, so that a repeated run starts bit-identical.
 struct Place {
   double x = 0;
   double y = 0;
-  // height of the model's origin; nullopt for a model that stands on the floor
+  // height of the model's origin; if not set, the model stands on the floor
   std::optional<double> z;
   double yaw = 0;
 
@@ -31,14 +31,19 @@ struct Place {
 
 struct Fault {
   enum class Kind {
-    kSensorSilent,   // robot/sensor: the newest sample of the sensor no longer changes
+    kSensorSilent,   // robot/sensor: the sensor keeps returning its last sample
     kSensorError,    // robot/sensor: reading the sensor returns an error
-    kBehaviourDies,  // robot: the behaviour ends as if its process had ended
-    kMotorFails,     // robot: its drive stops; robot/joint: the joint has no motor any more
+    kBehaviourDies,  // robot: the behaviour ends, as if its process had been killed
+    kMotorFails,     // robot: the drive stops; robot/joint: the joint loses its motor
     kBodyMoves,      // body: the body is moved to `place`
     kJointMoves,     // body/joint: the joint moves to `target` in the unit of `unit`
   };
-  enum class Unit { kPosition, kVelocity, kEffort };  // rad or m, rad/s or m/s, N m or N
+  enum class Unit {
+    kPosition,
+    kVelocity,
+    kEffort
+  };  // unit of `target`: rad or m, rad/s or m/s, N
+      // m or N
 
   Kind kind = Kind::kSensorSilent;
   double at = 0;     // simulated time, s

@@ -4,7 +4,7 @@
 namespace gsv::scenario {
 namespace {
 
-// The kind of object to which a fault applies. It follows from the key of the fault.
+// The target of a fault. This follows from the key of the fault.
 enum class Subject { kSensor, kBehaviour, kMotor, kMove, kJoint };
 constexpr std::pair<const char*, Subject> kSubjects[]{{"sensor", Subject::kSensor},
                                                       {"behaviour", Subject::kBehaviour},

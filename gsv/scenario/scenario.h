@@ -19,49 +19,52 @@
 namespace gsv::scenario {
 
 struct RobotEntry {
-  // A file, folder or name. Empty for a robot of the world file.
+  // A file, a folder, or a name. Empty if the robot is in the world file.
   std::string model;
-  std::string name;                  // empty if it is named after its model
-  std::optional<Place> start;        // nullopt for the first free place
+  std::string name;                  // if empty, the robot gets the name of its model
+  std::optional<Place> start;        // if not set, the robot starts at the first free place
   std::string behaviour;             // name and options of the behaviour; empty if it has none
-  std::string behaviour_constraint;  // alternatively a constraint on the behaviour's offer
-  std::optional<model::Movement> movement;  // nullopt for that of the model
-  // In the form of model/drive_choice.h. Empty for the model's own drive, or else the guessed one.
+  std::string behaviour_constraint;  // instead of `behaviour`: a constraint on the behaviour's
+                                     // offer
+  std::optional<model::Movement> movement;  // if not set, the movement of the model is used
+  // A text as in model/drive_choice.h. If it is empty, the model's own drive is used, or else a
+  // guessed one.
   std::string drive = {};
 
   friend bool operator==(const RobotEntry&, const RobotEntry&) = default;
 };
 
-// The publication to ROS 2 nodes. Empty texts stand for the defaults of the command line.
+// Options for publishing to ROS 2 nodes. Empty texts mean the defaults of the command line.
 struct Ros2Settings {
   std::string range, cmd_vel, distro;
-  std::map<std::string, std::string> namespaces;  // by robot
+  std::map<std::string, std::string> namespaces;  // namespace of each robot
 
   friend bool operator==(const Ros2Settings&, const Ros2Settings&) = default;
 };
 
-// A scenario. The program that runs it chooses defaults for absent values.
+// A scenario. The program that runs the scenario chooses defaults for values that are not set.
 struct Scenario {
   std::string world;  // a file, folder or name
   std::vector<RobotEntry> robots;
-  std::vector<RobotEntry> avatars;  // have no behaviour and no movement
+  std::vector<RobotEntry> avatars;  // avatars, which have no behaviour and no movement
   std::vector<model::PedestrianGroup> pedestrians;
   std::string name;  // name of the simulation
   std::optional<std::uint64_t> seed;
-  std::optional<bool> lockstep;          // false for real time
-  std::optional<double> factor;          // the target real-time factor, > 0
+  std::optional<bool> lockstep;          // true for lockstep, false for real time
+  std::optional<double> factor;          // target real-time factor, > 0
   std::optional<double> step, duration;  // simulated time, s
-  std::optional<double> deadline;        // wall-clock time that a behaviour may run, s
+  std::optional<double> deadline;        // maximum wall-clock time of a behaviour's turn, s
   std::optional<double> stuck_after;     // see Specification::stuck_after, simulated time, s
   std::optional<bool> fails_with_behaviour;
-  std::optional<bool> in_process;  // whether behaviours are plug-ins, and not programs
+  std::optional<bool> in_process;  // whether behaviours run as plug-ins in this process, and not as
+                                   // programs
   std::vector<std::string> model_path;
   std::string record;  // a file or folder; empty if the run is not recorded
   std::vector<std::string> record_topics;
   // rates in Hz of simulated time, by the kind of message
   std::map<std::string, double> record_rates;
   std::optional<bool> record_png;    // true for images as PNG, false for JPEG
-  std::optional<Ros2Settings> ros2;  // absent if it is not published to ROS 2 nodes
+  std::optional<Ros2Settings> ros2;  // not set if the run is not published to ROS 2 nodes
   std::vector<Fault> faults;
   std::vector<Expectation> expect;
 

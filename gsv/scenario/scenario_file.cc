@@ -34,7 +34,7 @@ class Starts final : public YAML::EventHandler {
 };
 
 // Returns the place of a second document, even if its content is invalid. YAML::LoadAll() of
-// yaml-cpp 0.7 cannot be used: it does not end at a place where no document can begin.
+// yaml-cpp 0.7 is not used, because it never returns for some invalid texts.
 std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
@@ -43,7 +43,8 @@ std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   return starts.latest;
 }
 
-// The number of bytes of the UTF-8 character with this first byte; 0 if it is invalid.
+// Returns the number of bytes of the UTF-8 character with this first byte; 0 if the byte is
+// invalid.
 std::size_t LengthOfCharacter(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xc2 && first < 0xe0) return 2;
@@ -77,7 +78,8 @@ std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), found, '\n'));
 }
 
-// Returns the absolute path if the name exists in the file's folder, or else the name itself.
+// Returns the absolute path if `name` exists relative to the file's folder. Otherwise returns
+// `name`.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);
@@ -97,7 +99,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   if (text.size() > kMaxScenarioBytes) {
     return refuse("a scenario has at most " + std::to_string(kMaxScenarioBytes) + " bytes", file);
   }
-  // A name with invalid bytes would be read back as a different name.
+  // A name with invalid bytes would be written and read back as a different name.
   if (const auto line = LineThatIsNotUtf8(text)) {
     return refuse("the text is not UTF-8", file + ":" + std::to_string(*line));
   }

@@ -22,7 +22,7 @@ std::vector<std::string> Sentences(const base::Problems& problems) {
   return sentences;
 }
 
-// The problems that ParseScenario() reports for a text, one sentence each.
+// Returns the problems that ParseScenario() reports for a text, one sentence each.
 std::vector<std::string> ProblemsIn(const std::string& text) {
   base::Problems problems;
   const auto scenario = ParseScenario(text, "room.yaml", problems);
@@ -244,7 +244,7 @@ TEST(ScenarioFile, AFileThatIsNotAScenarioIsRefused) {
 
 TEST(ScenarioFile, ContentAfterTheScenarioIsRefused) {
   EXPECT_THAT(ProblemsIn("world: a\n, b\n"), ::testing::Not(IsEmpty()));
-  // Regression, found by the fuzzer: reading all documents of this text did not end.
+  // Regression, found by the fuzzer: reading all documents of this text did not return.
   EXPECT_THAT(ProblemsIn(", [b: |\n  two\n  *a\nror\nwoe: !!str 0\nm]]\n\n"),
               ::testing::Not(IsEmpty()));
 }
@@ -258,8 +258,8 @@ TEST(ScenarioFile, ATextThatIsNotUtf8IsRefused) {
             "\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80");
 }
 
-// Regression, found by the fuzzer: yaml-cpp makes one byte of each escape, and the written scenario
-// could not be read back.
+// Regression, found by the fuzzer: yaml-cpp converts each of these escapes to one byte, and the
+// written scenario could not be read back.
 TEST(ScenarioFile, EscapesThatYamlCppReadsWronglyAreRefused) {
   for (const char* text : {R"(world: "a\_b")", R"(world: "a\Nb")"}) {
     EXPECT_THAT(ProblemsIn(text), ElementsAre(HasSubstr("are not read rightly")));

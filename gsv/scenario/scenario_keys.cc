@@ -83,7 +83,7 @@ std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
-    // Avoids reporting the same problem twice.
+    // Add a problem only if none was added for this value yet.
     if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
       keys.AddProblem(ok.error().message);
     }
@@ -103,7 +103,7 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
   return rates;
 }
 
-// Returns one of these words; empty if the key is absent.
+// Returns the value if it is one of these words; empty if the key is absent.
 std::string ReadWord(YamlMapping& mapping, const char* key,
                      std::initializer_list<const char*> words) {
   const std::string word = mapping.Text(key).value_or("");
@@ -115,7 +115,7 @@ std::string ReadWord(YamlMapping& mapping, const char* key,
   return {};
 }
 
-// Reads true, false, or a mapping of settings.
+// Reads the key `ros2`: true, false, or a mapping of settings.
 std::optional<Ros2Settings> ReadRos2(YamlMapping& mapping) {
   const auto node = mapping.Any("ros2");
   if (!node) return std::nullopt;
@@ -144,7 +144,7 @@ std::optional<Ros2Settings> ReadRos2(YamlMapping& mapping) {
   return settings;
 }
 
-// `factor` is the deprecated name of the key.
+// Reads the target real-time factor. The key `factor` is its deprecated name.
 std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   const auto factor = mapping.Number("real_time_factor", kMinRealTimeFactor, kMaxRealTimeFactor);
   const auto former = mapping.Number("factor", kMinRealTimeFactor, kMaxRealTimeFactor);
@@ -154,7 +154,7 @@ std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   return factor ? factor : former;
 }
 
-// Reads the step. 0, which is also the default, stands for the world's step.
+// Reads the step. 0, the default, means the world's own step.
 std::optional<double> ReadStep(YamlMapping& mapping) {
   const auto step = mapping.Number("step", 0, 10);
   if (step == 0.0) return std::nullopt;
@@ -165,8 +165,8 @@ std::optional<double> ReadStep(YamlMapping& mapping) {
   return step;
 }
 
-// Reads the name of the recording. In a request to a server it may be true or false, which is not a
-// file name.
+// Reads the name of the recording. In a request to a server, the value may also be true or
+// false.
 std::string ReadRecord(YamlMapping& mapping) {
   const std::string record = mapping.Text("record").value_or("");
   if (record == "true" || record == "false") {

@@ -15,7 +15,7 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place);
 // Reads a robot, or an avatar, which has neither behaviour nor movement.
 RobotEntry ReadRobotKeys(YamlMapping& mapping, bool is_avatar);
 
-// Reads x, y, z and yaw. Returns nullopt if there is neither x nor y.
+// Reads x, y, z and yaw. Returns nullopt if both x and y are absent.
 std::optional<Place> ReadPlaceKeys(YamlMapping& mapping);
 
 }  // namespace gsv::scenario

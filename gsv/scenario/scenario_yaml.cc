@@ -16,7 +16,7 @@ bool IsPlainCharacter(char c) {
          std::string_view("_./-+").find(c) != std::string_view::npos;
 }
 
-// Whether YAML readers would read the text as another type, such as a number.
+// Whether a YAML reader would take the text for another type, such as a number.
 bool IsReserved(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -50,7 +50,7 @@ std::string Text(const std::string& text) {
   return quoted + "\"";
 }
 
-// The shortest text that is read back as the same number.
+// Returns the shortest text that is read back as the same number.
 std::string Number(double value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -196,7 +196,7 @@ std::string Fields(const Ros2Settings& settings) {
 
 std::string OneLineYaml(const YAML::Node& node) {
   if (node.IsScalar()) {
-    // The text of a number needs its quotes, or it would be read as a number.
+    // A text that looks like a number needs its quotes, or it would be read back as a number.
     const bool is_number = node.Tag() != "!" && ParseNumber(node.Scalar());
     return is_number ? node.Scalar() : Text(node.Scalar());
   }
@@ -235,7 +235,7 @@ std::string ToYaml(const Scenario& scenario) {
   writer.PutFaults(scenario.faults);
   writer.PutExpectations(scenario.expect);
   const std::string yaml = writer.Take();
-  return yaml.empty() ? "{}\n" : yaml;  // an empty file is not a mapping
+  return yaml.empty() ? "{}\n" : yaml;  // an empty text would not be a mapping
 }
 
 }  // namespace gsv::scenario

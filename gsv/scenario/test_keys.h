@@ -17,12 +17,12 @@ inline constexpr int kMaxFormulaDepth = 16;
 
 std::vector<Fault> ReadFaults(YamlMapping& scenario);
 
-// Adds problems for expectations that no run of `duration` (s) can satisfy, or that no run can
-// violate.
+// Adds problems for expectations that every run of `duration` (s) would violate, or that no run
+// could violate.
 std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration);
 
-// Returns the node as equivalent YAML on one line. The caller has limited its size and checked its
-// keys.
+// Returns the node as equivalent YAML on one line. The caller must have limited its size and
+// checked its keys.
 std::string OneLineYaml(const YAML::Node& node);
 
 }  // namespace gsv::scenario

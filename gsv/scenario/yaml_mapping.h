@@ -1,5 +1,5 @@
-// Reads a YAML mapping key by key and collects problems. Each problem has line and column. For
-// requests it has the field instead, such as "robots[1].x".
+// Reads a YAML mapping key by key and collects problems. A problem in a file has line and column. A
+// problem in a request has the field instead, such as "robots[1].x".
 //
 // Bounded  a mapping has at most kMaxKeys keys, and at most kMaxProblems problems are kept, because
 //          YAML aliases can expand to many nodes.
@@ -48,20 +48,20 @@ class YamlMapping {
   YamlMapping(const YamlMapping&) = delete;
   YamlMapping& operator=(const YamlMapping&) = delete;
 
-  // Each of these returns nullopt if the key is absent or null. If the value has another type, it
-  // adds a problem and returns nullopt.
+  // These functions return nullopt if the key is absent or null. If the value has another type,
+  // they add a problem and return nullopt.
   std::optional<std::string> Text(const std::string& key);
   std::optional<double> Number(const std::string& key, double min, double max);
   std::optional<double> Angle(const std::string& key);  // Reads an angle in radians.
   std::optional<std::uint64_t> Count(const std::string& key);
   std::optional<bool> Flag(const std::string& key);
-  // Reads one of two words, and returns whether it is the second one. Other words are a problem.
+  // Reads one of two words, and returns whether it is the second one. Adds a problem for other words.
   std::optional<bool> IsSecondOf(const std::string& key, const std::string& first,
                                  const std::string& second);
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
   std::optional<YAML::Node> Any(const std::string& key);
-  // Calls `read` with each element of a list and with its field, such as "robots[2]", for messages.
+  // Calls `read` with each element of a list, and with the element's field for messages, such as "robots[2]".
   template <typename Read>
   void Each(const std::string& key, std::size_t max, const Read& read) {
     const std::vector<YAML::Node> list = List(key);
@@ -83,7 +83,7 @@ class YamlMapping {
   std::string FieldOf(const std::string& key) const {
     return field_.empty() ? key : field_ + "." + key;
   }
-  // Adds a problem about the mapping, or about one of its values, which may be missing.
+  // Adds a problem about the mapping, or about the value of a key, which may be missing.
   void AddProblem(std::string message) const {
     place_.AddProblem(mark_, field_, std::move(message));
   }
@@ -94,7 +94,7 @@ class YamlMapping {
     YAML::Mark mark;  // the place of the key
     YAML::Node value;
   };
-  // Reads a scalar without quotes. A scalar in quotes would be a text.
+  // Reads a scalar that is written without quotes. In quotes, it would be a text.
   std::optional<std::string> Plain(const std::string& key, const std::string& expected);
   std::optional<std::string> Scalar(const std::string& key, const std::string& expected);
   void Expect(const std::string& key, const std::string& expected, const std::string& found);
@@ -103,8 +103,8 @@ class YamlMapping {
   const std::string field_;
   const YAML::Mark mark_;
   const bool is_mapping_;
-  std::map<std::string, Entry> unread_;      // entries that were not read yet
-  std::map<std::string, YAML::Mark> marks_;  // places of the values that were read
+  std::map<std::string, Entry> unread_;      // entries that have not been read
+  std::map<std::string, YAML::Mark> marks_;  // places of the values that have been read
   std::vector<std::string> known_;
 };
 

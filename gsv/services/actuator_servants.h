@@ -1,4 +1,4 @@
-// The servants of actuators: SensorServants that take commands.
+// The CORBA servants of actuators: sensor servants that also accept commands.
 //
 // Threads  ORB threads.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace gsv::services {
 
-// The base of all actuator servants, on top of the skeleton of each interface.
+// The base of all actuator servants. `Skeleton` is the generated class of the interface.
 template <typename Skeleton>
 class ActuatorServant : public SensorServant<Skeleton> {
  public:
@@ -26,7 +26,7 @@ class ActuatorServant : public SensorServant<Skeleton> {
   }
 };
 
-// Factories for SensorServants.
+// Make the servants; SensorServants registers these functions.
 PortableServer::ServantBase* MakeLampServant(std::shared_ptr<simulation::Agent> agent,
                                              model::SensorDescription description,
                                              std::shared_ptr<ServantGroup> group);

@@ -12,7 +12,7 @@ namespace gsv::services {
 namespace {
 
 constexpr std::chrono::milliseconds kCreateTimeout{5000};
-// The number of matching offers that are considered; some may be of programs that have died.
+// The maximum number of matching offers that are tried; programs of some may have died.
 constexpr std::size_t kOffersConsidered = 256;
 
 std::string PlaceOf(const broker::BehaviourOffer& offer) {
@@ -25,7 +25,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const std::string& constraint) {
   const broker::ServiceType& type = broker::AgentBehaviourFactoryType();
   auto offers = broker_.Query(type.name, constraint, "first", kOffersConsidered);
-  // A broker at which no behaviour was ever offered does not know the type yet.
+  // A broker does not know the service type before the first offer of a behaviour.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   if (!offers) return base::Fail(offers.error());
   base::Error error{base::ErrorCode::kBehaviour,
@@ -45,7 +45,8 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);
     const BehaviourIdentity identity{described.name, PlaceOf(described), described.time_managed};
     orb::LimitCalls(offer.object, kCreateTimeout);
-    CountRobot(identity.place, +1);  // counted before the call, so that concurrent calls include it
+    CountRobot(identity.place, +1);  // counted before the call, so that concurrent calls choose
+                                     // other programs
     auto behaviour = orb::Call(identity.name + " on " + identity.place, [&] {
       const sba::AgentBehaviourFactory_var factory =
           sba::AgentBehaviourFactory::_narrow(offer.object);

@@ -1,4 +1,4 @@
-// Behaviours from the broker's offers: the matching program that serves the fewest robots.
+// Creates behaviours from the broker's offers. Chooses the matching program that serves the fewest robots.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace gsv::services {
 
 class BrokerBehaviours final : public BehaviourSource {
  public:
-  // `broker` must outlive the object. Hardware for behaviours is activated on `poa`.
+  // `broker` must outlive the object. The robots' hardware objects are activated on `poa`.
   BrokerBehaviours(broker::BrokerClient& broker, PortableServer::POA_ptr poa)
       : broker_(broker), poa_(PortableServer::POA::_duplicate(poa)) {}
 
@@ -28,7 +28,7 @@ class BrokerBehaviours final : public BehaviourSource {
   PortableServer::POA_var poa_;
   const std::shared_ptr<StopTimeout> stop_timeout_ = std::make_shared<StopTimeout>();
   base::Mutex mutex_;
-  // number of robots, by "host:pid" of the program
+  // number of robots that a program serves, by "host:pid"
   std::map<std::string, int> robots_of_ GSV_GUARDED_BY(mutex_);
 };
 

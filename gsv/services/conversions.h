@@ -1,4 +1,4 @@
-// Converts plain data to and from IDL types.
+// Converts GSV's data structures to IDL types, and IDL types to GSV's.
 #pragma once
 
 #include <initializer_list>
@@ -19,7 +19,7 @@ namespace gsv::services {
 sba::Placement ToIdl(const geometry::Pose& pose);
 geometry::Pose FromIdl(const sba::Placement& placement);
 
-// `robot_from_link` is the pose of the sensor's link.
+// `robot_from_link` is the pose of the sensor's link in the robot's frame.
 sba::SensorTraits ToIdl(const model::SensorDescription& description,
                         const geometry::Pose& robot_from_link);
 // Converts texts to parameters, and recognises numbers and flags.
@@ -29,14 +29,14 @@ sba::NameValues ToIdl(const model::Parameters& parameters);
 void RefuseUnknown(const model::Parameters& options, std::initializer_list<std::string_view> known);
 
 sba::CommandDescription ToIdl(const simulation::Command& command);
-// Returns texts by name, which are parsed later as the type of their parameter. If a name occurs
-// twice, the last one counts.
+// Returns the texts by name. They are parsed later, as the type of their parameter. If a name
+// occurs twice, the last one applies.
 std::map<std::string, std::string> TextsOf(const sba::NameValues& values);
 
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
 
 sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
-// Members that are not in the IDL (wall-clock times, numbers of readings, avatars) keep their
+// Members that the IDL does not have (wall-clock times, numbers of readings, avatars) keep their
 // defaults.
 simulation::SimulationStatus FromIdl(const sba::SimulationState& state);
 sba::RobotHealths ToIdl(const health::Report& report);

@@ -15,7 +15,7 @@ using simulation::Agent;
 using AgentPtr = std::shared_ptr<Agent>;
 using GroupPtr = std::shared_ptr<ServantGroup>;
 
-// Wall-clock time after which a wait is answered with NOT_YET.
+// After this wall-clock time, a wait is answered with NOT_YET, and the client waits again.
 constexpr std::chrono::milliseconds kLease{2000};
 constexpr unsigned kReadingRaises = orb::kNotRunning | orb::kEnded | orb::kFailed;
 
@@ -148,12 +148,12 @@ class ClockServant final : public POA_sba::Clock {
   }
 
   void close() override {
-    (void)agent_->CloseClock(clock_);  // closing twice has no effect
+    (void)agent_->CloseClock(clock_);  // has no effect if the clock is closed
     group_->Deactivate(this);
   }
 
   void give_up(const char* reason) override {
-    (void)agent_->GiveUp(clock_, reason);  // no effect if it is dead already
+    (void)agent_->GiveUp(clock_, reason);  // has no effect if the agent is dead
     group_->Deactivate(this);
   }
 

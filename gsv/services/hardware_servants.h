@@ -1,5 +1,5 @@
-// The servants of one robot's emulated hardware: sba::Hardware with sensors, base and clocks, on
-// top of a simulation::Agent.
+// The CORBA servants of one robot's hardware: sba::Hardware with sensors, base and clocks, on top
+// of a simulation::Agent.
 //
 // Threads  ORB threads; all state is the agent's.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace gsv::services {
 
-// Activates new hardware for `agent` in the group.
+// Activates a new hardware servant for `agent` in the group.
 sba::Hardware_ptr ActivateHardware(std::shared_ptr<simulation::Agent> agent,
                                    std::shared_ptr<ServantGroup> group);
 

@@ -1,4 +1,4 @@
-// The servants of one robot's joints, on top of a simulation::Agent.
+// The CORBA servants of one robot's joints, on top of a simulation::Agent.
 //
 // Threads  ORB threads; all state is the agent's.
 #pragma once

@@ -8,13 +8,14 @@
 namespace gsv::services {
 namespace {
 
-// Wall-clock time limit for a behaviour to answer a call; init may read files.
+// Time limit of a call to a behaviour, in wall-clock time. init() may read files.
 constexpr std::chrono::milliseconds kCallTimeout = StopTimeout::kNormal;
 constexpr std::chrono::milliseconds kPingTimeout{1500};
 
-// Limits the calls of this thread during its lifetime.
+// Limits the duration of this thread's calls while the object exists.
 class ThreadTimeout {
-  // The ORB stores the limit in its own object for this thread, which a std::thread does not have.
+  // The ORB stores the limit in an object of its own for each thread; this makes one for a
+  // std::thread.
   omni_thread::ensure_self self_;
 
  public:
@@ -69,7 +70,7 @@ base::Status RemoteBehaviour::Start() {
 }
 
 base::Status RemoteBehaviour::Stop() {
-  // The limit of the reference takes precedence over that of the thread.
+  // The limit of the reference overrides that of the thread.
   orb::LimitCalls(behaviour_, stop_timeout_->limit());
   auto stopped = Call("stop", [this] { behaviour_->stop(); });
   orb::LimitCalls(behaviour_, kCallTimeout);
@@ -86,18 +87,20 @@ base::Status RemoteBehaviour::Resume() {
 }
 
 void RemoteBehaviour::Destroy() {
-  // The process is ending, and the behaviour is still running and would not answer.
+  // The process is ending. A behaviour that is still running would not answer.
   const bool is_of_no_use = has_not_stopped_ && stop_timeout_->is_shortened();
   if (!is_of_no_use) {
     orb::LimitCalls(behaviour_, stop_timeout_->limit());
-    (void)Call("destroy", [this] { behaviour_->destroy(); });  // the behaviour may be gone
+    (void)Call("destroy", [this] { behaviour_->destroy(); });  // may fail, because the behaviour
+                                                               // may be gone
   }
   ReplaceHardware(nullptr);
 }
 
 bool RemoteBehaviour::IsDead() {
   const ThreadTimeout timeout(kPingTimeout);
-  // A broken connection proves nothing about a process that may accept another one: call twice.
+  // Call twice: a broken connection does not prove that the process has died; it may accept a new
+  // one.
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
       return behaviour_->_non_existent();

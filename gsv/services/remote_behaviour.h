@@ -15,14 +15,14 @@
 namespace gsv::services {
 
 struct BehaviourIdentity {
-  std::string name;   // name of its service: "wander"
+  std::string name;   // name of the behaviour's service, such as "wander"
   std::string place;  // "host:pid"
   bool time_managed = true;
 };
 
 class RemoteBehaviour final : public simulation::BehaviourPort {
  public:
-  // Hardware is activated on `poa`. `stop_timeout` may be null: then the normal limit applies.
+  // The robot's hardware objects are activated on `poa`. If `stop_timeout` is null, the normal limit applies.
   RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
                   PortableServer::POA_ptr poa,
                   std::shared_ptr<const StopTimeout> stop_timeout = nullptr);
@@ -49,7 +49,7 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
   sba::AgentBehaviour_var behaviour_;
   PortableServer::POA_var poa_;
   const std::shared_ptr<const StopTimeout> stop_timeout_;
-  bool has_not_stopped_ = false;  // it did not answer stop in time
+  bool has_not_stopped_ = false;  // whether the behaviour did not answer stop() in time
   base::Mutex mutex_;
   std::shared_ptr<ServantGroup> hardware_ GSV_GUARDED_BY(mutex_);
 };

@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> FindSensorPlugins(std::string_view folders) {
 
 base::Status LoadSensorPlugin(const std::filesystem::path& file,
                               sensing::SensorRegistry& registry) {
-  // The path is absolute, because dlopen would search a bare name in the system's folders.
+  // The path must be absolute, because dlopen would search a bare name in the system's folders.
   void* const library = dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     return base::Fail(base::ErrorCode::kInvalidArgument,

@@ -1,5 +1,5 @@
-// Sensor types in shared libraries, see sensing/module.h. A library stays loaded, and is trusted:
-// its faults affect this process.
+// Loads sensor types from shared libraries, see sensing/module.h. A library stays loaded and is
+// trusted: a fault in it affects this process.
 //
 // Threads  one, before the first simulation.
 #pragma once

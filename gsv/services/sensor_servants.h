@@ -1,5 +1,5 @@
-// The servants of sensors. An IDL interface of a type needs a class with its operations on top of
-// SensorServant, and one line that registers it, also in a plug-in (docs/sensors.md).
+// The CORBA servants of sensors. To give a sensor type its own IDL interface, derive a class from
+// SensorServant and register it with one line. A plug-in can do this as well (docs/sensors.md).
 //
 // Threads  ORB threads; Register() before the first simulation.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace gsv::services {
 
-// The base of all sensor servants, on top of the skeleton of each interface.
+// The base of all sensor servants. `Skeleton` is the generated class of the interface.
 template <typename Skeleton>
 class SensorServant : public Skeleton {
  public:
@@ -31,14 +31,14 @@ class SensorServant : public Skeleton {
     return new sba::Measurement(ToIdl(description_.name, Read()));
   }
   void close() override {
-    (void)agent_->CloseSensor(description_.name);  // closing twice is allowed
+    (void)agent_->CloseSensor(description_.name);  // has no effect if the sensor is closed
     group_->Deactivate(this);
   }
 
  protected:
-  // Reads the sensor; throws the exceptions that operations on sensors declare.
+  // Reads the sensor. Throws the exceptions that the IDL declares for sensors.
   sensing::Reading Read() { return orb::ValueOrThrow(agent_->Read(description_.name), kReading); }
-  // The reading as the struct of its type (gsv/readings/catalogue.h), which may refer to it.
+  // Reads the sensor as the struct of its type (gsv/readings/catalogue.h), which may refer to the reading.
   template <typename Values>
   Values In(const sensing::Reading& reading) const {
     return orb::ValueOrThrow(sensing::ValuesOf<Values>(reading, description_.name), kReading);
@@ -67,8 +67,8 @@ PortableServer::ServantBase* MakeSensorServant(std::shared_ptr<simulation::Agent
   return new Servant(std::move(agent), std::move(description), std::move(group));
 }
 
-// The types with their own interface. Other types are served as sba::Sensor, or as sba::Actuator if
-// they take commands.
+// The sensor types with an interface of their own. Other types are served as sba::Sensor, or as
+// sba::Actuator if they accept commands.
 class SensorServants {
  public:
   static void Register(const std::string& type, SensorServantMaker maker);

@@ -31,7 +31,7 @@ void ServantGroup::DeactivateId(const std::string& id) {
     std::memcpy(object_id.get_buffer(), id.data(), id.size());
     poa_->deactivate_object(object_id);
   } catch (const CORBA::Exception&) {
-    // Another call has deactivated it at the same moment.
+    // Another call has deactivated the object at the same time.
   }
 }
 
@@ -53,7 +53,7 @@ void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {
     }
     DeactivateId(Key(id));
   } catch (const CORBA::Exception&) {
-    // Another call has deactivated it at the same moment.
+    // Another call has deactivated the object at the same time.
   }
 }
 

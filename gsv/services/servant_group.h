@@ -24,8 +24,8 @@ class ServantGroup {
     const CORBA::Object_var object = Adopt(servant, nullptr);
     return Interface::_narrow(object);
   }
-  // Activates a servant under a reference of type `Interface`. The servant may implement an interface
-  // that derives from it; older clients know only `Interface`.
+  // Activates a servant under a reference of type `Interface`. The servant may implement a derived
+  // interface; older clients know only `Interface`.
   template <typename Interface>
   typename Interface::_ptr_type ActivateAs(PortableServer::ServantBase* servant) {
     const CORBA::Object_var object = Adopt(servant, Interface::_PD_repoId);
@@ -35,7 +35,7 @@ class ServantGroup {
   void DeactivateAll();
 
  private:
-  // `type`: a repository id; null: the servant's own.
+  // `type` is a repository id; null means the servant's own.
   CORBA::Object_ptr Adopt(PortableServer::ServantBase* servant, const char* type);
   void DeactivateId(const std::string& id);
 

@@ -1,4 +1,4 @@
-// The load of a server as dynamic properties of its offers, which the broker evaluates for queries.
+// Provides the load of a server as dynamic properties of its offers. The broker evaluates them in queries.
 //
 //   simulations   long    number of simulations
 //   load          double  number of advancing simulations and running scenarios, divided by the
@@ -20,14 +20,14 @@ namespace gsv::services {
 
 class ServerLoad final : public POA_CosTradingDynamic::DynamicPropEval {
  public:
-  // `host` must outlive the object. `scenarios` returns the number of running scenarios; may be
+  // `host` must outlive the object. `scenarios` returns the number of running scenarios; it may be
   // empty.
   ServerLoad(const SimulationHost& host, std::function<int()> scenarios)
       : host_(host), scenarios_(std::move(scenarios)) {}
 
   CORBA::Any* evalDP(const char* name, CORBA::TypeCode_ptr type, const CORBA::Any& info) override;
 
-  // The properties to export, once the object is active.
+  // Returns the properties to export. The object must be active.
   std::vector<broker::Property> Properties();
 
  private:

@@ -1,4 +1,4 @@
-// The simulations of one process, by name, with shared models and sensor types.
+// The simulations of one process, by name. They share models and sensor types.
 //
 // Threads  any.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace gsv::services {
 
-// The default limit of simulations per process.
+// The default maximum of simulations per process.
 inline constexpr std::size_t kDefaultMaxSimulations = 64;
 
 class SimulationHost {
@@ -31,16 +31,17 @@ class SimulationHost {
   // if it is empty; a taken name is an error. Adds problems of the files to `problems`.
   base::Result<std::shared_ptr<simulation::Simulation>> Create(
       simulation::Specification specification, const std::string& world, base::Problems& problems);
-  // Creates a simulation that is not listed and takes no name, for previews. `specification.world`
-  // must be set.
+  // Creates a simulation for a preview. It is not in the list and takes no name.
+  // `specification.world` must be set.
   base::Result<std::shared_ptr<simulation::Simulation>> CreateUnlisted(
       simulation::Specification specification) const {
     return simulation::Simulation::Create(std::move(specification), sensors_);
   }
-  // Removes a simulation from the list. It is destroyed with its last user.
+  // Removes a simulation from the list. The simulation is destroyed when its last user releases it.
   base::Status Remove(const std::string& name);
 
-  std::shared_ptr<simulation::Simulation> Find(const std::string& name) const;  // may be null
+  std::shared_ptr<simulation::Simulation> Find(const std::string& name) const;  // Returns null if
+                                                                                // there is none.
   std::vector<std::shared_ptr<simulation::Simulation>> List() const;  // in order of creation
 
   formats::ModelLibrary& library() { return *library_; }

@@ -18,7 +18,7 @@
 namespace gsv::services {
 namespace {
 
-constexpr double kAbandonedAfter = 60;  // s of wall-clock time, by default
+constexpr double kAbandonedAfter = 60;  // default, s of wall-clock time
 constexpr std::chrono::milliseconds kAwaitLease{2000};
 
 using simulation::Phase;
@@ -244,7 +244,7 @@ void SimulationServant::stop_recording() {
   orb::ValueOrThrow(service_.hooks().stop_recording(simulation_->specification().name));
 }
 
-// This has no effect if it was already destroyed.
+// Has no effect if the simulation was already destroyed.
 void SimulationServant::destroy() { (void)service_.Destroy(simulation_->specification().name); }
 
 SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
@@ -325,7 +325,7 @@ sba::Simulations* SimulationServiceServant::list() {
 }
 
 base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
-  SimulationServant* servant = nullptr;  // the thread that removes it from the list releases it
+  SimulationServant* servant = nullptr;  // released by the thread that removes it from the list
   {
     const base::MutexLock lock(mutex_);
     const auto found = servants_.extract(simulation);
@@ -356,9 +356,10 @@ void SimulationServiceServant::RunJanitor() {
       if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());
     }
     const bool may_trim = std::exchange(has_destroyed_, false) || ++round % kTrimmingRounds == 0;
-    // Stopping may take long, for example during a reset, so it must not block other threads.
+    // Stopping may take long, for example during a reset, so it must not block threads that need
+    // the lock.
     lock.unlock();
-    // Memory of simulations, viewers and messages is free in the arenas of many threads. Without
+    // Freed memory of simulations, viewers and messages is in the arenas of many threads. Without
     // this call, glibc returns only the ends of the arenas to the system.
     if (may_trim) malloc_trim(0);
     for (const auto& simulation : abandoned) {

@@ -1,4 +1,4 @@
-// The servants of sba::Simulation and sba::SimulationService for the simulations of a
+// The CORBA servants of sba::Simulation and sba::SimulationService, for the simulations of a
 // SimulationHost.
 //
 // Threads  ORB threads.
@@ -16,9 +16,9 @@
 
 namespace gsv::services {
 
-// Hooks of the program around the services.
+// Functions of the program that the services call.
 struct ServiceHooks {
-  // Finds the file of a world; for an empty name the default world. May be empty.
+  // Returns the file of a world. An empty name means the default world. May be empty.
   std::function<base::Result<std::string>(const std::string& world)> find_world;
   // Returns the URL of a simulation's viewer; may be empty.
   std::function<std::string(const std::string& simulation)> viewer_url;
@@ -59,7 +59,7 @@ class SimulationServant final : public POA_sba::Simulation {
   void destroy() override;
 
   const std::shared_ptr<simulation::Simulation>& simulation() const { return simulation_; }
-  // Whether there was no call for too long, and the simulation was not created with keep.
+  // Whether there was no call for too long. Always false for a simulation that was created with keep.
   bool IsAbandoned() const;
 
  private:
@@ -75,7 +75,7 @@ class SimulationServant final : public POA_sba::Simulation {
 
 class SimulationServiceServant final : public POA_sba::SimulationService {
  public:
-  // `host` and `behaviours` must outlive the object. `behaviours` may be null: then robots need
+  // `host` and `behaviours` must outlive the object. If `behaviours` is null, clients must pass
   // references to behaviours.
   SimulationServiceServant(PortableServer::POA_ptr poa, SimulationHost& host,
                            BehaviourSource* behaviours, ServiceHooks hooks);
@@ -84,11 +84,11 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   sba::Simulation_ptr create_simulation(const sba::SimulationSpecification& specification) override;
   sba::Simulations* list() override;
 
-  // Adds a simulation that was not created through this service to its list. Idempotent.
+  // Adds a simulation that was not created through this service. Does nothing if it is already listed.
   void Publish(std::shared_ptr<simulation::Simulation> simulation);
   // Releases every simulation and deactivates its references.
   void Close();
-  // Returns kNotFound if there is no simulation of this name.
+  // Destroys a simulation. Returns kNotFound if there is none with this name.
   base::Status Destroy(const std::string& simulation);
   SimulationHost& host() { return host_; }
   BehaviourSource* behaviours() { return behaviours_; }
@@ -98,7 +98,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
  private:
   sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
                                sba::SimulationSpecification specification);
-  // The janitor thread: destroys abandoned simulations, and returns memory to the system.
+  // The function of the janitor thread, which destroys abandoned simulations and returns memory to the system.
   void RunJanitor();
 
   PortableServer::POA_var poa_;
@@ -108,9 +108,10 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   base::Mutex mutex_;
   base::ConditionVariable closing_changed_;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
-  bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;  // since the janitor's last round
+  bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;  // whether a simulation was destroyed since
+                                                       // the janitor's last round
   std::map<std::string, SimulationServant*> servants_
-      GSV_GUARDED_BY(mutex_);  // by simulation; owned by the POA
+      GSV_GUARDED_BY(mutex_);  // servants by simulation; the POA owns them
   std::jthread janitor_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace gsv::services {
 
-// One object for all behaviours of a process. Usually each call has the normal limit. After
+// All behaviours of a process share one object. Usually each call has the normal limit. After
 // Shorten(), when the process ends, all calls together have one second, so that a behaviour that
 // does not return cannot delay the end.
 class StopTimeout {
@@ -17,7 +17,7 @@ class StopTimeout {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds kNormal{10'000};
   static constexpr std::chrono::milliseconds kShortened{1'000};
-  static constexpr std::chrono::milliseconds kMin{20};  // the time limit for later calls
+  static constexpr std::chrono::milliseconds kMin{20};  // the minimum limit of a call
 
   void Shorten() { until_ = Clock::now() + kShortened; }
   bool is_shortened() const { return until_.load() != Clock::time_point::max(); }

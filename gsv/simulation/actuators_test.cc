@@ -1,5 +1,5 @@
-// Commands of robots to their lamps and speakers: the instant at which they take effect, and the
-// same final state for fast and slow behaviours.
+// Tests the commands of robots to their lamps and speakers: when commands take effect, and that
+// fast and slow behaviours lead to the same final state.
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
@@ -132,7 +132,7 @@ TEST(Actuators, AreRemovedWithTheirRobotOrTheirSensor) {
   ASSERT_TRUE(simulation->AddRobot(RobotWithLamp("other", 1, nullptr, {{"brightness", 1.0}})));
   ASSERT_TRUE(simulation->RunUntil(50ms));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
-  // The lamp of the model stays on, even if no behaviour has opened it.
+  // The model's lamp stays on, even if no behaviour has opened it.
   ASSERT_EQ(simulation->snapshot()->state.devices->size(), 2u);
   EXPECT_EQ(BrightnessOf(*simulation, "robot"), 1);
   ASSERT_TRUE(simulation->RemoveRobot("robot"));

@@ -1,5 +1,5 @@
-// The interface of a simulation for one behaviour: its clocks, commands and readings. The servants
-// of the robot's hardware call it, and viewers steer avatars through it.
+// The interface of a simulation for one behaviour: its clocks, commands and readings. The CORBA
+// servants of the robot's hardware call it, and viewers steer avatars with it.
 //
 // Threads  any; SleepUntil() and Exchange() block for at most the given lease.
 // Errors   kNotRunning: the agent waits, and in lockstep a waiting agent may not call. kEnded: the
@@ -25,8 +25,8 @@ namespace gsv::simulation {
 
 using ClockId = int;
 
-// A wait is a lease. If the lease ends before the instant, the wait returns kNotYet, and the caller
-// repeats it with the same arguments. The agent counts as waiting in between.
+// A wait has a time limit, the lease. If the lease ends before the instant, the wait returns kNotYet,
+// and the caller must repeat it with the same arguments. Meanwhile the agent counts as waiting.
 enum class Wait { kReached, kNotYet };
 
 struct NamedReading {
@@ -64,23 +64,23 @@ class Agent {
   virtual const std::string& robot() const = 0;
   virtual std::string model() const = 0;
   virtual double footprint_radius() const = 0;  // m
-  // The pose of a link of the robot's model with all joints at zero. `link` is a link with a
-  // sensor.
+  // Returns the pose of a link of the robot's model with all joints at zero. `link` is the index of
+  // a link with a sensor.
   virtual geometry::Pose RobotFromLink(int link) const = 0;
 
   // Clocks. The behaviour counts as running while one of its clocks runs. It has finished when all
-  // are closed.
+  // its clocks are closed.
   virtual base::Result<ClockId> OpenClock() = 0;
   virtual base::Status CloseClock(ClockId clock) = 0;
-  // Reports that the behaviour's run has ended with an error, instead of CloseClock(). The agent is
-  // dead from this instant on. `reason` is logged on one line, truncated if it is long.
+  // Reports that the behaviour's run has ended with an error, instead of CloseClock(). From this
+  // instant on, the agent is dead. `reason` is logged on one line, truncated if it is long.
   virtual base::Status GiveUp(ClockId clock, const std::string& reason) = 0;
   virtual base::SimTime Now() const = 0;
   virtual base::Result<Wait> SleepUntil(ClockId clock, base::SimTime until,
                                         std::chrono::milliseconds lease) = 0;
   // Commands the base, waits, then reads the sensors. `cycle` numbers the exchanges of this clock
-  // from 1. A repetition has the same number and sends no command. An empty `command` changes
-  // nothing.
+  // from 1. A repeated call has the same number and sends no command. Without a `command`, the last
+  // one continues to apply.
   virtual base::Result<Exchanged> Exchange(ClockId clock, std::uint64_t cycle,
                                            std::optional<world::DriveCommand> command,
                                            base::SimTime until,
@@ -94,15 +94,15 @@ class Agent {
   virtual base::Status CommandJoint(int joint, const world::JointCommand& command) = 0;
   virtual base::Result<JointReading> ReadJoint(int joint) = 0;
 
-  // Sensors: those of the model, which a behaviour opens by name, and those that it creates.
+  // Sensors: the model's own sensors, which a behaviour opens by name, and sensors that the behaviour creates.
   virtual std::vector<model::SensorDescription> Sensors() const = 0;
   virtual std::vector<std::string> SensorTypes() const = 0;
   virtual base::Status OpenSensor(const std::string& name) = 0;
   virtual base::Status CreateSensor(model::SensorDescription description) = 0;
   virtual base::Status CloseSensor(const std::string& name) = 0;
   virtual base::Result<sensing::Reading> Read(const std::string& sensor) = 0;
-  // Sends a message by a radio to the robot `receiver`, or to all robots if it is empty. The
-  // message is sent at this instant and arrives with the next step.
+  // Sends a message by a radio to the robot `receiver`, or to all robots if `receiver` is empty.
+  // The message is sent at this instant and arrives with the next step.
   virtual base::Status Send(const std::string& radio, const std::string& receiver,
                             std::string content) = 0;
   // Sends a command to an actuator, which is one of the sensors. It is applied from this instant

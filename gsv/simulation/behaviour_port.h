@@ -1,8 +1,9 @@
 // The interface through which a simulation calls a behaviour. Higher layers implement it for
-// behaviours in this process and, over CORBA, for those in other processes.
+// behaviours in this process and, by CORBA, for behaviours in other processes.
 //
 // Threads  calls for one behaviour come one after the other, from dedicated threads of the
-//          simulation. They never come from the stepping thread or with a lock held.
+//          simulation. The stepping thread never calls a behaviour, and no lock is held during a
+//          call.
 // Errors   every call ends within a time limit that the implementation sets.
 #pragma once
 
@@ -36,9 +37,9 @@ class BehaviourPort {
   // Whether the behaviour uses only the simulation's clock. Otherwise the simulation never waits
   // for it.
   virtual bool time_managed() const = 0;
-  // The name of its service, such as "wander".
+  // The name of the behaviour's service, such as "wander".
   virtual const std::string& name() const = 0;
-  // The process in which it runs, as "host:pid".
+  // The process in which the behaviour runs, as "host:pid".
   virtual const std::string& place() const = 0;
   // The local behaviour, if the simulation runs it in turns (see local_behaviour.h), else null.
   virtual LocalBehaviour* local() { return nullptr; }

@@ -14,27 +14,28 @@ namespace gsv::simulation {
 
 struct Edit {
   enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace, kCommand };
-  // The moment between two steps, relative to the turns of behaviours.
+  // When the edit was made between two steps, relative to the turns of behaviours.
   enum class Moment {
-    kBeforeTurns,  // before the turns: behaviours that wake at this instant find the changed world
-    kAfterTurns,   // after the turns: the next step is the first to find the changed world
-    kAmidTurns,    // between turns: it is unknown which behaviours had their turn before the change
+    kBeforeTurns,  // before the turns: behaviours that wake at this instant see the changed world
+    kAfterTurns,   // after the turns: only the next step uses the changed world
+    kAmidTurns,    // during the turns: it is unknown which behaviours had their turn before the
+                   // edit
   };
 
   std::int64_t step = 0;  // the number of steps taken before the edit
   base::SimTime time{0};
   Kind kind = Kind::kPlace;
   Moment moment = Moment::kBeforeTurns;
-  std::uint64_t halt = 0;  // counts the pauses; edits during one pause have the same number
+  std::uint64_t halt = 0;  // number of the pause; edits during one pause have the same number
   std::string body;
   // For added bodies: the file of the model, or the body that is copied.
   std::string model;
   std::string copy_of;
-  std::string behaviour;  // the name of its behaviour; empty if it has none
+  std::string behaviour;  // name of the robot's behaviour; empty if it has none
   std::optional<model::Movement> movement;
   // in the form of model/drive_choice.h; empty for the model's own or a guessed drive
   std::string drive;
-  // For added or placed bodies: the requested pose.
+  // For bodies that are added or moved: the requested pose.
   geometry::Pose world_from_body;
   bool on_ground = true;
   // A command of simulation/commands/command_table.h and its arguments, for ReadArguments().

@@ -9,7 +9,7 @@
 namespace gsv::simulation {
 namespace {
 
-// The run has ten steps of 10 ms, each of which takes ten seconds.
+// A run with ten steps of 10 ms. In real time, each step takes ten seconds.
 Specification Slow() {
   Specification specification = Lockstep(100ms);
   specification.mode = Mode::kRealTime;
@@ -26,7 +26,7 @@ TEST(RealTimeFactor, SlowRunCanBeAccelerated) {
   EXPECT_EQ(simulation->status().target_factor, 1000);
   EXPECT_EQ(simulation->specification().factor, 0.001);
   const std::vector<Event> events = simulation->events(0);
-  ASSERT_EQ(events.size(), 3u);  // start, change of the factor, end
+  ASSERT_EQ(events.size(), 3u);  // the start, the change of the factor, and the end
   EXPECT_EQ(events[1].kind, "factor_set");
   EXPECT_EQ(events[1].detail, "1000");
   ASSERT_TRUE(simulation->Reset());

@@ -90,7 +90,7 @@ TEST(Faults, ImpossibleFaultFailsTheRunWithItsPlace) {
   EXPECT_THAT(simulation->status().failure, HasSubstr("t.yaml:1:1: the fault cannot happen: "));
 }
 
-// A box with an arm on a joint, with rigid-body dynamics.
+// A box with an arm on a joint. It moves by rigid-body dynamics.
 RobotSpecification RobotWithAnArm() {
   auto model = std::make_shared<model::Model>(*Disc(0.2));
   model->links.emplace_back().name = "arm";

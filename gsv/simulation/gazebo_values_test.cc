@@ -37,7 +37,7 @@ std::string Moments(const std::string& x, const std::string& y, const std::strin
 
 class GazeboValues : public ::testing::Test {
  protected:
-  // Starts a world at rest, paused at its beginning.
+  // Creates and starts a world at rest, and pauses it at its beginning.
   void Start(const std::string& content, const std::string& settings = "") {
     const auto file = folder_.Write(
         "w.sdf",
@@ -83,7 +83,7 @@ class GazeboValues : public ::testing::Test {
     return {reading->values.begin(), reading->values.end()};
   }
 
-  // Expects four contact points, at which two spheres lie on the edges of two boxes.
+  // Expects four contact points, where two spheres touch the edges of two boxes.
   void ExpectFourCorners(const std::string& robot, const std::string& sensor) {
     const std::vector<double> touches = Read(robot, sensor);
     ASSERT_EQ(touches.size(), 4 * 11u);
@@ -103,8 +103,8 @@ class GazeboValues : public ::testing::Test {
 };
 
 TEST_F(GazeboValues, SphereFallsAndComesToRest) {
-  // The link is a sphere of 1 m radius, 5 m above the model's origin. So it rests with the origin
-  // at -4 m.
+  // The link is a sphere of 1 m radius, 5 m above the model's origin. When it rests on the ground,
+  // the origin is at -4 m.
   Start(std::string(kGround) +
         "<model name='ball'><pose>0 0 2 0 0 0</pose><link name='l'><pose>0 0 5 0 0 0</pose>" +
         Inertial("1", Moments("0.4", "0.4", "0.4")) + "<collision name='c'>" + Sphere("1") +
@@ -116,7 +116,7 @@ TEST_F(GazeboValues, SphereFallsAndComesToRest) {
 }
 
 TEST_F(GazeboValues, BoxesSlideDownAnInclineAccordingToTheirFriction) {
-  // The incline goes down along -y by 30 degrees.
+  // The inclined plane goes down by 30 degrees along -y.
   std::string content =
       "<model name='slope'><static>1</static><pose>0 0 0 -0.52359878 0 0</pose><link name='l'>"
       "<collision name='c'><geometry><plane><normal>0 0 1</normal><size>100 100</size></plane>"
@@ -177,7 +177,7 @@ TEST_F(GazeboValues, ArmKeepsItsDistanceFromItsJoint) {
   EXPECT_GT(most - least, 0.5);
 }
 
-// A robot of one box that carries sensors and has rigid-body dynamics.
+// A robot that is one box with a sensor, and moves by rigid-body dynamics.
 std::string Carrier(const std::string& pose, const std::string& sensor) {
   return "<model name='robot'><pose>" + pose +
          "</pose><gsv:movement>rigid</gsv:movement><link name='l'><pose>0.05 0.05 0.05 0 0 "
@@ -319,7 +319,7 @@ TEST_P(GazeboCar, RespectsItsLimitsAndReportsItsOdometry) {
     } while (SleepFor(agent, clock, 20ms));
   });
   ASSERT_TRUE(simulation_->SetBehaviour("car", behaviour));
-  // The odometry is that of the point halfway between the wheels.
+  // The odometry describes the point halfway between the wheels.
   const Pose car_from_axle{{0.554283, 0, -0.325}, {}};
   const Pose start_from_world = Inverse(At("car") * car_from_axle);
   std::set<SimTime> samples;
@@ -381,8 +381,8 @@ TEST_F(GazeboValues, ContactSensorReadsEachContactPoint) {
   }
 }
 
-// The original worlds of gz-sim. They are in a folder beside that of the files for real_files_test,
-// and the tests are skipped if it is absent.
+// The original worlds of gz-sim. Their folder is beside that of real_files_test. If it is absent,
+// the tests are skipped.
 class GazeboOriginals : public GazeboValues {
  protected:
   void StartOriginal(const std::string& name) {
@@ -461,7 +461,8 @@ TEST_F(GazeboOriginals, DifferentialDriveEqualsGazebo) {
                 std::atan2(odometry.place.sine, odometry.place.cosine), 0.01, "rad");
 }
 
-// A scale with a plate of 0.2 kg on a sensor, as in gz-sim's test, and a weight of 10 kg on the plate.
+// A scale with a plate of 0.2 kg on a sensor, as in gz-sim's test, with a weight of 10 kg on the
+// plate.
 TEST_F(GazeboValues, ForceTorqueSensorReadsTheWeightOnAScale) {
   const auto scale = [](const std::string& type) {
     return "<model name='scale'><link name='base'><pose>0 0 0.05 0 0 0</pose>" +
@@ -483,7 +484,7 @@ TEST_F(GazeboValues, ForceTorqueSensorReadsTheWeightOnAScale) {
     Start(std::string(kGround) + scale(type) + weight);
     RunUntil(2s);
     const std::vector<double> wrench = Read("scale", "s");
-    // Bodies that accelerate by less than 0.1 m/s² are at rest.
+    // The expectation allows for accelerations below 0.1 m/s², at which bodies count as at rest.
     const double force = 0.1 * 10.2, arm = 0.15;
     EXPECT_WITHIN(wrench[0], 0, force, "N") << type;
     EXPECT_WITHIN(wrench[1], 0, force, "N") << type;

@@ -1,4 +1,4 @@
-// Grippers: which bodies they grasp, how grasped bodies move, and when they are released.
+// Tests grippers: which bodies they grasp, how grasped bodies move, and when they are released.
 #include <cmath>
 
 #include "gsv/base/test_within.h"
@@ -60,8 +60,8 @@ void RunTo(Simulation& simulation, SimTime instant) {
   ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
-// Closes the gripper at once and drives from 1 s to 2 s. If `opens` is true, it then opens the
-// gripper and drives away.
+// A behaviour that closes the gripper at once and drives from 1 s to 2 s. If `opens` is true, it
+// then opens the gripper and drives away.
 std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens = true,
                                          std::chrono::microseconds dawdling = 0us) {
   return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
@@ -80,18 +80,18 @@ std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens =
   });
 }
 
-// Returns the time in s that the post rocks at most, from nine tenths of the angle at which it would
-// fall. Housner, "The behavior of inverted pendulum structures during earthquakes", Bulletin of the
-// Seismological Society of America 53 (1963): the fraction of the energy that an impact leaves, and
-// the time between two impacts.
+// Returns the maximum time, in s, for which the post rocks if it starts at nine tenths of the angle
+// at which it would fall. Housner, "The behavior of inverted pendulum structures during
+// earthquakes", Bulletin of the Seismological Society of America 53 (1963): the fraction of the
+// energy that an impact leaves, and the time between two impacts.
 double RockingTime() {
   const double half = kWidth / 2, height = 0.1, r = std::hypot(half, height);
-  const double inertia = 1e-3 + kMass * r * r;  // about an edge
+  const double inertia = 1e-3 + kMass * r * r;  // moment of inertia about an edge
   const double falls = std::atan(half / height);
   const double left = std::pow(1 - kMass * r * r / inertia * (1 - std::cos(2 * falls)), 2);
   const double rate = std::sqrt(kMass * 9.8 * r / inertia);
-  // The energy as a fraction of the energy at which it falls. The time between impacts is
-  // 2 / rate × artanh(√energy).
+  // The energy is relative to the energy at which the post falls. The time between impacts is 2 /
+  // rate × artanh(√energy).
   double energy = 1 - 0.1 * 0.1, time = std::atanh(std::sqrt(energy)) / rate;
   while ((energy *= left) > 1e-9) time += 2 / rate * std::atanh(std::sqrt(energy));
   return time;
@@ -121,7 +121,8 @@ TEST(Grippers, GraspedBodyMovesWithTheRobotUntilTheFingersOpen) {
   const SimTime at_rest = 2s + base::FromSeconds(RockingTime());
   RunTo(*simulation, at_rest);
   const geometry::Pose left = PoseOf(*simulation, "post");
-  RunTo(*simulation, at_rest + 500ms);  // the robot drives away and the post stands still
+  RunTo(*simulation, at_rest + 500ms);  // then the robot drives away, and the post stays where it
+                                        // is
   EXPECT_WITHIN(Norm(PoseOf(*simulation, "post").position - left.position), 0, 1e-5, "m");
   EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
 }
@@ -132,7 +133,7 @@ TEST(Grippers, CloseWithoutGraspingIfThereIsNoDynamicBody) {
   ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("robots", 0, 2, Fetches({}, false))));
   ASSERT_TRUE(simulation->AddRobot(Robot("other", 0.41, 2.2)));
   RunTo(*simulation, 200ms);
-  // the fingers are halfway
+  // the fingers are half closed
   EXPECT_NEAR(simulation->Watch("at_wall", "gripper")->values[0], 0.06, 1e-9);
   RunTo(*simulation, 1s);
   for (const char* name : {"at_wall", "robots"}) {

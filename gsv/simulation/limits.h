@@ -1,4 +1,4 @@
-// Limits of each simulation in this process; docs/limits.md lists them.
+// The limits that apply to each simulation in this process. docs/limits.md lists them.
 //
 // Threads  set before the first simulation is created; afterwards any thread may read them.
 #pragma once
@@ -9,7 +9,7 @@ namespace gsv::simulation {
 
 struct Limits {
   std::size_t robots = 100'000;           // number of robots, including avatars
-  std::size_t sensors_of_a_robot = 1024;  // number of sensors, including those of the robot's model
+  std::size_t sensors_of_a_robot = 1024;  // sensors of a robot, including those of its model
 };
 
 inline Limits& ProcessLimits() {

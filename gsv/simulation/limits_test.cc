@@ -83,7 +83,8 @@ TEST_F(LimitsTest, KeepsTenThousandEvents) {
   ASSERT_TRUE(simulation->SetRealTimeFactor(4));
   const auto newest = simulation->events(0);
   ASSERT_EQ(newest.size(), 10'000u);
-  // The first event was dropped, so the second one comes first. The numbers continue.
+  // The first event was dropped, so the second event is now the first in the list. Its number is
+  // unchanged.
   EXPECT_EQ(newest.front().detail, all[1].detail);
   EXPECT_EQ(newest.back().kind, "factor_set");
   EXPECT_NE(newest.back().detail, all.back().detail);

@@ -1,5 +1,5 @@
-// Compares sensors of motion with the values that follow from the motion. docs/fidelity.md lists
-// the expected values.
+// Compares the readings of motion sensors with values that follow from the motion. docs/fidelity.md
+// lists the expected values.
 
 #include "gsv/base/test_within.h"
 #include "gsv/geometry/constants.h"
@@ -11,8 +11,8 @@ namespace {
 using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.3;
 
-// A disc on two wheels with one sensor named after its type, 0.15 m ahead. The true radii of the
-// wheels are `left` and `right` times those that the drive assumes.
+// A disc on two wheels. It has one sensor, 0.15 m ahead, whose name is its type. The true radii of
+// the wheels are `left` and `right` times those that the drive assumes.
 std::shared_ptr<model::Model> Rover(const std::string& sensor, double left = 1, double right = 1) {
   auto model = std::make_shared<model::Model>(*Disc(0.2));
   for (const double side : {1.0, -1.0}) {
@@ -46,7 +46,7 @@ struct Leg {
   SimTime duration;
 };
 
-// The reading of the sensor and the pose of the robot after Drive().
+// The sensor's reading and the robot's pose after Drive().
 struct Driven {
   std::vector<double> values;
   std::shared_ptr<const std::vector<std::string>> labels;
@@ -86,11 +86,11 @@ std::vector<Leg> AroundTheSquare() {
 TEST(MotionSensors, OdometerIgnoresUnequalWheels) {
   // The test is the square of planar_fidelity_test.cc, with sides of 2 m. If the wheels differ by
   // the ratio E, the robot misses its start by 2 L beta, with beta = L / (b/2 (E + 1) / (E - 1)).
-  // The odometry does not notice it.
+  // The odometry does not show this error.
   const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
   const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
   ASSERT_EQ(driven.values.size(), 6u);
-  EXPECT_EQ(driven.values[5], 0);  // the sideways velocity, which this drive cannot have
+  EXPECT_EQ(driven.values[5], 0);  // sideways velocity, which this drive does not have
   EXPECT_WITHIN(driven.values[0], 0, 1e-9, "m");
   EXPECT_WITHIN(driven.values[1], 0, 1e-9, "m");
   EXPECT_NEAR(geometry::WrapAngle(driven.values[2]), 0, 1e-9);
@@ -109,8 +109,8 @@ TEST(MotionSensors, AnImuOnASpinningRobotReadsCentripetalAcceleration) {
 }
 
 TEST(MotionSensors, AnImuOnACirclingRobotReadsCentripetalAcceleration) {
-  // At 0.5 m/s and 0.5 rad/s, the acceleration is 0.25 m/s² to the left, minus the effect of the 10
-  // ms step.
+  // At 0.5 m/s and 0.5 rad/s, the acceleration is 0.25 m/s² to the left, apart from the effect of
+  // the 10 ms step.
   const Driven driven = Drive(Rover("imu"), {{{0.5, 0, 0.5}, 1s}});
   ASSERT_EQ(driven.values.size(), 10u);
   EXPECT_WITHIN(driven.values[4], 0.25, 1e-3, "m/s²");

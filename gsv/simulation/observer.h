@@ -1,4 +1,4 @@
-// Receives the snapshots and events of a simulation. See Simulation::AddObserver().
+// The interface of objects that receive the snapshots and events of a simulation. See Simulation::AddObserver().
 //
 // Threads  snapshots come from the stepping thread, which holds no lock then, so const members of
 //          the simulation may be called. Events come from any thread with locks held, so no member
@@ -15,17 +15,18 @@
 
 namespace gsv::simulation {
 
-// The wall-clock time of one step by part, from the end of the step before. A pause does not
-// count.
+// How long the parts of one step took, in wall-clock time, from the end of the step before. Pauses
+// do not count.
 struct StepTimes {
   std::int64_t step = 0;
   SimTime time{0};
-  std::chrono::nanoseconds behaviours{0};  // behaviours' turns; in lockstep also waits for them
+  std::chrono::nanoseconds behaviours{0};  // turns of behaviours; in lockstep also waiting for
+                                           // behaviours
   std::chrono::nanoseconds devices{0};     // actuators, radios and other devices
   std::chrono::nanoseconds bodies{0};      // motion and contacts
   std::chrono::nanoseconds observers{0};   // recorders and viewers
-  std::chrono::nanoseconds idle{0};        // wait until the step was due, in real time
-  // The robot whose behaviour the step waited for last; empty: none.
+  std::chrono::nanoseconds idle{0};        // in real time: waiting until the step was due
+  // The robot whose behaviour was the last one to wait for; empty if there is none.
   std::string held_up_by;
 
   std::chrono::nanoseconds total() const {
@@ -36,9 +37,9 @@ struct StepTimes {
 class Observer {
  public:
   virtual ~Observer() = default;
-  // Whether OnTimes() is called. It must not change. Steps are timed while an observer requests it.
+  // Whether OnTimes() shall be called. The result must not change. Steps are timed while an observer requests it.
   virtual bool wants_times() const { return false; }
-  // The times of a step, after OnSnapshot(), on the stepping thread.
+  // Receives the times of a step, after OnSnapshot(), on the stepping thread.
   virtual void OnTimes(const StepTimes&) {}
   virtual void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) = 0;
   virtual void OnEvent(const Event& event) = 0;

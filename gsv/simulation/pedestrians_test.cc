@@ -1,4 +1,4 @@
-// Simulations place pedestrians, and keep them when the world is edited.
+// Tests that simulations place pedestrians, and keep them when the world is edited.
 #include <gtest/gtest.h>
 
 #include "gsv/simulation/testing/test_simulation.h"
@@ -15,7 +15,7 @@ model::PedestrianGroup Walkers(int count, std::vector<model::PedestrianGoal> rou
   return group;
 }
 
-// A world with pedestrians around the wall at x = 3, which is 10 m long.
+// A world with pedestrians who walk around the wall at x = 3, which is 10 m long.
 Specification WithWalkers(int count, int threads = 0) {
   Specification specification = Lockstep(2s);
   specification.seed = 3;

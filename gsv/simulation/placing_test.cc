@@ -1,4 +1,4 @@
-// Changes of the bodies and their poses while the simulation is paused.
+// Tests changes of bodies and their poses while the simulation is paused.
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
@@ -48,7 +48,7 @@ TEST(Placing, OccupiedPlaceIsRejectedAndNothingMoves) {
   EXPECT_NE(into_another.error().Sentence().find("\"first\""), std::string::npos);
   EXPECT_FALSE(simulation->PlaceBody("second", PlanarPose(3, 0, 0, 0), true));
   EXPECT_EQ(PositionOf(*simulation, "second"), (geometry::Vector3{1, 0, 0}));
-  // A body's own place counts as free for that body.
+  // The place where a body already is counts as free for this body.
   EXPECT_TRUE(simulation->PlaceBody("second", PlanarPose(1.05, 0, 0, 0), true));
 }
 

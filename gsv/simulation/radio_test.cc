@@ -1,5 +1,5 @@
-// Messages between robots: when and in which order they arrive, and the same final state for fast
-// and slow behaviours.
+// Tests messages between robots: when and in which order they arrive, and that fast and slow
+// behaviours lead to the same final state.
 #include <set>
 
 #include "gsv/base/base64.h"
@@ -62,7 +62,7 @@ std::shared_ptr<ThreadBehaviour> Says(std::vector<std::string> words, std::strin
   });
 }
 
-// A behaviour that opens its radio and stores its inbox at each of the instants.
+// A behaviour that opens its radio and stores the messages in its inbox at each of these instants.
 std::shared_ptr<ThreadBehaviour> Hears(std::vector<SimTime> instants,
                                        std::map<SimTime, Inbox>& heard) {
   return std::make_shared<ThreadBehaviour>([=, &heard](Agent& agent, ClockId clock) {
@@ -111,7 +111,7 @@ TEST(Radio, ReachesOneOrAllButNotTheSenderAndNotDistantRobots) {
 
 TEST(Radio, IsBlockedByAnAbsorbingWall) {
   std::map<SimTime, Inbox> before, behind;
-  auto simulation = Make(Lockstep(200ms));  // the wall is at x = 3
+  auto simulation = Make(Lockstep(200ms));  // the wall is at x = 3, between the robots
   ASSERT_TRUE(simulation->AddRobot(
       RobotWithRadio("speaker", 2, 0, Says({"hello"}), {{"wall_loss", 1000.0}})));
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("before", -4, 0, Hears({150ms}, before))));

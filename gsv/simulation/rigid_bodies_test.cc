@@ -14,7 +14,7 @@ std::shared_ptr<model::Model> ModelOf(const std::string& name, const geometry::S
   return model;
 }
 
-// A hand on a prismatic joint to the world, held by friction.
+// A slider: a hand on a prismatic joint to the world, with friction that stops it.
 std::shared_ptr<const model::Model> Slider() {
   auto model = ModelOf("slider", geometry::Sphere{0.1});
   model::Joint joint;

@@ -23,28 +23,29 @@
 namespace gsv::simulation {
 
 struct RobotSpecification {
-  std::string name;  // empty for the model's name, numbered if it is taken
+  std::string name;  // if empty: the model's name, with a number if that is taken
   std::shared_ptr<const model::Model> model;
   geometry::Pose world_from_robot;
-  // Whether the robot is lowered or lifted onto the floor at its place, see sensing/ground.h.
+  // Whether the robot is moved vertically so that it stands on the floor, see sensing/ground.h.
   bool on_ground = true;
-  std::shared_ptr<BehaviourPort> behaviour;  // null for a robot that stands still
+  std::shared_ptr<BehaviourPort> behaviour;  // if null, the robot does not move
   // Whether a behaviour may use the wall clock in lockstep.
   bool allow_unmanaged = false;
   bool is_avatar = false;
-  std::optional<model::Movement> movement;  // empty for that of the model
-  // In the form of model/drive_choice.h. Empty for the model's own drive, or else the guessed one.
+  std::optional<model::Movement> movement;  // if not set, the movement of the model
+  // A text as in model/drive_choice.h. If empty: the model's own drive, or else a guessed one.
   std::string drive;
 };
 
 // An object (not a robot) that is added to the world.
 struct ObjectSpecification {
-  std::string name;                           // empty for the model's name, numbered if it is taken
-  std::shared_ptr<const model::Model> model;  // null for the model of `copy_of`
-  // The name of a body of the simulation, of the world file, or of one that a user removed.
+  std::string name;                           // if empty: the model's name, with a number if that
+                                              // is taken
+  std::shared_ptr<const model::Model> model;  // if null, the model of `copy_of`
+  // The name of the body to copy: of the simulation, of the world file, or one that a user removed.
   std::string copy_of;
   geometry::Pose world_from_object;
-  // Whether the object is lowered or lifted onto the floor at its place, see sensing/ground.h.
+  // Whether the object is moved vertically so that it stands on the floor, see sensing/ground.h.
   bool on_ground = true;
 };
 
@@ -54,7 +55,7 @@ struct ObjectSpecification {
 class ExpectationSource {
  public:
   virtual ~ExpectationSource() = default;
-  // At the latest judged state, in the order of the scenario.
+  // The state of each expectation at the latest evaluated step, in the order of the scenario.
   virtual std::vector<ExpectationState> states() const = 0;
 };
 
@@ -69,18 +70,18 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // behaviour in this process does not return within the deadline, the simulation and its threads
   // are abandoned.
   virtual ~Simulation() = default;
-  // The number of abandoned simulations. If it is above 0, the process must exit without running
-  // static destructors.
+  // The number of abandoned simulations. If it is above 0, the process must exit without calling
+  // the destructors of static objects.
   static int AbandonedSimulations();
 
   // Adds a robot and initialises its behaviour; blocks until the behaviour answers. A robot that
   // would touch a wall is placed beside it, with an event "robot_moved". Returns the robot's name.
   // Fails if the place or the name is taken, or if the behaviour fails in init.
   base::Result<std::string> AddRobot(RobotSpecification robot);
-  // Adds many robots: either all of them, or none. Otherwise it is like AddRobot().
+  // Adds many robots at once: all of them, or none in case of an error. See AddRobot().
   virtual base::Result<std::vector<std::string>> AddRobots(
       std::vector<RobotSpecification> robots) = 0;
-  // Removes a robot. Fails for stations, which are objects.
+  // Removes a robot. Fails for stations, which count as objects.
   virtual base::Status RemoveRobot(const std::string& name) = 0;
   // Adds an object at rest, while the simulation is created or paused. Returns its name. Fails if
   // the place or the name is taken, or if the model has a drive.
@@ -89,9 +90,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // cannot be removed.
   virtual base::Status RemoveObject(const std::string& name) = 0;
   // Moves a body (a robot, an avatar or an object) to a pose, at rest, while the simulation is
-  // created or paused. `on_ground` has the same meaning as for robots. Before the first step this
-  // sets the initial pose, also for later resets. The odometry does not change. Fails if the place
-  // is taken, and for static bodies of the world file.
+  // created or paused. `on_ground` is explained at RobotSpecification. Before the first step, the
+  // pose becomes the initial pose, also for later resets. The odometry does not change. Fails if
+  // the place is taken, and for static bodies of the world file.
   virtual base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
                                  bool on_ground) = 0;
   // Gives a behaviour to a robot that has none, such as a robot of the world file.
@@ -99,8 +100,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
                                     std::shared_ptr<BehaviourPort> behaviour) = 0;
 
   // Commands a joint of a rigid body from the next step on. Fails if there is no such joint, or if
-  // it is not moved by rigid-body dynamics. For reproducible runs, call it while the simulation is
-  // paused.
+  // the body does not move by rigid-body dynamics. For reproducible runs, call it while the
+  // simulation is paused.
   virtual base::Status CommandJoint(const std::string& body, const std::string& joint,
                                     const world::JointCommand& command) = 0;
 
@@ -109,8 +110,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // reset keeps it. It has no effect on bodies with planar kinematics.
   virtual base::Status SetGravity(std::optional<double> z) = 0;
 
-  // Requests. A request returns once it is accepted, and status() shows the result. A request that
-  // the phase does not allow fails with kNotRunning and lists the allowed phases.
+  // Requests. A request returns when it is accepted; status() shows the result. If the phase does
+  // not allow a request, it fails with kNotRunning and lists the allowed phases.
   virtual base::Status Start() = 0;
   virtual base::Status Pause() = 0;
   virtual base::Status Resume() = 0;
@@ -118,8 +119,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Status Step(std::int64_t count) = 0;
   // Runs until the simulated time `until` and then pauses. No agent is woken at that instant.
   virtual base::Status RunUntil(SimTime until) = 0;
-  // Runs until `until`, which may be now, from a pause or the start. Agents whose waits end at that
-  // instant have their turn. Then it pauses, before the next step.
+  // Runs until `until`, which may be the current time. Agents whose waits end at that instant have their
+  // turns. Then the simulation pauses, before the next step. Allowed while it is paused or created.
   virtual base::Status RunThrough(SimTime until) = 0;
   virtual base::Status Stop() = 0;
   // Resets bodies, time and behaviours. It blocks until the behaviours have answered.
@@ -134,8 +135,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual SimulationStatus status() const = 0;
   // Returns the latest snapshot, never null.
   virtual std::shared_ptr<const world::Snapshot> snapshot() const = 0;
-  // The hash of the latest snapshot and the agents' waits. Empty if a behaviour in this process
-  // exceeds its deadline, see local_behaviour.h.
+  // The hash of the latest snapshot and of the instants that agents wait for. Empty if a behaviour
+  // in this process exceeds its deadline, see local_behaviour.h.
   virtual std::string state_hash() const = 0;
 
   // Blocks until the phase is one of `phases`, but at most for `timeout` of wall-clock time.
@@ -147,29 +148,29 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // unknown.
   virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
 
-  // Returns a reading for an observer: the one that the robot's behaviour gets at that snapshot. It
-  // does not change the simulation. It may be slow, for example for an image. On the stepping
-  // thread, as in Observer::OnSnapshot(), it delays the next step.
+  // Returns a sensor's reading for an observer: the same that the robot's behaviour gets at the
+  // latest snapshot. This does not change the simulation. The call may be slow, for example for an
+  // image. On the stepping thread, as in Observer::OnSnapshot(), it delays the next step.
   virtual base::Result<sensing::Reading> Watch(const std::string& robot,
                                                const std::string& sensor) = 0;
-  // Returns the sensors of a robot: those of its model and created ones.
+  // Returns the sensors of a robot: those of its model, and those that were created.
   virtual std::vector<model::SensorDescription> sensors(const std::string& robot) const = 0;
   virtual const sensing::SensorRegistry& sensor_types() const = 0;
 
   // Returns the events from number `first` on, counted from 0. Only a limited number is kept; the
   // oldest events are dropped.
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
-  // The same for the output of behaviours' programs, which has numbers of its own.
+  // Returns the lines that behaviours' programs printed, in the same way. They have numbers of their own.
   virtual std::vector<Event> outputs(std::uint64_t first) const = 0;
-  // Emits an event at the current step. Not from Observer::OnEvent().
+  // Emits an event at the current step. Must not be called from Observer::OnEvent().
   virtual void Emit(std::string_view kind, const std::string& robot, const std::string& detail) = 0;
 
-  // Sets the source of expectations(), which may end before the simulation.
+  // Sets the object that expectations() asks. It may be destroyed before the simulation.
   virtual void SetExpectations(std::weak_ptr<const ExpectationSource> source) = 0;
-  // Empty if nothing is expected.
+  // Returns the states of the expectations; empty if there are none.
   virtual std::vector<ExpectationState> expectations() const = 0;
 
-  // Whether a body was added, removed or placed after the first start.
+  // Whether a body was added, removed or moved after the first start.
   virtual bool was_edited() const = 0;
 
   // Adds an observer, which is notified from the next step on. The simulation keeps it alive until

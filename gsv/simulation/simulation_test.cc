@@ -104,7 +104,7 @@ TEST(Simulation, ExchangeReturnsReadingsAtItsInstantAndCommandsOnce) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(ranges[i], 2.85 - 0.05 * i, 1e-9);
 }
 
-// A behaviour that waits once, for the instant one hour later.
+// A behaviour that waits only once, for the instant one hour later.
 std::shared_ptr<ThreadBehaviour> Sleeps() {
   return std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     while (SleepFor(agent, clock, 1h)) {
@@ -130,7 +130,7 @@ TEST(Simulation, WaitingAgentMayNeitherCommandNorReadInLockstep) {
   simulation->AddObserver(counter);
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Sleeps())));
   ASSERT_TRUE(simulation->Start());
-  counter->steps.wait(0);  // no step is taken before the agent waits
+  counter->steps.wait(0);  // the agent runs, so no step is taken
   auto agent = simulation->agent("robot");
   const auto command = agent->Command({1, 0, 0});
   ASSERT_FALSE(command);
@@ -164,8 +164,8 @@ TEST(Simulation, AfterTheEndOfTheRunAgentsCallsEnd) {
   EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
 }
 
-// Regression: waits have leases, and a wait that was repeated during such a pause continued and
-// changed the state hash.
+// Regression: waits have leases. A wait that was repeated during such a pause ended, and changed
+// the state hash.
 TEST(Simulation, AWaitForTheInstantOfAPauseEndsWithTheResume) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<int> leases = 0;
@@ -214,7 +214,7 @@ TEST(Simulation, PauseStopsTheClockAndNotifiesTheBehaviours) {
   ASSERT_TRUE(simulation->Pause());
   (void)simulation->state_hash();  // waits until the step in progress has ended
   const std::int64_t step = simulation->status().step;
-  // each wait ends with the step of a running simulation
+  // while the simulation runs, each step ends a wait
   for (int i = 0; i < 5; ++i) waits.wait(waits);
   EXPECT_EQ(simulation->status().step, step);
   ASSERT_TRUE(simulation->Step(7));
@@ -242,7 +242,8 @@ TEST(Simulation, ActionsThatThePhaseDoesNotAllowAreRefusedWithASentence) {
 
 TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunContinues) {
   Specification specification = Lockstep(200ms);
-  specification.deadline = 500ms;  // a correct behaviour meets this deadline on a busy machine, too
+  specification.deadline = 500ms;  // on a busy machine, a correct behaviour also meets this
+                                   // deadline
   auto simulation = Make(specification);
   std::atomic<bool> release = false;
   auto stuck = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
@@ -379,7 +380,7 @@ TEST(Simulation, ResumeDuringRequestedStepsContinuesBeyondThem) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<bool> release = false;
   auto slow = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
-    release.wait(false);  // the steps cannot end before the simulation is resumed
+    release.wait(false);  // the requested steps end only after the simulation is resumed
     while (SleepFor(agent, clock, 10ms)) {
     }
   });
@@ -393,10 +394,10 @@ TEST(Simulation, ResumeDuringRequestedStepsContinuesBeyondThem) {
   EXPECT_EQ(simulation->status().phase, Phase::kRunning);
 }
 
-// Regression: a run was paused at its end, and took one step too many after it was resumed.
+// Regression: a run that was paused at its end took one step too many when it was resumed.
 TEST(Simulation, RunPausedDuringItsLastStepTakesNoFurtherStep) {
   auto simulation = Make(Lockstep(20ms));
-  // The number of attempts is so large that a pause usually comes during the last step.
+  // With this number of attempts, some pause usually comes during the last step.
   for (int i = 0; i < 400; ++i) {
     const int row = i / 20;
     ASSERT_TRUE(simulation->AddRobot(Robot("", -1 - row, i % 20)));
@@ -406,7 +407,7 @@ TEST(Simulation, RunPausedDuringItsLastStepTakesNoFurtherStep) {
     while (simulation->snapshot()->state.step == 0) std::this_thread::yield();
     // waits until the step in progress has ended
     if (simulation->Pause()) (void)simulation->state_hash();
-    (void)simulation->Resume();  // this is refused when the run is over
+    (void)simulation->Resume();  // refused if the run is over
     ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
     ASSERT_EQ(simulation->status().step, 2) << "round " << round;
     ASSERT_TRUE(simulation->Reset());
@@ -468,7 +469,7 @@ TEST(Simulation, ARobotThatTouchesAWallStartsBesideItWithAnEvent) {
   EXPECT_NE(events.front().detail.find("wall"), std::string::npos);
 }
 
-// A sensor that measures the heading. No other code knows this type.
+// A sensor that measures the heading. Its type is defined only here.
 class Compass final : public sensing::Sensor {
  public:
   using Sensor::Sensor;

@@ -1,4 +1,4 @@
-// Bodies with sensors but without a drive.
+// Tests stations: bodies with sensors but without a drive.
 #include <gtest/gtest.h>
 
 #include "gsv/simulation/testing/test_simulation.h"

@@ -1,4 +1,4 @@
-// The plain data of a simulation: its specification, status and events.
+// The data structures of a simulation: its specification, status and events.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace gsv::simulation {
 using base::SimTime;
 
 enum class Mode {
-  // Steps follow the wall clock, scaled by the real-time factor. The simulation waits for no agent.
+  // Steps follow the wall clock, scaled by the real-time factor. The simulation does not wait for agents.
   kRealTime,
-  // The simulation runs as fast as possible, and steps when every agent waits (reproducible).
+  // The simulation runs as fast as possible. It takes a step when every agent waits, so runs are reproducible.
   kLockstep,
 };
 
@@ -37,7 +37,7 @@ enum class Phase { kCreated, kStarting, kRunning, kPaused, kStopped, kFinished, 
 const char* ToString(Mode mode);
 const char* ToString(Phase phase);
 
-// The effect of a dead or unresponsive behaviour on the run.
+// The effect on a run if a behaviour is dead or unresponsive.
 enum class FailurePolicy { kContinue, kFail };
 
 struct Specification {
@@ -47,17 +47,19 @@ struct Specification {
   double factor = 1;  // the target real-time factor for kRealTime, > 0
   SimTime step{0};    // 0 for the world's max_step_size
   std::uint64_t seed = 0;
-  SimTime duration{0};  // 0 for a run that is stopped by request
+  SimTime duration{0};  // if 0, the run ends only when it is stopped
   FailurePolicy on_failure = FailurePolicy::kContinue;
   // The wall-clock time that an agent may run before it counts as unresponsive.
   std::chrono::milliseconds deadline{10'000};
-  bool keep = false;                                // whether it stays after its creator has gone
-  std::vector<model::PedestrianGroup> pedestrians;  // groups besides those of the world
+  bool keep = false;                                // whether the simulation stays when its creator
+                                                    // has gone
+  std::vector<model::PedestrianGroup> pedestrians;  // groups of pedestrians in addition to those of
+                                                    // the world
   std::vector<scenario::Fault> faults;              // see scenario/fault.h
-  // The number of threads for bodies and local behaviours. 0 stands for the number of processors in
-  // lockstep, else for one.
+  // Number of threads for bodies and local behaviours. 0 means: all processors in lockstep, else
+  // one thread.
   int threads = 0;
-  // A robot is stuck if it was commanded to move for this long without moving. > 0.
+  // A robot counts as stuck if it did not move for this long although it was commanded to. > 0.
   SimTime stuck_after = std::chrono::seconds(5);
 };
 
@@ -69,35 +71,36 @@ const char* ToString(AgentPhase phase);
 // (history/motion_history.h).
 struct Motion {
   bool is_moving = false;
-  bool has_moved = false;  // whether it has moved since the start, or since it was added
-  SimTime since{0};        // since when it moves, or does not move
-  bool is_stuck = false;   // commanded to move for stuck_after, without effect
-  // Simulated time for which it was commanded to move since its last motion.
+  bool has_moved = false;  // whether the robot has moved since the start, or since it was added
+  SimTime since{0};        // since when the robot has been moving, or has not been moving
+  bool is_stuck = false;   // whether it was commanded to move for stuck_after, without effect
+  // Simulated time for which the robot was commanded to move since its last motion.
   SimTime commanded_for{0};
-  world::DriveCommand command;  // the command in effect: zero after the drive's command timeout
-  double linear = 0;            // speed of its origin, m/s
+  world::DriveCommand command;  // current command; zero after the drive's command timeout
+  double linear = 0;            // speed of the robot's origin, m/s
   double angular = 0;           // turning rate about the vertical, rad/s
-  std::string contact;          // a body that it touches, except the ground; empty: none
+  std::string contact;          // a body that the robot touches, except the ground; empty if there
+                                // is none
   SimTime contact_since{0};
 };
 
 struct RobotStatus {
   std::string name;
   std::string model;
-  std::string behaviour;        // empty if it has none
+  std::string behaviour;        // name of its behaviour; empty if it has none
   std::string behaviour_place;  // "host:pid" of its program
   bool is_avatar = false;
-  bool is_station = false;  // whether it is an object with sensors (world/station.h)
+  bool is_station = false;  // whether this is an object with sensors (world/station.h)
   AgentPhase phase = AgentPhase::kNone;
-  std::string detail;  // the reason why it is dead or unresponsive
+  std::string detail;  // why the agent is dead or unresponsive
   SimTime detail_since{0};
   geometry::Pose world_from_robot;
   double distance = 0;  // driven distance, m
   std::uint64_t collisions = 0;
-  // how many readings the behaviour took, by sensor type
+  // number of readings that the behaviour received, by sensor type
   std::map<std::string, std::uint64_t> readings;
   Motion motion;
-  // The wall-clock time for which its behaviour has run without waiting; 0 while it waits, and if the
+  // The wall-clock time for which the behaviour has run without waiting. 0 while it waits, and if the
   // simulation does not manage its time.
   std::chrono::nanoseconds running_for{0};
 };
@@ -110,25 +113,25 @@ struct SimulationStatus {
   SimTime time{0};
   SimTime step_size{0};
   double target_factor = 1;
-  // The actual factor: over about the last second while running, else over the run.
+  // The actual real-time factor: over about the last second while running, else over the whole run.
   double real_time_factor = 0;
   std::chrono::nanoseconds wall_time{0};  // wall-clock time spent running
   std::uint64_t late_steps = 0;
   std::chrono::nanoseconds mean_step_time{0};  // wall-clock time per step
-  // such as "robot_3 (wander on host:pid) since 2.1 s"; empty if it waits for nobody
+  // such as "robot_3 (wander on host:pid) since 2.1 s"; empty if the simulation waits for nobody
   std::string waiting_for;
-  std::string failure;              // the reason why it failed
+  std::string failure;              // why the simulation failed
   std::uint64_t events = 0;         // number of lifecycle events so far
   std::uint64_t outputs = 0;        // number of lines that the programs of behaviours printed
   std::vector<RobotStatus> robots;  // ordered by name, including avatars and stations
 
-  std::size_t CountRobots() const {  // Stations do not count.
+  std::size_t CountRobots() const {  // Returns the number of robots without stations.
     return static_cast<std::size_t>(std::count_if(
         robots.begin(), robots.end(), [](const RobotStatus& each) { return !each.is_station; }));
   }
 };
 
-// Something that happened at a step, such as a start, a pause, a death or an added robot.
+// An event at a step, such as a start, a pause, a death or an added robot.
 struct Event {
   std::int64_t step = 0;
   SimTime time{0};
@@ -138,8 +141,8 @@ struct Event {
   std::shared_ptr<const Edit> edit;  // null if the event is not an edit
 };
 
-// Output of behaviours' programs consists of events, too: a line on stdout, a line on stderr, and
-// the end of a program. They depend on the wall clock, and are kept apart from the other events.
+// These events are the output of behaviours' programs: a line on stdout, a line on stderr, and the
+// end of a program. They depend on the wall clock, and are stored separately.
 inline constexpr std::string_view kStdoutEvent = "stdout";
 inline constexpr std::string_view kStderrEvent = "stderr";
 inline constexpr std::string_view kProgramEndedEvent = "program_ended";
@@ -149,29 +152,29 @@ inline bool IsOutput(const Event& event) {
          event.kind == kProgramEndedEvent;
 }
 
-// An expectation of a scenario during the run.
+// The current state of a scenario's expectation.
 struct ExpectationState {
   enum class Verdict { kPending, kHolds, kViolated };
 
   std::string name;
   std::string yaml;   // the complete YAML, on one line
-  std::string where;  // its place in the scenario file
+  std::string where;  // place of the expectation in the scenario file
   Verdict verdict = Verdict::kPending;
   std::int64_t step = 0;  // step of the verdict
   SimTime time{0};
-  // The smallest distance to the limit so far, negative beyond it; of a condition that must become
-  // true, the best so far. Nothing if the expectation has no margin.
+  // The smallest distance to the limit so far, negative beyond it; for a condition that must become
+  // true once, the largest. Not set if the expectation has no margin.
   std::optional<double> margin;
-  std::string unit;  // unit of the margin; empty: none
+  std::string unit;  // unit of the margin; empty if it has none
   SimTime margin_at{0};
   std::string detail;               // detail of a violation
-  std::vector<std::string> bodies;  // bodies to which the expectation refers
+  std::vector<std::string> bodies;  // bodies that the expectation names
   struct Place {
     double x = 0, y = 0, radius = 0;  // m
   };
   std::vector<Place> places;
   struct Box {
-    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  // m; infinite: no limit
+    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  // m; infinite means no limit
   };
   std::vector<Box> boxes;
 };

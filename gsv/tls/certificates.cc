@@ -53,7 +53,7 @@ base::Error CannotRead(const fs::path& file, const char* what) {
           file};
 }
 
-// An internal failure of OpenSSL: no memory, or no entropy.
+// The error for an internal failure of OpenSSL, such as no memory or no entropy.
 base::Status Failed() { return base::Fail(ErrorCode::kUnavailable, "OpenSSL does not work here"); }
 
 File CreateFile(const fs::path& path, mode_t mode) {
@@ -75,7 +75,7 @@ base::Result<Certificate> ReadCertificate(const fs::path& path) {
 
 base::Result<Key> ReadKey(const fs::path& path) {
   const File file = OpenFile(path);
-  // A program cannot use a key with a password.
+  // Refuse keys with a password, because a program cannot enter it.
   const auto no_password = [](char*, int, int, void*) { return -1; };
   Key read(file ? PEM_read_PrivateKey(file.get(), nullptr, no_password, nullptr) : nullptr);
   if (!read) return base::Fail(CannotRead(path, "a key without a password"));
@@ -103,7 +103,8 @@ bool Extend(X509* certificate, X509* issuer, int extension, const std::string& v
   return is_added;
 }
 
-// 127 random bits, so that serial numbers of an authority are unique (RFC 5280, 4.1.2.2).
+// Sets a random serial number of 127 bits, so that the serial numbers of an authority are unique
+// (RFC 5280, 4.1.2.2).
 bool SetSerial(X509* certificate) {
   std::array<unsigned char, 16> bytes{};
   if (RAND_bytes(bytes.data(), bytes.size()) != 1) return false;

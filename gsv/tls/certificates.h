@@ -17,7 +17,7 @@ namespace gsv::tls {
 
 // The period in which a certificate is valid, relative to now.
 struct Validity {
-  std::chrono::seconds begins{-300};  // tolerance for clocks that differ
+  std::chrono::seconds begins{-300};  // begins earlier, to tolerate clocks that differ
   std::chrono::seconds ends{365 * 86'400};
 };
 
@@ -36,11 +36,11 @@ bool HasAuthority(const std::filesystem::path& folder);
 base::Status MakeCertificate(const std::filesystem::path& folder,
                              const CertificateRequest& request);
 
-// Checks that a server can use them: both are readable, match and are valid now. The sentence names
-// the file.
+// Checks that a server can use certificate and key: both are readable, match and are valid now. The
+// error names the file.
 base::Status CheckKeyPair(const std::filesystem::path& certificate,
                           const std::filesystem::path& key);
-// Checks that the file holds certificates of an authority.
+// Checks that the file contains certificates of an authority.
 base::Status CheckAuthority(const std::filesystem::path& certificate);
 
 }  // namespace gsv::tls

@@ -23,7 +23,7 @@ class CertificatesTest : public ::testing::Test {
   base::Status Check(const std::string& name) const {
     return CheckKeyPair(folder() / (name + ".pem"), folder() / (name + "-key.pem"));
   }
-  // Runs the openssl program, as an independent reader. Returns its exit code.
+  // Checks with the program openssl, which is independent of this code. Returns its exit code.
   int OpenSsl(const std::string& arguments) const {
     return std::system(
         ("cd " + folder().string() + " && openssl " + arguments + " >/dev/null 2>&1").c_str());

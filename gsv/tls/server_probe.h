@@ -1,5 +1,5 @@
-// Probes a TLS server without a client certificate and without verifying the server: which data
-// does it send to an unauthenticated client?
+// Probes which data a TLS server sends to a client without a certificate. The server's certificate
+// is not verified.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 namespace gsv::tls {
 
 struct ProbeResult {
-  bool asks_for_certificate = false;  // requests a client certificate
-  std::string answer;                 // the start of the response; empty: none
+  bool asks_for_certificate = false;  // whether the server requests a client certificate
+  std::string answer;                 // the start of the response; empty if there is none
 };
 
-// Performs a TLS handshake on a connected socket with any peer and sends `request`. The time limits
-// of the socket apply.
+// Performs a TLS handshake on a connected socket with any peer and sends `request`. The socket's
+// time limits apply.
 ProbeResult ProbeServer(int descriptor, const std::string& request);
 
 }  // namespace gsv::tls

@@ -1,5 +1,5 @@
 // Evaluates a scenario's expectations at every state that the stepping thread publishes. The
-// verdict is a function of these states only.
+// verdicts depend on these states only.
 //
 // Threads  Attach() before the run; OnSnapshot() on the stepping thread; Finish() once, after the
 //          run.
@@ -22,14 +22,14 @@ namespace gsv::verdict {
 struct MeasuredAtom {
   scenario::Formula atom;
   bool was_measured = false;
-  // range of the values up to the verdict; `last` is the value at the verdict
+  // range of the values up to the verdict, and the value at the verdict (`last`)
   double lowest = 0, highest = 0, last = 0;
-  double lowest_at = 0, highest_at = 0;  // in s
-  std::string about;                     // the robot, if the quantity is about any
+  double lowest_at = 0, highest_at = 0;  // times of the lowest and the highest value, s
+  std::string about;                     // the robot, if the quantity concerns any robot
 };
 
 struct Finding {
-  std::string name, yaml, where;  // from the expectation
+  std::string name, yaml, where;  // copied from the expectation
   bool holds = false;
   // The first step at which the verdict was certain.
   std::int64_t step = 0;
@@ -44,9 +44,9 @@ struct Finding {
 class Judge final : public simulation::Observer, public simulation::ExpectationSource {
  public:
   // Observes the simulation until the judge is destroyed. The simulation must have its robots and
-  // must not have started. An expectation about an unknown body is an error that names its place.
-  // Each verdict before the end of the run is an event, "expectation_violated" or
-  // "expectation_held"; a violation at the end is one, too.
+  // must not have started. Fails, and names the place, if an expectation is about an unknown body.
+  // Each verdict before the end of the run is reported as an event, "expectation_violated" or
+  // "expectation_held"; so is a violation at the end.
   static base::Result<std::shared_ptr<Judge>> Attach(
       const std::vector<scenario::Expectation>& expectations, simulation::Simulation& simulation);
 

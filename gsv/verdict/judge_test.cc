@@ -21,8 +21,8 @@ scenario::Scenario ScenarioOf(const std::string& expect, const std::string& more
   return scenario.value_or(scenario::Scenario());
 }
 
-// A disc with a radius of 0.2 drives at 0.5 m/s from x = 0 to a wall whose face is at 2.9. A second
-// disc is at (0, 2).
+// A disc with a radius of 0.2 m drives at 0.5 m/s from x = 0 to a wall whose face is at x = 2.9 m.
+// A second disc stands at (0, 2).
 std::vector<Finding> Judged(const std::string& expect, const std::string& more = "") {
   const scenario::Scenario scenario = ScenarioOf(expect, more);
   Specification specification = Lockstep(8s);
@@ -41,7 +41,7 @@ Finding One(const std::string& expect, const std::string& more = "") {
 }
 
 TEST(Judge, RobotReachesAPlaceWithinTheTolerance) {
-  // The disc comes within 0.25 m of x = 1.25 at 2 s.
+  // The disc comes within 0.25 m of x = 1.25 m at 2 s.
   const Finding reaches = One("{reaches: {robot: scout, x: 1.25, y: 0}, by: 3}");
   EXPECT_TRUE(reaches.holds);
   EXPECT_NEAR(base::ToSeconds(reaches.time), 2, 0.011);
@@ -55,7 +55,7 @@ TEST(Judge, RobotReachesAPlaceWithinTheTolerance) {
 }
 
 TEST(Judge, CollisionIsTheFirstContact) {
-  // The disc touches the wall when its centre is at 2.7, which is at 5.4 s.
+  // The disc touches the wall when its centre is at x = 2.7 m, at 5.4 s.
   const Finding collides = One("{never_collides: scout}");
   EXPECT_FALSE(collides.holds);
   EXPECT_NEAR(base::ToSeconds(collides.time), 5.4, 0.021);
@@ -89,7 +89,7 @@ TEST(Judge, SeesFaultsAtTheirInstant) {
   EXPECT_NEAR(base::ToSeconds(ended.time), 2, 0.06);
   EXPECT_TRUE(One("{never_collides: scout}", dies).holds);
   const std::string silent = "faults: [{at: 2, sensor: scout/front}]\n";
-  // From the fault on, the sensor keeps its last reading: 1.9 m to the wall.
+  // After the fault, the sensor keeps its last reading: 1.9 m to the wall.
   EXPECT_TRUE(
       One("{always: {sensor: {of: scout/front, at_least: 1.89, at_most: 1.91}}, from: 2.01}",
           silent)
@@ -101,7 +101,7 @@ TEST(Judge, SeesFaultsAtTheirInstant) {
 }
 
 TEST(Judge, ARobotIsStuckAfterItWasCommandedToMoveForTheGivenTime) {
-  // The disc stands at the wall from 5.4 s on. Its motion is sampled every 0.1 s.
+  // The disc stops at the wall at 5.4 s. Its motion is sampled every 0.1 s.
   const Finding stuck = One("{never: {stuck: {robot: scout, after: 2}}}");
   EXPECT_FALSE(stuck.holds);
   EXPECT_NEAR(base::ToSeconds(stuck.time), 7.4, 0.21);

@@ -15,16 +15,16 @@ namespace gsv::verdict {
 
 class Margin {
  public:
-  // `values` are those of the formula's atoms at `now`, in the order of Monitor.
+  // `values` are the values of the formula's atoms at `now`, in the order in which Monitor numbers them.
   void Note(base::SimTime now, const std::vector<std::optional<double>>& values);
-  // Sets the margin with its unit and instant in `state`.
+  // Writes the margin, its unit and its instant into `state`.
   void Fill(simulation::ExpectationState& state) const;
 
  private:
   friend std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
   scenario::Formula condition_;
-  bool must_come_ = false;  // eventually: the largest distance counts; else the smallest
+  bool must_come_ = false;  // for "eventually" the largest distance counts; else the smallest
   base::SimTime from_{0};
   std::optional<base::SimTime> by_;
   std::string unit_;
@@ -32,7 +32,7 @@ class Margin {
   base::SimTime at_{0};
 };
 
-// Nothing for other formulas, and for conditions without a number, such as contacts.
+// Returns nullopt for other formulas, and for conditions without a number, such as contacts.
 std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
 // Adds the circles and boxes in which bodies should be, or should not be.

@@ -51,7 +51,7 @@ TEST(Margin, IsNegativeBeyondTheLimit) {
 }
 
 TEST(Margin, OfEventuallyIsTheBest) {
-  // The place counts as reached within 0.25 m.
+  // A robot has reached a place if it is within 0.25 m.
   const auto state = Noted("{reaches: {robot: a, x: 1, y: 0}}", {{2.0}, {0.75}, {1.0}});
   EXPECT_DOUBLE_EQ(state.margin.value(), -0.5);
   EXPECT_EQ(state.margin_at, 1s);

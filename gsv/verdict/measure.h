@@ -16,7 +16,7 @@ namespace gsv::verdict {
 
 // Returns a text such as "the distance between scout and crate".
 std::string Describe(const scenario::Quantity& quantity);
-// Returns a text such as " m", or an empty text.
+// Returns the unit with a blank in front, such as " m", or an empty text.
 const char* UnitOf(const scenario::Quantity& quantity);
 
 class Measure {
@@ -24,14 +24,14 @@ class Measure {
   // `simulation` must outlive this object.
   explicit Measure(simulation::Simulation& simulation) : simulation_(simulation) {}
 
-  // Rejects a quantity of an unknown body, sensor or behaviour, or of a camera.
+  // Fails for a quantity of an unknown body, sensor or behaviour, and for a quantity of a camera.
   base::Status Check(const scenario::Quantity& quantity) const;
 
   // Sets the state that Of() evaluates. It must be the latest state.
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
-  // Returns the value, or nullopt if its body was removed or its sensor fails.
+  // Returns the value, or nullopt if the body was removed or the sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
-  // The robot that was commanded to move without effect for the longest time; empty: none.
+  // Returns the robot that did not move for the longest time although it was commanded to; empty if there is none.
   std::string stuck_longest() const;
 
  private:

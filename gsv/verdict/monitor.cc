@@ -184,7 +184,7 @@ class Progression {
   // The rules are, with X for "in the next state":
   //   eventually  F a = a or X F a            until    a U b = b or (a and X (a U b))
   //   always      G a = a and X G a           release  a R b = b and (a or X (a R b))
-  // The last part counts only inside the window, because there is no next state after it.
+  // The part with X counts only inside the window, because there is no next state after the window.
   ObligationPtr OfWindow(const ObligationPtr& window) const {
     const bool must_come = window->kind == Kind::kEventually || window->kind == Kind::kUntil;
     const bool is_open = window->from <= now_ && now_ <= window->by;

@@ -1,6 +1,6 @@
 // Evaluates one formula (scenario/expectation.h) on a run, step by step and as early as possible.
-// It rewrites the remaining obligation at each step (formula progression: F. Bacchus and F.
-// Kabanza, "Planning for temporally extended goals", 1998).
+// At each step, the monitor rewrites the remaining obligation (formula progression: F. Bacchus and
+// F. Kabanza, "Planning for temporally extended goals", 1998).
 //
 // Units        simulated time.
 // Determinism  the verdict is a function of the truth values and the times of the steps.
@@ -21,14 +21,14 @@ using ObligationPtr = std::shared_ptr<const Obligation>;
 
 class Monitor {
  public:
-  // `number(atom)` numbers the atoms of the formula for Step().
+  // `number(atom)` gives each atom of the formula a number, which Step() uses.
   Monitor(const scenario::Formula& formula,
           const std::function<int(const scenario::Formula& atom)>& number);
 
   // Evaluates the state at `now`. The next state comes `step` later. Does nothing once the verdict
   // is known.
   void Step(base::SimTime now, base::SimTime step, const std::function<bool(int atom)>& holds);
-  // Ends the run: pending "eventually" obligations are violated, pending "always" obligations hold.
+  // Ends the run. Pending "eventually" obligations become violated; pending "always" obligations hold.
   void End();
 
   // The verdict; nullopt while it is undecided.

@@ -30,7 +30,7 @@ Formula Of(MonitorKind kind, std::vector<Formula> parts, double from = 0,
   return formula;
 }
 
-// Evaluates the operators by their definition (docs/testing.md).
+// Evaluates a formula by the definition of its operators (docs/testing.md).
 bool Means(const Formula& f, const Trace& trace, std::size_t at) {
   const auto in_window = [&](std::size_t i) {
     const SimTime since = static_cast<std::int64_t>(i - at) * kStep;
@@ -111,7 +111,7 @@ TEST(Monitor, EventuallyIsViolatedAtTheLastStateOfItsWindow) {
   Expect(eventually, TraceOf("000011"), false, 3);
   Expect(eventually, TraceOf("000111"), true, 3);
   Expect(Of(MonitorKind::kEventually, {AtomNumber(0)}), TraceOf("0000"), false, 3);
-  // The window from 0.21 to 0.29 s contains no state.
+  // No state is in the window from 0.21 to 0.29 s.
   Expect(Of(MonitorKind::kEventually, {AtomNumber(0)}, 0.21, 0.29), TraceOf("111111"), false, 2);
 }
 
@@ -169,7 +169,7 @@ TEST(Monitor, AgreesWithTheDefinitionOfTheOperators) {
     }
     const MonitorVerdict judged = RunMonitor(formula, trace);
     ASSERT_EQ(judged.holds, Means(formula, trace, 0)) << "formula " << i;
-    // An early verdict must not change, however the run continues.
+    // An early verdict must be the same for every continuation of the run.
     for (std::size_t length = judged.at + 1; length < trace.size(); ++length) {
       const Trace shorter(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(length));
       ASSERT_EQ(Means(formula, shorter, 0), judged.holds) << "formula " << i;
@@ -181,7 +181,7 @@ TEST(Monitor, ObligationsDoNotGrowWithTheRun) {
   const Formula answered =
       Of(MonitorKind::kAlways, {Of(MonitorKind::kEventually, {AtomNumber(0)}, 0, 1000)});
   Monitor monitor(answered, [](const Formula&) { return 0; });
-  for (int i = 0; i < 9'000; ++i) {  // with quadratic growth this would take minutes
+  for (int i = 0; i < 9'000; ++i) {  // quadratic growth would take minutes
     monitor.Step(i * kStep, kStep, [](int) { return false; });
   }
   EXPECT_EQ(monitor.verdict(), std::nullopt);

@@ -30,7 +30,7 @@ std::optional<double> NumberOf(std::string_view text) {
   return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// Returns the horizontal angle that belongs to a vertical one, rad.
+// Returns the horizontal angle of view for a vertical one, rad.
 double HorizontalOf(double vertical, int width, int height) {
   return 2 * std::atan(std::tan(vertical / 2) * width / height);
 }
@@ -68,7 +68,7 @@ base::Result<rendering::CameraView> OfSensor(const Camera& camera, const SceneLo
   const auto found = lookup.sensor(camera.sensor.substr(0, slash), camera.sensor.substr(slash + 1));
   if (!found) return Fail(found.error());
   rendering::CameraView view{found->world_from_sensor, ParametersOf(camera)};
-  constexpr double kWidest = 3;  // maximum angle of a pinhole, rad
+  constexpr double kWidest = 3;  // maximum angle of view of a pinhole camera, rad
   view.parameters.horizontal_fov = std::min(found->horizontal_fov, kWidest);
   return view;
 }

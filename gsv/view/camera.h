@@ -1,4 +1,4 @@
-// The camera of a view: its parameters as users give them, and its pose at an instant.
+// The camera of a view: the parameters that users give, and its pose at an instant.
 //
 // Frames  eye and target in the world; with `follow` in the robot's frame without its pitch and
 //         roll: x ahead, y left, z up.
@@ -25,9 +25,10 @@ struct Camera {
   int width = 1280, height = 720;
   std::optional<geometry::Vector3> eye, target;
   std::optional<double> field_of_view;  // vertical angle in degrees; default: 45
-  std::string follow;                   // name of a robot; empty: none
-  std::string sensor;                   // "ROBOT/CAMERA": the view of this camera; empty: none
-  ViewOfAllSide side;                   // used if none of these places the camera
+  std::string follow;                   // name of a robot; empty if the camera follows none
+  std::string sensor;                   // "ROBOT/CAMERA": use the view of this camera sensor; empty
+                                        // for none
+  ViewOfAllSide side;                   // direction of the default view
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
@@ -42,18 +43,18 @@ base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::str
 base::Result<double> ParseFieldOfView(std::string_view text);
 // Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
 base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side);
-// Refuses an eye without a target unless a robot is followed, and a sensor with any of them.
+// Fails for an eye without a target unless a robot is followed, and for a sensor together with any of them.
 base::Status Check(const Camera& camera);
 
-// A camera sensor at an instant.
+// The view of a camera sensor at an instant.
 struct SensorView {
   geometry::Pose world_from_sensor;
   double horizontal_fov = 0;  // rad
 };
 
-// The parts of a scene to which a camera may refer.
+// Functions that find the parts of a scene that a camera may name.
 struct SceneLookup {
-  // Returns the pose of a body, or nothing.
+  // Returns the pose of a body, or nullopt.
   std::function<std::optional<geometry::Pose>(const std::string& body)> pose;
   // Returns a camera of a robot. The error names the missing part.
   std::function<base::Result<SensorView>(const std::string& robot, const std::string& sensor)>
@@ -62,7 +63,7 @@ struct SceneLookup {
   std::function<std::vector<geometry::Vector3>()> corners;
 };
 
-// Checks the camera, and returns its view.
+// Checks the parameters, and returns the camera's view.
 base::Result<rendering::CameraView> Place(const Camera& camera, const SceneLookup& lookup);
 
 }  // namespace gsv::view

@@ -12,7 +12,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// The robot "pebble" is at (10, 20, 0), rotated to the left, with the camera "eye" 0.5 m above it.
+// The robot "pebble" is at (10, 20, 0) and faces along y. Its camera "eye" is 0.5 m above it.
 SceneLookup Pebble() {
   const Pose pebble{{10, 20, 0}, geometry::FromRollPitchYaw({0.1, 0.2, std::numbers::pi / 2})};
   return {[pebble](const std::string& body) {
@@ -65,7 +65,7 @@ TEST(ViewCamera, TheFieldOfViewIsVertical) {
   camera.target = {1, 0, 1};
   camera.width = 300, camera.height = 100;
   camera.field_of_view = 90;
-  // tan(45°) = 1 upwards, so 3 to each side.
+  // The image is three times as wide as high: tan(45°) = 1 upwards, so 3 to each side.
   EXPECT_NEAR(std::tan(Placed(camera).parameters.horizontal_fov / 2), 3, 1e-12);
 }
 

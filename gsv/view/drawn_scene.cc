@@ -23,7 +23,7 @@ const SceneJson& MemberOf(const SceneJson& object, const char* name) {
   return found == object.end() ? kNothing : *found;
 }
 
-// Returns an empty list if it is not a list.
+// Returns the member, or an empty list if it is no list.
 const SceneJson& ListOf(const SceneJson& object, const char* name) {
   static const SceneJson kEmpty = SceneJson::array();
   const SceneJson& list = MemberOf(object, name);
@@ -101,7 +101,7 @@ std::shared_ptr<const model::WorldDescription> DescriptionOf(const SceneJson& sc
   return description;
 }
 
-// The separator is a character that is not in the name of any body.
+// The separator is a character that no body's name contains.
 std::string NameOfLink(const std::string& body, const std::string& link) {
   return body + '\x1f' + link;
 }
@@ -112,7 +112,7 @@ int LinkNamed(const model::Model& model, const std::string& name) {
   return found == model.links.end() ? -1 : static_cast<int>(found - model.links.begin());
 }
 
-// A model without its moving links, and each moving link as a separate model.
+// A model without its moving links, and one model for each moving link.
 struct SplitModel {
   std::shared_ptr<const model::Model> whole;
   std::shared_ptr<model::Model> rest;
@@ -156,7 +156,7 @@ class DrawnScene::Reader {
   DrawnScene Take() { return std::move(scene_); }
 
  private:
-  // Returns the body's index in the JSON, or nothing.
+  // Returns the index of the pose's body in the JSON, or nullopt.
   std::optional<std::size_t> IndexIn(const SceneJson& pose) const {
     const SceneJson& body = MemberOf(pose, "body");
     if (!body.is_number_unsigned() || body.get<std::uint64_t>() >= bodies_json_.size()) {
@@ -237,8 +237,8 @@ class DrawnScene::Reader {
 
   const SceneJson& bodies_json_;
   const SceneJson& poses_json_;
-  std::vector<std::set<std::string>> moving_;  // names of the moving links, for each body in the
-                                               // JSON
+  std::vector<std::set<std::string>> moving_;  // names of the moving links of each body, in
+                                               // the
   std::map<std::pair<const model::Model*, std::set<std::string>>, SplitModel> splits_;
   std::set<std::string> names_;
   std::vector<world::Body> bodies_;

@@ -1,4 +1,4 @@
-// A scene of a recording, ready to render: its bodies with their models, posed by messages.
+// A scene of a recording that can be rendered. Messages of the recording give the poses of its bodies.
 //
 // Links   a link that moves relative to its body is a separate body in the snapshots, because
 //         recordings have the poses of links and not the positions of joints.
@@ -22,7 +22,7 @@
 
 namespace gsv::view {
 
-// Returns the model with an identifier of the scene; null if there is none.
+// Returns the model with this identifier, or null if there is none.
 using FindModel = std::function<std::shared_ptr<const model::Model>(const std::string& id)>;
 
 class DrawnScene {
@@ -30,16 +30,16 @@ class DrawnScene {
   // `json` must have the form that presentation::SceneJson() writes (docs/formats/live.md).
   static base::Result<DrawnScene> Make(std::string_view json, const FindModel& find_model);
 
-  // Returns the world at the instant of a message of this scene's layout.
+  // Returns the world at the instant of a message, which must have this scene's layout.
   std::shared_ptr<const world::Snapshot> At(const messages::gsv_msgs::Poses& poses) const;
 
-  // Valid during the lifetime of this object and of `snapshot`, which must come from At(). The
-  // default view is that of the scene's own poses, so that it does not move with the bodies.
+  // The result is valid during the lifetime of this object and of `snapshot`, which must come from
+  // At(). The default view shows the scene's own poses, so that it does not move with the bodies.
   SceneLookup LookupAt(const world::Snapshot& snapshot) const;
 
  private:
   struct Camera {
-    std::string body;  // the body in the snapshot: the robot, or one of its links
+    std::string body;  // name of the body in the snapshot: the robot, or one of its links
     geometry::Pose body_from_sensor;
     double horizontal_fov = 0;  // rad; 0: the sensor is not a camera
   };
@@ -47,8 +47,8 @@ class DrawnScene {
   DrawnScene() = default;
 
   std::shared_ptr<const world::Layout> layout_;
-  world::State state_;                // the scene's own poses
-  std::vector<int> bodies_of_poses_;  // index of a body for each pose of a message; -1: none
+  world::State state_;                // the state with the scene's own poses
+  std::vector<int> bodies_of_poses_;  // for each pose of a message, the index of its body, or -1
   std::map<std::pair<std::string, std::string>, Camera> sensors_;  // cameras by robot and name
 };
 

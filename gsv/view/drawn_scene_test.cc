@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Vector3;
 
-// A cube of 1 m in one colour, with a red link "arm" of 0.2 m at (0, 0, 2).
+// A cube of 1 m in one colour. Its link "arm" is a red cube of 0.2 m at (0, 0, 2).
 std::shared_ptr<const model::Model> Cube() {
   auto cube = std::make_shared<model::Model>();
   cube->name = "cube";
@@ -58,12 +58,12 @@ TEST(DrawnScene, PosesBodiesAndTheirMovingLinks) {
   const DrawnScene room = Room();
   const auto snapshot = room.At(Moved());
   EXPECT_EQ(snapshot->layout->bodies.size(),
-            3u);  // The bodies are the wall, the robot and its arm; the ghost has no model.
+            3u);  // The bodies are the wall, the robot and the robot's arm; the ghost has no model.
   const auto lookup = room.LookupAt(*snapshot);
   EXPECT_EQ(lookup.pose("wall")->position, (Vector3{5, 0, 0.5}));
   EXPECT_EQ(lookup.pose("robot")->position, (Vector3{7, 8, 9}));
   EXPECT_FALSE(lookup.pose("ghost"));
-  // The camera is on the arm, which is rotated by half a turn about z.
+  // The camera is mounted on the arm, which is rotated by half a turn about z.
   const auto eye = lookup.sensor("robot", "eye");
   ASSERT_TRUE(eye);
   EXPECT_NEAR(eye->world_from_sensor.position.x, 6.9, 1e-12);
@@ -125,7 +125,7 @@ TEST(DrawnScene, RejectsTextThatIsNotAScene) {
   };
   EXPECT_FALSE(DrawnScene::Make("{", nothing));
   EXPECT_FALSE(DrawnScene::Make("[1, 2]", nothing));
-  // Members of wrong types are treated as missing.
+  // A member of a wrong type is treated as missing.
   EXPECT_TRUE(DrawnScene::Make(R"({"bodies": 7, "poses": {"body": -1}, "lights": [1]})", nothing));
 }
 

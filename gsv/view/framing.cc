@@ -16,10 +16,10 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kBoundless = std::numeric_limits<double>::infinity();
-// A body is too far away if its distance exceeds kFarMetres plus kFarRadii times the radius of all
-// nearer bodies.
+// A body is too far away to be shown if its distance exceeds kFarMetres plus kFarRadii times the
+// radius of all nearer bodies.
 constexpr double kFarRadii = 20, kFarMetres = 100;
-// A body counts as ground if its height is at most kFlat of its width, and its area is at least
+// A body counts as ground if its height is at most kFlat times its width, and its area is at least
 // kMuchMore times that of the other bodies.
 constexpr double kFlat = 0.02, kMuchMore = 4;
 
@@ -82,7 +82,8 @@ struct SeenBody {
   double radius() const { return Norm(bounds.max - bounds.min) / 2; }
 };
 
-// Returns the median of their centres for each axis, or the origin for fewer than three bodies.
+// Returns the median of the bodies' centres for each axis, or the origin for fewer than three
+// bodies.
 Vector3 MiddleOf(const std::vector<SeenBody>& bodies) {
   if (bodies.size() < 3) return {};
   const auto median = [&](double Vector3::*axis) {
@@ -103,7 +104,7 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
   double radius = 0;  // the radius about the centre that contains the bodies so far
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double nearest = distance(bodies[i]) - bodies[i].radius();
-    // At least half of the bodies must be nearer.
+    // Bodies are left out only if at least half of all bodies are nearer.
     if (nearest > kFarRadii * radius + kFarMetres && 2 * i >= bodies.size()) {
       bodies.resize(i);
       return;
@@ -112,7 +113,7 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
   }
 }
 
-// Returns the bodies without the ground, unless there is only ground.
+// Returns the bodies without the ground. If there is only ground, returns the ground.
 std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
   std::vector<const Seen*> all, standing;
   Bounds of_all = Nothing(), of_standing = Nothing();
@@ -151,7 +152,7 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
                                 const ViewOfAllSide& side) {
   constexpr double kMargin = 1.05;
   constexpr double kFieldOfView = 0.8;
-  constexpr double kMaxCoordinate = 1e6;  // m: limit of a renderer
+  constexpr double kMaxCoordinate = 1e6;  // m; the renderer's maximum
   const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, side.elevation, side.azimuth});
   const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
   constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -164,7 +165,7 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const Vector3 middle = (low + high) * 0.5;
-  double back = 0;  // distance from the centre
+  double back = 0;  // distance of the camera from the centre
   for (const Vector3& p : turned) {
     const Vector3 q = p - middle;
     back = std::max({back, std::abs(q.y) / across - q.x, std::abs(q.z) / up - q.x});

@@ -1,4 +1,4 @@
-// The view of a world that shows everything.
+// Computes a view that shows the whole world.
 #pragma once
 
 #include <numbers>
@@ -14,16 +14,16 @@ namespace gsv::view {
 // would be too small to see. If no body remains, returns a box of 2 m about the origin.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
-// The direction of a view of everything, and how near it is.
+// The direction of a view of the whole world, and its zoom.
 struct ViewOfAllSide {
   double azimuth = 0.75 * std::numbers::pi;  // heading of the view, counter-clockwise from x, rad
   double elevation = 0.6;                    // angle by which the view looks down, rad
-  double zoom = 1;                           // zoom; with 2 the view is from half the distance
+  double zoom = 1;                           // zoom; 2 means half the distance
   friend bool operator==(const ViewOfAllSide&, const ViewOfAllSide&) = default;
 };
 
-// Returns a view from that side, by default from the front, right and above. Its distance is the
-// smallest one that shows all corners, divided by the zoom.
+// Returns the view of these corners from `side` (default: from the front, right and above). The
+// distance is the smallest that shows all corners, divided by the zoom.
 rendering::CameraView ViewOfAll(const std::vector<geometry::Vector3>& corners, int width,
                                 int height, const ViewOfAllSide& side = {});
 

@@ -1,6 +1,6 @@
 // The state of a robot's device between steps, such as the messages of a radio, the command of a
-// lamp, the attached body of a gripper. Each type derives a class from DeviceState. The step loop,
-// the hash, the recorder, the renderer and the microphones use this interface and know no type.
+// lamp or the attached body of a gripper. Each type derives a class from DeviceState. All other
+// code, such as the step loop, the recorder and the renderer, uses only this interface.
 //
 // Sharing      states are immutable. A device that does not change is copied as one pointer, and a
 //              world without devices has none.
@@ -33,7 +33,7 @@ struct DeviceCommand {
   friend bool operator==(const DeviceCommand&, const DeviceCommand&) = default;
 };
 
-// The command that a device follows.
+// The command that a device currently applies.
 struct FollowedCommand {
   DeviceCommand command;
   base::SimTime since{0};  // the instant from which it is applied
@@ -41,14 +41,14 @@ struct FollowedCommand {
 };
 
 // The light of a lamp that is on, along the device's x axis. At intensity 1, a white surface that
-// faces the lamp at 1 m is fully white. The light falls with the square of the distance and ends at
-// `range`.
+// faces the lamp at a distance of 1 m is fully lit. The light decreases with the square of the
+// distance and ends at `range`.
 struct Glow {
   double brightness = 0;  // in (0, 1]
   model::Colour colour{};
   double radius = 0.02;   // radius of the glowing sphere, m
-  double range = 0;       // range in m; 0: the lamp is visible, but lights nothing
-  double angle = 6.2832;  // angle of the whole cone, rad; 2 pi: all around
+  double range = 0;       // range in m; if 0, the lamp is visible, but lights nothing
+  double angle = 6.2832;  // angle of the whole cone, rad; 2 pi means all directions
   double intensity = 1;   // intensity at full brightness
 };
 
@@ -61,14 +61,14 @@ struct Sound {
   double loudness = 0;           // sound level in dB (re 20 µPa) 1 m away at full volume
 };
 
-// An attached body, which moves with the device's link.
+// A grasped body, which moves with the device's link.
 struct Grasp {
-  std::string held;  // a body
+  std::string held;  // name of the body
   geometry::Pose link_from_held;
   friend bool operator==(const Grasp&, const Grasp&) = default;
 };
 
-// The robot and name of a device, and its mounting.
+// The robot and the name of a device, and where it is mounted.
 struct DeviceMount {
   std::string robot, device;
   int link = 0;  // a link of the robot's model
@@ -89,10 +89,10 @@ class DeviceState {
   const std::string& device() const { return mount_.device; }
 
   virtual void AddToHash(base::Hash& hash) const = 0;
-  // Returns the command, or null for a device that follows no command, such as a radio.
+  // Returns the current command, or null for a device without commands, such as a radio.
   virtual const FollowedCommand* followed() const { return nullptr; }
 
-  // Its light for cameras, its sound for microphones, and its attached body; by default none.
+  // The device's light for cameras, its sound for microphones, and its grasped body (default: none).
   virtual std::optional<Glow> glow() const { return std::nullopt; }
   virtual std::optional<Sound> SoundAt(base::SimTime) const { return std::nullopt; }
   virtual const Grasp* grasp() const { return nullptr; }
@@ -101,13 +101,13 @@ class DeviceState {
   //
   // Called before the bodies move, after the commands of this step were applied.
   virtual DeviceStatePtr BeforeStep(DeviceStep&) const { return nullptr; }
-  // Called after bodies were added, removed or placed (`placed`). The device's robot exists.
+  // Called after bodies were added, removed or moved (`placed`). The device's robot still exists.
   virtual DeviceStatePtr CarryOver(const Layout&, const std::vector<std::string>& /*placed*/,
                                    base::SimTime /*now*/) const {
     return nullptr;
   }
   // Called after the bodies have moved to their poses at `time`. Moves the bodies that the device
-  // itself moves.
+  // holds.
   virtual void AfterMove(const Layout&, base::SimTime /*time*/, State&) const {}
 
  private:
@@ -117,10 +117,10 @@ class DeviceState {
 // Returns the state of a device; null if it has none. `devices` may be null.
 const DeviceState* FindDevice(const DeviceStates* devices, std::string_view robot,
                               std::string_view device);
-// Returns the index of the device, or the index at which it must be inserted.
+// Returns the index of the device, or the index where it would be inserted.
 std::size_t PlaceOf(const DeviceStates& devices, std::string_view robot, std::string_view device);
 
-// Adds first the devices that follow no command, and then the others.
+// Adds devices without commands first, and then the others.
 void AddToHash(const DeviceStates& devices, base::Hash& hash);
 
 }  // namespace gsv::world

@@ -16,7 +16,7 @@ DeviceStatePtr Commanded(std::string robot, std::string device, FollowedCommand 
       DeviceMount{std::move(robot), std::move(device), 0, {}}, std::move(followed));
 }
 
-// A device without commands. Only the name of its robot is hashed.
+// A device without commands. It adds only the name of its robot to the hash.
 class Listener final : public DeviceState {
  public:
   using DeviceState::DeviceState;
@@ -64,9 +64,10 @@ TEST(DeviceHash, IncludesDevicesWithoutACommand) {
   expected.Add(std::uint64_t{1});
   expected.Add(0.5);
   expected.Add(std::string_view("w"));
-  expected.Add(0.0);                                                     // a gripper's opening,
-  expected.Add(std::string_view());                                      // the attached body,
-  for (const double value : {0, 0, 0, 1, 0, 0, 0}) expected.Add(value);  // its pose,
+  expected.Add(0.0);                                                     // opening of a gripper,
+  expected.Add(std::string_view());                                      // name of the grasped
+                                                                         // body,
+  for (const double value : {0, 0, 0, 1, 0, 0, 0}) expected.Add(value);  // pose of that body,
   expected.Add(0.0);                                                     // and its width
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }

@@ -14,9 +14,10 @@ struct DeviceStep {
   std::shared_ptr<const Snapshot> now;  // the world before the step
   base::SimTime length{0};              // length of the step
   const RayCaster& rays;                // casts rays at the collision surfaces of `now`
-  // The bodies are those of `now`. Devices before this one, by robot and name, were stepped.
+  // The current state: poses as in `now`; devices that come earlier, by robot and name, are already stepped.
   const State& state;
-  std::vector<Transmission>& transmissions;  // sent in this step, in the order of senders
+  std::vector<Transmission>& transmissions;  // messages that were sent in this step, ordered by
+                                             // sender
   std::uint64_t seed = 0;                    // seed of the simulation
 };
 

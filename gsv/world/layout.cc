@@ -12,7 +12,7 @@ BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movem
   const bool collides =
       std::any_of(model.links.begin(), model.links.end(),
                   [](const model::Link& link) { return !link.collisions.empty(); });
-  // A body that collides with nothing cannot stand on the ground.
+  // A body without any collisions cannot stand on the ground, so it is planar.
   const bool is_planar = model.drive && (movement == model::Movement::kPlanar || !collides);
   if (is_planar) return BodyKind::kPlanarBase;
   return collides ? BodyKind::kRigidBody : BodyKind::kUnmoved;

@@ -15,15 +15,15 @@
 
 namespace gsv::world {
 
-// The kind of motion of a body.
+// How a body moves.
 enum class BodyKind : std::uint8_t {
-  kStatic,      // it is a part of the world and never moves
-  kUnmoved,     // it is not static, but nothing moves it: it has no drive and no collisions
-  kPlanarBase,  // its drive moves it by planar kinematics
-  kAvatar,      // a person steers it; it moves by planar kinematics
-  kRigidBody,   // rigid-body dynamics: it falls, tips and is pushed, and its joints move
-  kActor,       // its script moves it: nothing stops it, and bodies that run into it stop
-  kPedestrian,  // the social force model moves it by planar kinematics
+  kStatic,      // a part of the world that never moves
+  kUnmoved,     // not static, but nothing moves it: it has no drive and no collisions
+  kPlanarBase,  // planar kinematics, by its drive
+  kAvatar,      // planar kinematics, steered by a person
+  kRigidBody,   // rigid-body dynamics: it can fall, tip over and be pushed, and its joints move
+  kActor,       // a script moves it; nothing stops it, and bodies that run into it stop
+  kPedestrian,  // planar kinematics by the social force model
 };
 
 struct Pedestrian;  // gsv/world/pedestrian.h
@@ -34,8 +34,8 @@ BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movem
 // Returns the kind of a body for a model of a world file.
 BodyKind KindOf(const model::PlacedModel& placed);
 
-// One placed model. `first_joint` and `first_link` are the offsets of its joints and links in
-// arrays over all bodies.
+// A placed model. `first_joint` and `first_link` are the offsets of its joints and links in arrays
+// over all bodies.
 struct Body {
   std::string name;
   std::shared_ptr<const model::Model> model;
@@ -48,9 +48,9 @@ struct Body {
   bool is_rigid() const { return kind == BodyKind::kRigidBody; }
   bool is_actor() const { return kind == BodyKind::kActor; }
   bool is_pedestrian() const { return kind == BodyKind::kPedestrian; }
-  // Whether planar kinematics moves it.
+  // Whether the body moves by planar kinematics.
   bool is_planar() const { return kind == BodyKind::kPlanarBase || is_avatar() || is_pedestrian(); }
-  // Whether it may have a behaviour, or is an avatar.
+  // Whether the body may have a behaviour, or is an avatar.
   bool is_robot() const {
     return kind == BodyKind::kPlanarBase || is_avatar() || (is_rigid() && model->drive.has_value());
   }
@@ -60,7 +60,7 @@ struct Body {
 };
 
 struct Layout {
-  std::uint32_t version = 0;  // increases with each change
+  std::uint32_t version = 0;  // increases with each change of the layout
   std::vector<Body> bodies;   // ordered by name
   int joint_count = 0;
   int link_count = 0;
@@ -70,7 +70,7 @@ struct Layout {
   int Find(std::string_view name) const;
 };
 
-// Orders `bodies` by name and numbers their joints and links. Names must be unique.
+// Makes a layout. Sorts `bodies` by name and numbers their joints and links. Names must be unique.
 std::shared_ptr<const Layout> MakeLayout(
     std::uint32_t version, std::vector<Body> bodies,
     std::shared_ptr<const model::WorldDescription> description);

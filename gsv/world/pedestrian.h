@@ -16,17 +16,17 @@ struct Pedestrian {
   std::shared_ptr<const model::PedestrianGroup> group;  // never null
   std::uint64_t seed = 0, stream = 0;
   double speed = 1.34;    // desired speed, m/s
-  std::uint32_t leg = 0;  // first leg of the group's route
+  std::uint32_t leg = 0;  // index of the first leg of the group's route that this pedestrian walks
 };
 
-// Draws a member's desired speed, from a third to twice that of the group, and its first leg.
+// Draws a pedestrian's desired speed, from a third to twice that of the group, and its first leg.
 Pedestrian DrawPedestrian(std::shared_ptr<const model::PedestrianGroup> group, std::uint64_t seed,
                           std::uint64_t stream);
 
-// Returns the goal after `reached` goals: a point in the disc of goal leg + 1 + reached.
+// Returns the next goal after `reached` goals: a point in the disc of goal leg + 1 + reached.
 geometry::Vector2 GoalOf(const Pedestrian& pedestrian, std::uint32_t reached);
 
-// Returns a possible start on the way to its first goal. It differs for each `attempt`.
+// Returns a possible start on the way to the first goal. Each `attempt` gives another place.
 geometry::Vector2 StartOf(const Pedestrian& pedestrian, std::uint32_t attempt);
 
 }  // namespace gsv::world

@@ -16,25 +16,25 @@ namespace gsv::world {
 
 // The parameters of a radio (docs/sensors.md).
 struct RadioSetup {
-  std::string network;              // only radios of one network receive from each other
+  std::string network;              // a radio receives only from radios of the same network
   double frequency = 2.442e9;       // Hz
   double power = 14.5, gain = 2.5;  // dBm, dBi
-  double sensitivity = -90;         // dBm: the weakest signal that the radio receives
-  double range = 0;                 // m; 0: as far as power and sensitivity reach
-  double path_loss_exponent = 2;    // 2: free space
-  double wall_loss = 10;            // dB for each wall that its signals pass through
-  std::size_t inbox = 16;           // number of received messages that it keeps
+  double sensitivity = -90;         // the weakest signal that the radio receives, dBm
+  double range = 0;                 // m; 0 means as far as power and sensitivity reach
+  double path_loss_exponent = 2;    // 2 in free space
+  double wall_loss = 10;            // dB for each wall that a signal passes through
+  std::size_t inbox = 16;           // maximum number of received messages that are kept
   std::size_t max_size = 1024;      // maximum size of a sent message in bytes
 };
 using RadioSetupPtr = std::shared_ptr<const RadioSetup>;
 
 struct RadioMessage {
   std::string sender;    // robot
-  std::string radio;     // its sensor
-  std::string receiver;  // name of the receiving robot; empty: all
+  std::string radio;     // name of the sending sensor
+  std::string receiver;  // name of the receiving robot; empty for all
   base::SimTime sent{0};
   std::string content;       // bytes
-  std::uint64_t digest = 0;  // digest of all members above, made by Sealed()
+  std::uint64_t digest = 0;  // hash of all members above, set by Sealed()
 };
 using RadioMessagePtr = std::shared_ptr<const RadioMessage>;
 
@@ -43,14 +43,15 @@ RadioMessagePtr Sealed(RadioMessage message);
 struct Antenna {
   RadioSetupPtr setup;
   geometry::Vector3 position;  // world
-  int body = -1;               // index of the carrier; -1: it is not in the world
+  int body = -1;               // index of the body that carries the radio; -1 if it is not in the
+                               // world
 };
 
-// A sent message.
+// A message that was sent.
 struct Transmission {
   RadioMessagePtr message;
   Antenna from;
-  std::vector<std::string> heard_by;  // names of the robots that received it
+  std::vector<std::string> heard_by;  // names of the robots that received the message
 };
 
 }  // namespace gsv::world

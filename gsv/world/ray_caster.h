@@ -24,8 +24,8 @@ class RayCaster {
  public:
   virtual ~RayCaster() = default;
 
-  // Returns the nearest crossing, from either side, of a collision surface that is not of the body
-  // `ignored_body` (-1: of any). A ray that starts inside a solid hits the far side.
+  // Returns the nearest point at which the ray crosses a collision surface, from either side. Surfaces of
+  // the body `ignored_body` are ignored (-1: none). A ray that starts inside a solid hits its far side.
   virtual std::optional<Hit> Cast(const Ray& ray, int ignored_body) const = 0;
 };
 

@@ -21,7 +21,7 @@ std::vector<int> ParentJoints(const model::Model& model) {
   return parent_joint;
 }
 
-// Returns the displacement of the links below a joint at `position`, in the model's frame.
+// Returns how a joint at `position` displaces the links below it, in the model's frame.
 Pose Displacement(const model::Joint& joint, double position) {
   if (!Moves(joint.kind) || position == 0.0) return {};
   Pose motion;
@@ -49,7 +49,8 @@ template <class Parent>
 Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions, int link,
                       const Parent& parent_joint) {
   Pose displacement;
-  // The loop goes from the link up to the root; a forest has at most links.size() levels.
+  // The loop goes from the link up to the root. A forest has at most links.size() levels, so it
+  // ends.
   std::size_t level = 0;
   for (int j = parent_joint(link); j >= 0; j = link >= 0 ? parent_joint(link) : -1) {
     GSV_CHECK(level++ < model.links.size());

@@ -1,4 +1,4 @@
-// The world at one instant: immutable, shared, read by any number of threads.
+// The world at one instant. It is immutable and shared; any number of threads may read it.
 #pragma once
 
 #include <limits>
@@ -11,13 +11,13 @@
 
 namespace gsv::world {
 
-// A point at which two bodies touch.
+// One of the points at which two bodies touch.
 struct ContactPoint {
   geometry::Vector3 point;   // world
   geometry::Vector3 normal;  // normal in the world, unit length, from the first body to the second
   double depth = 0;          // m
-  // impulse on the second body over the step, N s, in the world: friction and normal force. Zero if
-  // no engine computes it.
+  // impulse on the second body over the step, in the world, N s: friction and normal force; zero if
+  // the engine does not compute it
   geometry::Vector3 impulse;
 };
 
@@ -30,12 +30,12 @@ struct Contact {
   geometry::Vector3 point;   // world
   geometry::Vector3 normal;  // normal in the world, unit length
   double depth = 0;          // m
-  bool began = false;        // whether the contact did not exist one step earlier
-  double closing_speed = 0;  // m/s along the normal when they met; 0 unless it began
-  // impulse along the normal over the step, N s, summed over all contact points; NaN if no engine
-  // computes it. Planar kinematics computes the impulse of a push only.
+  bool began = false;        // whether the bodies did not touch one step earlier
+  double closing_speed = 0;  // m/s along the normal when the bodies met; 0 unless `began`
+  // impulse along the normal over the step, N s, summed over all contact points; NaN if the engine
+  // does not compute it. Planar kinematics computes it only for a push.
   double impulse = std::numeric_limits<double>::quiet_NaN();
-  // Whether the second body, static or planar, carries the first from below, as the ground does.
+  // Whether the second body, static or planar, supports the first body from below, like the ground.
   // Such a contact is not a collision: only contact sensors report it.
   bool supports = false;
   // All points of two rigid bodies, the deepest first, at the end of the last substep in which the
@@ -44,11 +44,11 @@ struct Contact {
   std::vector<ContactPoint> points;
 };
 
-// Returns the contact's points, at least one. If the contact has no points of its own, its impulse
-// is along its normal.
+// Returns the contact's points, at least one. If `points` is empty, the point's impulse is along
+// the normal.
 std::vector<ContactPoint> PointsOf(const Contact& contact);
 
-// The acceleration of a model's origin in world axes: the mean over the last step.
+// The acceleration of a model's origin, in world axes: the mean over the last step.
 struct Acceleration {
   geometry::Vector3 linear;   // m/s²
   geometry::Vector3 angular;  // rad/s²
@@ -58,21 +58,21 @@ struct Snapshot {
   std::shared_ptr<const Layout> layout;  // never null
   State state;
   std::vector<Contact> contacts;  // contacts of the last step, ordered by (first, second, supports)
-  base::SimTime step_length{0};   // length of the last step; 0 before the first one
+  base::SimTime step_length{0};   // length of the last step; 0 before the first step
   // in the order of Layout::bodies; empty before the first step
   std::vector<Acceleration> accelerations;
-  // rad/s² or m/s²: the means over the last step, in the order of State::joint_velocities; empty
-  // before the first step
+  // rad/s² or m/s², means over the last step, in the order of State::joint_velocities; empty before
+  // the first step
   std::vector<double> joint_accelerations;
-  // messages sent in the last step, in the order of senders
+  // messages that were sent in the last step, ordered by sender
   std::vector<Transmission> transmissions;
 };
 
-// Returns the mean force over the last step, from an impulse (N s); zero before the first step.
+// Returns the mean force over the last step, computed from an impulse (N s); zero before the first step.
 geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse);
 
-// Called around a step, in this order: keeps the velocities before it, and computes closing speeds
-// and accelerations after it.
+// Called before and after a step: the first stores the velocities before the step, the second
+// computes closing speeds and accelerations.
 void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations,
                     std::vector<double>& joint_accelerations);
 void FinishContacts(const State& state, const std::vector<Acceleration>& kept,

@@ -12,8 +12,8 @@ using geometry::Vector3;
 
 using geometry::kPi;
 
-// A mast that rotates about z at (1, 0, 0). A prismatic joint along its x axis carries a hand at
-// (2, 0, 0).
+// A mast that rotates about z at (1, 0, 0). On it, a prismatic joint along the mast's x axis
+// carries a hand at (2, 0, 0).
 model::Model Arm() {
   model::Model arm;
   arm.links.resize(3);
@@ -69,8 +69,8 @@ TEST(LinkPose, AgreesWithLinkPosesInTheWorld) {
 }
 
 TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
-  // One body moves ahead at 2 m/s and rotates at 3 rad/s about z. The other one moves away at 0.5
-  // m/s.
+  // One body moves along x at 2 m/s and rotates at 3 rad/s about z. The other body moves in the
+  // same direction at 0.5 m/s.
   State state;
   state.bodies.resize(2);
   state.bodies[0].world_from_model.position = {1, 0, 0};
@@ -81,15 +81,16 @@ TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
   std::vector<Acceleration> kept;
   std::vector<double> joints;
   KeepVelocities(state, kept, joints);
-  state.bodies[0].linear_velocity = {};  // the step has stopped it
-  // Their contact is 0.4 to the right of the first body's centre, where its rotation adds 1.2 m/s.
+  state.bodies[0].linear_velocity = {};  // the contact has stopped the body
+  // The bodies touch 0.4 m to the right of the first body's centre, where its rotation adds 1.2
+  // m/s.
   std::vector<Contact> contacts(3, {0, 1, {2, -0.4, 0}, {1, 0, 0}, 0.01, true});
   contacts[1].began = false;
   contacts[2].normal = {-1, 0, 0};
   FinishContacts(state, kept, contacts);
   EXPECT_NEAR(contacts[0].closing_speed, 2 + 1.2 - 0.5, 1e-12);
-  EXPECT_EQ(contacts[1].closing_speed, 0);  // these bodies touched before
-  EXPECT_EQ(contacts[2].closing_speed, 0);  // these bodies move apart
+  EXPECT_EQ(contacts[1].closing_speed, 0);  // these bodies already touched before
+  EXPECT_EQ(contacts[2].closing_speed, 0);  // these bodies move away from each other
 }
 
 TEST(Snapshot, AccelerationsAreTheMeansOfAStep) {

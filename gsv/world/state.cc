@@ -145,7 +145,7 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
   }
   for (const double q : state.joint_positions) hash.Add(q);
   for (const double qd : state.joint_velocities) hash.Add(qd);
-  // Commands that were never given do not affect the hash.
+  // Joints without a command do not affect the hash.
   for (std::size_t i = 0; i < state.joint_commands.size(); ++i) {
     const JointCommand& command = state.joint_commands[i];
     if (command.kind == JointCommand::Kind::kNone) continue;

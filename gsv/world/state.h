@@ -1,4 +1,4 @@
-// The state on which the next step depends: plain data, and immutable states of devices.
+// The state on which the next step depends: simple values, and immutable states of devices.
 //
 // Frames  poses are world_from_model; velocities are those of the model's origin, in world axes.
 // Units   metres, radians, seconds.
@@ -33,12 +33,12 @@ inline bool IsFinite(const DriveCommand& command) {
 struct DriveState {
   DriveCommand command;
   base::SimTime command_time{0};  // time at which the command was given
-  DriveCommand actual;            // the actual velocity, within acceleration limits
+  DriveCommand actual;            // the current velocity, within acceleration limits
 };
 
-// The pose of a base by dead reckoning of its wheels, relative to the start; see wheel_odometry.h.
+// The pose of a base relative to its start, computed from its wheels (dead reckoning); see wheel_odometry.h.
 struct Odometry {
-  geometry::PlanarPosition place;  // position of its reference point, in the frame of its start
+  geometry::PlanarPosition place;  // position of the reference point, in the frame at the start
   double linear = 0, angular = 0;  // linear and angular velocity over the last step, m/s, rad/s
 };
 
@@ -50,24 +50,25 @@ struct BodyState {
   Odometry odometry;
   double distance = 0;           // distance that the model's origin has travelled, m
   std::uint64_t collisions = 0;  // number of contacts that began, not of steps in contact
-  bool in_contact = false;       // whether it touched a body other than the ground in the last step
+  bool in_contact = false;       // whether the robot touched a body other than the ground in the
+                                 // last step
 };
 
-// A command to a joint of a rigid body, until the next command.
+// A command to a joint of a rigid body. It applies until the next command.
 struct JointCommand {
   enum class Kind : std::uint8_t {
-    kNone,      // no command: only the joint's own damping and friction act
-    kPosition,  // rad or m, within the velocity and effort limits
-    kVelocity,  // rad/s or m/s, within the effort limit
-    kEffort,    // N m or N, within the effort limit
+    kNone,      // no command; only damping and friction of the joint act
+    kPosition,  // rad or m; velocity and effort limits apply
+    kVelocity,  // rad/s or m/s; the effort limit applies
+    kEffort,    // N m or N; the effort limit applies
   };
   Kind kind = Kind::kNone;
   double value = 0;
   friend bool operator==(const JointCommand&, const JointCommand&) = default;
 };
 
-// The state that an engine of rigid-body dynamics keeps between steps because results depend on it,
-// such as the initial impulses of its solver. Immutable, so that states can share it.
+// Data that an engine of rigid-body dynamics needs from the last step, such as the impulses with
+// which its solver starts. Immutable, so that states can share it.
 class EngineState {
  public:
   virtual ~EngineState() = default;
@@ -78,7 +79,8 @@ struct State {
   std::int64_t step = 0;
   base::SimTime time{0};
   std::vector<BodyState> bodies;        // in the order of Layout::bodies
-  std::vector<double> joint_positions;  // those of body b start at Layout::bodies[b].first_joint
+  std::vector<double> joint_positions;  // the joints of body b start at
+                                        // Layout::bodies[b].first_joint
   // The values of a ball joint are its angular velocity about the three axes of the child.
   std::vector<double> joint_velocities;
   // in the order of joint_positions; empty before the first command
@@ -88,8 +90,8 @@ struct State {
   std::vector<double> joint_integrals;
   // Number of goals that each pedestrian has reached, in the order of `bodies`; may be empty.
   std::vector<std::uint32_t> goals;
-  std::shared_ptr<const DeviceStates> devices;  // null until a device has a state
-  std::shared_ptr<const EngineState> engine;    // null if the engine has no state
+  std::shared_ptr<const DeviceStates> devices;  // null while no device has a state
+  std::shared_ptr<const EngineState> engine;    // null if the engine needs none
 };
 
 // Returns the state at the start: initial poses, at rest, with the joint targets of the models.
@@ -98,15 +100,15 @@ State InitialState(const Layout& layout);
 // Whether the joint belongs to a drive: a wheel or a steering joint.
 bool IsOfDrive(const model::Model& model, int joint);
 
-// Returns an error for commands that are not finite, efforts for bodies without rigid-body
-// dynamics, and commands to joints that do not exist, take none, or belong to the drive.
+// Fails for commands that are not finite, for efforts on bodies without rigid-body dynamics, and
+// for commands to joints that do not exist, accept none, or belong to the drive.
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
 // Sets the command of a joint.
 void CommandJoint(const Layout& layout, int body, int joint, const JointCommand& command,
                   State& state);
 
-// Adds every field of `state`, and the bodies' names, in canonical order.
+// Adds every field of `state`, and the bodies' names, to the hash, in canonical order.
 void AddToHash(const Layout& layout, const State& state, base::Hash& hash);
 
 }  // namespace gsv::world

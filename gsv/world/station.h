@@ -6,11 +6,11 @@
 
 namespace gsv::world {
 
-// A station has an agent as a robot has, which reads its sensors; there is nothing to drive
-// (ADR 042).
+// Whether the body is a station. A station has an agent, which reads its sensors, but no drive (ADR
+// 042).
 inline bool IsStation(const Body& body) { return !body.is_robot() && !body.model->sensors.empty(); }
 
-// Whether the body's sensors are read, recorded and shown: it is a robot, an avatar or a station.
+// Whether the body has sensors that are read, recorded and shown: it is a robot, avatar or station.
 inline bool HasAgent(const Body& body) { return body.is_robot() || IsStation(body); }
 
 }  // namespace gsv::world

@@ -1,5 +1,5 @@
-// Dead reckoning of driven bases from the rotation of their wheels, as a robot's encoders measure
-// it.
+// Computes the odometry of driven bases from the rotation of their wheels, which a robot's encoders
+// would measure.
 //
 // Differential  drives with two rows of wheels: the wheels of one side roll by their mean angle
 //               times Drive::wheel_radius; the base follows the arc that both sides make with
@@ -24,14 +24,14 @@ class WheelOdometry {
  public:
   void SetLayout(const Layout& layout);
 
-  // Called before and after a step.
+  // Called before and after each step.
   void KeepWheels(const State& state) { before_ = state.joint_positions; }
   void Advance(double step_seconds, State& state) const;
 
  private:
   struct Wheel {
     int joint = 0;              // index of the joint among all bodies' joints
-    double metres_per_rad = 0;  // its contribution to the travel of its side
+    double metres_per_rad = 0;  // metres that the side travels per radian of this wheel
   };
   struct Base {
     int body = 0;

@@ -13,8 +13,8 @@ namespace {
 using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.4, kStep = 0.01;
 
-// A robot with two wheels. The axis of the right one points to the right, so its angle decreases
-// when the robot drives forward.
+// A robot with two wheels. The right wheel's axle points to the right, so its angle decreases when
+// the robot drives forwards.
 std::shared_ptr<const Layout> Robot(model::DriveKind kind) {
   auto model = std::make_shared<model::Model>();
   model->links.resize(3);

@@ -1,5 +1,5 @@
-// The first octet selects a type, and the rest are the bytes of a message. They must be rejected,
-// or the decoded message must be equal after it is encoded and decoded again.
+// The first octet selects a type; the rest are the bytes of a message. The message must be
+// rejected, or it must not change when it is encoded and decoded again.
 #include <cstdint>
 
 #include "gsv/base/check.h"

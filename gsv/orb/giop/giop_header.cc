@@ -5,7 +5,8 @@ namespace {
 
 using base::CdrReader;
 
-// Service contexts, or the profiles of a reference: a number and a sequence of octets each.
+// Skips a list of service contexts, or of a reference's profiles: a number and a sequence of octets
+// each.
 void SkipTaggedOctets(CdrReader& in) {
   for (std::uint32_t left = in.Count(); left > 0 && in.ok(); --left) {
     in.ULong();

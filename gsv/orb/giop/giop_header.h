@@ -1,5 +1,5 @@
-// The headers of GIOP messages: the twelve bytes at the start of each, and the headers of requests
-// and replies.
+// Reads the headers of GIOP messages: the twelve bytes at the start of each message, and the
+// headers of requests and replies.
 //
 // Source  CORBA 3.1 part 2, 9.4.
 #pragma once
@@ -30,7 +30,7 @@ struct GiopHeader {
   std::size_t body_bytes = 0;
 };
 
-// Returns nothing unless the bytes begin a message of GIOP 1.0 to 1.2. Requires at least 12 bytes.
+// Returns nullopt if the bytes are not the header of a message of GIOP 1.0 to 1.2. Requires at least 12 bytes.
 std::optional<GiopHeader> ReadGiopHeader(std::string_view bytes);
 // Sets the length in the header of `message` and clears its flag of fragments.
 void CompleteGiopHeader(std::string& message);
@@ -41,7 +41,7 @@ struct RequestHeader {
   std::uint32_t id = 0;
   std::string_view operation;
 };
-// `in` must be at the request's header; afterwards it is at the arguments.
+// `in` must be at the request's header. Afterwards it is at the arguments.
 RequestHeader ReadRequestHeader(base::CdrReader& in);
 
 struct ReplyHeader {
@@ -49,10 +49,10 @@ struct ReplyHeader {
   std::uint32_t id = 0;
   std::uint32_t status = 0;
 };
-// `in` must be at the reply's header; afterwards it is at the results.
+// `in` must be at the reply's header. Afterwards it is at the results.
 ReplyHeader ReadReplyHeader(base::CdrReader& in);
 
-// `in` must be at an object reference (IOR); afterwards it is behind it.
+// Skips an object reference (IOR) at the position of `in`.
 void SkipReference(base::CdrReader& in);
 
 }  // namespace gsv::orb

@@ -1,4 +1,4 @@
-// A message that is being received from a socket. The ORB gets it when it is complete.
+// Receives a message from a socket, and passes it to the ORB when it is complete.
 #pragma once
 
 #include "gsv/orb/giop/message_assembly.h"
@@ -7,12 +7,12 @@ namespace gsv::orb {
 
 class IncomingMessage {
  public:
-  // `limit`: maximum bytes of a message with its headers.
+  // `limit` is the maximum size of a message with its headers, in bytes.
   explicit IncomingMessage(std::size_t limit) : assembly_(limit) {}
 
   MessageAssembly& assembly() { return assembly_; }
-  // Returns whether there is a message for the ORB, also if it is refused. CancelRequest messages
-  // are dropped, as no servant supports them.
+  // Returns whether a message can be passed to the ORB, or was refused. CancelRequest messages are
+  // dropped, as no servant supports them.
   bool IsThere();
   // Whether the whole message has arrived and no part of it has been passed to the ORB.
   bool is_new() const {
@@ -22,7 +22,7 @@ class IncomingMessage {
   bool has_begun() const {
     return assembly_.state() == MessageAssembly::State::kIncomplete && !assembly_.empty();
   }
-  // Copies up to `size` bytes of the message; -1 if the message is refused.
+  // Copies up to `size` bytes of the message to `buffer`. Returns their number, or -1 if the message is refused.
   int HandOut(void* buffer, std::size_t size);
 
  private:

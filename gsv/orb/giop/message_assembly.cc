@@ -6,7 +6,7 @@
 namespace gsv::orb {
 namespace {
 
-// Memory is allocated for received bytes, not for the declared length.
+// Memory is allocated in pieces as bytes arrive, because the declared length may be wrong.
 constexpr std::size_t kPiece = 8192;
 // A larger buffer is freed before the next message.
 constexpr std::size_t kKept = 1024;

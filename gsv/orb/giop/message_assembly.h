@@ -1,5 +1,5 @@
-// Reassembles one GIOP message at a time from the received bytes. It joins fragments of GIOP 1.2.
-// Fragments of GIOP 1.1, compressed messages, and two messages whose fragments alternate are
+// Reassembles one GIOP message at a time from the received bytes. Fragments of GIOP 1.2 are
+// joined. Fragments of GIOP 1.1, compressed messages, and messages whose fragments alternate are
 // refused.
 //
 // Source  CORBA 3.1 part 2, 9.4.
@@ -17,24 +17,24 @@ class MessageAssembly {
  public:
   enum class State { kIncomplete, kComplete, kRefused };
 
-  // `limit`: maximum bytes of a complete message with its headers.
+  // `limit` is the maximum size of a complete message with its headers, in bytes.
   explicit MessageAssembly(std::size_t limit) : limit_(limit) {}
 
   State state() const { return state_; }
   bool empty() const { return received_ == 0 && message_.empty(); }
 
-  // The buffer for the next bytes, while the message is incomplete.
+  // The free part of the buffer, for the next bytes of an incomplete message.
   struct Room {
     char* bytes;
     std::size_t size;
   };
   Room Next();
-  // Call it when `count` bytes were written to the buffer.
+  // Call this when `count` bytes were written to the buffer.
   void Take(std::size_t count);
 
   // The complete message.
   std::string& message() { return message_; }
-  // Starts the next message.
+  // Forgets the message, to receive the next one.
   void Reset();
 
  private:
@@ -45,7 +45,7 @@ class MessageAssembly {
   State state_ = State::kIncomplete;
   std::string frame_;  // the message or fragment that is being received
   std::size_t received_ = 0;
-  std::size_t wanted_ = kGiopHeaderBytes;  // size of the frame as known so far
+  std::size_t wanted_ = kGiopHeaderBytes;  // size of the frame, as far as it is known
   std::string message_;                    // the fragments that were joined so far
   std::uint32_t request_ = 0;              // id of the request whose fragments are joined
 };

@@ -11,7 +11,8 @@
 namespace gsv::orb {
 namespace {
 
-// Feeds all bytes in pieces of `piece`. Returns the messages, with "refused" at their end.
+// Feeds the bytes in pieces of `piece` bytes. Returns the messages, followed by "refused" if there
+// was an error.
 std::vector<std::string> Assembled(std::string_view bytes, std::size_t piece) {
   MessageAssembly assembly(65'536);
   std::vector<std::string> messages;

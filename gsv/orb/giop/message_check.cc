@@ -9,7 +9,7 @@
 namespace gsv::orb {
 namespace {
 
-// The number of requests without a reply that are remembered.
+// The number of unanswered requests that are remembered.
 constexpr std::size_t kPending = 1024;
 
 // Returns the types of an operation; empty for an unknown name.
@@ -18,8 +18,8 @@ std::string_view TypesOf(std::span<const Signature> signatures, std::string_view
   return found != signatures.end() ? found->types : std::string_view();
 }
 
-// Removes from `types` the part before the first `end` that is outside of brackets, and `end`
-// itself, and returns the part.
+// Removes the part of `types` before the first `end` outside of brackets, and `end` itself. Returns
+// the part.
 std::string_view TakeUntil(std::string_view& types, char end) {
   std::size_t size = 0;
   for (int depth = 0; depth > 0 || types.at(size) != end; ++size) {
@@ -31,7 +31,7 @@ std::string_view TakeUntil(std::string_view& types, char end) {
   return taken;
 }
 
-// Reads values of the types in a signature.
+// Checks values against the types in a signature.
 class ValueCheck {
  public:
   explicit ValueCheck(CdrReader& in) : in_(in) {}
@@ -42,7 +42,7 @@ class ValueCheck {
   }
 
  private:
-  // Reads a value of the first type, and removes the type from `types`.
+  // Reads a value of the first type in `types`, and removes that type from `types`.
   void Read(std::string_view& types) {
     const char kind = types.front();
     types.remove_prefix(1);
@@ -52,7 +52,7 @@ class ValueCheck {
       case 't':
         return type_codes_.TypeCode(in_);
       case 's':
-        in_.Octets();  // the ORB checks the terminating null
+        in_.Octets();  // skips the string; the ORB checks its terminating null
         return;
       case 'o':
         return SkipReference(in_);
@@ -109,7 +109,7 @@ void CheckRequest(const Signatures& signatures, std::string& message) {
   if (!header || header->type != GiopHeader::kRequest) return;
   CdrReader in = ReaderBehind(*header, message);
   const RequestHeader request = ReadRequestHeader(in);
-  if (!in.ok()) return;  // the ORB refuses such a message
+  if (!in.ok()) return;  // the header is invalid; the ORB refuses the message
   const std::string_view types = TypesOf(signatures.requests, request.operation);
   const std::size_t body = in.position();
   if (!ValueCheck(in).Has(types)) CutAt(message, body);

@@ -1,9 +1,9 @@
-// Checks the arguments and results of operations in the bytes of a message, before the ORB
-// unmarshals them. Only operations that pass an `any` or a TypeCode need it, because omniORB 4.2.5
-// crashes on some malformed ones (type_code_check.h).
-//
-// The body of an invalid message is removed. The ORB then answers with MARSHAL, or raises it, and
-// the connection continues.
+// Checks the arguments and results of operations in the bytes of a message,
+// before the ORB unmarshals them. Operations that pass an `any` or a TypeCode
+// need this check, because omniORB 4.2.5 crashes on some malformed ones
+// (type_code_check.h). If a message is invalid, its body is removed. The ORB then
+// answers a request with MARSHAL (or raises it for a reply), and the connection
+// continues.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace gsv::orb {
 
-// The types of an operation's arguments or results, or of an exception's members, in the order in
-// which CDR has them. Each type is one of
+// The types of an operation's arguments or results, or of an exception's members, in the order of
+// their encoding in CDR. Each type is one of
 //
 //   1 2 4 8        a value of this number of bytes, aligned to its size, such as an enumeration
 //   s o a t        a string, an object reference, an any, a TypeCode
@@ -36,32 +36,32 @@ struct Signatures {
   std::span<const Signature> exceptions;
 };
 
-// Checks `message` if it is a request. It must be complete.
+// Checks `message`, which must be complete, if it is a request.
 void CheckRequest(const Signatures& signatures, std::string& message);
 
 // Whether the encapsulation begins with values of these types.
 bool HasTypes(std::string_view encapsulation, std::string_view types);
 
-// Checks the replies that arrive on one connection. It remembers the connection's requests, because
-// replies do not name their operation.
+// Checks the replies that arrive on one connection. The class remembers the connection's requests,
+// because replies do not name their operation.
 class ReplyCheck {
  public:
   // `signatures` must outlive this object.
   explicit ReplyCheck(const Signatures& signatures) : signatures_(signatures) {}
 
-  // Call this before `bytes` are sent. They follow the bytes that were sent before, and belong to
-  // one message. The header of a request comes in one piece.
+  // Call this before `bytes` are sent, in order. All bytes of one call belong to one message. The
+  // header of a request must be in one piece.
   void Sending(std::string_view bytes);
   // Call this after the first `count` of these bytes were sent.
   void Sent(std::size_t count);
-  // Checks `message` if it is a reply. It must be complete. A reply without a request is rejected.
+  // Checks `message`, which must be complete, if it is a reply. A reply without a request is rejected.
   void Check(std::string& message);
 
  private:
   std::string_view TypesOfReply(std::uint32_t id) const;
 
   const Signatures& signatures_;
-  std::size_t rest_ = 0;  // remaining bytes of the message that is being sent
+  std::size_t rest_ = 0;                             // unsent bytes of the current message
   std::map<std::uint32_t, std::string> operations_;  // operations by request id
 };
 

@@ -20,7 +20,7 @@ struct Case {
 
 RawCdr LongLong(RawCdr before) { return before.Align(8).ULong(1).ULong(2); }
 
-// Each message has only values of its types.
+// Messages that have exactly the values of their types.
 const Case kCases[] = {
     {"numbers of each size", "1248", LongLong(RawCdr().Octet(1).UShort(2).ULong(3))},
     {"a string", "s", RawCdr().String("text")},
@@ -40,11 +40,11 @@ const Case kCases[] = {
 };
 
 std::string Encapsulated(const RawCdr& values) {
-  // Alignment counts from the byte with the byte order. The values begin four bytes later.
+  // Alignment is counted from the byte-order byte. The values begin four bytes later.
   return std::string("\x01\0\0\0", 4) + values.bytes();
 }
 
-// Whether the bytes have these types, beginning three bytes behind the byte order.
+// Whether the bytes after the byte-order byte and three bytes of padding are values of these types.
 bool HasTypesOf(const Case& each, const std::string& bytes) {
   return HasTypes(bytes, "111" + std::string(each.types));
 }
@@ -97,11 +97,11 @@ TEST(RequestCheckTest, IgnoresUnlistedOperations) {
   EXPECT_EQ(message, other);
 }
 
-// Returns the rest of the reply `body` to a request of `operation`, after the check.
+// Checks a reply with `body` to a request of `operation`. Returns what is left of the reply.
 std::string CheckedReply(const std::string& operation, const std::string& body) {
   ReplyCheck check(kSignatures);
   const std::string request = RawRequest("key", operation, "", 7);
-  // The header arrives in one piece. The rest may arrive in several.
+  // The header is sent in one piece. The rest may be sent in several.
   check.Sending(request);
   check.Sent(request.size() - 1);
   check.Sending(request.substr(request.size() - 1));

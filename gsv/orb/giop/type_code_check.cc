@@ -41,7 +41,7 @@ enum TypeCodeKind : std::uint32_t {
 constexpr std::uint32_t kIndirection = 0xFFFFFFFF;
 
 struct FixedSize {
-  std::size_t size = 0;  // size of a value; 0 if values have no fixed size
+  std::size_t size = 0;  // size of a value in bytes; 0 if it varies
   std::size_t alignment = 1;
 };
 
@@ -101,7 +101,7 @@ std::size_t TypeCodeCheck::ReadTypeCode(CdrReader& in, std::size_t depth) {
       in.ULong();
       break;
     case kFixed: {
-      // omniORB crashes for a type with more decimals than digits.
+      // omniORB crashes if a fixed-point type has more decimals than digits.
       type.length = in.UShort();
       const std::uint16_t scale = in.UShort();
       if (type.length == 0 || type.length > 31 || scale > type.length) in.Fail();
@@ -131,7 +131,7 @@ std::size_t TypeCodeCheck::ReadTypeCode(CdrReader& in, std::size_t depth) {
   return types_.size() - 1;
 }
 
-// Reads a reference to an earlier, complete type.
+// Reads an indirection: a reference to an earlier, complete type.
 std::size_t TypeCodeCheck::Repeated(CdrReader& in) {
   in.Align(4);
   const char* const here = in.here();
@@ -147,7 +147,7 @@ std::size_t TypeCodeCheck::Repeated(CdrReader& in) {
   return found->second;
 }
 
-// Sets `type.size` to 0 if the parameters are invalid.
+// Reads the parameters of a type. If they are invalid, `type.size` becomes 0.
 void TypeCodeCheck::ReadParameters(Type& type, CdrReader in, std::size_t depth) {
   if (type.kind != kSequence && type.kind != kArray) {
     in.String();
@@ -216,8 +216,8 @@ void TypeCodeCheck::ReadAny(CdrReader& in, std::size_t depth) {
   ReadValue(type, in, depth + 1);
 }
 
-// Reads a type without parameters, as most types are. Returns false for any other type and does not
-// read it.
+// Reads an any whose type has no parameters, the most frequent case. For other types, reads nothing
+// and returns false.
 bool TypeCodeCheck::ReadSimpleAny(CdrReader& in) {
   CdrReader behind = in;
   const std::uint32_t kind = behind.ULong();

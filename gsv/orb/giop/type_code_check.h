@@ -1,5 +1,5 @@
 // Checks TypeCodes and the values that they describe before the ORB reads them. omniORB 4.2.5
-// crashes on some malformed ones, and needs memory that is quadratic in their depth.
+// crashes on some malformed TypeCodes, and for nested ones it needs memory that grows with the square of their depth.
 //
 // Some valid CORBA is also rejected: recursive types, value types, and anything that exceeds the
 // limits below.
@@ -19,14 +19,15 @@ namespace gsv::orb {
 using base::CdrReader;
 
 struct TypeCodeLimits {
-  std::size_t depth = 64;  // nesting of types and of values, together
-  // number of types in one message; a type counts again for each reference to it
+  std::size_t depth = 64;  // maximum nesting of types and values together
+  // maximum number of types in one message; each reference to a type counts again
   std::size_t types = 4096;
-  std::size_t values = 65536;  // number of values in one message, without elements of a fixed size
+  std::size_t values = 65536;  // maximum number of values in one message, without elements of a
+                               // fixed size
 };
 
-// The TypeCodes of one message. After a function the reader is behind the part that it read, or has
-// failed.
+// Checks the TypeCodes of one message. After each function, the reader is behind the part that was
+// read, or the reader has failed.
 class TypeCodeCheck {
  public:
   explicit TypeCodeCheck(const TypeCodeLimits& limits = {}) : limits_(limits) {}
@@ -38,10 +39,10 @@ class TypeCodeCheck {
   struct Type {
     std::uint32_t kind = 0;
     std::size_t depth = 1;
-    std::size_t size = 1;  // size of the type with all its parts
+    std::size_t size = 1;  // number of types in this type, including itself
     // length of an array, number of names of an enumeration, or digits of a fixed-point type
     std::uint32_t length = 0;
-    // the members, the element, or the aliased type; for a union the first part is the
+    // the types of the members, of the element, or of the aliased type; a union's first part is its
     // discriminator
     std::vector<std::size_t> parts;
     std::vector<std::uint64_t> labels;  // labels of a union, one for each member
@@ -65,7 +66,7 @@ class TypeCodeCheck {
 
   TypeCodeLimits limits_;
   std::vector<Type> types_;
-  // types by the address at which they begin, in the present TypeCode
+  // the types of the current TypeCode, by the address of their first byte
   std::map<const char*, std::size_t> read_;
   std::size_t type_count_ = 0;
   std::size_t value_count_ = 0;

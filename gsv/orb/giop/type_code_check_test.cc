@@ -65,7 +65,7 @@ TEST(TypeCodeCheckTest, RejectsMissingMembers) {
   EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kStruct).ULong(100)));
 }
 
-// A broker would store an offer with such a type, but could not read it again.
+// A broker would store an offer with this type, but could not read it again.
 TEST(TypeCodeCheckTest, RejectsNamesWithAnEmbeddedZero) {
   const auto named = [](RawCdr id) { return With({}, kAlias, id.String("T").ULong(kLong)); };
   EXPECT_TRUE(IsTypeCode(named(Parameters().Octets("IDL:T:1.0\0"s))));
@@ -102,8 +102,8 @@ TEST(TypeCodeCheckTest, AcceptsAReferenceToAnEarlierType) {
     members.Raw(inner.bytes()).String("b").ULong(0xFFFFFFFF);
     return With({}, kStruct, members.ULong(back));
   };
-  // The distance from the offset to the inner type covers the indirection mark, "b" and its length,
-  // and the type itself.
+  // The distance is from the offset back to the inner type: the indirection mark, "b" and its
+  // length, and the type itself.
   const auto distance = static_cast<std::uint32_t>(inner.bytes().size() + 4 + 4 + 4);
   EXPECT_TRUE(IsTypeCode(pair(0u - distance)));
   EXPECT_FALSE(IsTypeCode(pair(0u - distance + 4)));

@@ -1,4 +1,4 @@
-// For tests: GIOP 1.2 messages in little-endian CDR, right or wrong, written byte by byte.
+// For tests: writes GIOP 1.2 messages, valid or invalid, byte by byte in little-endian CDR.
 #pragma once
 
 #include <cstdint>
@@ -59,11 +59,11 @@ inline std::string RawMessage(MessageType type, const std::string& after_the_hea
       .bytes();
 }
 
-// `body` begins at a multiple of eight.
+// Returns a request. `body` begins at a multiple of eight bytes.
 inline std::string RawRequest(std::string_view key, std::string_view operation,
                               std::string_view body, std::uint32_t id = 1) {
   RawCdr request;
-  // The ULong(0) stands for the last bytes of the header, so that the alignment is right.
+  // The ULong(0) stands for the last bytes of the GIOP header, so that the alignment is right.
   request.ULong(0).ULong(id).Octet(3).Octet(0).Octet(0).Octet(0).UShort(0);
   request.Octets(key).String(operation).ULong(0);
   request.Align(8).Raw(body);

@@ -8,7 +8,8 @@
 namespace gsv::orb {
 namespace {
 
-constexpr long kMaxHandshakeSeconds = 10;  // for calls with a longer limit, or without one
+constexpr long kMaxHandshakeSeconds = 10;  // maximum, also for calls with a longer time limit or
+                                           // with none
 
 IIOP::Address WithHost(const char* host, const IIOP::Address& address) {
   IIOP::Address other;
@@ -17,7 +18,7 @@ IIOP::Address WithHost(const char* host, const IIOP::Address& address) {
   return other;
 }
 
-// A connected socket; -1 on failure.
+// Returns a connected socket, or -1 on failure.
 int ConnectSocket(const IIOP::Address& address, const omni_time_t& deadline, CORBA::ULong flags,
                   CORBA::Boolean& timed_out) {
   if (address.port == 0) return -1;
@@ -85,7 +86,7 @@ omni::giopActiveConnection* LocalAddress::Connect(const omni_time_t& deadline, C
                                                   CORBA::Boolean& timed_out) const {
   omni::giopActiveConnection* const plain = unixAddress::Connect(deadline, flags, timed_out);
   if (plain == nullptr) return nullptr;
-  // omniORB's connection passes its socket to a connection of this folder.
+  // omniORB connects; its socket is then used by a Connection of this folder.
   const int socket =
       fcntl(static_cast<omni::unixActiveConnection*>(plain)->handle(), F_DUPFD_CLOEXEC, 0);
   plain->getConnection().decrRefCount(true);

@@ -9,7 +9,7 @@
 
 namespace gsv::orb {
 
-// Parses "HOST:PORT"; returns nothing for other texts.
+// Parses "HOST:PORT". Returns nullopt for other texts.
 std::optional<IIOP::Address> ReadHostAndPort(const char* text);
 
 class TcpAddress final : public omni::tcpAddress {
@@ -27,7 +27,7 @@ class TcpAddress final : public omni::tcpAddress {
 
 class TlsAddress final : public omni::tcpAddress {
  public:
-  // Without a context, connecting fails, and NoteTlsFailure() gets the reason.
+  // If `context` is null, connecting fails, and NoteTlsFailure() gets the reason.
   TlsAddress(std::shared_ptr<const TlsContext> context, const IIOP::Address& address);
 
   const char* type() const override { return "giop:ssl"; }

@@ -27,7 +27,7 @@ int AwaitSocket(int socket, short events, const omni_time_t& deadline) {
   pollfd descriptor{socket, events, 0};
   const int count = poll(&descriptor, 1, milliseconds);
   if (count < 0) return errno == EINTR ? 1 : -1;
-  return count;  // the next read or write reports errors
+  return count;  // an error is reported by the next read or write
 }
 
 ssize_t PlainChannel::TryReceive(void* buffer, std::size_t size) {

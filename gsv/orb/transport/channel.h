@@ -1,6 +1,6 @@
 // Transfers bytes over a connected socket, without encryption or by TLS (tls_channel.h).
 //
-// Threads  any; one may receive while another sends.
+// Threads  any; one thread may receive while another one sends.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,17 @@ class Channel {
  public:
   virtual ~Channel() = default;
 
-  // Like recv() and send() with MSG_DONTWAIT, except that they never return 0. If no bytes can be
-  // transferred now, they return -1 with EAGAIN.
+  // These work like recv() and send() with MSG_DONTWAIT, except that they never return 0. If no
+  // bytes can be transferred now, they return -1 with EAGAIN.
   virtual ssize_t TryReceive(void* buffer, std::size_t size) = 0;
   virtual ssize_t TrySend(const void* buffer, std::size_t size) = 0;
-  // Like the functions of omniORB's connections. They return the number of bytes, 0 after
-  // `deadline`, or -1 if the connection has ended. A deadline of zero means none.
+  // These work like the functions of omniORB's connections. They return the number of bytes, 0
+  // after `deadline`, or -1 if the connection has ended. A deadline of zero means no deadline.
   virtual int Receive(void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
   virtual int Send(const void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
-  // Whether bytes have arrived that poll() does not report.
+  // Whether bytes were received that are already read from the socket, so that poll() does not report them.
   virtual bool HasBytes() { return false; }
-  // Informs the peer that no more bytes follow, if the protocol supports that.
+  // Tells the peer that no more bytes follow, if the protocol supports that.
   virtual void Close() {}
 };
 
@@ -43,7 +43,7 @@ class PlainChannel final : public Channel {
   const int socket_;
 };
 
-// Waits until poll() reports `events`. Returns 1 if poll() does, or after a signal; 0 after
+// Waits until poll() reports `events`. Returns 1 if poll() reports them, or after a signal; 0 after
 // `deadline`; -1 if poll() failed.
 int AwaitSocket(int socket, short events, const omni_time_t& deadline);
 

@@ -10,17 +10,19 @@
 namespace gsv::orb {
 namespace {
 
-// A socket that this process connects has no endpoint, and no thread polls it.
+// A collection for the sockets of outgoing connections. They have no endpoint, and no thread polls
+// them.
 class Unwatched final : public omni::SocketCollection {
   CORBA::Boolean notifyReadable(omni::SocketHolder* /*holder*/) override { return true; }
 };
 omni::SocketCollection& UnwatchedSockets() {
-  static auto& collection = *new Unwatched;  // an ORB may outlive static objects
+  static auto& collection = *new Unwatched;  // never destroyed, because an ORB may outlive static
+                                             // objects
   return collection;
 }
 
-// Returns an address. `ask` is getsockname() or getpeername(). A disconnected peer has no address,
-// but the ORB requires one.
+// Returns the address of a socket. `ask` is getsockname() or getpeername(). A disconnected socket
+// has no address, but the ORB requires a text.
 template <typename Ask>
 std::string AddressOfEnd(int socket, const char* scheme, const Ask& ask) {
   sockaddr_storage address{};
@@ -102,7 +104,7 @@ CORBA::Boolean Connection::Peek() { return channel_->HasBytes() || SocketHolder:
 
 int Connection::Send(void* buffer, std::size_t size, const omni_time_t& deadline) {
   if (hooks_ != nullptr) hooks_->OnSend({static_cast<const char*>(buffer), size});
-  // A reply is sent even if it is late; there is nearly always space for it. A late request is not
+  // A late reply is sent anyway; there is nearly always space for it. A late request is not
   // sent.
   int sent = is_accepted_ ? static_cast<int>(channel_->TrySend(buffer, size)) : -1;
   if (sent <= 0) sent = channel_->Send(buffer, size, deadline);
@@ -117,7 +119,7 @@ int Connection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline
   if (hooks_ != nullptr && incoming_.assembly().empty()) hooks_->OnWait();
   omni_time_t until = deadline;
   while (!incoming_.IsThere()) {
-    // Clients may be silent between messages, but not within one.
+    // A client may be silent between messages, but not within a message.
     if (incoming_.assembly().empty()) {
       until = deadline;
     } else if (!until) {
@@ -143,13 +145,15 @@ int Connection::ReadPiece(const omni_time_t& deadline) {
 }
 
 bool Connection::Gather() {
-  if (!mutex_.try_lock()) return true;  // a thread of the ORB reads
+  if (!mutex_.try_lock()) return true;  // a thread of the ORB already reads
   const base::MutexLock lock(mutex_, std::adopt_lock);
   while (!incoming_.IsThere()) {
     const auto room = incoming_.assembly().Next();
     const ssize_t received = channel_->TryReceive(room.bytes, room.size);
     if (received < 0 && errno == EINTR) continue;
-    if (received < 0) return errno != EAGAIN && errno != EWOULDBLOCK;  // the ORB detects the error
+    if (received < 0)
+      return errno != EAGAIN && errno != EWOULDBLOCK;  // the ORB will detect the
+                                                       // error
     if (hooks_ != nullptr) hooks_->OnBytes();
     incoming_.assembly().Take(static_cast<std::size_t>(received));
   }

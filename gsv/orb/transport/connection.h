@@ -1,11 +1,12 @@
-// A connection of the ORB over TCP, TLS or a local socket. Either a client or this process has
-// opened it.
+// A connection of the ORB by TCP, TLS or a local socket. Either a client or this process has opened
+// it.
 //
-// It joins fragments, applies the limits to messages and passes them to its hooks
+// The connection joins fragments, applies the limits to messages and calls its hooks
 // (connection_policy.h). The ORB gets only complete messages. A connection that this process has
-// opened does so only if it has hooks.
+// opened does this only if it has hooks.
 //
-// Threads  as for omniORB's connections: one reads at a time, and one sends at a time.
+// Threads  as for omniORB's connections: one thread reads at a time, and one thread sends at a
+//          time.
 #pragma once
 
 #include <atomic>
@@ -26,7 +27,7 @@ struct ConnectionAddresses {
 };
 // Returns the addresses of a connected TCP socket. `scheme` is "giop:tcp" or "giop:ssl".
 ConnectionAddresses AddressesOfTcp(int socket, const char* scheme);
-// Returns the addresses of a socket in the file system, where a peer has no name. `server` is
+// Returns the addresses of a Unix domain socket. Its peer has no name. `server` is
 // "giop:unix:FILE".
 ConnectionAddresses AddressesOfAcceptedLocal(const std::string& server);
 ConnectionAddresses AddressesOfMadeLocal(const std::string& server);
@@ -35,7 +36,7 @@ class Connection : public omni::giopConnection,
                    public omni::SocketHolder,
                    public ConnectionControl {
  public:
-  // A connection that a client has opened. It owns the socket. `collection` watches it.
+  // Makes a connection that a client has opened. The connection owns the socket. `collection` watches it.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              omni::SocketCollection& collection, const ConnectionPolicy& policy);
   ~Connection() override;
@@ -51,13 +52,13 @@ class Connection : public omni::giopConnection,
   CORBA::Boolean Peek() override;
 
   bool Gather() override;
-  // Called after Gather() has returned false, when no thread of the ORB reads.
+  // Called when no thread of the ORB reads, after Gather() has returned false.
   bool has_begun() const override GSV_NO_THREAD_SAFETY_ANALYSIS { return incoming_.has_begun(); }
   void Watch() override { setSelectable(1, false); }
   void End() override { Shutdown(); }
 
  protected:
-  // A connection that this process has opened.
+  // Makes a connection that this process has opened.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              const ConnectionPolicy& policy);
 
@@ -82,7 +83,7 @@ class ActiveConnection final : public omni::giopActiveConnection, public Connect
                    const ConnectionPolicy& policy)
       : Connection(socket, std::move(channel), std::move(addresses), policy) {}
 
-  // omniORB watches its own connections for incoming calls, which only bidirectional GIOP has. No
+  // omniORB watches outgoing connections for incoming calls, which only bidirectional GIOP has. No
   // ORB here supports that.
   omni::giopActiveCollection* registerMonitor() override { return nullptr; }
   omni::giopConnection& getConnection() override { return *this; }

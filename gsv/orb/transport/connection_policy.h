@@ -1,10 +1,10 @@
 // The policy for the connections of a program's ORB: limits on messages, and hooks that see each
 // message before the ORB does.
 //
-// omniORB 4.2.5 assigns a fragment to the call with its number, even if the call is complete. If a
-// last fragment comes twice, two threads work on one call, and the process crashes. Therefore
-// connections join fragments before the ORB sees them (ADR 023). Bytes that are no message, and a
-// message that is too long, end their connection. Cancel requests are dropped.
+// omniORB 4.2.5 assigns a fragment to the call with the same number, even if that call is complete. If
+// the last fragment of a call arrives twice, two threads work on the call, and the process crashes.
+// Therefore connections join fragments before the ORB sees them (ADR 023). A connection ends if it
+// receives bytes that are no message, or a message that is too long. Cancel requests are dropped.
 //
 // Threads  see each function.
 #pragma once
@@ -20,15 +20,15 @@ namespace gsv::orb {
 
 struct MessageLimits {
   std::size_t bytes = 64u << 20;  // maximum size of a message with its header
-  std::chrono::seconds time{30};  // maximum time from a message's first byte to its last
+  std::chrono::seconds time{30};  // maximum time from the first byte of a message to the last
 };
 
-// The operations of hooks on their connection. Any thread.
+// Functions that hooks may call on their connection, on any thread.
 class ConnectionControl {
  public:
-  // Reads the received bytes without waiting. True if a read by the ORB would not wait.
+  // Reads the received bytes without waiting. Returns whether the ORB can now read without waiting.
   virtual bool Gather() = 0;
-  // After Gather() returned false: whether a part of a message was received.
+  // Returns, after Gather() has returned false, whether part of a message was received.
   virtual bool has_begun() const = 0;
   // Makes the accepting thread watch for more bytes.
   virtual void Watch() = 0;
@@ -39,41 +39,41 @@ class ConnectionControl {
   ~ConnectionControl() = default;
 };
 
-// The hooks of one connection. They are destroyed before the connection. The threads that read and
-// send call them.
+// Functions that a connection calls on the threads that read and send. The hooks are destroyed
+// before their connection.
 class ConnectionHooks {
  public:
   virtual ~ConnectionHooks() = default;
 
-  // The ORB wants to read, and no message has begun.
+  // Called when the ORB wants to read and no message has begun.
   virtual void OnWait() {}
   virtual void OnBytes() {}
-  // `message` is complete. The hook may remove a part at its end before the ORB sees it.
+  // Called with a complete message. The hook may remove the end of the message before the ORB sees it.
   virtual void OnMessage(std::string& message) { (void)message; }
-  // The ORB sends `bytes`.
+  // Called before the ORB sends `bytes`.
   virtual void OnSend(std::string_view bytes) { (void)bytes; }
-  // The first `count` of these bytes were sent.
+  // Called after the first `count` of these bytes were sent.
   virtual void OnSent(std::size_t count) { (void)count; }
 };
 
-// The policy that applies to all connections of the process's ORB.
+// Applies to all connections of the process's ORB.
 struct ConnectionPolicy {
-  // Makes a connection's hooks, or null.
+  // Makes the hooks of a connection. May return null.
   using MakeHooks = std::function<std::unique_ptr<ConnectionHooks>(ConnectionControl&)>;
 
   MessageLimits limits;
   MakeHooks accepted;  // for connections that clients open; may be empty
-  // For connections that this process opens; may be empty. Without hooks the ORB gets the bytes
+  // For connections that this process opens; may be empty. Without hooks, the ORB gets the bytes
   // unchanged.
   MakeHooks made;
-  // Whether the ORB shall read now; empty: always. The accepting thread calls it if bytes arrive on
-  // an accepted connection for which no thread of the ORB waits. The ORB may have destroyed the
-  // connection meanwhile, so the function must recognise its connections by their hooks.
+  // Decides whether the ORB shall read now; empty means always. The accepting thread calls it when
+  // bytes arrive on an accepted connection for which no thread of the ORB waits. The ORB may have
+  // destroyed the connection meanwhile, so the function must recognise its connections by their hooks.
   std::function<bool(ConnectionControl*)> shall_read;
 };
 
-// Sets the policy for all ORBs that are started later, and all connections that are made later. Any
-// thread.
+// Sets the policy for all ORBs that are started later, and all connections that are made later. Can
+// be called on any thread.
 void SetConnectionPolicy(ConnectionPolicy policy);
 std::shared_ptr<const ConnectionPolicy> CurrentConnectionPolicy();
 

@@ -18,7 +18,7 @@ namespace gsv::orb {
 template <typename Base>
 class Endpoint final : public Base {
  public:
-  // `address`, "HOST:PORT" or a file, must outlive the endpoint. Without a context: no TLS.
+  // `address`, "HOST:PORT" or a file, must outlive the endpoint. Without a context, the endpoint does not use TLS.
   explicit Endpoint(const char* address, std::shared_ptr<const TlsContext> context = nullptr)
       : Base(address), listener_(*this, std::move(context)) {}
 
@@ -30,7 +30,7 @@ class Endpoint final : public Base {
     if (!listener_.speaks_tls()) {
       return Base::publish(specifications, all_specifications, all_endpoints, published);
     }
-    // Returns its own addresses, as omniORB does by default; TLS has no others.
+    // As by default in omniORB, returns the endpoint's own addresses. TLS has no others.
     const omni::orbServer::EndpointList& own = *this->addresses();
     const CORBA::ULong count =
         all_endpoints ? own.length() : std::min<CORBA::ULong>(own.length(), 1);

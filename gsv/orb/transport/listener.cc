@@ -19,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kHandshakeTime{10}, kFarewellTime{1};
-constexpr std::size_t kMaxPendingHandshakes = 256;  // beyond this number, the oldest one is dropped
+constexpr std::size_t kMaxPendingHandshakes = 256;  // if there are more, the oldest one is dropped
 
 }  // namespace
 
-// A client that has not sent its certificate yet, or that was rejected and must read the reason.
+// A client whose handshake is not complete, or a rejected client that must still read the reason.
 class PendingHandshake : public omni::SocketHolder {
  public:
   PendingHandshake(int socket, omni::SocketCollection& collection,
@@ -41,8 +41,8 @@ class PendingHandshake : public omni::SocketHolder {
 
   TlsChannel::Step Proceed() { return is_refused_ ? ReadToTheEnd() : channel_->Handshake(); }
   std::string failure() const { return channel_->failure(); }
-  // Reads the unread bytes first: if a socket with unread bytes is closed, the peer loses the data
-  // that were sent to it.
+  // Reads the unread bytes first. If a socket with unread bytes is closed, the peer does not
+  // receive the last data that were sent to it.
   void Refuse(const std::string& why) {
     constexpr std::string_view kScheme = "giop:ssl:";
     spdlog::warn("refused a CORBA connection from {}: {}", addresses_.peer.substr(kScheme.size()),
@@ -54,7 +54,7 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused() const { return is_refused_; }
   bool is_late(Clock::time_point now) const { return now > until_; }
 
-  // Returns the channel; the caller then owns the socket.
+  // Returns the channel. The caller then also owns the socket.
   std::unique_ptr<TlsChannel> TakeChannel() {
     Leave();
     return std::move(channel_);
@@ -78,8 +78,8 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused_ = false, is_gone_ = false;
 };
 
-// Becomes readable at regular intervals while it is set, because Select() may otherwise sleep for
-// ever.
+// A file descriptor that becomes readable at regular intervals while it is set. Otherwise Select()
+// might sleep forever.
 class Alarm : public omni::SocketHolder {
  public:
   explicit Alarm(omni::SocketCollection& collection)
@@ -172,7 +172,7 @@ void Listener::Proceed(PendingHandshake* pending) {
       pending->setSelectable(1, false);
       return;
     case TlsChannel::Step::kWantsToWrite:
-      // There is always space for the few bytes of a handshake, except with a malicious peer.
+      // There is always space for the few bytes of a handshake, unless the peer is malicious.
       pending->Refuse("it does not read");
       break;
     case TlsChannel::Step::kFailed:

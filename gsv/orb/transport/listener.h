@@ -29,11 +29,11 @@ class Listener {
 
   bool speaks_tls() const { return context_ != nullptr; }
   // Like AcceptAndMonitor() of omniORB's endpoints: waits for the next connection, and calls
-  // `readable` for each connection that the ORB shall read meanwhile. Returns null after Poke().
+  // `readable` for each connection that the ORB must read meanwhile. Returns null after Poke().
   omni::giopConnection* Await(omni::giopConnection::notifyReadable_t readable, void* cookie);
   void Poke() { poked_ = true; }
 
-  // Takes over the socket of a client.
+  // Accepts a client. The listener becomes the owner of the socket.
   void Accept(int socket, ConnectionAddresses addresses);
   // Called when bytes have arrived on a socket that the collection watches, except the endpoint.
   void Notify(omni::SocketHolder* holder);
@@ -47,8 +47,9 @@ class Listener {
   const std::shared_ptr<const ConnectionPolicy> policy_ = CurrentConnectionPolicy();
   const std::shared_ptr<const TlsContext> context_;
   std::deque<Connection*> accepted_;  // accepted connections that the ORB does not know yet
-  std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;  // the oldest one is first
-  std::unique_ptr<Alarm> alarm_;  // set while there are pending handshakes
+  std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;  // ordered from the oldest to
+                                                                       // the newest
+  std::unique_ptr<Alarm> alarm_;  // set if there are pending handshakes
   omni::giopConnection::notifyReadable_t readable_ = nullptr;
   void* cookie_ = nullptr;
   std::atomic<bool> poked_ = false;

@@ -1,4 +1,4 @@
-// The addresses in an object reference.
+// Lists the addresses in an object reference.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace gsv::orb {
 
 // Returns URIs such as "giop:tcp:127.0.0.1:40123", in the order in which the ORB tries them; none
-// for a nil reference. Any thread.
+// for a nil reference. Can be called on any thread.
 std::vector<std::string> AddressesIn(CORBA::Object_ptr object);
 
 }  // namespace gsv::orb

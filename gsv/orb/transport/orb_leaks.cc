@@ -1,5 +1,5 @@
-// Replaces two functions of omniORB 4.2.5 that leak memory. The linker uses these (CMakeLists.txt),
-// also for the ORB's own calls, as for all calls between shared objects.
+// Replaces two functions of omniORB 4.2.5 that leak memory. The linker prefers these functions
+// (CMakeLists.txt), also for calls inside omniORB's library.
 #include <dlfcn.h>
 
 #include "gsv/base/check.h"
@@ -21,9 +21,9 @@ char* cdrStream::unmarshalRawString() {
   return text._retn();
 }
 
-// Takes ownership of `ior`. omniORB leaks it if a profile does not decode; the exception comes from
-// that decoding, before anything else owns `ior`. Every reference in a request's arguments is
-// created here.
+// Takes ownership of `ior`. omniORB leaks `ior` if a profile cannot be decoded: the decoder
+// throws before anything owns `ior`. Every reference in a request's arguments is created
+// here.
 omniObjRef* omni::createObjRef(const char* target, omniIOR* ior, CORBA::Boolean locked,
                                omniIdentity* identity) {
   static const auto of_the_orb = reinterpret_cast<decltype(&omni::createObjRef)>(

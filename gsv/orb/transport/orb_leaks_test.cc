@@ -18,7 +18,7 @@ void PutOctets(cdrStream& stream, const std::string& octets) {
                          static_cast<int>(octets.size()));
 }
 
-// Returns the memory in use after `Do` that was not in use before. AddressSanitizer finds leaks
+// Returns how much more memory is in use after calling `Do`. AddressSanitizer finds leaks
 // itself.
 template <typename Do>
 std::size_t BytesKeptBy(Do repeat) {
@@ -58,7 +58,7 @@ TEST(RawStrings, InvalidStringsAreRejectedAsByTheOrb) {
   EXPECT_EQ(MinorOf(too_short), CORBA::ULong(omni::MARSHAL_PassEndOfMessage));
 }
 
-// omniORB 4.2.5 would leak all of this memory. (HostileFloodTest checks that the ORB's own calls
+// omniORB 4.2.5 would leak all of this memory. (HostileFloodTest checks that calls inside omniORB
 // use the replacement.)
 TEST(RawStrings, UnterminatedStringsLeakNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
@@ -69,7 +69,7 @@ TEST(RawStrings, UnterminatedStringsLeakNoMemory) {
             kFewBytes);
 }
 
-// An object reference with one IIOP profile of these octets.
+// Writes an object reference with one IIOP profile that consists of these octets.
 void PutReference(cdrStream& stream, const std::string& profile) {
   PutOctets(stream, std::string("IDL:omg.org/A:1.0\0", 18));
   CORBA::ULong(1) >>= stream;
@@ -92,7 +92,8 @@ class ObjectReferences : public testing::Test {
 TEST_F(ObjectReferences, InvalidProfilesLeakNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;
-              PutReference(stream, std::string(kLong.size(), '\2'));  // IIOP 2.2 does not exist
+              PutReference(stream, std::string(kLong.size(), '\2'));  // an invalid version: IIOP
+                                                                      // 2.2
               EXPECT_THROW(CORBA::Object::_unmarshalObjRef(stream), CORBA::MARSHAL);
             }),
             kFewBytes);

@@ -16,7 +16,7 @@ namespace {
 
 thread_local std::string last_failure;
 
-// Whether the alert of the peer is about our certificate, RFC 8446, 6.2.
+// Whether the peer's alert concerns our certificate (RFC 8446, 6.2).
 bool IsAboutCertificate(int alert) {
   switch (alert) {
     case SSL_AD_BAD_CERTIFICATE:
@@ -32,7 +32,7 @@ bool IsAboutCertificate(int alert) {
   }
 }
 
-// Returns the reason of the error in OpenSSL's queue of this thread.
+// Returns the reason of the newest error in OpenSSL's queue of this thread.
 std::string Reason(long verdict) {
   if (verdict == X509_V_ERR_CERT_HAS_EXPIRED) return "its certificate has expired";
   if (verdict != X509_V_OK) {
@@ -60,7 +60,7 @@ std::string Reason(long verdict) {
 TlsChannel::TlsChannel(std::shared_ptr<const TlsContext> context, int socket, Side side)
     : context_(std::move(context)), socket_(socket), session_(SSL_new(context_->get())) {
   fcntl(socket, F_SETFL, fcntl(socket, F_GETFL) | O_NONBLOCK);
-  if (session_ == nullptr) return;  // there is no memory: the handshake fails at once
+  if (session_ == nullptr) return;  // out of memory: the handshake will fail at once
   SSL_set_fd(session_, socket);
   side == Side::kServer ? SSL_set_accept_state(session_) : SSL_set_connect_state(session_);
 }
@@ -148,7 +148,7 @@ int TlsChannel::Receive(void* buffer, std::size_t size, const omni_time_t& deadl
   size = std::min<std::size_t>(size, INT_MAX);
   const int moved = Await(
       [&](std::size_t* count) { return SSL_read_ex(session_, buffer, size, count); }, deadline);
-  // With TLS 1.3 a client learns only here whether the server accepts its certificate.
+  // With TLS 1.3, only a read shows a client whether the server accepts its certificate.
   if (moved < 0) last_failure = failure();
   return moved;
 }

@@ -1,9 +1,9 @@
-// TLS over one connection. Both ends must show a certificate of the same authority, or it fails.
+// TLS over one connection. It fails unless both peers show a certificate of the same authority.
 //
 // Protocol TLS 1.2 and 1.3 (RFC 5246, RFC 8446), without resumption and renegotiation: every
 //          connection has a full handshake. The name of the host is not compared with that of the
 //          certificate: any certificate of the authority is accepted for any host.
-// Threads  any; one may read while another writes, which OpenSSL alone does not allow.
+// Threads  any; one thread may read while another one writes, which OpenSSL alone does not allow.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class TlsChannel final : public Channel {
   enum class Side { kServer, kClient };
   enum class Step { kDone, kWantsToRead, kWantsToWrite, kFailed };
 
-  // The caller keeps the ownership of the socket. The socket becomes non-blocking.
+  // The caller keeps the ownership of the socket, which becomes non-blocking.
   TlsChannel(std::shared_ptr<const TlsContext> context, int socket, Side side);
   ~TlsChannel() override;
   TlsChannel(const TlsChannel&) = delete;
@@ -33,9 +33,9 @@ class TlsChannel final : public Channel {
 
   // Continues the handshake as far as possible without waiting.
   Step Handshake();
-  // Waits for the handshake. Returns whether it was done before `deadline`.
+  // Waits for the handshake. Returns whether it was completed before `deadline`.
   bool AwaitHandshake(const omni_time_t& deadline, bool& timed_out);
-  // The reason of the failure, as a sentence about the peer, such as "it shows no certificate".
+  // The reason of the failure, as a clause about the peer, such as "it shows no certificate".
   std::string failure() const;
 
   ssize_t TryReceive(void* buffer, std::size_t size) override;

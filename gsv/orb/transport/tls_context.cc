@@ -10,7 +10,7 @@
 namespace gsv::orb {
 
 base::Result<std::shared_ptr<const TlsContext>> TlsContext::Read(const CorbaCertificate& files) {
-  // The certificate is checked first, because the default names of the other files depend on it.
+  // The certificate is checked first, because the other default file names depend on it.
   if (auto good = tls::CheckKeyPair(files.certificate, files.key); !good) {
     return base::Fail(good.error());
   }

@@ -1,4 +1,4 @@
-// The certificate that this process shows by TLS, and the authority whose certificates it accepts.
+// The certificate of this process for TLS, and the authority whose certificates it accepts.
 #pragma once
 
 #include <filesystem>

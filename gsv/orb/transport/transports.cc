@@ -48,8 +48,8 @@ class TlsTransport final : public omni::giopTransportImpl {
   }
   CORBA::Boolean isValid(const char* text) override { return omni::omniURI::validHostPort(text); }
   CORBA::Boolean addToIOR(const char* text, omni::IORPublish* published) override {
-    // Integrity, confidentiality, trust in the target and in the client (CSIv2, CORBA 3.1 part 2,
-    // 10.5.1.1). TLS supports and requires all of them.
+    // The CSIv2 options for integrity, confidentiality, trust in the target and trust in the client
+    // (CORBA 3.1 part 2, 10.5.1.1). TLS supports and requires all of them.
     constexpr CORBA::UShort kAll = 0x66;
     const auto address = ReadHostAndPort(text);
     if (!address) return false;
@@ -64,7 +64,7 @@ class TlsTransport final : public omni::giopTransportImpl {
   const std::shared_ptr<const TlsContext> context_;
 };
 
-// Makes omniORB's own transport release its name, because omniORB uses the first transport with a
+// Makes omniORB's own transport give up its name, because omniORB uses the first transport with a
 // name.
 void GiveUpName(const char* address, const char* name) {
   omni::giopTransportImpl* const plain = omni::giopTransportImpl::str2Transport(address);
@@ -72,18 +72,19 @@ void GiveUpName(const char* address, const char* name) {
   plain->type = name;
 }
 
-// TLS transports are never destroyed, as connections and references of their ORB may use them.
+// TLS transports are never destroyed, because connections and references of their ORB may use them.
 struct Installed {
   base::Mutex mutex;
   std::unique_ptr<TcpTransport> tcp GSV_GUARDED_BY(mutex);
   std::unique_ptr<LocalTransport> local GSV_GUARDED_BY(mutex);
-  std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);  // the last element is the
-                                                                         // current one
+  std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);  // the last one is
+                                                                         // current
   // certificate of the current TLS transport
   std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);
 };
 Installed& InstalledTransports() {
-  static auto& installed = *new Installed;  // an ORB may outlive static objects
+  static auto& installed = *new Installed;  // never destroyed, because an ORB may outlive static
+                                            // objects
   return installed;
 }
 

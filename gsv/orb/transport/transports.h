@@ -1,6 +1,6 @@
-// The transports of this process's ORB, in the place of omniORB's own: TCP, sockets in the file
-// system, and TLS. On the wire and in references they are the same; "giop:ssl" is what other ORBs
-// call SSLIOP. ADR 021, 023 and 029 give the reasons.
+// Replaces omniORB's transports (TCP, Unix domain sockets and TLS) in this process. The protocols
+// and references are unchanged. Other ORBs call "giop:ssl" SSLIOP. ADR 021, 023 and 029 give the
+// reasons.
 //
 // Threads  any.
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace gsv::orb {
 
-// Call it before each ORB_init(). If there is no certificate, there are no endpoints for TLS, and
-// calls to such endpoints fail with a sentence. Fails if the files of the certificate are invalid.
+// Call this before each ORB_init(). Without a certificate, TLS has no endpoints, and calls to TLS
+// endpoints fail with a sentence. Fails if the files of the certificate are invalid.
 base::Status InstallTransports(const std::optional<CorbaCertificate>& certificate);
 
 // Whether the last call of InstallTransports() had a certificate.

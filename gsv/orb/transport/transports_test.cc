@@ -1,4 +1,4 @@
-// Tests an ORB with raw connections. Each test starts the process's one ORB.
+// Tests an ORB with raw connections. A process has only one ORB; each test starts it.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -113,17 +113,18 @@ class MessageTransportTest : public ::testing::Test {
     while (sent < bytes.size()) {
       const ssize_t count =
           send(connection, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-      if (count <= 0) return;  // closed by the ORB
+      if (count <= 0) return;  // the ORB closed the connection
       sent += static_cast<std::size_t>(count);
     }
   }
-  // Waits until the ORB, which is in this process, has begun to read the last `size` bytes.
+  // Waits until the ORB, which is in this process, has begun to read the last `size` bytes of a
+  // connection.
   static void AwaitReading(int connection, int size) {
     sockaddr_in own{};
     socklen_t length = sizeof own;
     getsockname(connection, reinterpret_cast<sockaddr*>(&own), &length);
     for (int unread = size; unread >= size; std::this_thread::yield()) {
-      unread = 0;  // the ORB may have closed it
+      unread = 0;  // the ORB may have closed the connection
       for (int each = 3; each < 200; ++each) {
         sockaddr_in peer{};
         length = sizeof peer;
@@ -133,7 +134,7 @@ class MessageTransportTest : public ::testing::Test {
       }
     }
   }
-  // Returns the number of the answered request; nothing if the connection ends.
+  // Returns the number of the request that is answered; nullopt if the connection ends.
   static std::optional<std::uint32_t> Answer(int connection) {
     char header[12];
     if (recv(connection, header, 12, MSG_WAITALL) != 12) return std::nullopt;
@@ -147,7 +148,8 @@ class MessageTransportTest : public ::testing::Test {
     return number;
   }
 
-  // Returns the bytes after the header of a call of create(), with `padding` meaningless bytes.
+  // Returns the bytes after the header of a call of create(). `padding` is a number of meaningless
+  // bytes.
   std::string Call(std::uint32_t number, std::size_t padding = 0) const {
     RawCdr body = RawCdr().ULong(number).Octet(3).Octet(0).Octet(0).Octet(0).ULong(0).Octets(key_);
     body.String("create").ULong(padding > 0 ? 1 : 0);
@@ -183,7 +185,7 @@ std::string MessageTransportTest::KeyOf(CORBA::Object_ptr object) {
   return {reinterpret_cast<const char*>(key.get_buffer()), key.length()};
 }
 
-// omniORB 4.2.5 alone would use two threads for one call then, and crash.
+// omniORB 4.2.5 alone would use two threads for this call, and crash.
 TEST_F(MessageTransportTest, RepeatedFragmentDuringItsCallIsHarmless) {
   Start();
   for (int round = 0; round < 5; ++round) {
@@ -265,7 +267,7 @@ TEST_F(MessageTransportTest, MessageIsReadUpToItsLength) {
   EXPECT_EQ(Answer(connection), 1u);
   Send(connection, RawMessage(MessageType::kRequest, Call(2, 10'001 - around)));
   EXPECT_EQ(Answer(connection), std::nullopt);
-  // Fragments do not shorten the time limit.
+  // The time limit of a message does not become shorter with each fragment.
   const int another = Connect();
   const std::string call = Call(3, 10'001 - around);
   Send(another, RawMessage(MessageType::kRequest, call.substr(0, 5000), true) +
@@ -295,7 +297,7 @@ TEST_F(MessageTransportTest, ConnectionServesSixteenCallsConcurrently) {
   door_->AwaitInside(16);
   const int another = Connect();
   Send(another, RawMessage(MessageType::kRequest, Call(1)));
-  door_->AwaitInside(17);  // a separate connection is not delayed
+  door_->AwaitInside(17);  // another connection is not delayed
   door_->Open();
   for (int count = 0; count < 20; ++count) EXPECT_TRUE(Answer(connection));
   EXPECT_EQ(door_->most(), 17);
@@ -305,7 +307,7 @@ TEST_F(MessageTransportTest, UnansweredCallEndsWithATimeout) {
   OrbOptions options;
   options.call_timeout = 300ms;
   Start(options);
-  // A server that accepts connections, but sends nothing.
+  // A server that accepts connections, but never sends anything.
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   connections_.push_back(listener);
   sockaddr_in here{};

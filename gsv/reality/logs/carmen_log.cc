@@ -1,4 +1,5 @@
-// CARMEN's logs: https://carmen.sourceforge.net (the header of every log lists the messages).
+// Reads logs of CARMEN: https://carmen.sourceforge.net (the header of every log lists the
+// messages).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -77,7 +78,8 @@ class CarmenReader {
     ++used_;
   }
 
-  // Returns the number of readings, which is word `place`; nothing if the number is unreasonable.
+  // Returns the number of readings, which is the word at index `place`; nullopt if the number is
+  // unreasonable.
   std::size_t BeamCount(std::size_t place) {
     std::vector<double> v;
     if (!rows_.Numbers(place, 1, v)) return 0;
@@ -94,7 +96,8 @@ class CarmenReader {
     std::vector<double> v;
     double time = 0;
     if (count == 0 || !rows_.Numbers(2, count + 6, v)) return;
-    // 180 readings are between the whole degrees; 181 readings are at whole degrees.
+    // With 180 readings, beams are between the whole degrees. With 181 readings, they are at whole
+    // degrees.
     const bool has_both_ends = count % 2 == 1;
     const double step = kPi / static_cast<double>(has_both_ends ? count - 1 : count);
     if (!Angles(-kPi / 2 + (has_both_ends ? 0 : step / 2), step, count) || !Time(time)) return;
@@ -102,8 +105,8 @@ class CarmenReader {
             {time, v[count], v[count + 1], Heading(v[count + 2])});
   }
 
-  // The words are: type start fov resolution max accuracy remission_mode n r… n_remissions … laser
-  // pose, robot pose
+  // The words of a message: type start fov resolution max accuracy remission_mode n r… n_remissions
+  // … laser pose, robot pose
   void RobotLaser() {
     std::vector<double> head, v;
     double time = 0;
@@ -148,9 +151,11 @@ class CarmenReader {
     ++used_;
   }
 
-  // Ranges in cm or mm are beyond the maximum, and headings in degrees are hundreds.
+  // Detects wrong units: ranges in cm or mm exceed the maximum, and headings in degrees are in the
+  // hundreds.
   base::Status CheckUnits() const {
-    constexpr double kMostWithoutEcho = 0.95, kLargestHeading = 100;  // rad; a log may count turns
+    constexpr double kMostWithoutEcho = 0.95, kLargestHeading = 100;  // rad; a log may count
+                                                                      // several turns
     std::size_t without = 0, readings = 0;
     for (const RangeScan& scan : log_.scans) {
       readings += scan.ranges.size();
@@ -181,7 +186,7 @@ class CarmenReader {
   }
 
   // FLASER does not state the scanner's maximum, which is its reading without an echo. The largest reading is the
-  // maximum if it is in the log again and again: echoes do not repeat a distance so often.
+  // maximum if it occurs many times: echoes do not repeat one distance so often.
   void FindMaximum() {
     constexpr double kShare = 0.001, kShortestMaximum = 2;  // m
     constexpr std::size_t kFewest = 20;
@@ -222,8 +227,8 @@ base::Result<Log> ReadCarmen(const std::filesystem::path& path, base::Problems& 
   auto rows = TextRows::Open(path, problems);
   if (!rows) return base::Fail(rows.error());
   Log log;
-  log.max_range = 81;  // maximum range of the SICK LMS, which most of these logs have; ROBOTLASER1
-                       // has its own
+  log.max_range = 81;  // maximum range of the SICK LMS, which most of these logs use; a ROBOTLASER1
+                       // message has its own
   if (auto read = CarmenReader(*std::move(rows), log).Read(); !read) {
     return base::Fail(read.error());
   }

@@ -1,4 +1,4 @@
-// The log of a real robot, in one structure for all formats.
+// Stores the log of a real robot, in one structure for all formats.
 //
 // Units   metres, radians, seconds. Times are relative to the first one in the log.
 // Frames  `truth`, `odometry`: world_from_base and odom_from_base. Angles of beams are relative to
@@ -25,13 +25,13 @@ struct TimedTwist {
   double linear = 0, angular = 0;
 };
 
-// The distance that each wheel has rolled since the start of the log.
+// The distance that each wheel has travelled since the start of the log.
 struct TimedWheels {
   double time = 0;
   double left = 0, right = 0;
 };
 
-// The readings of all beams, or of a ring's sonars, at one instant. Infinite: no echo.
+// The ranges of all beams, or of all sonars of a ring, at one instant. Infinite means no echo.
 struct RangeScan {
   double time = 0;
   std::vector<double> ranges;
@@ -47,13 +47,14 @@ struct RadioRange {
 };
 
 struct Log {
-  std::vector<TimedPose> truth;  // poses from a reference system: motion capture, overhead camera
+  std::vector<TimedPose> truth;  // poses from a reference system, such as motion capture or an
+                                 // overhead camera
   bool truth_has_yaw = true;
   std::vector<TimedPose> odometry;  // poses from the robot's own odometry
   std::vector<TimedTwist> commands;
   std::vector<TimedWheels> wheels;
   std::vector<double> beam_angles;
-  double max_range = 0;          // maximum range; such a reading means no echo
+  double max_range = 0;          // maximum range; a reading of this value means no echo
   double sensor_forward = 0;     // distance from the base to the sensor along x, m
   bool is_sonar = false;         // whether the beams are cones of sound
   std::vector<RangeScan> scans;  // each scan has beam_angles.size() ranges
@@ -61,12 +62,12 @@ struct Log {
   double duration() const;
 };
 
-// The pose at `time`, interpolated between two of `poses`. The poses must be in the order of time.
-// Returns nothing outside of them, and between two that are more than `max_gap` seconds apart.
+// Returns the pose at `time`, interpolated between two of `poses`, which must be ordered by time.
+// Returns nullopt outside of them, and between poses that are more than `max_gap` seconds apart.
 std::optional<TimedPose> PoseAt(const std::vector<TimedPose>& poses, double time,
                                 double max_gap = 1);
 
-// Returns the equal angle in [-pi, pi].
+// Returns the equivalent angle in [-pi, pi].
 double WrappedAngle(double angle);
 
 }  // namespace gsv::reality

@@ -47,8 +47,8 @@ void StartAtZero(Log& log) {
   }
 }
 
-// Detects the format: searches the first words of the first 64 lines for the name of a message of
-// one of the two formats. Empty if there is none.
+// Detects one of two formats, by message names at the beginning of the first 64 lines. Returns an
+// empty text if there are none.
 std::string FormatOfTextLog(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::array<char, 1 << 16> start{};

@@ -17,7 +17,7 @@ namespace gsv::reality {
 // Returns the names of the formats in the order in which the help lists them.
 std::vector<std::string> LogFormats();
 
-// Detects the format of a log from its file name and, for *.log, from its first lines. Returns
+// Detects the format of a log from its file name and, for *.log, from its first lines. Fails with
 // kInvalidArgument if the format cannot be detected.
 base::Result<std::string> GuessLogFormat(const std::filesystem::path& path);
 
@@ -25,7 +25,7 @@ base::Result<std::string> GuessLogFormat(const std::filesystem::path& path);
 base::Result<Log> ReadLog(const std::filesystem::path& path, const std::string& format,
                           base::Problems& problems);
 
-// The readers of the formats. The other files of a log must be in the folder of `path`.
+// Read one format each. The other files of the log must be in the folder of `path`.
 base::Result<Log> ReadSonarRing(const std::filesystem::path& path, base::Problems& problems);
 base::Result<Log> ReadArena(const std::filesystem::path& path, base::Problems& problems);
 base::Result<Log> ReadMrclam(const std::filesystem::path& path, base::Problems& problems);

@@ -44,7 +44,7 @@ class LogReaderTest : public testing::Test {
   base::Problems problems_;
 };
 
-// The words are: ODOM x y theta tv rv accel ipc_time host logger_time
+// The words of an odometry message: ODOM x y theta tv rv accel ipc_time host logger_time
 const char* const kOdometry =
     "# CARMEN Logfile\n"
     "ODOM 0 0 0 0.5 0 0 100.0 host 0.0\n"
@@ -145,8 +145,8 @@ TEST_F(LogReaderTest, ReportsTimeThatGoesBackAndAClockThatJumps) {
   EXPECT_THAT(Problem(1), HasSubstr("a.log:23: the clock jumps from 19 to 500 s"));
 }
 
-// Reads a log with rows at these times. Returns its odometry, with a problem for each row that is
-// skipped.
+// Reads a log whose rows have these times. Returns its odometry, and the problems about skipped
+// rows.
 struct Dated {
   std::vector<double> times;
   std::vector<double> read;
@@ -168,12 +168,12 @@ TEST_F(LogReaderTest, SkipsOnlyTheRowsWhoseTimeIsWrong) {
   };
   const std::vector<Dated> cases{
       {with(20, {4e9}), whole, 1},   // one row is far in the future
-      {with(20, {21.5}), whole, 1},  // a little
-      {with(0, {1e6}), whole, 1},    // the first row is wrong
+      {with(20, {21.5}), whole, 1},  // one row is a little in the future
+      {with(0, {1e6}), whole, 1},    // the first row is far in the future
       {with(20, {900, 901, 902}), whole, 3},
-      {with(20, {3.5}), whole, 1},   // the past
+      {with(20, {3.5}), whole, 1},   // one row is far in the past
       {with(20, {18.5}), whole, 1},  // one row is a little in the past
-      {with(40, {38.5}), whole, 1},  // the last row is wrong
+      {with(40, {38.5}), whole, 1},  // the last row is in the past
   };
   for (const Dated& of : cases) {
     std::string text;
@@ -187,7 +187,7 @@ TEST_F(LogReaderTest, SkipsOnlyTheRowsWhoseTimeIsWrong) {
     EXPECT_EQ(log.commands.size(), of.read.size());
     EXPECT_THAT(problems_, SizeIs(of.left_out));
   }
-  // Two rows are swapped. The row that comes too late is left out.
+  // Two rows are swapped. The reader leaves out the later one in the file.
   std::vector<double> swapped = whole;
   std::swap(swapped[20], swapped[21]);
   std::string text;
@@ -328,7 +328,7 @@ TEST_F(LogReaderTest, ReadsMotionCaptureBesideCommands) {
   const Log log = Read(folder_.Write("Robot1_Odometry.dat", "10.0 0.1 0.2\n"), "mrclam");
   ASSERT_THAT(log.truth, SizeIs(2));
   EXPECT_EQ(log.commands[0].linear, 0.1);
-  // The yaw goes from 3 to -3 through pi.
+  // The yaw changes from 3 to -3, through pi.
   EXPECT_WITHIN(WrappedAngle(PoseAt(log.truth, 0.25)->yaw - geometry::kPi), 0, 1e-12, "rad");
 }
 

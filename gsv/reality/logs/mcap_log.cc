@@ -20,8 +20,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxScanBeams = 100'000, kMaxSentences = 20;
 
-// Returns a number of a message, or NaN if it does not exist. Infinite numbers are texts in the
-// JSON.
+// Returns a number in a message, or NaN if there is none. In the JSON, infinite numbers are
+// texts.
 double NumberIn(const Json& object, const char* key) {
   const auto it = object.find(key);
   if (it == object.end()) return std::nan("");
@@ -76,7 +76,7 @@ class McapLog {
   }
 
  private:
-  // Reads only the first topic of each kind, and warns about the others.
+  // Returns whether the topic is the first one of its kind. Others are not read, with a warning.
   bool IsOfFirstTopic(const std::string& kind, const std::string& topic) {
     const auto [known, is_new] = topics_.emplace(kind, topic);
     if (!is_new && known->second != topic && noted_.emplace(topic, "").second) {
@@ -85,7 +85,7 @@ class McapLog {
     return known->second == topic;
   }
 
-  // Reports a gap between messages, which come in the order of their times.
+  // Reports a gap between two messages. Call it with ascending times.
   void ReportGap(double time) {
     constexpr double kReportedGap = 10;  // s
     if (last_time_ && time - *last_time_ > kReportedGap) {
@@ -124,8 +124,8 @@ class McapLog {
     }
   }
 
-  // Adds the poses of a base in the world (truth) and in its odometry's frame, which are recognised
-  // by the frames' names of REP-105.
+  // Adds poses of the robot's base: in the world (truth) and in the frame of its odometry. The
+  // frames are recognised by their names in REP-105.
   void AddTransforms(double time, const Json& content) {
     const Json& transforms = In(content, "transforms");
     if (!transforms.is_array()) return;
@@ -152,7 +152,7 @@ class McapLog {
     return frame.substr(frame.rfind('/') + 1);
   }
 
-  // Adds a command of a recording by GSV.
+  // Adds a command from a recording that GSV wrote.
   void AddCommand(double time, const Json& command) {
     const std::string robot = FrameIn(command, "robot");
     if (!IsOfFirstTopic("commands", "/gsv/commands of " + robot)) return;

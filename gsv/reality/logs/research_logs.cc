@@ -23,7 +23,7 @@ fs::path Companion(const fs::path& path, const std::string& ending) {
   return path.parent_path() / (name.substr(0, name.rfind('_')) + ending);
 }
 
-// Detects a log in metres, which would be read as millimetres.
+// Fails for a log in metres, which would be read as millimetres.
 base::Status CheckUnit(double largest, double least_credible, const char* unit,
                        const fs::path& path) {
   if (largest >= least_credible) return {};
@@ -33,7 +33,7 @@ base::Status CheckUnit(double largest, double least_credible, const char* unit,
                     path.string());
 }
 
-// Reads rows of `first`, time, x and y, in these units (s and m).
+// Reads rows of the word `first`, time, x and y. `units` converts them to s and m.
 base::Result<std::vector<TimedPose>> ReadPlaces(const fs::path& path, const std::string& first,
                                                 double time_unit, double length_unit,
                                                 base::Problems& problems) {

@@ -14,7 +14,7 @@ constexpr std::uintmax_t kMaxBytes = 512u << 20;
 constexpr std::size_t kMaxLine = 1u << 20;
 constexpr std::size_t kMaxSentences = 20;
 constexpr double kLongGap = 10;          // s
-constexpr std::size_t kMaxMisdated = 5;  // consecutive rows
+constexpr std::size_t kMaxMisdated = 5;  // maximum number of consecutive rows with wrong times
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -100,7 +100,7 @@ bool TextRows::InOrder(double time) {
     LeaveOut(fmt::format("time goes back from {} to {} s", recent_.back().time, time));
     return false;
   }
-  // Rows after a gap may still turn out to be misdated.
+  // A later row may still show that the rows after a gap have wrong times.
   if (gap_ && recent_.front().time >= gap_->second.time) ReportGap();
   if (!recent_.empty() && time - recent_.back().time > kLongGap) {
     ReportGap();
@@ -111,7 +111,8 @@ bool TextRows::InOrder(double time) {
   return true;
 }
 
-// `time` is that of the row after the doubtful one. At the end of the file it is infinite.
+// Decides whether the doubtful row is wrong. `time` is the time of the row after it, or infinite at
+// the end of the file.
 void TextRows::DecideOn(double time) {
   const TimedLine row = *std::exchange(doubtful_, std::nullopt);
   const double last = recent_.back().time;

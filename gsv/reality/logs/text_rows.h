@@ -23,15 +23,15 @@ class TextRows {
   // Fails with kNotFound or kCorrupt. `problems` must outlive this object.
   static base::Result<TextRows> Open(const std::filesystem::path& path, base::Problems& problems);
 
-  // Moves to the next row. Skips blank lines and lines that begin with #.
+  // Moves to the next row. Skips blank lines and comments (#).
   bool Next();
   std::size_t size() const { return words_.size(); }
   std::string_view word(std::size_t i) const { return words_[i]; }
   int line() const { return line_; }
   const std::filesystem::path& path() const { return path_; }
 
-  // Reads the words from `first` on as numbers. If there are fewer than `count`, or one is not a
-  // finite number, returns false and adds a problem.
+  // Reads the words from index `first` on as numbers. Returns false and adds a problem if there are
+  // fewer than `count` words, or if one is no finite number.
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
   // Whether the time of this row may follow that of the row before it. A row that goes back in time
@@ -40,8 +40,8 @@ class TextRows {
   // gap of more than 10 s is reported.
   bool InOrder(double time);
 
-  // Removes the values that were made from misdated rows from a series, whose elements have the
-  // member `time` of their row. Call it after Finish().
+  // Removes the values that were made from misdated rows from a series, whose elements have a
+  // member `time`. Call this after Finish().
   template <typename Series>
   void RemoveMisdated(Series& series) const {
     if (misdated_.empty()) return;
@@ -53,7 +53,7 @@ class TextRows {
   void LeaveOut(const std::string& why) { LeaveOutLine(why, line_); }
   void Warn(const std::string& what);
 
-  // Call it after the last row. kCorrupt: too many rows were left out, or none was used.
+  // Call this after the last row. Fails with kCorrupt if too many rows were left out, or if no row was used.
   base::Status Finish(std::size_t used);
 
  private:
@@ -76,12 +76,12 @@ class TextRows {
   int line_ = 0;
   std::vector<std::string_view> words_;
   std::size_t rows_ = 0, left_out_ = 0, warnings_ = 0;
-  // The last rows in the order of time, the newest last: at most kMaxMisdated + 1.
+  // The newest rows in the order of time, at most kMaxMisdated + 1; the last one is the newest.
   std::vector<TimedLine> recent_;
-  // A row that goes back in time, when only a few rows are ahead of it: the next row shows which of
-  // them are wrong.
+  // A row that is earlier than a few rows before it. The next row shows which of them are
+  // wrong.
   std::optional<TimedLine> doubtful_;
-  // The time before a gap and the row after it, until enough rows confirm the gap.
+  // The time before a gap, and the row after it. Kept until enough rows confirm the gap.
   std::optional<std::pair<double, TimedLine>> gap_;
   std::vector<double> misdated_;
 };

@@ -35,7 +35,7 @@ base::Result<std::string> Contents(const fs::path& path, std::uintmax_t limit) {
   return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
 }
 
-// Grey values in [0, 1], with rows from the top; 1 is white. Negative: transparent.
+// Grey values from 0 (black) to 1 (white), rows from the top. A negative value means transparent.
 struct Grey {
   int width = 0, height = 0;
   std::vector<float> values;
@@ -70,7 +70,7 @@ class PgmReader {
     Grey grey{*width, *height, {}};
     const auto count = static_cast<std::size_t>(*width) * static_cast<std::size_t>(*height);
     grey.values.reserve(count);
-    ++at_;  // one blank
+    ++at_;  // skips the one blank after the header
     for (std::size_t i = 0; i < count; ++i) {
       const auto value = is_binary ? Sample(*white > 255) : Number();
       if (!value) {
@@ -159,7 +159,7 @@ base::Result<MapSettings> ReadSettings(const fs::path& path) {
     return fail("this is the map's image; name its YAML file instead");
   }
   MapSettings settings;
-  std::string key;  // being read
+  std::string key;  // the key that is being read
   try {
     const YAML::Node map = YAML::Load(*text);
     if (!map.IsMap() || !map["image"] || !map["resolution"]) {
@@ -213,7 +213,8 @@ base::Result<MapSettings> ReadSettings(const fs::path& path) {
   return settings;
 }
 
-// In the mode raw, the value is the occupancy in percent. Values above 100 mean unknown.
+// Converts a pixel to a cell. In the mode raw, the value is the occupancy in percent, and values
+// above 100 mean unknown.
 Cell CellOf(const MapSettings& settings, float white) {
   if (white < 0) return Cell::kUnknown;
   double occupancy = settings.is_negated ? white : 1 - white;
@@ -278,7 +279,7 @@ base::Result<OccupancyMap> ReadBeesoftMap(const fs::path& path) {
   const auto width = static_cast<std::size_t>(map.width);
   const auto height = static_cast<std::size_t>(map.height);
   map.cells.resize(width * height, Cell::kUnknown);
-  // Each row of the file contains the cells with one x.
+  // A row of the file contains all cells with one x.
   for (std::size_t x = 0; x < width; ++x) {
     for (std::size_t y = 0; y < height; ++y) {
       double free = 0;

@@ -76,7 +76,7 @@ class Slicer {
   Slicer(const sensing::RayScene& rays, OccupancyMap& map, double height)
       : rays_(rays), map_(map), height_(height) {}
 
-  // Casts rays along both axes, so that they hit even thin walls.
+  // Casts rays along both axes of the grid, so that they also hit thin walls.
   void Run() {
     for (int y = 0; y < map_.height; ++y) Follow(Centre(0, y), {1, 0, 0}, map_.width);
     for (int x = 0; x < map_.width; ++x) Follow(Centre(x, 0), {0, 1, 0}, map_.height);
@@ -97,8 +97,8 @@ class Slicer {
                cell(place.x, map_.origin_x, map_.width)] = Cell::kOccupied;
   }
 
-  // Whether the middle of the cell at `place` is inside a solid: then a vertical ray upwards leaves
-  // the solid.
+  // Whether the middle of a cell is inside a solid, so that a vertical ray upwards leaves the
+  // solid.
   bool IsSolid(const geometry::Vector3& place) const {
     const auto middle = [&](double along, double origin) {
       return origin + (std::floor((along - origin) / map_.resolution) + 0.5) * map_.resolution;
@@ -114,8 +114,8 @@ class Slicer {
     return crossings % 2 == 1;
   }
 
-  // Marks the cells of all surfaces along the ray. A surface on the border of two cells belongs to
-  // the cell inside the solid.
+  // Marks the cells of all surfaces along a ray. A surface on the border of two cells belongs to
+  // the cell that is inside the solid.
   void Follow(geometry::Vector3 place, const geometry::Vector3& direction, int cells) {
     double left = cells * map_.resolution;
     const geometry::Vector3 nudge = 1e-3 * map_.resolution * direction;

@@ -8,21 +8,21 @@
 
 namespace gsv::reality {
 
-// Returns a world in SDFormat: the occupied cells are walls of this height (m) on a ground plane.
-// Free and unknown cells stay empty. Fails with kInvalidArgument beyond 200,000 boxes.
+// Returns a world in SDFormat: the occupied cells become walls of this height (m) on a ground
+// plane. Free and unknown cells stay empty. Fails with kInvalidArgument beyond 200,000 boxes.
 base::Result<std::string> WorldOfMap(const OccupancyMap& map, const std::string& name,
                                      double height);
 
 struct SliceOptions {
   double resolution = 0.05;  // m
-  double height = 0.2;       // height above the world's origin at which the world is cut, m
+  double height = 0.2;       // height at which the world is cut, above its origin, m
   double margin = 0.5;       // margin around the bodies, m
 };
 
 // Cuts the world at a height, as a robot would map it: the surfaces of the bodies at the start of
 // the simulation are occupied. Everything else is free, including the inside of solids. Robots are
-// omitted. Returns kInvalidArgument if there is nothing at that height, or if the map would exceed
-// 64 million cells.
+// omitted. Fails with kInvalidArgument if no body is at that height, or if the map would exceed 64
+// million cells.
 base::Result<OccupancyMap> MapOfWorld(const model::WorldDescription& world,
                                       const SliceOptions& options);
 

@@ -1,10 +1,10 @@
-// Occupancy maps as ROS's map_server reads and writes them: an image (PGM or PNG) and a YAML file.
+// Reads and writes occupancy maps of ROS's map_server: an image (PGM or PNG) and a YAML file.
 //
 // Frame   cell (0, 0) is the lower left one; its lower left corner lies at `origin`. Images have
 //         their rows from the top.
 // Source  https://wiki.ros.org/map_server, "Map format".
 // Input   untrusted: a side of at most 16384 cells, 64 million cells, 1 MiB of YAML.
-// Errors  kNotFound, kBadModel; a sentence with the file.
+// Errors  kNotFound and kBadModel; the message names the file.
 #pragma once
 
 #include <cstdint>
@@ -29,18 +29,18 @@ struct OccupancyMap {
   }
 };
 
-// `yaml` names the image, resolution, origin, negate, thresholds and optionally the mode.
+// Reads a map. The YAML file has the image, resolution, origin, negate, thresholds and optionally the mode.
 base::Result<OccupancyMap> ReadMap(const std::filesystem::path& yaml, base::Problems& problems);
 
-// Reads CMU's text format: "robot_specifications->resolution 10" (cm), "global_map[0]: 800 800",
-// and for each cell the probability that it is free, or -1 if it is unknown.
+// Reads a map in CMU's text format: "robot_specifications->resolution 10" (cm), "global_map[0]: 800
+// 800", and for each cell the probability that it is free, or -1 if it is unknown.
 base::Result<OccupancyMap> ReadBeesoftMap(const std::filesystem::path& path);
 
 // Writes NAME.yaml and, in the same folder, NAME.pgm.
 base::Status WriteMap(const OccupancyMap& map, const std::filesystem::path& yaml);
 
-// Returns the occupied cells as rectangles, in cells: [x, x + width). Equal runs of adjacent rows
-// are joined.
+// A rectangle of occupied cells, in cells: [x, x + width). Equal rows on top of each other are
+// joined.
 struct CellBox {
   int x = 0, y = 0, width = 1, height = 1;
 };

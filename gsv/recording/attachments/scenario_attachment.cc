@@ -74,7 +74,8 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
 std::vector<simulation::Edit> EditsBeforeStart(const Simulation& simulation) {
   if (simulation.status().phase != simulation::Phase::kCreated) return {};
   const model::WorldDescription& world = *simulation.specification().world;
-  std::set<std::string> of_scenario;  // names of the scenario's robots, including removed ones
+  std::set<std::string> of_scenario;  // names of the scenario's robots, including robots that were
+                                      // removed
   std::vector<simulation::Edit> edits;
   for (const simulation::Event& event : simulation.events(0)) {
     if (event.kind == "reset") edits.clear();

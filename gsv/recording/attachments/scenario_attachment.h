@@ -1,4 +1,4 @@
-// The scenario of a recording's simulation: the attachment `scenario.yaml`, application/yaml
+// Attaches the scenario of the recorded simulation as `scenario.yaml`, application/yaml
 // (docs/formats/scenario.md).
 #pragma once
 
@@ -15,7 +15,7 @@ inline constexpr std::string_view kScenarioMediaType = "application/yaml";
 
 // Derives the scenario of a simulation from its state: the sources of the world and the models, and
 // the poses of robots at the start. A program that has the original scenario, with the name of the
-// world and the options of behaviours, should attach that instead.
+// world and the options of behaviours, should attach the original instead.
 scenario::Scenario ScenarioOf(const simulation::Simulation& simulation);
 
 // Returns the edits that turn ScenarioOf() into the present state of a simulation that has not

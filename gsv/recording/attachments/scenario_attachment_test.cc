@@ -50,7 +50,7 @@ TEST(ScenarioAttachment, HasTheScenarioOfASimulation) {
   EXPECT_EQ(scenario.avatars[0].name, "Ann");
 }
 
-// Returns the attached scenario of the recording at `path`, and removes the file.
+// Returns the scenario that is attached to the recording at `path`, and removes the file.
 std::string AttachedTo(const std::string& path) {
   const auto reader = McapReader::Open(path);
   EXPECT_TRUE(reader);

@@ -1,5 +1,5 @@
-// The attachments with which a replay shows a recording without the original files. They are the
-// scene as JSON, and each of its models as a GLB file.
+// Attaches the scene as JSON, and each of its models as a GLB file. With these, a replay shows the
+// recording without the original files.
 //
 // Attachments  `scene.json` at each change of bodies or sensors; if several have one
 //              layout_version, the last one applies. `models/ID.glb` with the ID that the scene
@@ -43,9 +43,9 @@ class SceneAttachments {
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const WriteGlb write_glb_;
   std::map<std::shared_ptr<const model::Model>, std::string> identities_, collisions_;
-  std::set<std::string> attached_;               // identities of the attached models
-  std::shared_ptr<const world::Layout> layout_;  // the layout of the last scene
-  std::set<std::string> sensors_;                // the sensors of the last scene
+  std::set<std::string> attached_;               // identifiers of the attached models
+  std::shared_ptr<const world::Layout> layout_;  // layout of the last attached scene
+  std::set<std::string> sensors_;                // sensors of the last attached scene
 };
 
 }  // namespace gsv::recording

@@ -32,8 +32,8 @@ class SourceAttachments {
               base::SimTime time);
 
   McapWriter& writer_;
-  std::set<std::string> sources_;  // sources that were processed
-  std::set<std::string> names_;    // names of the attachments
+  std::set<std::string> sources_;  // sources that were already processed
+  std::set<std::string> names_;    // names of the attachments so far
 };
 
 }  // namespace gsv::recording

@@ -26,7 +26,7 @@ class SourceAttachmentsTest : public testing::Test {
     return path.string();
   }
 
-  // Records one step of a world that was read from `world`, with robots that were read from
+  // Records one step of a world whose source is `world`, with robots whose sources are
   // `robots`.
   std::map<std::string, std::string> Record(const std::string& world,
                                             const std::vector<std::string>& robots) const {

@@ -1,5 +1,5 @@
-// Reads any bytes as a recording. They must be rejected, or read as far as they are valid. They
-// must be recovered into a recording without errors.
+// Reads any bytes as a recording. They must be rejected, or read as far as they are valid. If they
+// are read, they must also be recovered to a recording without errors.
 #include <cstdint>
 
 #include "gsv/base/check.h"

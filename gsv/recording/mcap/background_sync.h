@@ -1,4 +1,4 @@
-// Synchronises a sink to its disk on its own thread. This may take seconds, and writing continues
+// Flushes a file to its disk on a separate thread. A flush may take seconds; writing continues
 // meanwhile.
 //
 // Threads  any.
@@ -15,12 +15,12 @@ class BackgroundSync {
  public:
   // `sink` must outlive this object, and must accept writes while it is synchronised.
   explicit BackgroundSync(ByteSink& sink);
-  // Waits for the requested synchronisations.
+  // Waits until all requested flushes are done.
   ~BackgroundSync();
 
   // Requests the synchronisation of everything that was written so far. Returns at once.
   void Ask();
-  // The first error of the disk, if there was one.
+  // The first error of a flush, if there was one.
   base::Status status() const;
 
  private:

@@ -1,4 +1,4 @@
-// A recording in the form of rosbag2: a folder NAME with NAME_0.mcap and metadata.yaml.
+// A recording in rosbag2's form: a folder NAME with the files NAME_0.mcap and metadata.yaml.
 //
 // Source  rosbag2_storage, bag metadata version 5 (ROS 2 Humble and later). The file is written as
 //         JSON, which is valid YAML 1.2.
@@ -16,7 +16,7 @@ base::Result<std::string> MakeBagFolder(const std::string& folder);
 // Writes metadata.yaml beside a complete recording.
 base::Status WriteBagMetadata(const std::string& file);
 
-// Returns the recording at a path: the file itself, or the first file (by name) in a folder.
+// Returns the file of the recording at `path`: the file itself, or the first file (by name) of a folder.
 std::string RecordingFile(const std::string& path);
 
 }  // namespace gsv::recording

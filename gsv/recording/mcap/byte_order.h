@@ -44,7 +44,7 @@ inline void PutString(Bytes& out, std::string_view text) {
 }
 
 // Reads values from bytes. After the first value that does not fit, ok() is false and every read
-// returns zero or nothing.
+// returns zero or an empty value.
 class ByteReader {
  public:
   // `bytes` must outlive the reader and the values that it returns.
@@ -72,7 +72,7 @@ class ByteReader {
     return value;
   }
 
-  // Times after the year 2262 make the reader fail.
+  // Reads a time. The reader fails for times after the year 2262.
   std::chrono::nanoseconds GetTime() {
     const auto value = Get<std::uint64_t>();
     if (value > INT64_MAX) ok_ = false;

@@ -1,4 +1,4 @@
-// Collects the messages of a chunk and their index.
+// Collects messages, and makes a chunk with a message index of them.
 #pragma once
 
 #include <map>
@@ -15,16 +15,19 @@ class ChunkBuilder {
   void Add(const MessageRecord& message);
 
   bool empty() const { return index_.empty(); }
-  std::size_t size() const { return records_.size(); }  // The size before compression.
+  std::size_t size() const {
+    return records_.size();
+  }  // Size of the collected messages before
+     // compression.
 
-  // A chunk record with its message index records, and the data for the summary. Offsets count from
-  // the start of the chunk.
+  // A chunk record and its message index records, as bytes, and their data for the summary. Offsets
+  // are counted from the start of the chunk.
   struct Chunk {
     Bytes bytes;
     ChunkIndexRecord index;
     std::map<std::uint16_t, std::uint64_t> message_counts;  // number of messages by channel
   };
-  // Returns the collected messages as a chunk, and removes them. There must be at least one
+  // Returns the collected messages as a chunk, and clears them. There must be at least one
   // message.
   Chunk Take();
 

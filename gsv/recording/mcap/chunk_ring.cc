@@ -20,7 +20,7 @@ class ChunkRing::Sink final : public ByteSink {
   const std::shared_ptr<ChunkRing> ring_;
 };
 
-// The pieces by offset, with gaps where others were dropped.
+// Gives a reader the kept pieces at their original offsets. Dropped pieces leave gaps.
 class ChunkRing::Source final : public ByteSource {
  public:
   explicit Source(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
@@ -57,7 +57,7 @@ std::unique_ptr<ByteSink> ChunkRing::MakeSink() {
   return std::make_unique<Sink>(shared_from_this());
 }
 
-// McapFileWriter passes whole records: a chunk with its message indexes, or one other record.
+// McapFileWriter writes whole records: a chunk with its message indexes, or one other record.
 void ChunkRing::Write(std::span<const std::byte> bytes) {
   const base::MutexLock lock(mutex_);
   const Piece piece{offset_, std::make_shared<const Bytes>(bytes.begin(), bytes.end())};
@@ -101,8 +101,8 @@ void ChunkRing::AddRecord(const RawRecord& record, const Piece& piece) {
       }
       return;
     default:
-      return;  // the end of the file and its summary are dropped, because readers of the ring do
-               // not need them
+      return;  // this is the end of the file or the summary, which readers of the ring do not
+               // need
   }
 }
 
@@ -114,8 +114,8 @@ void ChunkRing::AddChunk(const ChunkRecord& chunk, std::span<const std::byte> in
                  chunk.start,  chunk.end};
   while (const std::optional<RawRecord> record = TakeRecord(indexes)) {
     if (record->opcode != Opcode::kMessageIndex) continue;
-    // A message index has the channel, and then the size of the entries: time and offset, eight
-    // bytes each.
+    // A message index has a channel and the size of its entries. An entry has eight bytes of time
+    // and eight bytes of offset.
     ByteReader reader(record->content);
     const auto channel = reader.Get<std::uint16_t>();
     const std::uint64_t messages = reader.Get<std::uint32_t>() / 16;
@@ -140,8 +140,8 @@ void ChunkRing::Shrink() {
 
 void ChunkRing::DropReplaced() {
   const base::SimTime first = chunks_.front().block.start;
-  std::map<std::string, const Attached*> in_use;  // the attachments that are valid at the start of
-                                                  // the first chunk, by name
+  std::map<std::string, const Attached*> in_use;  // the attachments that apply at the start of the
+                                                  // first chunk, by name
   for (const Attached& each : attachments_) {
     if (each.index.log_time <= first) in_use[each.index.name] = &each;
   }

@@ -1,5 +1,5 @@
-// The newest part of a recording, in memory: an output for McapWriter whose oldest chunks are
-// dropped when all records together exceed a size.
+// Keeps the newest part of a recording in memory. This is an output for McapWriter: when all
+// records together exceed a size, the oldest chunks are dropped.
 //
 // Kept     schemas, channels and metadata always; the newest chunks; of several attachments with
 //          one name, those that a kept chunk may need, and the newest.
@@ -18,11 +18,11 @@ namespace gsv::recording {
 
 class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
  public:
-  // `capacity`: bytes of all records, as they are stored (compressed). The newest chunk is kept
-  // whatever its size.
+  // `capacity` is the maximum size of all records as they are stored (compressed), in bytes. The
+  // newest chunk is kept, whatever its size.
   explicit ChunkRing(std::size_t capacity) : capacity_(capacity) {}
 
-  // The output for one McapWriter. It keeps the ring alive.
+  // Makes an output for one McapWriter. The output keeps the ring alive.
   std::unique_ptr<ByteSink> MakeSink();
 
   struct Extent {
@@ -32,15 +32,15 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   };
   Extent extent() const;
 
-  // Returns a reader of the messages that are kept now; later writes do not change it. kNotFound:
-  // there are no messages yet.
+  // Returns a reader of the messages that are kept now; later writes do not change it. Fails with
+  // kNotFound if there are no messages yet.
   [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
 
  private:
   class Sink;
   class Source;
   using Stored = std::shared_ptr<const Bytes>;
-  // The bytes of one write, which are whole records.
+  // The bytes of one write. They consist of whole records.
   struct Piece {
     std::uint64_t offset = 0;
     Stored bytes;
@@ -60,7 +60,7 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   void AddChunk(const ChunkRecord& chunk, std::span<const std::byte> indexes, const Piece& piece)
       GSV_REQUIRES(mutex_);
   void Shrink() GSV_REQUIRES(mutex_);
-  // Drops an attachment if another one with the same name replaces it before the first chunk.
+  // Drops attachments that are replaced, by others with the same name, before the first kept chunk.
   void DropReplaced() GSV_REQUIRES(mutex_);
 
   const std::size_t capacity_;

@@ -73,7 +73,7 @@ TEST_F(ChunkRingTest, DropsTheOldestChunksBeyondItsCapacity) {
   const auto reader = ring_->Open().value();
   const auto times = TimesIn(*reader);
   EXPECT_EQ(times.errors, 0);
-  // A chunk has 200 bytes of data and less than 200 bytes of headers and indexes.
+  // A chunk has 200 bytes of data, and headers and indexes of less than 200 bytes.
   EXPECT_GE(times.times.size(), 2u);
   EXPECT_LE(times.times.size(), 4u);
   EXPECT_EQ(times.times.front(), extent.start);

@@ -8,7 +8,7 @@
 namespace gsv::recording {
 
 std::uint32_t Crc32(std::span<const std::byte> bytes, std::uint32_t before) {
-  if (bytes.empty()) return before;  // zlib would restart the checksum at a null pointer
+  if (bytes.empty()) return before;  // zlib would restart the checksum if the pointer is null
   return static_cast<std::uint32_t>(
       crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
@@ -30,7 +30,7 @@ Bytes ZstdCompressor::Compress(std::span<const std::byte> bytes) {
 }
 
 base::Result<Bytes> ZstdDecompress(std::span<const std::byte> bytes, std::size_t size) {
-  // This check detects most damage before any memory is allocated.
+  // Most damage is detected here, before memory is allocated.
   const unsigned long long claimed = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   if (claimed != size && claimed != ZSTD_CONTENTSIZE_UNKNOWN) {
     return base::Fail(base::ErrorCode::kCorrupt, "its zstd frame and its size disagree");

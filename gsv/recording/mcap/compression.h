@@ -12,8 +12,8 @@ struct ZSTD_CCtx_s;
 
 namespace gsv::recording {
 
-// Returns the checksum of `bytes`. `before` is the checksum of the preceding bytes, which is
-// continued.
+// Returns the checksum of `bytes`. `before` is the checksum of the bytes before
+// them.
 std::uint32_t Crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 class ZstdCompressor {

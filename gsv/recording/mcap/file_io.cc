@@ -62,7 +62,7 @@ base::Status FileSink::Write(std::span<const std::byte> bytes) {
 }
 
 base::Status FileSink::Sync() {
-  // EINVAL means that the file is not on a disk.
+  // The error EINVAL means that the file is not on a disk (such as a pipe). This is no failure.
   if (::fdatasync(file_.get()) == 0 || errno == EINVAL) return {};
   return Fail(ErrorCode::kUnavailable,
               "cannot write the recording to its disk: " + SystemMessage(errno), path_);

@@ -1,4 +1,4 @@
-// Output and input of recordings: files, or memory in tests.
+// Outputs and inputs of recordings: files, or memory in tests.
 //
 // Errors  kUnavailable with the path and the error of the system.
 #pragma once
@@ -18,13 +18,13 @@ class ByteSink {
   virtual ~ByteSink() = default;
   // Writes all bytes. After an error, a part may have been written.
   [[nodiscard]] virtual base::Status Write(std::span<const std::byte> bytes) = 0;
-  // Returns when all written bytes survive a loss of power.
+  // Returns when all written bytes are on the disk, so that they survive a loss of power.
   [[nodiscard]] virtual base::Status Sync() = 0;
   // Truncates the output to its first `size` bytes, if it supports that.
   [[nodiscard]] virtual base::Status Truncate(std::uint64_t size) = 0;
 };
 
-// A random-access input of known size. Const members may run concurrently.
+// An input of known size that can be read at any offset. Const members may run concurrently.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
@@ -49,8 +49,8 @@ class FileDescriptor {
 
 class FileSink : public ByteSink {
  public:
-  // Creates the file. Returns kInvalidArgument if it exists and is not empty, unless `replace` is
-  // true.
+  // Creates the file. Fails with kInvalidArgument if the file exists and is not empty, unless
+  // `replace` is true.
   [[nodiscard]] static base::Result<std::unique_ptr<FileSink>> Create(std::string path,
                                                                       bool replace);
 

@@ -1,4 +1,4 @@
-// Reads and checks the parts of a recording that hold its messages.
+// Reads and checks the parts of a recording that contain its messages.
 //
 // Input  untrusted. Sizes are checked before use, and memory is limited by Limits and by the size
 //        of the file.
@@ -23,9 +23,9 @@ struct Limits {
   std::uint64_t open_blocks_size = std::uint64_t{1} << 30;
 };
 
-// A chunk, or a run of messages that are outside of chunks.
+// A chunk, or a sequence of messages that are outside of chunks.
 struct MessageBlock {
-  std::uint64_t offset = 0;  // the place of its first record in the file
+  std::uint64_t offset = 0;  // offset of its first record in the file
   std::uint64_t length = 0;
   bool is_chunk = true;
   std::uint64_t uncompressed_size = 0;
@@ -41,14 +41,14 @@ using Channels = std::map<std::uint16_t, ChannelRecord>;
 [[nodiscard]] base::Result<Bytes> ReadRecords(const ByteSource& source, const MessageBlock& block,
                                               const Limits& limits);
 
-// Returns the messages among the records, in their order; they refer to `records`. Returns kCorrupt
-// if a message has no channel, or is outside the time range of the block.
+// Returns the messages in `records`, in their order. They refer to the bytes of `records`. Returns
+// kCorrupt if a message has no channel, or is outside the time range of the block.
 [[nodiscard]] base::Result<std::vector<MessageRecord>> ListMessages(
     std::span<const std::byte> records, const MessageBlock& block, const Channels& channels);
 
 struct BlockMessages {
   Bytes records;
-  std::vector<MessageRecord> messages;  // they refer to `records`
+  std::vector<MessageRecord> messages;  // refer to the bytes of `records`
 };
 [[nodiscard]] base::Result<BlockMessages> ReadMessages(const ByteSource& source,
                                                        const MessageBlock& block,

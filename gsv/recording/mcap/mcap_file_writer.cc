@@ -7,8 +7,8 @@
 namespace gsv::recording {
 namespace {
 
-// Builds the summary section at offset `start`: groups of records of one kind, then the offset of
-// each group.
+// Builds the summary section at offset `start`. It has a group of records for each kind, and the
+// offset of each group.
 class SummaryBuilder {
  public:
   explicit SummaryBuilder(std::uint64_t start) : start_(start) {}
@@ -154,8 +154,8 @@ base::Status McapFileWriter::Close() {
     WriteEnd();
     if (status_) status_ = sink_.Sync();
   } else if (ends_in_a_record_ && position_ > 0) {
-    // The space that the failed record had used may suffice for the summary. The first error stays
-    // the reason.
+    // Truncating the failed record may free enough space for the summary. The first error stays the
+    // reported one.
     base::Status reason = std::exchange(status_, base::Status{});
     WriteEnd();
     status_ = std::move(reason);

@@ -40,7 +40,7 @@ class McapFileWriter {
 
   // Writes the current chunk, unless it is empty. The chunk then survives a crash of this process.
   base::Status CloseChunk();
-  // Like CloseChunk(), but returns when the chunk survives a loss of power.
+  // Writes the current chunk, and returns when it survives a loss of power.
   base::Status Flush();
   // Writes the current chunk and the summary. No other call may follow.
   base::Status Close();
@@ -58,15 +58,16 @@ class McapFileWriter {
   const FileOptions options_;
   base::Status status_;
   bool closed_ = false;
-  bool ends_in_a_record_ = true;  // whether the file was truncated after an error
+  bool ends_in_a_record_ = true;  // whether the last record is complete; false if truncating failed
+                                  // after an error
   std::uint64_t position_ = 0;
   std::uint32_t crc_ = 0;  // checksum of all bytes before position_
   ChunkBuilder chunk_;
 
-  // The following members are for the summary.
+  // The following members are collected for the summary.
   std::map<std::uint16_t, SchemaRecord> schemas_;
   std::map<std::uint16_t, ChannelRecord> channels_;
-  Bytes chunk_indexes_;  // in encoded form, because long recordings have many
+  Bytes chunk_indexes_;  // encoded, because long recordings have many
   std::vector<AttachmentIndexRecord> attachment_indexes_;
   std::vector<MetadataIndexRecord> metadata_indexes_;
   StatisticsRecord statistics_;

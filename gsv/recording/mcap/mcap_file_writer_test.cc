@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
 
-// A disk that is full after this number of bytes.
+// A disk that accepts only this number of bytes.
 class SmallDisk : public ByteSink {
  public:
   SmallDisk(Bytes& out, std::size_t room) : out_(out), room_(room) {}
@@ -73,7 +73,7 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   ASSERT_TRUE(writer.AddSchema(SchemaOfClock()));
   ASSERT_TRUE(writer.AddChannel(ChannelOf(0, "/clock")));
   const Bytes data = ClockMessage(0ms);
-  // A message record has 9 + 22 + 12 bytes, so three of them exceed 100.
+  // A message record has 9 + 22 + 12 bytes. So three records exceed the chunk size of 100.
   for (int i = 0; i < 7; ++i) ASSERT_TRUE(writer.Write({0, 0, 0ms, 0ms, data}));
   ASSERT_TRUE(writer.Close());
   const auto reader = Open(bytes);
@@ -82,7 +82,7 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   EXPECT_EQ((*reader)->summary().message_count, 7U);
 }
 
-// For any size of the disk, the first error is reported and kept, and all chunks that were
+// For each size of the disk: the first error is returned, also later, and all chunks that were
 // complete by then can be read.
 TEST(McapFileWriter, KeepsCompleteChunksWhenTheDiskIsFull) {
   const std::size_t needed = ThreeChunks().size();

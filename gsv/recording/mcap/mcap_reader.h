@@ -1,4 +1,4 @@
-// Reads a recording: its summary, its messages from any time on, its attachments and metadata.
+// Reads a recording: its summary, its messages from a given time on, its attachments and metadata.
 //
 // Input    untrusted, see mcap_block.h. A truncated or damaged file is read as far as possible;
 //          summary().problems lists what is missing.
@@ -17,7 +17,7 @@ namespace gsv::recording {
 struct Attachment {
   std::string name;
   std::string media_type;
-  std::chrono::nanoseconds log_time{};     // simulated time
+  std::chrono::nanoseconds log_time{};     // simulated time at which it was attached
   std::chrono::nanoseconds create_time{};  // when the file was created, since 1970
   Bytes data;
 };
@@ -30,7 +30,7 @@ class McapReader {
                                                                       const Limits& limits = {});
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(
       std::unique_ptr<ByteSource> source, const Limits& limits = {});
-  // A reader of a source whose summary is known, and valid.
+  // Makes a reader for a source whose summary is known and valid.
   static std::unique_ptr<McapReader> Make(std::unique_ptr<ByteSource> source, Summary summary,
                                           const Limits& limits = {});
 
@@ -40,11 +40,11 @@ class McapReader {
 
   // Iterates over the messages from `from` on, ordered by time. The reader must outlive the cursor.
   MessageCursor Messages(base::SimTime from = base::SimTime::min()) const;
-  // Returns the messages of one of summary().blocks, in the order of the file.
+  // Returns the messages of a block (one of summary().blocks), in the order of the file.
   [[nodiscard]] base::Result<BlockMessages> Messages(const MessageBlock& block) const;
 
-  // Reads one of summary().attachments or summary().metadata. Returns kCorrupt if a checksum is
-  // wrong.
+  // Read one attachment or metadata record that is listed in summary(). Fail with kCorrupt if a
+  // checksum is wrong.
   [[nodiscard]] base::Result<Attachment> Read(const AttachmentIndexRecord& index) const;
   [[nodiscard]] base::Result<MetadataRecord> Read(const MetadataIndexRecord& index) const;
 

@@ -22,8 +22,8 @@ std::string AllProblems(const Summary& summary) {
   return text;
 }
 
-// The start of a file, a schema and the channel 0. Tests append records that our writer does not
-// write.
+// Returns the start of a file with a schema and the channel 0. Tests append records that our writer
+// never writes.
 Bytes HeadOfForeignFile() {
   Bytes bytes(kMagic.begin(), kMagic.end());
   Append(bytes, HeaderRecord{"", "foreign"});
@@ -177,7 +177,7 @@ TEST(McapReader, LimitsTheMemoryForADecompressedChunk) {
   ASSERT_LT(packed.size(), zeros.size() / 1000);
   Bytes bytes = HeadOfForeignFile();
   Append(bytes, ChunkRecord{0ms, 0ms, zeros.size(), 0, "zstd", packed});
-  // This chunk declares a smaller size than it has.
+  // The declared size of this chunk is smaller than its real size.
   Append(bytes, ChunkRecord{0ms, 0ms, 100, 0, "zstd", packed});
   const auto reader = Open(bytes, {.record_size = 1 << 20});
   ASSERT_TRUE(reader);
@@ -203,7 +203,7 @@ TEST(McapReader, IgnoresASummaryWithOverlappingChunks) {
 
 TEST(McapReader, StopsAtZerosAtTheEndOfAFile) {
   Bytes bytes = ThreeChunks();
-  const Place index = PlacesIn(bytes)[7];  // the place after the first chunk
+  const Place index = PlacesIn(bytes)[7];  // the message index after the first chunk
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(index.begin), bytes.end(), std::byte{0});
   const auto reader = Open(bytes);
   ASSERT_TRUE(reader);
@@ -224,7 +224,7 @@ TEST(McapReader, ContinuesAfterADamagedChunk) {
   EXPECT_THAT(found.times, SizeIs(20));
 }
 
-// A file with one wrong bit must give no message that was not written.
+// A file with one flipped bit must not return a message that was not written.
 TEST(McapReader, ReturnsNoWrongMessageForAnyFlippedBit) {
   Bytes bytes = ThreeChunks();
   for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {

@@ -5,7 +5,7 @@
 namespace gsv::recording {
 namespace {
 
-// Writes the frame of a record around the data that is appended during its lifetime.
+// Writes the header of a record; the destructor fills in the length of what was appended since.
 class RecordFrame {
  public:
   RecordFrame(Bytes& out, Opcode opcode) : out_(out) {
@@ -19,7 +19,7 @@ class RecordFrame {
 
   std::size_t content() const { return content_; }
 
-  // Stores the number of bytes after `start` in the Length before it.
+  // Writes the number of bytes after `start` into the Length field in front of `start`.
   template <typename Length>
   static void PatchLength(Bytes& out, std::size_t start) {
     const auto length = static_cast<Length>(out.size() - start);
@@ -215,7 +215,7 @@ void Append(Bytes& out, const DataEndRecord& record) {
   Put(out, record.data_crc);
 }
 
-// The initialisers of a braced list are evaluated in the order in which they are written.
+// In a braced list, initialisers are evaluated in the order in which they are written.
 
 template <>
 std::optional<HeaderRecord> Parse(std::span<const std::byte> content) {

@@ -47,7 +47,7 @@ struct HeaderRecord {
 struct FooterRecord {
   std::uint64_t summary_start = 0;  // 0 if there is no summary
   std::uint64_t summary_offset_start = 0;
-  std::uint32_t summary_crc = 0;  // 0 if it is not given
+  std::uint32_t summary_crc = 0;  // 0 if there is no checksum
 };
 inline constexpr std::size_t kFooterSize = kRecordHeaderSize + 20;
 
@@ -75,19 +75,19 @@ struct MessageRecord {
   std::uint32_t sequence = 0;
   base::SimTime log_time{};
   base::SimTime publish_time{};
-  std::span<const std::byte> data;  // the bytes have another owner
+  std::span<const std::byte> data;  // the struct does not own these bytes
 };
 
 struct ChunkRecord {
   base::SimTime start{};  // time of the earliest message
   base::SimTime end{};    // time of the latest message
   std::uint64_t uncompressed_size = 0;
-  std::uint32_t uncompressed_crc = 0;  // 0 if it is not given
+  std::uint32_t uncompressed_crc = 0;  // 0 if there is no checksum
   std::string compression;             // empty, or a name such as "zstd"
-  std::span<const std::byte> records;  // the bytes have another owner
+  std::span<const std::byte> records;  // the struct does not own these bytes
 };
 
-// The positions of the messages of one channel in one chunk: time, and offset in the uncompressed
+// Where the messages of one channel are in a chunk: pairs of time and offset in the uncompressed
 // records.
 struct MessageIndexRecord {
   std::uint16_t channel_id = 0;
@@ -97,7 +97,7 @@ struct MessageIndexRecord {
 struct ChunkIndexRecord {
   base::SimTime start{};
   base::SimTime end{};
-  std::uint64_t chunk_offset = 0;  // place of the chunk's record in the file
+  std::uint64_t chunk_offset = 0;  // offset of the chunk's record in the file
   std::uint64_t chunk_length = 0;  // length of the whole record
   std::map<std::uint16_t, std::uint64_t> message_index_offsets{};
   std::uint64_t message_index_length = 0;
@@ -111,7 +111,7 @@ struct AttachmentRecord {
   std::chrono::nanoseconds create_time{};  // when the file was created, since 1970
   std::string name;
   std::string media_type;
-  std::span<const std::byte> data;  // the bytes have another owner
+  std::span<const std::byte> data;  // the struct does not own these bytes
 };
 
 struct AttachmentIndexRecord {
@@ -149,7 +149,7 @@ struct MetadataIndexRecord {
   std::string name;
 };
 
-// The place of the records of one kind in the summary.
+// Where the records of one kind are in the summary.
 struct SummaryOffsetRecord {
   Opcode group{};
   std::uint64_t start = 0;
@@ -157,10 +157,10 @@ struct SummaryOffsetRecord {
 };
 
 struct DataEndRecord {
-  std::uint32_t data_crc = 0;  // checksum of everything before this record; 0 if it is not given
+  std::uint32_t data_crc = 0;  // checksum of all bytes before this record; 0 if there is none
 };
 
-// Each of these appends the complete record. The record of an attachment includes its CRC.
+// These functions append the complete record. The record of an attachment includes its CRC.
 void Append(Bytes& out, const HeaderRecord& record);
 void Append(Bytes& out, const FooterRecord& record);
 void Append(Bytes& out, const SchemaRecord& record);
@@ -177,8 +177,8 @@ void Append(Bytes& out, const MetadataIndexRecord& record);
 void Append(Bytes& out, const SummaryOffsetRecord& record);
 void Append(Bytes& out, const DataEndRecord& record);
 
-// Parses the content of one record, without opcode and length. It is not defined for MessageIndex,
-// SummaryOffset and DataEnd, which readers do not need. It checks the CRC of an attachment.
+// Parses the content of one record, without opcode and length. Not defined for MessageIndex,
+// SummaryOffset and DataEnd, which readers do not need. Checks the CRC of an attachment.
 template <typename Record>
 std::optional<Record> Parse(std::span<const std::byte> content);
 template <>
@@ -206,7 +206,7 @@ std::optional<MetadataRecord> Parse(std::span<const std::byte> content);
 template <>
 std::optional<MetadataIndexRecord> Parse(std::span<const std::byte> content);
 
-// Parses the start of an attachment. The content may end after its media type.
+// Parses the start of an attachment. `content` may end after the media type.
 std::optional<AttachmentIndexRecord> ParseAttachmentHead(std::span<const std::byte> content);
 
 struct RawRecord {

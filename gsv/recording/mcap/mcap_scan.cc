@@ -1,5 +1,5 @@
-// Finds the content of a recording without its summary. It reads record by record, up to the first
-// invalid one.
+// Scans a recording without its summary. Reads it record by record, up to the first invalid
+// one.
 #include <algorithm>
 #include <set>
 
@@ -10,7 +10,7 @@ namespace {
 
 // Messages outside of chunks are grouped in blocks of about this size.
 constexpr std::uint64_t kLooseBlockSize = std::uint64_t{4} << 20;
-// The first bytes of an attachment that are read: enough for its name and media type.
+// The number of bytes of an attachment that are read: enough for its name and media type.
 constexpr std::uint64_t kAttachmentHeadSize = std::uint64_t{64} << 10;
 constexpr std::size_t kMaxProblems = 100;
 
@@ -19,7 +19,8 @@ class Window {
  public:
   explicit Window(const ByteSource& source) : source_(source) {}
 
-  // The result is valid until the next call. It is empty if the file cannot be read there.
+  // Returns bytes of the file, valid until the next call. They are empty if the file cannot be read
+  // there.
   std::span<const std::byte> Read(std::uint64_t offset, std::uint64_t length) {
     if (offset < start_ || offset + length > start_ + bytes_.size()) {
       const std::uint64_t left = source_.size() - offset;
@@ -96,8 +97,8 @@ class Scanner {
     }
   }
 
-  // The content of the record. If the record is too large, it is empty, which is invalid for every
-  // kind of record.
+  // Returns the content of the record. Returns an empty content, which is always invalid, for a
+  // record that is too large.
   std::span<const std::byte> Content() {
     const std::uint64_t length = length_ - kRecordHeaderSize;
     if (length > limits_.record_size) return {};
@@ -199,7 +200,7 @@ class Scanner {
   const Limits& limits_;
   Window window_;
   Summary summary_;
-  std::uint64_t offset_;  // the place of the current record
+  std::uint64_t offset_;  // offset of the current record
   std::uint64_t length_ = 0;
   Opcode opcode_{};
 };

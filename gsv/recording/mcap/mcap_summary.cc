@@ -7,7 +7,7 @@
 namespace gsv::recording {
 namespace {
 
-// Reads the summary at the end of a file. Any damage makes the summary unusable. Returns the
+// Reads the summary at the end of a file. Any damage makes the whole summary unusable. Returns the
 // reason, or an empty text if the summary is valid.
 class SummaryReader {
  public:
@@ -52,7 +52,7 @@ class SummaryReader {
     base::Result<Bytes> section = source_.Read(start_, section_end - start_);
     if (!section) return section.error().Sentence();
     section_ = std::move(*section);
-    // The checksum covers the bytes before it.
+    // The checksum covers all bytes in front of itself.
     const auto footer_head = std::span(*end).first(kFooterSize - sizeof(std::uint32_t));
     if (footer->summary_crc != 0 && footer->summary_crc != Crc32(footer_head, Crc32(section_))) {
       return "its summary's checksum is wrong";
@@ -123,7 +123,8 @@ class SummaryReader {
     if (summary_.message_count > 0 && blocks.empty()) return "its summary has no chunks";
     std::sort(blocks.begin(), blocks.end(),
               [](const MessageBlock& a, const MessageBlock& b) { return a.offset < b.offset; });
-    // If chunks could overlap in the file, their total size could be many times that of the file.
+    // Chunks must not overlap in the file; otherwise their total size could be many times that of
+    // the file.
     std::uint64_t free_from = kMagic.size();
     for (const MessageBlock& block : blocks) {
       if (block.offset < free_from || block.offset > start_ ||

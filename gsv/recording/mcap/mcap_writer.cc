@@ -11,10 +11,10 @@
 namespace gsv::recording {
 namespace {
 
-// The writer's thread is woken when this number of bytes is queued, not for each message.
+// The writer's thread is woken only when this number of bytes is queued, not for each message.
 constexpr std::size_t kWorthWaking = std::size_t{256} << 10;
 
-// Writes the records that Append() has joined, one by one.
+// Writes the records in `batch`, which Append() has joined, one by one.
 void WriteBatch(McapFileWriter& file, std::span<const std::byte> batch) {
   while (const std::optional<RawRecord> record = TakeRecord(batch)) {
     switch (record->opcode) {
@@ -103,7 +103,8 @@ void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<cons
   base::MutexLock lock(mutex_);
   GSV_CHECK(channel < sequences_.size());
   if (queued() >= options_.queue_size && options_.when_full == WhenFull::kDrop) {
-    ++sequences_[channel];  // a reader can see the gap in the sequence
+    ++sequences_[channel];  // the gap in the sequence numbers shows readers that a message was
+                            // dropped
     ++progress_.dropped;
     return;
   }
@@ -135,7 +136,7 @@ void McapWriter::EnqueueWhole(Bytes record) {
   Queued(before);
 }
 
-// Returns false if the recording has ended.
+// Waits until the queue has space. Returns false if the recording has ended.
 bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   const auto has_room = [&]() GSV_REQUIRES(mutex_) {
     return queued() < options_.queue_size || closing_ || !status_;
@@ -148,7 +149,7 @@ bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   return status_.has_value() && !closing_;
 }
 
-// Called after the queue has grown from the size `before`.
+// Wakes the writer's thread if necessary. `before` is the size of the queue before it grew.
 void McapWriter::Queued(std::size_t before) {
   if (oldest_ == std::chrono::steady_clock::time_point{}) {
     oldest_ = std::chrono::steady_clock::now();

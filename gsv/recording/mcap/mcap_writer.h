@@ -1,4 +1,4 @@
-// Records messages to an MCAP file without ever waiting for the disk.
+// Records messages to an MCAP file. Producers do not wait for the disk.
 //
 // Producers put messages into a bounded queue. The writer's thread compresses them and writes the
 // file. A failing disk ends the recording, not the program: status() has the reason, and later
@@ -25,15 +25,15 @@ namespace gsv::recording {
 
 // The treatment of a message if the queue is full.
 enum class WhenFull {
-  kDrop,  // the message is dropped and counted; for runs in real time
-  kWait,  // the producer waits for the disk; for lockstep
+  kDrop,  // drop and count the message; for runs in real time
+  kWait,  // the producer waits for the disk; for runs in lockstep
 };
 
 struct WriterOptions {
   FileOptions file{};
   bool replace = false;  // whether to replace an existing file
   WhenFull when_full = WhenFull::kDrop;
-  std::size_t queue_size = std::size_t{64} << 20;  // in bytes
+  std::size_t queue_size = std::size_t{64} << 20;  // maximum size of the queue, bytes
   // If a producer waits longer than this for the disk, the recording ends.
   std::chrono::milliseconds wait_limit{10'000};
 };
@@ -62,11 +62,11 @@ class McapWriter {
   [[nodiscard]] base::Result<ChannelId> AddChannel(const std::string& topic,
                                                    const messages::Schema& schema,
                                                    const ChannelOptions& options = {});
-  // Records a message. `data` is a CDR message of the channel's type and is copied. Messages of one
+  // Records a message. `data`, a CDR message of the channel's type, is copied. Messages of one
   // channel keep their order. `log_time` must not be negative.
   void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data);
 
-  // Add a file or named values to the recording. These are never dropped: the caller waits while
+  // Add a file, or named values, to the recording. These are never dropped: the caller waits while
   // the queue is full.
   void Attach(const AttachmentRecord& attachment);
   void AddMetadata(const MetadataRecord& metadata);
@@ -75,10 +75,10 @@ class McapWriter {
   // `age`. The owner calls this a few times per second.
   void FlushIfOlderThan(std::chrono::steady_clock::duration age);
 
-  // Writes the queue and the summary, and waits for the disk. Further calls do nothing.
+  // Writes the queue and the summary, and waits for the disk. Later calls do nothing.
   base::Status Close();
 
-  // The error that ended the recording early, if any.
+  // The error that ended the recording early, or success.
   base::Status status() const;
   bool failed() const { return failed_; }
 
@@ -102,15 +102,16 @@ class McapWriter {
   const std::unique_ptr<ByteSink> sink_;
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable work_;                     // the writer's thread has work
-  base::ConditionVariable room_;                     // the queue has been emptied
-  Bytes queue_ GSV_GUARDED_BY(mutex_);               // encoded records, as they are in the file
-  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);  // large records, each on its own
+  base::ConditionVariable work_;                     // notified when there is work for the writer's
+                                                     // thread
+  base::ConditionVariable room_;                     // notified when the queue is empty again
+  Bytes queue_ GSV_GUARDED_BY(mutex_);               // encoded records in the form of the file
+  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);  // large records, each in its own buffer
   std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;
   bool flush_ GSV_GUARDED_BY(mutex_) = false;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
   std::chrono::steady_clock::time_point oldest_
-      // time of the oldest message that is not flushed; {} if there is none
+      // time of the oldest message that is not flushed; zero if there is none
       GSV_GUARDED_BY(mutex_){};
   base::Status status_ GSV_GUARDED_BY(mutex_);
   Progress progress_ GSV_GUARDED_BY(mutex_);

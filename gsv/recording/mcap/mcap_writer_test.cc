@@ -19,7 +19,7 @@ using messages::sensor_msgs::Range;
 using testing::AllOf;
 using testing::HasSubstr;
 
-// A sink that writes to memory when the test allows it, and reports calls of Sync().
+// A sink in memory that writes only when the test allows it, and reports calls of Sync().
 class GatedSink : public ByteSink {
  public:
   GatedSink(Bytes& out, std::shared_future<void> open, std::promise<void>* synced = nullptr)
@@ -106,10 +106,10 @@ TEST(McapWriter, FlushesWithoutBeingClosed) {
   std::promise<void> synced;
   McapWriter writer(std::make_unique<GatedSink>(bytes, Opened(), &synced), {});
   writer.Write(*writer.AddChannel("/clock", SchemaOf<Clock>()), 5ms, ClockMessage(5ms));
-  writer.FlushIfOlderThan(std::chrono::hours(1));  // the message is not old enough yet
+  writer.FlushIfOlderThan(std::chrono::hours(1));  // no message is that old
   writer.FlushIfOlderThan(std::chrono::seconds(0));
   synced.get_future().wait();
-  const Bytes on_disk = bytes;  // the writer's thread waits for more messages
+  const Bytes on_disk = bytes;  // the writer's thread still waits for more messages
   const auto reader = Open(on_disk);
   ASSERT_TRUE(reader);
   EXPECT_THAT(TimesIn(**reader).times, testing::ElementsAre(5ms));
@@ -161,7 +161,7 @@ TEST(McapWriter, WritesManyTopicsThatFillTheQueue) {
   for (int i = 0; i < 50; ++i) {
     channel = *writer.AddChannel("/topic" + std::to_string(i), SchemaOf<Clock>());
   }
-  writer.Write(channel, 0ms, ClockMessage(0ms));  // this call waits for space in the queue
+  writer.Write(channel, 0ms, ClockMessage(0ms));  // waits for space in the queue
   ASSERT_TRUE(writer.Close());
   EXPECT_EQ(Open(bytes).value()->summary().channels.size(), 50U);
   EXPECT_EQ(Open(bytes).value()->summary().message_count, 1U);
@@ -192,7 +192,7 @@ TEST(McapWriter, FullDiskEndsTheRecordingWithAnError) {
             "start another recording");
   EXPECT_TRUE((*writer)->failed());
   const std::uint64_t accepted = (*writer)->progress().messages;  // either 0 or 1
-  (*writer)->Write(channel, 1ms, ClockMessage(1ms));              // this message is discarded
+  (*writer)->Write(channel, 1ms, ClockMessage(1ms));              // discarded
   EXPECT_EQ((*writer)->progress().messages, accepted);
 }
 

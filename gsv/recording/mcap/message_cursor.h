@@ -15,13 +15,13 @@ class MessageCursor {
   MessageCursor(const ByteSource& source, const Summary& summary, const Limits& limits,
                 base::SimTime from);
 
-  // Returns the next message, which is valid until the next call, or nullopt at the end. A damaged
-  // chunk returns an error once, and the next call continues after it.
+  // Returns the next message, which is valid until the next call, or nullopt at the end. For a
+  // damaged chunk, returns an error once; the next call continues after the chunk.
   [[nodiscard]] base::Result<std::optional<MessageRecord>> Next();
 
  private:
   struct OpenBlock {
-    std::uint64_t offset = 0;  // the place in the file
+    std::uint64_t offset = 0;  // offset in the file
     BlockMessages content;     // messages, ordered by time
     std::size_t next = 0;
 
@@ -39,11 +39,11 @@ class MessageCursor {
   const Summary& summary_;
   const Limits& limits_;
   const base::SimTime from_;
-  // blocks that are not opened yet; the earliest is last
+  // blocks that are not open yet; the earliest is at the end
   std::vector<const MessageBlock*> waiting_;
   std::vector<std::unique_ptr<OpenBlock>> open_;
   std::priority_queue<OpenBlock*, std::vector<OpenBlock*>, Later> next_;
-  OpenBlock* exhausted_ = nullptr;  // the block with the message that was returned last
+  OpenBlock* exhausted_ = nullptr;  // the block of the message that was returned last
   std::uint64_t open_size_ = 0;
 };
 

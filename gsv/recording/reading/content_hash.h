@@ -1,5 +1,5 @@
-// A hash of the contents of a recording. It does not depend on how the recording was written, and
-// is equal for equal runs.
+// A hash of the contents of a recording. The hash does not depend on how the recording was written,
+// and is equal for equal runs.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace gsv::recording {
 // Returns sixteen hexadecimal digits: a hash of (topic, type, time, number within the topic, bytes)
 // of every message of reproducible channels.
 //
-// It is the sum of the hashes of the messages, so it does not depend on chunks and on the order of
-// topics at one instant. A chunk that cannot be read is an error.
+// The hash is the sum of the hashes of the messages, so it does not depend on chunks, nor on the
+// order of topics at one instant. Fails if a chunk cannot be read.
 [[nodiscard]] base::Result<std::string> ContentHash(const McapReader& reader);
 
 }  // namespace gsv::recording

@@ -31,12 +31,12 @@ bool IsInfinite(const ordered_json& json) {
 
 std::string Text(const ordered_json& json) {
   if (json.is_number_float() && !std::isfinite(json.get<double>())) {
-    return fmt::format("{}", json.get<double>());  // this writes inf, -inf or nan
+    return fmt::format("{}", json.get<double>());  // fmt prints inf, -inf or nan
   }
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-// Finds the first difference between two values, depth first.
+// Finds the first different part of two values, depth first.
 bool FindDifference(const ordered_json& a, const ordered_json& b, const std::string& path,
                     Difference& found) {
   if (a == b) return false;
@@ -53,8 +53,8 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
   return true;
 }
 
-// Reads all compared messages of one instant, by (topic, number). If some messages may be missing,
-// they are numbered from 0 at each instant.
+// Reads all messages of one instant that are compared, by topic and number. If messages may be
+// missing, numbers start from 0 at each instant.
 class InstantReader {
  public:
   InstantReader(const McapReader& reader, const Selection& selection, Gaps gaps)
@@ -90,7 +90,7 @@ class InstantReader {
     return base::Fail(base::ErrorCode::kNotFound, "there is no such topic", topic);
   }
 
-  // Removes topics of which the other recording has a different number of messages.
+  // Removes topics whose number of messages at this instant differs from that in `other`.
   void KeepCommon(InstantReader& other) {
     std::map<std::string, std::int64_t> more;
     for (const auto& [key, data] : messages) ++more[key.first];
@@ -152,7 +152,8 @@ base::Result<Difference> Compare(const InstantReader& first, const InstantReader
   const auto decoded_b = second.Decode(topic, b);
   if (!decoded_b) return base::Fail(decoded_b.error());
   if (!FindDifference(*decoded_a, *decoded_b, "", difference)) {
-    // Decoding skips images and padding, so the difference may be in bytes that have no field.
+    // Images and padding are not decoded, so the difference may be in bytes that belong to no
+    // field.
     difference.field = "bytes";
     difference.in_first = fmt::format("{} bytes", a.size());
     difference.in_second = fmt::format("{} others", b.size());

@@ -1,4 +1,4 @@
-// The messages of a recording, decoded with the schemas in the recording.
+// Decodes the messages of a recording with the schemas in the recording.
 #pragma once
 
 #include <map>
@@ -27,12 +27,12 @@ nlohmann::ordered_json WithInfinitiesAsText(nlohmann::ordered_json content);
 
 class DecodedMessages {
  public:
-  // Opens the selected messages in the order of time. The reader must outlive this object. Fails if
-  // a selected topic is not in the recording, or if no messages can be decoded.
+  // Opens the selected messages, ordered by time. The reader must outlive this object. Fails if a
+  // selected topic is not in the recording, or if no messages can be decoded.
   static base::Result<DecodedMessages> Open(const McapReader& reader, const Selection& selection);
 
-  // Returns the next message, or nullopt at the end. A message or chunk that cannot be read or
-  // decoded returns an error once, and the next call continues after it.
+  // Returns the next message, or nullopt at the end. For a message or chunk that cannot be read or
+  // decoded, returns an error once; the next call continues after it.
   base::Result<std::optional<DecodedMessage>> Next();
 
  private:
@@ -48,7 +48,7 @@ class DecodedMessages {
   MessageCursor cursor_;
 };
 
-// The first difference between two recordings: at the earliest instant, and there in the first
+// The first difference between two recordings: the earliest in time and, at that instant, the first
 // topic by name.
 struct Difference {
   base::SimTime time{};
@@ -60,14 +60,14 @@ struct Difference {
   nlohmann::ordered_json message = {};
   std::string Sentence() const;
 };
-// Has the keys time_s, topic, field, first and second.
+// Returns an object with the keys time_s, topic, field, first and second.
 nlohmann::ordered_json ToJson(const Difference& difference);
 
-// Whether a recording may lack messages.
+// Which recording may lack messages.
 enum class Gaps {
   kNone,
-  // The first one may. Only instants at which both have equally many messages of a topic are
-  // compared.
+  // The first recording may lack messages. An instant and topic is compared only if both recordings
+  // have the same number of messages there.
   kInFirst,
 };
 

@@ -76,8 +76,8 @@ TEST(FirstDifference, ReportsAMissingMessage) {
   EXPECT_EQ(difference->in_second, "missing");
 }
 
-// A recording of clock messages, 0.1 s apart, without those in `left_out`. The message at `other`
-// differs.
+// A recording of clock messages, one each 0.1 s, without those at the times in `left_out`. The
+// message at time `other` has another content.
 Bytes ClocksWithout(const std::set<base::SimTime>& left_out, base::SimTime other = -1ms) {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -142,7 +142,7 @@ TEST(ToCsv, HasARowForEachMessageAndAColumnForEachValue) {
             "0.010000000,0,10000000\r\n");
 }
 
-// A range that is too near, a range without an echo, and NaN.
+// A recording of three ranges: too near, without an echo, and NaN.
 Bytes Infinities() {
   const messages::Schema& schema = messages::SchemaOf<messages::sensor_msgs::LaserScan>();
   Bytes bytes, scan;

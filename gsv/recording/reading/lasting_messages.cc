@@ -59,7 +59,7 @@ class LastingSearch {
     for (const MessageBlock& block : reader_.summary().blocks) {
       if (block.start < time_ && MayHoldOne(block)) ReadBlock(block);
     }
-    // The messages of all keys, ordered by their place in the file.
+    // The last message for each key, ordered by offset in the file.
     std::vector<std::pair<std::uint64_t, LastingMessage>> found;
     for (auto& [key, each] : newest_) found.emplace_back(each.place, std::move(each.message));
     std::sort(found.begin(), found.end(),
@@ -74,7 +74,7 @@ class LastingSearch {
     std::optional<messages::Definition> definition;  // for channels of kind kOfEach
   };
   struct Found {
-    std::uint64_t place = 0;  // counts the messages in the order of the file
+    std::uint64_t place = 0;  // number of the message in the order of the file
     base::SimTime log_time{};
     LastingMessage message;
   };
@@ -105,7 +105,7 @@ class LastingSearch {
     }
   }
 
-  // A message replaces the earlier one with the same key.
+  // Returns the key of a message. It replaces an earlier message with the same key.
   std::string KeyOf(const Channel& channel, const MessageRecord& message) const {
     if (channel.lasting == Lasting::kAll) return std::to_string(place_);
     if (!channel.definition) return {};

@@ -1,6 +1,6 @@
-// Messages that stay valid until the next one of their kind: transforms of sensors, the last
-// command of a robot, edits of the world. An excerpt of a recording needs such messages from before
-// its start.
+// Finds messages that stay valid until the next message of their kind: transforms of sensors, the
+// last command of a robot, edits of the world. An excerpt of a recording needs such messages from
+// before its start.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@
 namespace gsv::recording {
 
 enum class Lasting {
-  kNo,      // a message is not valid later
-  kNewest,  // the newest message of the topic is valid
-  kOfEach,  // the newest message of each robot, or of each actuator, is valid
-  kAll,     // all messages are valid
+  kNo,      // messages apply to their instant only
+  kNewest,  // the newest message of the topic stays valid
+  kOfEach,  // the newest message of each robot or actuator stays valid
+  kAll,     // all messages stay valid
 };
 
 // Returns which messages of a channel stay valid. GSV's topics are known by name. In recordings of
@@ -32,7 +32,7 @@ struct LastingMessage {
 
 struct LastingMessages {
   std::vector<LastingMessage> messages;  // in the order of the file
-  base::Problems problems;               // blocks that cannot be read
+  base::Problems problems;               // blocks that could not be read
 };
 
 // Returns the messages from before `time` that are still valid at `time`.

@@ -34,7 +34,7 @@ Bytes CommandTo(const std::string& robot, double linear) {
   return Encoded(command);
 }
 
-// A recording with messages of many kinds. The messages after 100 ms are repetitions.
+// A recording with all kinds of messages. After 100 ms, the same messages are repeated.
 class RecordingOfAllKinds {
  public:
   RecordingOfAllKinds() : sink_(bytes_), writer_(sink_, {}) {

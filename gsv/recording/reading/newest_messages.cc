@@ -15,7 +15,7 @@ class Search {
     for (const MessageBlock& block : reader_.summary().blocks) {
       if (block.start <= time_) blocks.push_back(&block);
     }
-    // Blocks are read from the one that ends last, because it may have the newest message.
+    // The block that ends last is read first, because it may have the newest messages.
     std::stable_sort(blocks.begin(), blocks.end(),
                      [](const MessageBlock* a, const MessageBlock* b) { return a->end > b->end; });
     for (const MessageBlock* block : blocks) {
@@ -46,7 +46,7 @@ class Search {
           {base::Problem::Severity::kWarning, content.error().message, content.error().where});
       return;
     }
-    // The newest message of each channel. Only these are copied.
+    // The newest message of each channel. Only these messages are copied.
     std::map<std::uint16_t, const MessageRecord*> newest;
     for (const MessageRecord& message : content->messages) {
       if (message.log_time > time_) continue;

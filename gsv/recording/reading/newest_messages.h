@@ -1,4 +1,4 @@
-// The state at an instant of a recording: the newest message of each channel.
+// Finds the newest message of each channel at an instant of a recording.
 #pragma once
 
 #include <map>
@@ -13,12 +13,12 @@ struct StoredMessage {
 };
 
 struct NewestMessages {
-  std::map<std::uint16_t, StoredMessage> by_channel;  // only channels that have a message
-  base::Problems problems;                            // blocks that cannot be read
+  std::map<std::uint16_t, StoredMessage> by_channel;  // channels without a message are left out
+  base::Problems problems;                            // blocks that could not be read
 };
 
-// Returns the newest message of each channel that is not after `time`. Reads no more blocks than
-// the channels require.
+// Returns the newest message of each channel at or before `time`. Reads only as many blocks as the
+// channels require.
 NewestMessages FindNewestMessages(const McapReader& reader, base::SimTime time);
 
 }  // namespace gsv::recording

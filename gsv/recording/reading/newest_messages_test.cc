@@ -33,8 +33,8 @@ TEST(NewestMessages, AreEmptyBeforeTheStart) {
   EXPECT_TRUE(TimesAt(*Open(bytes).value(), base::SimTime(-1)).empty());
 }
 
-// A recording with one early message on its own channel, and then a hundred chunks of another
-// channel.
+// A recording with one early message on a channel of its own, followed by a hundred chunks of
+// another channel.
 Bytes OneEarly() {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -69,7 +69,8 @@ TEST(NewestMessages, ReadOnlyTheBlocksThatTheyNeed) {
   EXPECT_EQ(newest.by_channel.size(), 2u);
   EXPECT_TRUE(newest.problems.empty());
   EXPECT_EQ(FindNewestMessages(*reader, 500ms).problems.size(), 1u);
-  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // the rest can be read
+  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // all other chunks can be
+                                                                      // read
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kSector = 512;
 
-// A disk with a cache. Synchronised data is safe. Each sector that was written later may be on the
-// disk or not.
+// A disk with a cache. Synchronised data are safe. Any sector that was written after the last
+// synchronisation may be on the disk or may be missing.
 class CachingDisk : public ByteSink {
  public:
   base::Status Write(std::span<const std::byte> bytes) override {
@@ -34,7 +34,7 @@ class CachingDisk : public ByteSink {
     for (std::size_t begin = safe_; begin < written_.size();) {
       const std::size_t end = std::min(written_.size(), (begin / kSector + 1) * kSector);
       if (random() % 2 == 0) {
-        left.resize(end);  // a sector that is missing before others reads as zeros
+        left.resize(end);  // a missing sector in front of others is read as zeros
         std::copy(written_.begin() + static_cast<std::ptrdiff_t>(begin),
                   written_.begin() + static_cast<std::ptrdiff_t>(end),
                   left.begin() + static_cast<std::ptrdiff_t>(begin));
@@ -50,8 +50,8 @@ class CachingDisk : public ByteSink {
 };
 
 struct Loss {
-  Bytes left;            // the content of the disk
-  int synchronised = 0;  // number of messages, at 0, 1, 2, … ms
+  Bytes left;            // content of the disk after the loss of power
+  int synchronised = 0;  // number of messages (at 0, 1, 2, … ms) that are synchronised
 };
 
 Loss LosePower(std::uint64_t seed) {

@@ -25,7 +25,7 @@ std::vector<RecordingInfo::Channel> ChannelsOf(const Summary& summary) {
   return channels;
 }
 
-// A division, because multiplying by 1e-9 would print 1.99 s as 1.9900000000000002.
+// The function divides, because multiplying by 1e-9 would give 1.9900000000000002 for 1.99 s.
 double Seconds(base::SimTime time) { return static_cast<double>(time.count()) / 1e9; }
 
 base::Problem Warning(const base::Error& error) {
@@ -144,7 +144,7 @@ std::string ToJson(const RecordingInfo& info) {
                   {"attachments", std::move(attachments)},
                   {"metadata", std::move(metadata)},
                   {"warnings", std::move(warnings)}};
-  // The strings of a file may have invalid UTF-8.
+  // Texts in a file may contain invalid UTF-8, which is replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -9,7 +9,7 @@
 
 namespace gsv::recording {
 
-// Topics with actions of users, which may come at any time.
+// Topics of users' actions. Their messages may come at any time.
 inline constexpr std::string_view kUserTopics[]{"/gsv/events", "/rosout", "/gsv/edits"};
 
 struct RecordingInfo {
@@ -36,7 +36,7 @@ struct RecordingInfo {
   std::vector<Channel> channels;  // ordered by topic
   std::vector<File> attachments;
   std::vector<MetadataRecord> metadata;
-  std::string content_hash;  // empty if it cannot be computed; `problems` has the reason
+  std::string content_hash;  // empty if there is no hash; `problems` gives the reason
   base::Problems problems;
 
   base::SimTime duration() const { return end - start; }
@@ -46,15 +46,15 @@ struct RecordingInfo {
 [[nodiscard]] base::Result<RecordingInfo> ReadInfo(const std::string& path,
                                                    const Limits& limits = {});
 
-// The time of the newest message about the simulation's steps. It ignores actions of users
+// The time of the newest message about the simulation's steps. Ignores actions of users
 // (kUserTopics) and topics that depend on the wall clock. Returns 0 if there is no such message.
 [[nodiscard]] base::Result<base::SimTime> EndOfSteps(const McapReader& reader);
 
 // Returns a text for users, which ends in a newline.
 std::string ToText(const RecordingInfo& info);
-// Returns one JSON object: file, size_bytes, duration_s, start_s, end_s, messages, chunks, indexed,
-// profile, library, content_hash, channels:[{topic, type, messages}], attachments:[{name,
-// media_type, size_bytes}], metadata:{NAME:{key:value}}, warnings:[…].
+// Returns one JSON object with the keys file, size_bytes, duration_s, start_s, end_s, messages,
+// chunks, indexed, profile, library, content_hash, channels:[{topic, type, messages}],
+// attachments:[{name, media_type, size_bytes}], metadata:{NAME:{key:value}}, warnings:[…].
 std::string ToJson(const RecordingInfo& info);
 
 }  // namespace gsv::recording

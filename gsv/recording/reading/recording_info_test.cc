@@ -70,7 +70,7 @@ class RecordingInfoTest : public testing::Test {
   const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
-// A user's stop may come during a step, so the simulation may take one more step than another run.
+// A user's stop may arrive during a step. Then one run may take one step more than another run.
 TEST(EndOfSteps, IgnoresUserActionsAndWallClockTopics) {
   Bytes bytes;
   MemorySink sink(bytes);

@@ -57,7 +57,7 @@ class Copier {
     ++recovery_.attachments;
   }
 
-  // Lasting messages are written at the start of the part, with their original publish time.
+  // Copies lasting messages to the start of the part, with their original publish time.
   void CopyLasting() {
     LastingMessages lasting = FindLastingMessages(reader_, selection_.from);
     for (const LastingMessage& message : lasting.messages) {
@@ -66,7 +66,7 @@ class Copier {
                    message.data});
       ++recovery_.messages;
     }
-    // CopyMessages() also finds a block that cannot be read, and reports it once.
+    // Problems are not added here: CopyMessages() meets the same blocks and reports them once.
   }
 
   void CopyMessages(const MessageBlock& block) {
@@ -85,7 +85,7 @@ class Copier {
 
   const McapReader& reader_;
   const Selection& selection_;
-  std::set<std::uint16_t> selected_;  // channels of the selected topics
+  std::set<std::uint16_t> selected_;  // ids of the selected topics' channels
   McapFileWriter file_;
   Recovery recovery_;
 };
@@ -126,7 +126,7 @@ base::Result<Recovery> RecoverToFile(const std::string& input, const std::string
   return recovery;
 }
 
-// Recovers into the folder of a bag, which has the recording and its metadata.yaml.
+// Recovers into a bag: a folder with the recording and its metadata.yaml.
 base::Result<Recovery> RecoverToFolder(const std::string& input, const std::string& output,
                                        const Selection& selection, const Limits& limits) {
   const auto file = MakeBagFolder(output);

@@ -1,4 +1,4 @@
-// Makes a complete and indexed recording from a truncated or damaged one, or from a part of one.
+// Copies a truncated or damaged recording, or a part of a recording, to a complete one with an index.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct Recovery {
   std::uint64_t messages = 0;
   std::uint64_t attachments = 0;
   std::uint64_t metadata = 0;
-  base::Problems problems;  // the parts that were lost, with their places
+  base::Problems problems;  // the parts that were lost, and where
 };
 
 // Copies all readable data to `sink`: complete attachments and metadata records, and the selected
@@ -23,7 +23,7 @@ struct Recovery {
 [[nodiscard]] base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink,
                                              const Selection& selection = {});
 
-// Recovers a file. `output` is created only when it is complete; if it exists already, this is an
+// Recovers a file. `output` gets its name only when it is complete; an existing file is an
 // error. If the input is a folder, the output is a folder (bag_folder.h) unless its name ends in
 // .mcap.
 [[nodiscard]] base::Result<Recovery> Recover(const std::string& input, const std::string& output,

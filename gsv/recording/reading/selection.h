@@ -11,6 +11,7 @@ namespace gsv::recording {
 
 struct Selection {
   std::vector<std::string> topics;  // empty for all topics; a trailing "/" selects all topics below
+                                    // it
   base::SimTime from = base::SimTime::min();
   base::SimTime to = base::SimTime::max();
 

@@ -12,7 +12,7 @@ struct HandOver {
   std::int64_t wall_ns = 0;  // wall-clock time after the recorder took the snapshot
 };
 
-// Returns the time of a clock that all processes of a machine share.
+// Returns the time of a clock that is the same for all processes of a machine.
 inline std::int64_t WallNow() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

@@ -17,7 +17,7 @@
 
 namespace gsv::recording {
 
-// Stands for WriteGlb: returns the name of the model as its GLB.
+// Replaces WriteGlb in tests: the "GLB" is the model's name.
 inline base::Result<std::vector<std::uint8_t>> NameAsGlb(const model::Model& model) {
   return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
 }
@@ -44,7 +44,7 @@ class SimulationRecorderTest : public ::testing::Test {
     return *std::move(recorder);
   }
 
-  // Records a run of one second and reads the file.
+  // Records a run of one second, and returns what the file contains.
   RecordingInfo Record(double speed, std::chrono::microseconds dawdling = 0us) {
     auto simulation = MakeSimulation(1s, Drives(speed, dawdling));
     auto recorder = Start(simulation);

@@ -1,6 +1,6 @@
 // recording_victim FILE MICROSECONDS: records a simulation until the process is killed. Each turn
-// of its behaviour takes MICROSECONDS. It writes a HandOver to stdout after each snapshot that the
-// recorder has taken.
+// of its behaviour takes MICROSECONDS. After the recorder has taken a snapshot, the program writes
+// a HandOver to stdout.
 #include <csignal>
 #include <cstdlib>
 
@@ -31,7 +31,7 @@ int Run(const char* path, std::chrono::microseconds dawdling) {
   };
   const auto recorder = SimulationRecorder::Start(simulation, path, std::move(options));
   if (!recorder) return 1;
-  // added after the recorder, so it is called after it
+  // this observer was added after the recorder, so it is called after the recorder
   simulation->AddObserver(std::make_shared<HandOverWriter>());
   if (!simulation->Start()) return 1;
   for (;;) pause();

@@ -1,4 +1,4 @@
-// For tests: small recordings in memory.
+// For tests: makes small recordings in memory.
 #pragma once
 
 #include <memory>
@@ -61,8 +61,8 @@ inline base::Result<std::unique_ptr<McapReader>> Open(std::span<const std::byte>
   return McapReader::Open(std::make_unique<MemorySource>(bytes), limits);
 }
 
-// The times of all messages from `from` on, in the order in which they are read. Errors are skipped
-// and counted.
+// The times of all messages from `from` on, in the order in which they were read. Errors are
+// counted and skipped.
 struct Times {
   std::vector<base::SimTime> times;
   int errors = 0;
@@ -81,7 +81,7 @@ inline Times TimesIn(const McapReader& reader, base::SimTime from = {}) {
   }
 }
 
-// The position and kind of each record of a recording.
+// The offset and the kind of a record in a recording.
 struct Place {
   Opcode opcode{};
   std::size_t begin = 0;

@@ -28,7 +28,8 @@ std::string TopicOf(const messages::Schema& schema) {
   return topic;
 }
 
-// Every message has the time round · kPeriod, and the samples have the seed `round`.
+// Writes messages of every type. All of one round have the time round · kPeriod and the seed
+// `round`.
 base::Status WriteAtomically(const std::string& path) {
   auto writer = McapWriter::Create(path, {.when_full = WhenFull::kWait});
   if (!writer) return base::Fail(writer.error());

@@ -32,7 +32,8 @@ base::Result<sensing::Reading> HealthTopic::Read(
   const auto description = std::find_if(list->second.begin(), list->second.end(),
                                         [&](const auto& each) { return each.name == sensor; });
   if (description == list->second.end()) return base::Fail(base::ErrorCode::kNotFound, sensor);
-  // Sensors with the same design share an object, which `made_` knows as long as it is in use.
+  // Sensors of the same design share an object. `made_` finds that object as long as somebody uses
+  // it.
   auto& held = sensors_[robot + "/" + sensor];
   if (held == nullptr || !(held->description() == *description)) {
     auto made = made_.Of(*description);

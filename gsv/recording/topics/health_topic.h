@@ -17,14 +17,14 @@ namespace gsv::recording {
 
 class HealthTopic {
  public:
-  // `writer` must outlive this. `seed` and `stuck_after` are the simulation's.
+  // `writer` must outlive this object. `seed` and `stuck_after` are those of the simulation.
   HealthTopic(McapWriter& writer, const Selection& selection,
               std::shared_ptr<const sensing::SensorRegistry> types, std::uint64_t seed,
               base::SimTime stuck_after);
 
-  // Sets the sensors from now on.
+  // Sets the robots' sensors from now on.
   void Mount(std::shared_ptr<const SensorLists> lists) { lists_ = std::move(lists); }
-  // Writes the messages that are due. `status` is that of the snapshot.
+  // Writes the messages that are due. `status` is the status at the snapshot.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot,
               const simulation::SimulationStatus& status);
 
@@ -36,7 +36,8 @@ class HealthTopic {
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const std::uint64_t seed_;
   const base::SimTime stuck_after_;
-  sensing::SensorSet made_;                                                // of types_
+  sensing::SensorSet made_;                                                // sensors that were
+                                                                           // created from types_
   std::map<std::string, std::shared_ptr<const sensing::Sensor>> sensors_;  // by "robot/sensor"
   sensing::RaySceneCache rays_;
   std::shared_ptr<const SensorLists> lists_;

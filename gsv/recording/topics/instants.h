@@ -1,5 +1,5 @@
-// The instants 0, P, 2P, … of simulated time. Each of them belongs to the first snapshot at or
-// after it.
+// The instants 0, P, 2P, … of simulated time. The first snapshot at or after an instant counts for
+// it.
 #pragma once
 
 #include "gsv/base/check.h"
@@ -11,8 +11,8 @@ class Instants {
  public:
   explicit Instants(base::SimTime period) : period_(period) { GSV_CHECK(period.count() > 0); }
 
-  // Returns whether an instant has passed since the snapshot of the last call. The first call
-  // returns whether the snapshot is at an instant.
+  // Returns whether an instant lies after the last call's time, up to `time`. The first call
+  // returns whether `time` is an instant.
   bool Pass(base::SimTime time) {
     const std::int64_t index = time / period_;
     const bool has_come = index_ < 0 ? time % period_ == base::SimTime(0) : index != index_;

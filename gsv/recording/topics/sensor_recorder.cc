@@ -12,12 +12,12 @@
 namespace gsv::recording {
 namespace {
 
-// Limits for slow sensors such as cameras: the number of readings that are taken at once, which the
-// renderer makes one batch of, and the number that is stored.
+// Limits for slow sensors such as cameras: how many readings are requested together, so that the
+// renderer draws them together, and how many readings are stored.
 constexpr int kSlowAtOnce = 16;
 constexpr std::size_t kMaxSlowSensors = 64;
 
-// The period of every n-th instant of the sensor, with the smallest n that `rate` allows.
+// Returns the sensor's period times n, for the smallest n that does not exceed `rate`.
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
   if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
   const base::SimTime own = base::FromSeconds(1 / description.update_rate);
@@ -32,12 +32,12 @@ struct SensorRecorder::Sensor {
   sensing::SensorMessages messages;
   std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
-  bool is_wanted = true;                       // whether its readings are recorded
-  bool has_companion = false;                  // whether its companion messages are recorded
-  bool has_beams = false;                      // whether its beams are recorded
-  std::optional<ChannelId> channel;            // nullopt before the first reading
-  std::optional<ChannelId> companion_channel;  // nullopt before the first reading
-  std::optional<sensing::Reading> newest;      // used only for sensors with beams
+  bool is_wanted = true;                       // whether readings are recorded
+  bool has_companion = false;                  // whether companion messages are recorded
+  bool has_beams = false;                      // whether beams are recorded
+  std::optional<ChannelId> channel;            // set with the first reading
+  std::optional<ChannelId> companion_channel;  // set with the first reading
+  std::optional<sensing::Reading> newest;      // the newest reading, for sensors with beams
   bool has_failed = false;
 
   const model::SensorDescription& description() const { return sensor->description(); }

@@ -23,7 +23,7 @@
 
 namespace gsv::recording {
 
-// Rates in Hz of simulated time, > 0. A faster sensor is recorded at every n-th of its instants.
+// Rates in Hz of simulated time, > 0. If a sensor is faster, only every n-th of its readings is recorded.
 struct SensorRates {
   double readings = 20;
   double images = 1;
@@ -36,7 +36,7 @@ using WritePng = std::function<base::Result<std::vector<std::uint8_t>>(const mod
 struct SensorRecorderOptions {
   SensorRates rates{};
   Selection selection{};  // the selected topics
-  // Encodes images that sensors encode as JPEG. If it is empty, they are recorded as JPEG.
+  // Encodes images as PNG that sensors encode as JPEG. If empty, the images are recorded as JPEG.
   WritePng write_png{};
   bool slow_sensors = true;  // whether to record sensors whose readings take long, such as cameras
 };
@@ -50,18 +50,18 @@ class SensorRecorder {
 
   // Sets the sensors that are recorded from now on.
   void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
-  // Writes the readings that are due at the snapshot's time. Images are rendered concurrently.
+  // Writes the readings that are due at the snapshot's time. Several images are rendered at the same time.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
   struct Sensor;
   struct Sample {
-    const std::string* topic = nullptr;  // the key in sensors_
+    const std::string* topic = nullptr;  // key of the sensor in sensors_
     Sensor* sensor = nullptr;
     int body = 0;
     base::Result<sensing::Reading> reading;
-    std::vector<std::uint8_t> message;    // empty if only the beams of the sensor are recorded
-    std::vector<std::uint8_t> companion;  // empty if the sensor has no companion message
+    std::vector<std::uint8_t> message;    // empty if only the sensor's beams are recorded
+    std::vector<std::uint8_t> companion;  // empty if there is no companion message
   };
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // sensors by topic
 
@@ -69,14 +69,14 @@ class SensorRecorder {
                                const model::SensorDescription& description);
   void Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample);
   void Write(Sample& sample);
-  // Adds a channel. If that fails, it logs a warning and returns nullopt.
+  // Adds a channel. On failure, logs a warning and returns nullopt.
   std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
   base::Result<std::vector<std::uint8_t>> Encode(const Sensor& sensor,
                                                  const sensing::Reading& reading) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);
-  // Logs a warning for the first sensor that cannot be recorded. It logs no others, because there
-  // may be thousands.
+  // Logs a warning for the first sensor that cannot be recorded. Further ones are not logged,
+  // because there may be thousands.
   void WarnOnce(const base::Error& error);
 
   McapWriter& writer_;
@@ -85,7 +85,7 @@ class SensorRecorder {
   const std::uint64_t seed_;
   const SensorRecorderOptions options_;
   sensing::RaySceneCache rays_;
-  std::unique_ptr<base::ThreadTeam> team_;  // for slow sensors; null until there is one
+  std::unique_ptr<base::ThreadTeam> team_;  // for slow sensors; null while there is none
   Sensors sensors_;
   Instants beams_instants_;
   presentation::BeamMarkers beam_markers_;

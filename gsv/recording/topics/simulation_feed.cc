@@ -64,7 +64,7 @@ void SimulationFeed::OnSnapshot(const std::shared_ptr<const world::Snapshot>& sn
 }
 
 void SimulationFeed::OnEvent(const simulation::Event& event) {
-  const bool is_reset = event.kind == "reset";  // the event of a reset has the time of the next run
+  const bool is_reset = event.kind == "reset";  // the event "reset" has the time of the next run
   {
     const base::MutexLock lock(mutex_);
     if (closed_) return;
@@ -94,7 +94,7 @@ void SimulationFeed::CloseAtLatest() {
   {
     const base::MutexLock lock(mutex_);
     if (!closed_) {
-      // The snapshot is taken last, because the simulation may be running.
+      // The snapshot is taken last, because the simulation may be running and its state may change.
       queue_.emplace_back(
           Observation{simulation_.snapshot(), nullptr, status, simulation_.expectations()});
       ++snapshots_;

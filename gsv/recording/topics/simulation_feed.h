@@ -24,39 +24,41 @@
 
 namespace gsv::recording {
 
-using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;  // By robot.
+using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;  // Sensors by
+                                                                                   // robot.
 
 // Returns the sensors of all robots, avatars and stations of `layout`.
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout);
 
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::shared_ptr<const SensorLists> sensors;          // null if unchanged or not checked
-  std::optional<simulation::SimulationStatus> status;  // set at the rate of the status
-  // Set together with the status; empty if the scenario has no expectations.
+  std::shared_ptr<const SensorLists> sensors;          // null if the sensors are unchanged or were
+                                                       // not checked
+  std::optional<simulation::SimulationStatus> status;  // set whenever the status is due
+  // Set whenever the status is set; empty if the scenario has no expectations.
   std::vector<simulation::ExpectationState> expectations{};
 };
 using Occurrence = std::variant<Observation, simulation::Event>;
 
 struct FeedOptions {
   WhenFull when_full = WhenFull::kDrop;
-  std::size_t capacity = 256;  // number of snapshots
+  std::size_t capacity = 256;  // maximum number of snapshots in the queue
   base::SimTime status_period = std::chrono::milliseconds(200);
 };
 
 class SimulationFeed final : public simulation::Observer {
  public:
-  // `simulation` must exist when the stepping thread calls this feed, and in CloseAtLatest().
+  // `simulation` must exist while its stepping thread calls this feed, and during CloseAtLatest().
   SimulationFeed(const simulation::Simulation& simulation, FeedOptions options);
 
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // Returns the next occurrence. Returns nullopt after `timeout` of wall-clock time, or at the end.
+  // Returns the next snapshot or event. Returns nullopt after `timeout` of wall-clock time, or at the end.
   std::optional<Occurrence> Next(std::chrono::milliseconds timeout);
 
-  // Closes the feed and releases waiting producers. Queued occurrences remain. A reset of the
-  // simulation also closes it.
+  // Closes the feed, and wakes producers that wait. Queued entries remain. A reset of the
+  // simulation also closes the feed.
   void Close();
   // Closes the feed and appends the current state of the simulation, which must still exist.
   void CloseAtLatest();
@@ -70,10 +72,10 @@ class SimulationFeed final : public simulation::Observer {
   const simulation::Simulation& simulation_;
   const FeedOptions options_;
 
-  // Used by the stepping thread only.
+  // Only the stepping thread uses these members.
   Instants status_instants_;
   Instants sensor_instants_;
-  std::shared_ptr<const world::Layout> layout_;  // the layout whose sensors were listed
+  std::shared_ptr<const world::Layout> layout_;  // the layout of the last list of sensors
 
   mutable base::Mutex mutex_;
   base::ConditionVariable news_;

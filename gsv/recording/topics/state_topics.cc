@@ -86,7 +86,7 @@ void StateTopics::WriteHash(const world::Snapshot& snapshot) {
   hash_.Write(snapshot.state.time, message);
 }
 
-// A snapshot contains a command one step after it was given.
+// Writes new commands of drives. A snapshot contains a command one step after the command was sent.
 void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
@@ -94,12 +94,14 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     if (!body.is_robot()) continue;
     const world::DriveState& drive = state.bodies[i].drive;
     if (IsSameOrder(drive, std::exchange(written_[body.name], drive))) continue;
-    if (IsSameOrder(drive, {})) continue;  // skips a robot that was removed and added again
+    if (IsSameOrder(drive, {}))
+      continue;  // the robot was removed and added again, and has no
+                 // command yet
     commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
   }
 }
 
-// Device commands are handled like drive commands.
+// Writes new commands of devices, in the same way.
 void StateTopics::WriteNewDeviceCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   const auto before = std::exchange(devices_, state.devices);
@@ -141,7 +143,7 @@ void StateTopics::RecordExpectations(base::SimTime time,
   for (const auto& state : states) verdicts.push_back(state.verdict);
   const bool is_due = expectations_instants_.Pass(time);
   if (!expectations_.is_wanted() || states.empty() || (!is_due && verdicts == verdicts_)) return;
-  // The message has the instant of the verdict, so that a replay at this instant shows the verdict.
+  // The message has the time of the verdict, so that a replay at that time shows the verdict.
   base::SimTime instant = time;
   for (std::size_t i = 0; i < states.size(); ++i) {
     using Verdict = simulation::ExpectationState::Verdict;

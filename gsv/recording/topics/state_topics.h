@@ -1,6 +1,6 @@
-// Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock,
-// /tf, /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status,
-// events, notes and state_hash. The first edit adds the topic /gsv/edits even if it is not selected,
+// Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock, /tf,
+// /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status, events,
+// notes and state_hash. The first edit adds the topic /gsv/edits, even if that is not selected,
 // because resimulation needs it.
 #pragma once
 
@@ -29,7 +29,7 @@ class StateTopics {
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
-  // Writes expectations every second, and at each change of a verdict with its instant.
+  // Writes the expectations every second and, whenever a verdict changes, at the time of the change.
   void RecordExpectations(base::SimTime time,
                           const std::vector<simulation::ExpectationState>& states);
   void RecordEvent(const simulation::Event& event);
@@ -47,13 +47,14 @@ class StateTopics {
   Instants hash_instants_;
   Instants diagnostics_instants_;
   Instants expectations_instants_;
-  std::vector<simulation::ExpectationState::Verdict> verdicts_;  // the last written verdicts
-  std::optional<std::int64_t> poses_step_;  // the step of the last written poses
+  std::vector<simulation::ExpectationState::Verdict> verdicts_;  // verdicts in the last written
+                                                                 // message
+  std::optional<std::int64_t> poses_step_;  // number of the step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;    // poses of the bodies of layout_
-  std::map<std::string, world::DriveState> written_;  // the last written command, by robot
+  std::vector<presentation::PoseEntry> pose_list_;    // list of poses for the bodies of layout_
+  std::map<std::string, world::DriveState> written_;  // last written command of each robot
 
-  std::shared_ptr<const world::DeviceStates> devices_;  // the devices of the last snapshot
+  std::shared_ptr<const world::DeviceStates> devices_;  // device states in the last snapshot
 
   TopicWriter<messages::rosgraph_msgs::Clock> clock_;
   TopicWriter<messages::gsv_msgs::Poses> poses_;

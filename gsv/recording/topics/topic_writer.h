@@ -1,4 +1,4 @@
-// Writes one message type on one topic of a recording.
+// Writes messages of one type on one topic of a recording.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace gsv::recording {
 template <typename Message>
 class TopicWriter {
  public:
-  // `writer` must outlive this object. The topic must not have another type. A topic that is not
-  // selected is not recorded.
+  // `writer` must outlive this object. The recording must not have the topic with another type. A
+  // topic that is not selected is not recorded.
   TopicWriter(McapWriter& writer, const Selection& selection,
               const presentation::TopicOf<Message>& topic)
       : writer_(writer) {
@@ -28,7 +28,7 @@ class TopicWriter {
     channel_ = *channel;
   }
 
-  // Whether the topic is recorded, so that messages are needed.
+  // Whether the topic is recorded. If not, the caller need not make messages.
   bool is_wanted() const { return channel_.has_value(); }
 
   void Write(base::SimTime time, const Message& message) {

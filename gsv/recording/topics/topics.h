@@ -1,4 +1,4 @@
-// The topics of a simulation that can be recorded.
+// Lists the topics of a simulation that can be recorded.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 namespace gsv::recording {
 
 // Returns all topics that can be recorded now, ordered by name. Robots and sensors that are added
-// later have further topics.
+// later add further topics.
 std::vector<std::string> TopicsOf(const simulation::Simulation& simulation);
 
-// Returns the patterns (as in Selection) that match none of `topics`.
+// Returns the patterns (see Selection) that match none of `topics`.
 std::vector<std::string> UnmatchedPatterns(const std::vector<std::string>& topics,
                                            const std::vector<std::string>& patterns);
 

@@ -1,4 +1,4 @@
-// ROS's sensor_msgs/CameraInfo of a camera.
+// Makes ROS's sensor_msgs/CameraInfo of a camera.
 //
 // Frame   ROBOT/SENSOR/optical, as in ROS: z along the view, x to the right, y down.
 // Lens    K holds fx, skew, cx; fy, cy in pixels. P is K with a column of zeros. R is the identity,
@@ -16,9 +16,9 @@
 
 namespace gsv::rendering {
 
-// The model of a pinhole or an equidistant lens; zero if ROS has no model of the lens.
+// The parameters of a pinhole or an equidistant lens; zero if ROS has no model of the lens.
 struct LensModel {
-  std::string name;  // ROS's distortion_model; empty if ROS has none
+  std::string name;  // ROS's distortion_model; empty if ROS has none for the lens
   std::vector<double> coefficients;
   Intrinsics intrinsics;
 };
@@ -26,7 +26,7 @@ LensModel LensModelOf(const Lens& lens);
 
 // The companion message of camera types.
 sensing::Companion CameraInfoCompanion();
-// Encodes the message, in CDR, for a camera in the frame `frame_id`.
+// Encodes the message in CDR, for a camera whose frame is `frame_id`.
 sensing::Sensor::Bytes EncodeCameraInfo(const Lens& lens, base::SimTime time,
                                         const std::string& frame_id);
 

@@ -102,7 +102,7 @@ TEST(CameraInfo, OfAnEquidistantLensContainsPixelsPerRadian) {
   const CameraInfo info = InfoFor(description);
   EXPECT_EQ(info.distortion_model, "equidistant");
   EXPECT_EQ(info.d, (std::vector<double>{0, 0, 0, 0}));
-  // Half of the width, 300 pixels, covers a quarter of a turn.
+  // Half of the width, 300 pixels, shows a quarter of a turn.
   EXPECT_WITHIN(info.k[0], 300 / (std::numbers::pi / 2), 1e-9, "pixel");
   const auto at_one_radian = LensFor(description).Project({std::cos(1), -std::sin(1), 0});
   ASSERT_TRUE(at_one_radian);
@@ -129,7 +129,7 @@ TEST(CameraInfo, IsTheCompanionMessageOfEveryCamera) {
     ASSERT_TRUE(registry.Find(name)->companion) << name;
     EXPECT_EQ(registry.Find(name)->companion->topic, "camera_info");
   }
-  // Without a <lens> a wide-angle camera is stereographic.
+  // A wide-angle camera without a <lens> is stereographic.
   const auto wide = registry.Find("wideangle_camera")->create(CameraWith({}));
   ASSERT_TRUE(wide);
   const auto bytes = (*wide)->EncodeCompanion({}, "robot/wide");

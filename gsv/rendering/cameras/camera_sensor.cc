@@ -15,7 +15,7 @@ using base::Fail;
 using base::Result;
 
 constexpr int kJpegQuality = 80;
-constexpr std::size_t kSharedBytes = 64 << 20;  // room for about 290 images of 320 by 240 pixels
+constexpr std::size_t kSharedBytes = 64 << 20;  // enough for about 290 images of 320 by 240 pixels
 
 class Camera final : public CameraOf<readings::Camera, messages::sensor_msgs::CompressedImage> {
  public:
@@ -46,7 +46,7 @@ class Camera final : public CameraOf<readings::Camera, messages::sensor_msgs::Co
   }
 
  private:
-  // A reading that has no image becomes a message without data.
+  // Makes the message of a reading. A reading without an image becomes a message without data.
   Message ToMessage(const Values&, const sensing::Reading& reading,
                     const std::string&) const override {
     Message message;

@@ -16,8 +16,8 @@
 
 namespace gsv::rendering {
 
-// `renderer` is the result of Renderer::Start(), which may be a failure. Fails if the registry has
-// a camera already.
+// `renderer` is the result of Renderer::Start(), which may be a failure. Fails if the registry
+// already has a camera type.
 [[nodiscard]] base::Status AddCameraSensor(sensing::SensorRegistry& registry,
                                            base::Result<std::shared_ptr<Renderer>> renderer);
 

@@ -18,7 +18,7 @@ class Exposure {
   // Reports invalid parameters to the reader.
   explicit Exposure(sensing::ParameterReader& reader);
 
-  // Whether Apply() leaves images unchanged.
+  // Whether Apply() would leave images unchanged.
   bool is_neutral() const;
 
   // Applies exposure, vignetting and noise to an RGB image. The noise is that of the instant of
@@ -31,7 +31,7 @@ class Exposure {
   void ApplyNoise(const sensing::Sampling& sampling, const model::SensorDescription& description,
                   model::Image& image) const;
 
-  double light_ = 1;  // the factor on the light
+  double light_ = 1;  // factor by which light is multiplied
   double gain_ = 1;
   double vignetting_ = 0;
   sensing::NoiseModel noise_;

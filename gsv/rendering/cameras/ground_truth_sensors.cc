@@ -25,11 +25,11 @@ using sensing::Reading;
 using sensing::Segment;
 
 constexpr std::size_t kSharedSurveyBytes = 64 << 20;
-// the maximum number of points of a cloud in the viewer
+// the maximum number of points that the viewer shows of a cloud
 constexpr std::size_t kMaxDrawnPoints = 2000;
 
-// The point of a pixel's ray at one metre along the view; nullopt if the lens shows nothing there,
-// or if the ray does not point forward.
+// Scales a pixel's ray to a depth of one metre. Returns nullopt if the lens shows nothing there, or
+// if the ray does not point forwards.
 std::optional<Vector3> OneMetreOn(const std::optional<Vector3>& ray) {
   if (!ray || std::abs(ray->x) < 1e-6) return std::nullopt;
   return (1 / ray->x) * *ray;
@@ -112,7 +112,7 @@ class DepthCamera final
   const sensing::NoiseModel noise_;
 };
 
-// The reading's image as PNG.
+// Returns the reading's image as PNG.
 messages::sensor_msgs::CompressedImage PngOf(const Reading& reading) {
   messages::sensor_msgs::CompressedImage message;
   message.format = "png";
@@ -121,7 +121,7 @@ messages::sensor_msgs::CompressedImage PngOf(const Reading& reading) {
   return message;
 }
 
-// The factor is odd, so no two labels below 2^24 have the same colour.
+// The factor is odd, so different labels below 2^24 have different colours.
 std::uint32_t ColourOf(std::uint32_t label) { return (label * 0x9E3779u) & 0xFFFFFFu; }
 
 class SegmentationCamera final
@@ -208,7 +208,7 @@ class BoundingBoxCamera final
     return message;
   }
 
-  // Draws each box as a frame at a distance of 1 m.
+  // Draws each bounding box as a frame, 1 m in front of the camera.
   std::vector<Segment> BeamsOf(const Values& seen) const override {
     const auto corner = [&](double u, double v) { return OneMetreOn(optics().lens().RayAt(u, v)); };
     std::vector<Segment> lines;
@@ -225,7 +225,8 @@ class BoundingBoxCamera final
   }
 };
 
-// The temperature of each visual of a body, in the order of the visuals in a depth and label image.
+// Returns the temperature of each visual of a body, in the order of the visuals in a depth and
+// label image.
 std::vector<double> TemperaturesOf(const world::Body& body, double of_air) {
   std::vector<double> temperatures;
   for (const model::Link& link : body.model->links) {
@@ -251,7 +252,8 @@ class ThermalCamera final
   Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
     const world::Layout& layout = *sampling.snapshot()->layout;
     const double of_air = layout.description->temperature;
-    std::map<std::int32_t, std::vector<double>> known;  // temperatures by body, for visible bodies
+    std::map<std::int32_t, std::vector<double>> known;  // temperatures of the bodies that are
+                                                        // visible
     const sensing::NoisyReading noisy(sampling, description());
     std::vector<double> temperature(truth.body.size(), Stepped(of_air));
     for (std::size_t i = 0; i < temperature.size(); ++i) {
@@ -283,7 +285,7 @@ class ThermalCamera final
     return message;
   }
 
-  // A pixel that is lost to dropout reads 0 K.
+  // Converts a temperature to steps. A pixel that is lost to dropout reads 0 K.
   double StepsOf(double kelvin) const {
     return std::isfinite(kelvin) ? std::clamp(std::round(kelvin / resolution_), 0.0, kMaxSteps) : 0;
   }
@@ -309,7 +311,7 @@ class SurfaceNormals {
     }
   }
 
-  // The normal of a pixel, which points towards the camera; nullopt if it is unknown.
+  // Returns the normal of a pixel, which points towards the camera; nullopt if it is unknown.
   std::optional<Vector3> At(int x, int y) const {
     if (!points_[Index(x, y)]) return std::nullopt;
     const auto across = Tangent(x, y, 1, 0), down = Tangent(x, y, 0, 1);
@@ -333,8 +335,8 @@ class SurfaceNormals {
            truth_.visual[other] == truth_.visual[pixel];
   }
 
-  // The deviation of three points from a straight line: those of the pixel (x, y) and of the next
-  // two in the direction (dx, dy). Infinite if one of them has no depth.
+  // Returns how much three points deviate from a straight line: those of the pixel (x, y) and of
+  // the next two in the direction (dx, dy). Infinite if one of them has no depth.
   double Bend(int x, int y, int dx, int dy) const {
     const std::size_t pixel = Index(x, y);
     if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {

@@ -26,7 +26,7 @@ constexpr int kSurveyWidth = 64, kSurveyHeight = 48;
 constexpr double kSurveyFov = 1.2;
 const double kFocal = kSurveyWidth / (2 * std::tan(kSurveyFov / 2));
 
-// The ray through the middle of a pixel, at a distance of 1 along the view.
+// Returns the ray through the middle of a pixel, scaled to a depth of 1.
 Vector3 RayOf(int x, int y) {
   return {1, (kSurveyWidth / 2.0 - x - 0.5) / kFocal, (kSurveyHeight / 2.0 - y - 0.5) / kFocal};
 }
@@ -118,7 +118,7 @@ TEST_F(GroundTruthTest, DepthOfTheGroundEqualsItsEquation) {
   for (int y = 0; y < kSurveyHeight; ++y) {
     const double down = -RayOf(0, y).z;
     const double depth = reading.values[2 + y * kSurveyWidth + 7];
-    if (down <= 0.021) continue;  // the ground is farther away than 50 m
+    if (down <= 0.021) continue;  // the ground is more than 50 m away
     EXPECT_WITHIN_PERCENT(depth, 1 / down, 0.01) << y;
   }
   // this pixel shows the sky
@@ -216,7 +216,7 @@ TEST_F(GroundTruthTest, BoundingBoxEnclosesTheVisiblePixels) {
   const Reading reading = Sample(description);
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
   ASSERT_EQ(reading.values.size(), 4u);
-  // The box's left side reaches back to 4 m and is visible as well.
+  // The box's left side reaches back to 4 m, and is also visible.
   EXPECT_WITHIN(reading.values[0], kSurveyWidth / 2.0 + kFocal * 0.5 / 4, 1, "pixel");
   EXPECT_WITHIN(reading.values[1], kSurveyHeight / 2.0 - kFocal * 0.5 / 3, 1, "pixel");
   EXPECT_WITHIN(reading.values[2], kSurveyWidth / 2.0 + kFocal * 1.5 / 3, 1, "pixel");
@@ -319,7 +319,7 @@ TEST_P(ThermalCameraTest, ReadsResolutionAndAirTemperatureFromTheDescription) {
 
 class NormalsCameraTest : public GroundTruthTest {
  protected:
-  // The normal that the camera returns for a pixel; NaN if it returns none.
+  // Returns the normal that the camera measures at a pixel; NaN if there is none.
   Vector3 NormalAt(const Reading& reading, int x, int y) {
     const auto image = sensing::ValuesOf<readings::NormalImage>(reading, "eye");
     EXPECT_TRUE(image) << image.error().Sentence();
@@ -373,8 +373,8 @@ TEST_F(NormalsCameraTest, ReturnsTheNormalsOfASphereAndNanForTheSky) {
         continue;
       }
       const Vector3 expected = Vector3{0.3, 0, 1} + d * RayOf(x, y) - centre;
-      // Facets are 0.1 rad wide and adjacent pixels 0.07 m apart. The error is at most half of
-      // each, on both axes.
+      // Facets are 0.1 rad wide, and adjacent pixels are 0.07 m apart. The error on each axis is at
+      // most half of each.
       if (expected.x > -0.75) continue;
       EXPECT_LT(Norm(normal - expected), 0.12) << x << " " << y;
       ++seen;

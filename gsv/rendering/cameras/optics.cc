@@ -9,7 +9,7 @@
 namespace gsv::rendering {
 namespace {
 
-constexpr double kMaxParameter = 1e6;  // the limit of parameters that have no limit of their own
+constexpr double kMaxParameter = 1e6;  // maximum of parameters that have no maximum of their own
 
 WideView ReadWideView(sensing::ParameterReader& reader, const std::string& type) {
   WideView view;

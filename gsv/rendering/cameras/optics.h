@@ -29,7 +29,7 @@ namespace gsv::rendering {
 // Threads  any.
 class Optics {
  public:
-  // Reports invalid parameters to the reader. `lens_type` is the default lens.
+  // Reads the parameters, and reports invalid ones to the reader. `lens_type` is the default lens.
   static Optics Read(sensing::ParameterReader& reader, const std::string& lens_type = "gnomonical");
 
   const CameraParameters& camera() const { return camera_; }
@@ -37,8 +37,8 @@ class Optics {
   // The field of view from the parameters. For a wide lens it is the angle to which the image is
   // scaled.
   const sensing::Frustum& frustum() const { return frustum_; }
-  // The direction of a pixel's centre as a unit vector; nullopt if the lens shows nothing there.
-  // Pixels are numbered in rows from the top.
+  // Returns the direction of a pixel's centre as a unit vector; nullopt if the lens shows nothing
+  // there. Pixels are numbered in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
   base::Result<std::shared_ptr<const model::Image>> Draw(
@@ -51,11 +51,11 @@ class Optics {
  private:
   struct Joining {
     std::once_flag made;
-    std::unique_ptr<const LensMap> map;  // created for the first image
+    std::unique_ptr<const LensMap> map;  // made for the first image
   };
 
   Optics(const CameraParameters& camera, Lens lens, double horizontal_fov);
-  // Cameras with equal parameters share one map, such as those of all robots of one model.
+  // Returns the map of a lens. Cameras with equal parameters, such as those of all robots of one model, share one map.
   static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
   const LensMap& Map() const;
 

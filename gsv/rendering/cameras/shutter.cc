@@ -40,7 +40,7 @@ std::pair<int, int> Shutter::SamplesOf(int row, int height) const {
   constexpr double kRounding = 1e-9;  // the tolerance, as a fraction of a sample
   const double newest = readout_time_ * (1 - (row + 0.5) / height);
   const double per_second = samples_ / (exposure_time_ + readout_time_);
-  // Solves Age(sample) = age for the sample.
+  // Returns the sample at which Age(sample) equals `age`.
   const auto at = [&](double age) { return samples_ - 0.5 - age * per_second; };
   const int first = static_cast<int>(std::ceil(at(newest + exposure_time_) - kRounding));
   const int last = static_cast<int>(std::floor(at(newest) + kRounding));

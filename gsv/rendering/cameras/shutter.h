@@ -34,12 +34,13 @@ class Shutter {
   using ImagePtr = std::shared_ptr<const model::Image>;
   using Draw = std::function<base::Result<ImagePtr>(const SnapshotPtr& snapshot)>;
 
-  // Takes the image of a snapshot. `draw` renders the view at one instant.
+  // Takes the image of a snapshot. `draw` renders the camera's view at one instant.
   base::Result<ImagePtr> Take(const SnapshotPtr& snapshot, const Draw& draw) const;
 
  private:
-  double Age(int sample) const;  // How many seconds before the complete image the sample is taken.
-  // The range of samples [first, last] that a row is composed of.
+  double Age(int sample) const;  // Returns how many seconds before the end of the exposure the
+                                 // sample is taken.
+  // Returns the range of samples [first, last] from which a row is composed.
   std::pair<int, int> SamplesOf(int row, int height) const;
 
   double exposure_time_, readout_time_;

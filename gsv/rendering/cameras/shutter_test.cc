@@ -1,4 +1,4 @@
-// Motion blur and rolling shutter for objects that move at known speeds.
+// Tests motion blur and rolling shutter with objects that move at known speeds.
 #include "gsv/rendering/cameras/shutter.h"
 
 #include <cmath>
@@ -92,15 +92,15 @@ TEST_F(ShutterTest, MovingObjectIsBlurredAlongItsPath) {
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
   const RedColumns moved =
       RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
-  // In 0.1 s the object moves by 0.2 m. It came from the right and is now at its place. The samples
-  // are at the centres of 32 parts.
+  // In 0.1 s the object moves by 0.2 m, from the right to its place in the snapshot. The samples
+  // are at the centres of 32 parts of this time.
   const double way = Focal() * 2 * 0.1 / kDistance;
   EXPECT_WITHIN(moved.width() - still.width(), way * 31 / 32, 1.5, "pixel");
   EXPECT_WITHIN(moved.last - still.last, way * 63 / 64, 1.5, "pixel");
   EXPECT_WITHIN(moved.first, still.first, 1.5, "pixel");
 }
 
-// During the exposure, the object's light reaches a column for a part of the time.
+// During the exposure, light of the object reaches each column of its path for a part of the time.
 TEST_F(ShutterTest, BlurDistributesTheLightAlongThePath) {
   AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});
   const model::Image blurred = Taken({{"exposure_time", 0.4}, {"shutter_samples", 64.0}});
@@ -108,8 +108,8 @@ TEST_F(ShutterTest, BlurDistributesTheLightAlongThePath) {
   const auto light_at = [](const model::Image& image, int column) {
     return LightOf(image.pixels[3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + column)]);
   };
-  // The object covers 0.2 m of 0.8 m, so a quarter of the light is its own and the rest is the
-  // background's.
+  // The object covers 0.2 m of 0.8 m, so it contributes a quarter of the light, and the background
+  // the rest.
   const int column = kWidth / 2 + static_cast<int>(Focal() * 0.4 / kDistance);
   const float expected = 0.25f * light_at(still, kWidth / 2) + 0.75f * light_at(still, column);
   EXPECT_WITHIN(100 * light_at(blurred, column), 100 * expected, 2, "% of white");

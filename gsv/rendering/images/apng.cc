@@ -29,7 +29,7 @@ void PutChunk(std::string_view type, std::span<const std::uint8_t> data, ApngByt
   PutNumber(static_cast<std::uint32_t>(sum), 4, out);
 }
 
-// The next chunk of a PNG file that our encoder has written.
+// A chunk of a PNG file that our encoder has written.
 struct PngChunk {
   std::string_view type;
   std::span<const std::uint8_t> data, whole;
@@ -71,7 +71,7 @@ base::Result<ApngBytes> ApngEncoder::Add(const model::Image& image) {
         out.insert(out.end(), chunk.whole.begin(), chunk.whole.end());
         ApngBytes control;
         PutNumber(frames_, 4, control);
-        PutNumber(1, 4, control);  // times to play
+        PutNumber(1, 4, control);  // number of times that the animation is played
         PutChunk("acTL", control, out);
       }
       ApngBytes control;
@@ -81,7 +81,7 @@ base::Result<ApngBytes> ApngEncoder::Add(const model::Image& image) {
       }
       PutNumber(100, 2, control);
       PutNumber(delay_denominator_, 2, control);
-      PutNumber(0, 2, control);  // the frame is not cleared, and replaces the one before
+      PutNumber(0, 2, control);  // the next frame replaces this one without clearing it
       PutChunk("fcTL", control, out);
     } else if (chunk.type == "IDAT" && is_first) {
       out.insert(out.end(), chunk.whole.begin(), chunk.whole.end());

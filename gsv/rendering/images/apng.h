@@ -13,18 +13,18 @@ namespace gsv::rendering {
 
 class ApngEncoder {
  public:
-  // `frames_a_second` is from 0.1 to 240, and is rounded to a hundredth. The animation plays once.
+  // `frames_a_second` is from 0.1 to 240, and is rounded to hundredths. The animation plays once.
   ApngEncoder(std::uint32_t frames, double frames_a_second);
 
-  // Returns the bytes of the next frame; those of the first frame begin the file. All frames have
-  // one size. Fails with kInvalidArgument for an image without pixels or of another size.
+  // Returns the bytes of the next frame. The bytes of the first frame begin the file. All frames must
+  // have the same size. Fails with kInvalidArgument for an image without pixels or of another size.
   base::Result<std::vector<std::uint8_t>> Add(const model::Image& image);
   // Returns the end of the file.
   static std::vector<std::uint8_t> End();
 
  private:
   std::uint32_t frames_;
-  std::uint16_t delay_denominator_;  // of hundredths
+  std::uint16_t delay_denominator_;  // denominator of the delay, whose numerator is 100
   std::uint32_t next_ = 0;           // sequence number of the next chunk
   int width_ = 0, height_ = 0;
 };

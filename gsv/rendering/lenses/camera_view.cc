@@ -66,10 +66,11 @@ std::array<float, 16> ClipFromRelative(const CameraView& view) {
                 up = q * Vector3{0, 0, 1};
   const double f = FocalLength(camera);
   const double sx = 2 * f / camera.width, sy = 2 * f / camera.height;
-  // With x as the distance along the view: w = x, depth = near (far - x) / ((far - near) x).
+  // With x as the distance along the view: w = x and depth = near (far - x) / ((far - near) x).
   const double depth_x = -camera.near / (camera.far - camera.near);
   const double depth_1 = camera.near * camera.far / (camera.far - camera.near);
-  // Row 0 points to the right. Row 1 points down, so that the first row read back is the top one.
+  // Row 0 points to the right. Row 1 points down, so that the first row of the image in memory is
+  // the top row.
   const Vector3 rows[4] = {-sx * left, -sy * up, depth_x * forward, forward};
   const double constants[4] = {0, 0, depth_1, 0};
   std::array<float, 16> m;

@@ -25,10 +25,10 @@ struct CameraParameters {
 
 inline constexpr int kMaxImageSide = 4096;
 
-// Returns kInvalidArgument with a sentence that names the invalid parameter.
+// Fails with kInvalidArgument, and names the invalid parameter.
 base::Status Check(const CameraParameters& camera);
 
-double FocalLength(const CameraParameters& camera);  // in pixels
+double FocalLength(const CameraParameters& camera);  // Returns the focal length in pixels.
 
 struct CameraView {
   geometry::Pose world_from_camera;
@@ -50,8 +50,8 @@ struct Frustum {
     }
     return true;
   }
-  // Like MeetsSphere(), for a sphere that moves from `centre` by `offset`. Conservative: it may
-  // return true without an intersection.
+  // The same for a sphere that moves from `centre` by `offset`. Conservative: may return true
+  // without an intersection.
   bool MeetsMovingSphere(const geometry::Vector3& centre, const geometry::Vector3& offset,
                          double radius) const {
     for (const Plane& plane : planes) {
@@ -64,8 +64,8 @@ struct Frustum {
 
 Frustum FrustumOf(const CameraView& view);
 
-// The transformation from the frame of FrustumOf() to clip space as a column-major matrix for
-// OpenGL. Depth is from 1 (near) to 0 (far), and rows are from top to bottom.
+// Returns the transformation from the frame of FrustumOf() to clip space, as a column-major matrix
+// for OpenGL. Depth is from 1 (near) to 0 (far); rows are from top to bottom.
 std::array<float, 16> ClipFromRelative(const CameraView& view);
 
 }  // namespace gsv::rendering

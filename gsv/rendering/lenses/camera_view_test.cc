@@ -28,8 +28,8 @@ TEST(FocalLength, OfA90DegreeViewIsHalfTheWidth) {
   EXPECT_NEAR(FocalLength({.width = 320, .horizontal_fov = std::numbers::pi / 2}), 160, 1e-9);
 }
 
-// The coordinates u and v of a point as the graphics card computes them from the matrix, and its
-// depth.
+// Returns the coordinates u and v of a point, computed from the matrix as the graphics card does,
+// and its depth.
 Vector3 Project(const CameraView& view, const Vector3& point_in_world) {
   const auto m = ClipFromRelative(view);
   const Vector3 p = point_in_world - view.world_from_camera.position;

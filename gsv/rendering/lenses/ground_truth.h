@@ -11,10 +11,10 @@ namespace gsv::rendering {
 // Rows are stored from the top.
 struct GroundTruth {
   int width = 0, height = 0;
-  // in m along the view, not along the pixel's ray; infinite if nothing is hit
+  // depth in m along the camera's axis, not along the pixel's ray; infinite for the background
   std::vector<float> depth;
-  std::vector<std::int32_t> body;  // index in the layout; -1 if nothing is hit
-  // Index among the body's visuals, in the order of links; -1 if nothing is hit.
+  std::vector<std::int32_t> body;  // index of the body in the layout; -1 for the background
+  // Index among the body's visuals, in the order of links; -1 for the background.
   std::vector<std::int32_t> visual;
 };
 

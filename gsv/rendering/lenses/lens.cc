@@ -26,7 +26,7 @@ double Apply(WideView::Function function, double angle) {
   return angle;
 }
 
-// Returns NaN if there is no solution.
+// Solves function(x) = value. Returns NaN if there is no solution.
 double Invert(WideView::Function function, double value) {
   switch (function) {
     case WideView::Function::kSine:
@@ -126,7 +126,7 @@ std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
       const double xy = x * y * slope + 2 * d.p1 * x + 2 * d.p2 * y;
       const double yy = radial + y * y * slope + 6 * d.p1 * y + 2 * d.p2 * x;
       const double determinant = xx * yy - xy * xy;
-      // The image folds back on itself where the determinant is not positive.
+      // Where the determinant is not positive, the image is folded back on itself.
       if (!(determinant > 1e-9 && xx + yy > 0)) return std::nullopt;
       const Vector2 off = goal - Distorted(at);
       const Vector2 move{(yy * off.x - xy * off.y) / determinant,

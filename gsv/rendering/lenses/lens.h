@@ -61,7 +61,7 @@ class Lens {
   explicit Lens(const CameraParameters& camera);
   Lens(const CameraParameters& camera, const Intrinsics& intrinsics, const Distortion& distortion);
   // Creates a wide lens; only the image size of `camera` is used. If `horizontal_fov` is not 0 (at
-  // most 2 pi), f is chosen such that the image's width spans it. Returns kInvalidArgument if that
+  // most 2 pi), f is chosen such that the image is this wide. Fails with kInvalidArgument if that
   // is impossible.
   static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
                                  double horizontal_fov);
@@ -70,8 +70,8 @@ class Lens {
   // need no resampling.
   bool is_plain() const { return is_plain_; }
 
-  // The direction of an image point as a unit vector in the camera's frame; nullopt if the lens
-  // shows nothing there.
+  // Returns the direction of an image point, as a unit vector in the camera's frame; nullopt if the
+  // lens shows nothing there.
   std::optional<geometry::Vector3> RayAt(double u, double v) const;
   // Projects a point in the camera's frame, also beyond the image's edges. Returns nullopt if the
   // point has no image.
@@ -79,10 +79,10 @@ class Lens {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  const Intrinsics& intrinsics() const { return intrinsics_; }  // for a pinhole only
+  const Intrinsics& intrinsics() const { return intrinsics_; }  // only for a pinhole
   const Distortion& distortion() const { return distortion_; }
   const std::optional<WideView>& wide_view() const { return wide_; }
-  // Whether RayAt() evaluates a closed form, without a search.
+  // Whether RayAt() is computed in closed form, without a search.
   bool has_quick_rays() const { return wide_ || distortion_.is_none(); }
   friend bool operator==(const Lens&, const Lens&) = default;
 

@@ -13,10 +13,10 @@ namespace {
 using geometry::Quaternion;
 using geometry::Vector3;
 
-// The largest angle from the view that one pinhole image covers, as a tangent: 72 degrees.
+// The tangent of the maximum angle from the view axis that one pinhole image covers (72 degrees).
 constexpr double kMaxFaceAngle = 3;
 constexpr double kMaxMagnification = 4;
-// Pixels around the place that is looked up, so that interpolation has neighbours on all sides.
+// The number of pixels around a looked-up place, so that interpolation has neighbours on all sides.
 constexpr double kMargin = 2;
 
 using Rays = std::vector<std::optional<Vector3>>;
@@ -30,7 +30,7 @@ Rays RaysOf(const Lens& lens) {
   return rays;
 }
 
-// The resolution of the lens at a point of its image, in pixels per radian; 0 where it shows
+// Returns the resolution of the lens at an image point, in pixels per radian; 0 where it shows
 // nothing.
 double DensityAt(const Lens& lens, double u, double v) {
   double most = 0;
@@ -42,7 +42,8 @@ double DensityAt(const Lens& lens, double u, double v) {
   return most;
 }
 
-// The largest resolution of the lens, limited to a multiple of that at the centre.
+// Returns the largest resolution of the lens, limited to a multiple of the resolution at the
+// centre.
 double DensityOf(const Lens& lens) {
   constexpr int kPlaces = 16;  // samples along each side of the image
   const double middle = DensityAt(lens, 0.5 * lens.width(), 0.5 * lens.height());
@@ -59,7 +60,7 @@ double DensityOf(const Lens& lens) {
 
 double FovOf(double tangent) { return 2 * std::atan(tangent); }
 
-// The pinhole camera of a face that covers `right` and `up`, as tangents, on all sides.
+// Returns the pinhole camera of a face that extends by the tangents `right` and `up` to all sides.
 CameraParameters FaceOf(const CameraParameters& camera, double density, double right, double up) {
   CameraParameters face = camera;
   const double most = 0.5 * kMaxImageSide - kMargin;
@@ -84,7 +85,7 @@ constexpr int kMaxMixedSamples = 4;  // the maximum number of samples along a si
 
 using Light = std::array<float, 3>;  // linear light of three channels, from 0 to 255
 
-// Interpolates between the four pixels whose centres surround the point (u, v).
+// Interpolates the light at (u, v) between the four nearest pixel centres.
 Light LightAt(const model::Image& from, float u, float v) {
   const float x = std::clamp(u - 0.5f, 0.0f, static_cast<float>(from.width - 1));
   const float y = std::clamp(v - 0.5f, 0.0f, static_cast<float>(from.height - 1));
@@ -147,7 +148,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
       const double f = FocalLength(face.camera);
       source.u = static_cast<float>(0.5 * face.camera.width - f * in_face.y / in_face.x);
       source.v = static_cast<float>(0.5 * face.camera.height - f * in_face.z / in_face.x);
-      // The nearest pixel's content lies on that pixel's ray, not on this one.
+      // The depth of the nearest pixel is valid on that pixel's ray, not on this one.
       const Vector3 nearest{1, -(std::floor(source.u) + 0.5 - 0.5 * face.camera.width) / f,
                             -(std::floor(source.v) + 0.5 - 0.5 * face.camera.height) / f};
       source.depth_scale = static_cast<float>((face.camera_from_face * nearest).x);
@@ -157,7 +158,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
   FindReach();
 }
 
-// Computes the distance from each pixel's source to that of its neighbour.
+// Computes the distance between the sources of neighbouring pixels.
 void LensMap::FindReach() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& here = sources_[i];
@@ -194,7 +195,7 @@ model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> 
     Light light{};
     if (source.face >= 0) {
       const model::Image& from = *images[static_cast<std::size_t>(source.face)];
-      // A pixel takes as many samples as it covers source pixels, so that it misses none.
+      // A pixel takes enough samples to include every source pixel that it covers.
       const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMaxMixedSamples);
       for (int i = 0; i < side * side; ++i) {
         const auto off = [&](int k) {
@@ -228,7 +229,7 @@ GroundTruth LensMap::Join(std::span<const std::shared_ptr<const GroundTruth>> tr
     const int y = std::clamp(static_cast<int>(source.v), 0, from.height - 1);
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) +
                            static_cast<std::size_t>(x);
-    // A pixel that shows the background keeps its infinite depth behind the camera as well.
+    // A background pixel keeps its infinite depth, also behind the camera.
     const bool is_something = std::isfinite(from.depth[at]);
     joined.depth.push_back(is_something ? from.depth[at] * source.depth_scale : from.depth[at]);
     joined.body.push_back(from.body[at]);

@@ -30,7 +30,7 @@ class LensMap {
   // Lens::RayAt() within 1e-6 rad. Pixels are numbered in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
-  // The views of the required pinhole images.
+  // Returns the views of the required pinhole images.
   std::vector<CameraView> Views(const geometry::Pose& world_from_camera) const;
 
   // Resamples the images of Views(), in that order. Pixels are black where the lens shows nothing.
@@ -46,10 +46,10 @@ class LensMap {
   };
   // The place in a face's image that a pixel is sampled from.
   struct Source {
-    std::int32_t face = -1;  // -1 if the lens shows nothing there
+    std::int32_t face = -1;  // index of the face; -1 if the lens shows nothing there
     float u = 0, v = 0;      // pixel coordinates in the face's image
-    float reach = 1;         // how many pixels of the face this pixel covers along a side
-    float depth_scale = 0;   // the factor from the depth in the face to that in the camera
+    float reach = 1;         // number of face pixels along one side of this pixel
+    float depth_scale = 0;   // factor that converts depth in the face to depth in the camera
   };
   void FindReach();
 

@@ -26,7 +26,7 @@ using geometry::kPi;
 struct LensCase {
   const char* name;
   model::Parameters parameters;
-  double widest;  // the largest angle from the view, rad
+  double widest;  // largest angle from the view axis, rad
 
   friend void PrintTo(const LensCase& lens, std::ostream* out) { *out << lens.name; }
 };
@@ -76,8 +76,8 @@ class LensImage : public testing::TestWithParam<LensCase> {
   base::Result<std::shared_ptr<Renderer>> renderer_ = Renderer::Start();
 };
 
-// The centre of a ball's image, from the rays to its rim. It differs from the image of the ball's
-// centre.
+// Returns the centre of a ball's image, computed from the rays to the ball's rim. This is not the
+// image of the ball's centre.
 Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
   const double sine = radius / Norm(centre);
   const Vector3 along = Normalized(centre);
@@ -124,7 +124,7 @@ Blob Covered(const model::Image& image, const model::Image& without) {
   return blob;
 }
 
-// Edges are exact to a pixel only, so the test averages over balls of several sizes.
+// Edges are only exact to a pixel, so the test averages over balls of several sizes.
 TEST_P(LensImage, ShowsObjectsWhereTheEquationsPutThem) {
   const Optics optics = Read();
   const auto is_inside = [](const Vector2& at) {
@@ -227,7 +227,7 @@ TEST(Optics, RejectsTooLargeImagesThroughALens) {
   (void)Optics::Read(too_large);
   ASSERT_FALSE(too_large.status());
   EXPECT_NE(too_large.status().error().message.find("4096 by 1025"), std::string::npos);
-  // A camera without a lens takes an ordinary image.
+  // A camera without a lens takes an image without resampling.
   description.parameters.erase("distortion.k1");
   sensing::ParameterReader plain(description);
   (void)Optics::Read(plain);
@@ -259,7 +259,7 @@ TEST(LensMap, IsBlackWhereTheLensShowsNothing) {
   const std::vector<std::shared_ptr<const model::Image>> faces{white};
   const model::Image joined = map.Join(faces);
   EXPECT_EQ(Brightness(joined, 160, 120), 255);
-  EXPECT_EQ(Brightness(joined, 160 + 75, 120), 255);  // 0.5 rad are 80 pixels
+  EXPECT_EQ(Brightness(joined, 160 + 75, 120), 255);  // 0.5 rad are 80 pixels, so the ball is here
   EXPECT_EQ(Brightness(joined, 160 + 85, 120), 0);
   EXPECT_EQ(Brightness(joined, 0, 0), 0);
 }

@@ -13,7 +13,7 @@ double Linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-// A table of the light of (i + `off`) / 255.
+// Returns a table of the light of (i + `off`) / 255.
 Table TableOf(double off) {
   Table table;
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -30,7 +30,7 @@ float LightOf(std::uint8_t number) {
 }
 
 std::uint8_t NumberFor(float light) {
-  // kMiddles[i] is the limit of light between the encoded values i and i + 1.
+  // kMiddles[i] is the light at the boundary between the encoded values i and i + 1.
   static const Table kMiddles = TableOf(0.5);
   const auto above = std::upper_bound(kMiddles.begin(), kMiddles.end() - 1, light);
   return static_cast<std::uint8_t>(above - kMiddles.begin());

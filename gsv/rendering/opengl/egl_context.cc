@@ -23,7 +23,7 @@ constexpr const char* kRemedy =
     "images need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
     "your graphics card's driver";
 
-// libepoxy ends the program if it cannot open a library, so this function checks that first.
+// Checks whether a library can be opened, because libepoxy would end the program if not.
 Status CheckLibrary(const std::string& name) {
   void* handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
@@ -70,7 +70,8 @@ std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
   return displays;
 }
 
-// The displays in the order of the attempts: graphics cards, then Mesa without a device.
+// Returns the displays in the order in which they are tried: graphics cards, then Mesa without a
+// device.
 std::vector<EGLDisplay> Displays(const EglOptions& options) {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<EGLDisplay> displays;
@@ -105,7 +106,8 @@ EGLContext MakeCurrentOn(EGLDisplay display) {
   return nullptr;
 }
 
-// Mesa's software renderer also answers for a card that is present but unusable.
+// Whether the renderer is Mesa's software renderer. It also answers for a card that is present but
+// unusable.
 bool IsMesaInSoftware(const std::string& renderer_name) {
   return renderer_name.starts_with("llvmpipe") || renderer_name.starts_with("softpipe");
 }
@@ -145,7 +147,7 @@ Result<std::unique_ptr<EglContext>> EglContext::Create(const EglOptions& options
                   "; " + kRemedy);
 }
 
-// The display stays initialised, because it belongs to the process and other contexts may use it.
+// The display is not terminated: it belongs to the process, and other contexts may use it.
 EglContext::~EglContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);

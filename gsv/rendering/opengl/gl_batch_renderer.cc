@@ -67,7 +67,7 @@ base::Result<Images> GlBatchRenderer::Draw(const world::Snapshot& snapshot,
     shadow_map_.Draw(render_list, planned.id, lighting.to_sun(), views, instances_);
     shadow_map_.Bind();
   }
-  // Images of equal size are rendered one after another, so that they are read back together.
+  // Images of equal size are rendered one after another and read back together.
   std::vector<std::size_t> order(views.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto size = [&](std::size_t i) {

@@ -25,7 +25,7 @@ class GlBatchRenderer final : public BatchRenderer {
 
   base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
-  // Uses the rasteriser, so that the result is bit-identical on every machine.
+  // Uses the rasteriser, so that results are bit-identical on every machine.
   base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
   void Sweep() override;
@@ -33,7 +33,7 @@ class GlBatchRenderer final : public BatchRenderer {
  private:
   RenderTarget& TargetFor(const CameraParameters& camera);
 
-  std::list<RenderTarget> targets_;  // the most recently used target is first
+  std::list<RenderTarget> targets_;  // ordered by last use, the most recent first
   InstanceBuffer instances_;
   ShadowMap shadow_map_;
   ViewPass view_pass_;

@@ -10,7 +10,7 @@ namespace {
 template <typename T>
 GlBuffer Upload(const std::vector<T>& values) {
   GlBuffer buffer = CreateBuffer();
-  // OpenGL refuses an empty buffer. An empty mesh gets one element and is never drawn.
+  // OpenGL refuses an empty buffer, so an empty mesh gets one element, which is never drawn.
   const T none{};
   glNamedBufferStorage(buffer.name(),
                        static_cast<GLsizeiptr>(std::max<std::size_t>(1, values.size()) * sizeof(T)),

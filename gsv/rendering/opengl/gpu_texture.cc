@@ -19,8 +19,8 @@ std::shared_ptr<DrawTexture> UploadTexture(const Image& image) {
   GlTexture texture = CreateTexture2D();
   const unsigned name = texture.name();
   const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
-  // Textures without alpha also take four bytes per pixel, as cards and Mesa sample no other format
-  // as fast.
+  // Textures without alpha also use four bytes per pixel, because cards and Mesa sample this format
+  // fastest.
   glTextureStorage2D(name, levels, GL_RGBA8, image.width, image.height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(name, 0, 0, 0, image.width, image.height,

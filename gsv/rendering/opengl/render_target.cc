@@ -11,7 +11,7 @@ namespace gsv::rendering {
 namespace {
 
 constexpr int kMaxLayers = 16;
-// the maximum of all layers together, unless one layer alone has more
+// maximum number of pixels in all layers, unless one layer alone has more
 constexpr int kMaxPixels = 4 << 20;
 
 }  // namespace

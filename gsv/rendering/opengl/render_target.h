@@ -21,8 +21,8 @@ class RenderTarget {
   // The maximum number of images before Read() must be called.
   int capacity() const { return capacity_; }
 
-  // Begins an image: clears the depth and binds the target. The caller must draw all pixels, with
-  // the number of their surface as alpha.
+  // Begins an image: clears the depth and binds the target. The caller must draw all pixels. Their
+  // alpha must be the number of the surface.
   void Begin();
   // Returns the images since the last Read(), in the order of Begin(), antialiased. Waits for the
   // card.
@@ -37,7 +37,7 @@ class RenderTarget {
   int width_, height_, capacity_;
   std::size_t begun_ = 0;
   GlRenderbuffer depth_;
-  std::vector<Layer> layers_;  // as many as have been needed so far
+  std::vector<Layer> layers_;  // only as many as were needed so far
   std::vector<std::uint8_t> rgba_;
 };
 

@@ -1,4 +1,4 @@
-// The shaders' source.
+// The source code of the OpenGL shaders.
 //
 // Surfaces  Cook–Torrance with the GGX distribution (Walter et al. 2007), Hammon's approximation of
 //           the height-correlated Smith term (2017), Schlick's Fresnel term; ambient reflections by
@@ -18,7 +18,7 @@ namespace gsv::rendering {
 extern const std::string kSurfaceVertexShader;
 extern const std::string kSurfaceFragmentShader;
 
-// With CUT_OUT defined, it reads the base colour map.
+// If CUT_OUT is defined, the shader reads the base colour map.
 extern const std::string kShadowVertexShader;
 extern const std::string kShadowFragmentShader;
 

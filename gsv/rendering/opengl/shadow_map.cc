@@ -86,7 +86,7 @@ void ShadowMap::DrawCasters(const RenderList& render_list, const std::vector<std
   std::vector<std::vector<std::size_t>> members(render_list.groups().size());
   for (const std::size_t i : casters) {
     const DrawItem& item = render_list.items()[i];
-    // An object smaller than a texel hides no other.
+    // An object smaller than a texel casts no visible shadow.
     if (item.radius > 0.5 * region_.TexelSize()) members[item.group].push_back(i);
   }
   staged_.clear();

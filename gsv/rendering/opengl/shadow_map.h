@@ -42,8 +42,8 @@ class ShadowMap {
   GlFramebuffer still_frame_, moving_frame_;
   GlProgram solid_, alpha_mask_;
   ShadowRegion region_;
-  Drawn drawn_;                                 // describes the content of still_
-  std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ and still_ differ
+  Drawn drawn_;                                 // the present content of still_
+  std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
   std::vector<InstanceData> staged_;
 };
 

@@ -57,15 +57,15 @@ void BindMaps(const DrawGroup& group) {
 }
 
 void SetFaces(const DrawGroup& group) {
-  // Rows run downwards (see ClipFromRelative()), which turns counter-clockwise triangles into
-  // clockwise ones.
+  // Rows run downwards (see ClipFromRelative()), so counter-clockwise triangles become
+  // clockwise.
   glFrontFace(group.mirrored ? GL_CCW : GL_CW);
   if (group.double_sided) {
     glDisable(GL_CULL_FACE);
   } else {
     glEnable(GL_CULL_FACE);
   }
-  // The depth value increases towards the camera.
+  // A larger depth value is nearer to the camera.
   glPolygonOffset(group.ground ? -1.0f : 0.0f, group.ground ? -64.0f : 0.0f);
 }
 
@@ -89,7 +89,7 @@ unsigned ViewPass::ProgramFor(unsigned features) {
 
 void ViewPass::FindVisible(const CameraView& view, const RenderList& render_list,
                            const ShadowMap* shadows) {
-  // Objects smaller than this would only flicker.
+  // Smaller objects are not drawn, because they would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
   const double smallest = kMinPixels / FocalLength(view.parameters);
@@ -178,7 +178,7 @@ void ViewPass::Draw(const CameraView& view, const RenderList& render_list, const
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
   glEnable(GL_BLEND);
-  // The alpha channel keeps the number of the surface behind the transparent one.
+  // The alpha channel keeps the number of the opaque surface.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   Draw(transparent_calls_, render_list, lamps, instances);
   glDisable(GL_BLEND);

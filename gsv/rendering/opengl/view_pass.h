@@ -24,12 +24,12 @@ class ViewPass {
             const ShadowMap* shadows, InstanceBuffer& instances);
 
  private:
-  // Instances of one draw call.
+  // The instances that one draw call draws.
   struct Call {
     int group = 0;
     double distance = 0;
     std::size_t first = 0, count = 0;
-    bool shadowed = false;  // whether some instances may be in shadow
+    bool shadowed = false;  // whether some of the instances may be in shadow
   };
   struct Seen {
     int group = 0;
@@ -45,7 +45,7 @@ class ViewPass {
             const InstanceBuffer& instances);
   unsigned ProgramFor(unsigned features);
 
-  std::map<unsigned, GlProgram> programs_;  // by the features that they are compiled with
+  std::map<unsigned, GlProgram> programs_;  // programs by the features that they were compiled with
   GlProgram sky_;
   GlBuffer frame_;
   std::vector<Seen> solid_, transparent_;

@@ -19,7 +19,7 @@ constexpr int kTileWidth = 32, kTileHeight = 16;
 // The depth factor of the ground, so that objects on the ground hide it.
 constexpr float kGroundBack = 1 - 2e-4f;
 
-// The coarsest level whose vertices are displaced by at most about a pixel.
+// Returns the coarsest level of detail whose vertices are displaced by at most about a pixel.
 const Level& LevelFor(const std::vector<Level>& levels, double pixel_in_mesh) {
   const Level* level = &levels.front();
   for (const Level& coarser : levels) {
@@ -110,7 +110,7 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
 }
 
 void ImageRenderer::FindVisible(const CameraView& view, const RenderList& render_list) {
-  // Objects smaller than this would only flicker.
+  // Smaller objects are not drawn, because they would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
   const double pixel = 1 / FocalLength(view.parameters);  // the size of a pixel at 1 m
@@ -156,7 +156,7 @@ void ImageRenderer::Cover(const CameraView& view, const RenderList& render_list)
   }
 }
 
-// Whether items that are already drawn hide a sphere.
+// Whether the items that are already drawn hide a sphere.
 bool ImageRenderer::IsHidden(const CameraView& view, const Vector3& centre, double radius) const {
   const geometry::Quaternion& q = view.world_from_camera.orientation;
   const double ahead = geometry::Dot(q * Vector3{1, 0, 0}, centre);
@@ -277,7 +277,7 @@ void ImageRenderer::LightTile(const LightModel& light, const SunShadow* shadow, 
   tile.is_kept = is_still && !is_shaded_by_movers();
 }
 
-// Whether all its pixels show still bodies or the sky.
+// Whether all pixels of the tile show still bodies or the sky.
 bool ImageRenderer::IsStillTile(int x0, int y0, int x1, int y1) const {
   std::uint32_t last = 0;
   for (int y = y0; y < y1; ++y) {
@@ -295,7 +295,7 @@ bool ImageRenderer::IsStillTile(int x0, int y0, int x1, int y1) const {
   return true;
 }
 
-// The texels of the shadow map at which its points may be looked up.
+// Returns the texels of the shadow map that points of the tile may look up.
 ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
   // The displacement of a look-up along the normal, and the width of the filter.
   constexpr float kBeside = 4;
@@ -312,7 +312,7 @@ ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
       max[row] += static_cast<float>(std::max(k * low[i], k * high[i]));
     }
   }
-  // Points outside the map are looked up at its border.
+  // Points outside the map look up the texels at its border.
   const auto texel = [](float at, float beside) {
     constexpr float kSide = kShadowSide;
     return static_cast<int>(std::clamp(at * kSide + beside, -1.0f, kSide + 1));
@@ -322,7 +322,7 @@ ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
 }
 
 ImageRenderer::TileBox ImageRenderer::BoxOfTile(int x0, int y0, int x1, int y1) const {
-  F8 most = Splat(0), least = Splat(1e30f);  // both in 1/w
+  F8 most = Splat(0), least = Splat(1e30f);  // both in units of 1/w
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; x += 8) {
       const I8 seen = (LoadInt(&nearest_[At(x, y)]) != 0) & (IntSteps() < SplatInt(x1 - x));
@@ -421,8 +421,8 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            // Few of these pixels are visible in an image, so they are shaded as if all lamps could
-            // reach them.
+            // Few of these pixels are visible in an image. So they are shaded with all lamps,
+            // whatever their range.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
                                                {kAnywhere, kAnywhere, kAnywhere});
@@ -430,7 +430,7 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             std::uint32_t* to =
                 &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
             const I8 below = LoadInt(to);
-            // The alpha channel keeps the number of the surface behind the transparent one.
+            // The alpha channel keeps the number of the opaque surface.
             I8 mixed = below & SplatInt(static_cast<std::int32_t>(0xff000000u));
             for (int shift = 0; shift < 24; shift += 8) {
               const F8 a = ToFloat((above >> shift) & SplatInt(0xff)),

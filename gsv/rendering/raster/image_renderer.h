@@ -20,27 +20,27 @@ namespace gsv::rendering::raster {
 class ImageRenderer {
  public:
   // Renders a posed render list, antialiased. `render_list_id` identifies it. `block` must be
-  // complete. If `shadow` is null, there are no shadows. `team` null: on the caller's thread.
+  // complete. If `shadow` is null, there are no shadows. If `team` is null, everything is done on the caller's thread.
   model::Image Draw(const CameraView& view, const RenderList& render_list,
                     std::uint64_t render_list_id, const FrameBlock& block, const SunShadow* shadow,
                     base::ThreadTeam* team = nullptr);
   // Renders the depth and label image of a view.
   GroundTruth DrawGroundTruth(const CameraView& view, const RenderList& render_list,
                               const FrameBlock& block);
-  // The number of allocated pixels.
+  // The number of allocated pixels (a measure of memory).
   std::size_t pixels() const { return nearest_.size(); }
   // Whether the last image had this view.
   bool IsOf(const CameraView& view) const;
 
  private:
   struct Seen {
-    // for opaque items, to the nearest point; for transparent ones, to the centre
+    // distance of the nearest point (opaque items) or of the centre (transparent items)
     double distance = 0;
     std::size_t item = 0;
     const Level* level = nullptr;
   };
 
-  // The colours of still bodies depend on these.
+  // The properties on which the colours of still bodies depend.
   struct Background {
     CameraView view;
     std::uint64_t render_list_id = 0;  // 0: none
@@ -49,15 +49,17 @@ class ImageRenderer {
     FrameBlock block{};
   };
   struct Tile {
-    bool is_kept = false;                           // rgba_ has its colours without moving bodies
-    ShadowRegion::Rectangle in_shadow{0, 0, 0, 0};  // where its shadows are looked up
+    bool is_kept = false;                           // whether rgba_ has the colours of this tile
+                                                    // without moving bodies
+    ShadowRegion::Rectangle in_shadow{0, 0, 0, 0};  // texels of the shadow map that the tile looks
+                                                    // up
   };
   // A box around the visible points of a tile, in the frame of FrustumOf().
   struct TileBox {
     bool is_empty = true;
     geometry::Vector3 min, max;
   };
-  // The data of one thread while it shades.
+  // The data that one thread uses while it shades.
   struct Shading {
     std::vector<std::int32_t> surface_of;  // the index in surfaces by triangle number - 1, or -1
     std::vector<TriangleSurface> surfaces;
@@ -68,7 +70,7 @@ class ImageRenderer {
   void Cover(const CameraView& view, const RenderList& render_list);
   bool IsHidden(const CameraView& view, const geometry::Vector3& centre, double radius) const;
   void CoverWith(std::uint32_t number, float nearest_w);
-  // Forgets the kept tiles if the background differs.
+  // Discards the kept tiles if `background` differs from that of the last image.
   void SetBackground(const Background& background);
   void Light(const LightModel& light, const SunShadow* shadow, base::ThreadTeam* team);
   void LightTile(const LightModel& light, const SunShadow* shadow, int x0, int y0,
@@ -89,13 +91,14 @@ class ImageRenderer {
   int width_ = 0, height_ = 0, stride_ = 0;
   // the direction of a pixel's ray, as parts that depend on the pixel's position
   Float4 forward_, right_, down_;
-  std::vector<float> inverse_w_;        // by pixel, of the nearest surface
-  std::vector<std::uint32_t> nearest_;  // by pixel, the number of the triangle from 1; 0 is the sky
+  std::vector<float> inverse_w_;        // 1/w of the nearest surface, by pixel
+  std::vector<std::uint32_t> nearest_;  // number of the nearest triangle, by pixel, from 1; 0 is
+                                        // the sky
   std::vector<Triangle> triangles_;
   std::vector<Shading> shadings_;
   std::vector<Drawn> drawn_;
-  std::vector<std::uint8_t> is_still_;             // the same order as drawn_, for opaque items
-  std::vector<std::int32_t> body_of_, visual_of_;  // the same order as drawn_, for opaque items
+  std::vector<std::uint8_t> is_still_;             // for opaque items, in the order of drawn_
+  std::vector<std::int32_t> body_of_, visual_of_;  // for opaque items, in the order of drawn_
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
   Background background_;

@@ -15,10 +15,10 @@ struct Lamps {
 
 class LightModel {
  public:
-  // `block` must include the shadow. If `shadow` is null, there are no shadows.
+  // `block` must include the shadow parameters. If `shadow` is null, there are no shadows.
   LightModel(const FrameBlock& block, const SunShadow* shadow) : block_(block), shadow_(shadow) {}
 
-  // Returns the lamps that can light a box, which is in the frame of FrustumOf().
+  // Returns the lamps that can light points in a box, given in the frame of FrustumOf().
   Lamps Reaching(const geometry::Vector3& min, const geometry::Vector3& max) const;
 
   // Returns the tone-mapped linear colour in [0, 1].

@@ -69,14 +69,14 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRendere
 }
 
 std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer(const CameraView& view) {
-  // So many views keep what is still in their images.
+  // The minimum number of views whose still parts are kept for the next image.
   constexpr std::size_t kMinKept = 4;
   const base::MutexLock lock(mutex_);
   auto found = std::find_if(idle_.begin(), idle_.end(),
                             [&](const auto& renderer) { return renderer->IsOf(view); });
   if (found == idle_.end()) {
     if (idle_.size() < kMinKept) return std::make_unique<ImageRenderer>();
-    found = idle_.begin();  // the one that was not used for the longest time
+    found = idle_.begin();  // the view that was used least recently
   }
   auto renderer = std::move(*found);
   idle_.erase(found);
@@ -84,7 +84,7 @@ std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer(const CameraVie
 }
 
 void RasterBatchRenderer::GiveBack(std::unique_ptr<ImageRenderer> renderer) {
-  // The memory of an image above this size is released after it.
+  // The memory of a larger image is released at once.
   constexpr std::size_t kMaxPixels = 2 << 20;
   if (renderer->pixels() > kMaxPixels) return;
   const base::MutexLock lock(mutex_);

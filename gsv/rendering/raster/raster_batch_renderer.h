@@ -33,7 +33,7 @@ class RasterBatchRenderer final : public BatchRenderer {
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
 
  private:
-  // Prefers the renderer whose last image had this view.
+  // Returns an idle renderer, preferably the one whose last image had this view.
   std::unique_ptr<ImageRenderer> TakeRenderer(const CameraView& view);
   void GiveBack(std::unique_ptr<ImageRenderer> renderer);
 

@@ -137,7 +137,7 @@ Level Append(const Piece& piece, float cell, RasterMesh& mesh) {
 }  // namespace
 
 std::shared_ptr<const DrawMesh> MakeRasterMesh(MeshArrays arrays) {
-  constexpr std::size_t kMinTriangles = 32;  // a smaller chunk gets no coarser level
+  constexpr std::size_t kMinTriangles = 32;  // smaller chunks have no coarser level
   auto mesh = std::make_shared<RasterMesh>();
   for (const MeshChunk& chunk : arrays.chunks) {
     Piece piece = PieceOf(arrays, chunk);

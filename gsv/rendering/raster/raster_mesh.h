@@ -11,18 +11,18 @@ namespace gsv::rendering::raster {
 // A chunk in one level of detail. Runs of vertices and triangles are padded to multiples of eight,
 // with the first vertex and with degenerate triangles.
 struct Level {
-  float cell = 0;  // the largest displacement of a vertex in the mesh, approximately, m
+  float cell = 0;  // largest displacement of a vertex at this level, approximately, m
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
 };
 
 struct RasterMesh final : DrawMesh {
-  // One element per vertex.
+  // Properties of vertices, one element for each.
   std::vector<float> x, y, z, normal_x, normal_y, normal_z, u, v;
   std::vector<std::uint16_t> surface;
-  // One element per triangle; a value counts from the first vertex of the level.
+  // Properties of triangles, one element for each. Corners are counted from the first vertex of the level.
   std::vector<std::uint32_t> corners[3];
-  // By chunk; the first level is the finest.
+  // The levels of each chunk; the first level is the finest.
   std::vector<std::vector<Level>> levels;
 };
 

@@ -46,7 +46,7 @@ RasterTexture::Level AppendHalf(const RasterTexture::Level& from,
 Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& level, F8 u, F8 v) {
   const auto axis = [](F8 at, int size, I8& low, I8& high) {
     const F8 extent = Splat(static_cast<float>(size));
-    // NaN, which occurs in invisible pixels, selects the first texel.
+    // NaN, which may occur in invisible pixels, becomes the first texel.
     const F8 x =
         Min(Max(Fma(at - Floor(at), extent, Splat(-0.5f)), Splat(-0.5f)), extent - Splat(0.5f));
     const F8 whole = Floor(x);
@@ -65,7 +65,7 @@ Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& lev
   if (Bits(x1 == x0 + 1) == 0xff) {
     const I8x2 upper = GatherPairs(texels, row0 + x0), lower = GatherPairs(texels, row1 + x0);
     t00 = upper.first, t10 = upper.second, t01 = lower.first, t11 = lower.second;
-  } else {  // the texels are on both sides of the texture's edge
+  } else {  // the texels are at both edges of the texture, which repeats
     t00 = GatherInt(texels, row0 + x0), t10 = GatherInt(texels, row0 + x1);
     t01 = GatherInt(texels, row1 + x0), t11 = GatherInt(texels, row1 + x1);
   }

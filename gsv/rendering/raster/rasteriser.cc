@@ -88,14 +88,14 @@ int Rasteriser::SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t fi
   const F8 nearest = Max(Max(iw[0], iw[1]), iw[2]), farthest = Min(Min(iw[0], iw[1]), iw[2]);
   const F8 min_x = Min(Min(x[0], x[1]), x[2]), max_x = Max(Max(x[0], x[1]), x[2]);
   const F8 min_y = Min(Min(y[0], y[1]), y[2]), max_y = Max(Max(y[0], y[1]), y[2]);
-  // Beyond this distance from the image, single precision is too coarse.
+  // Farther from the image than this, single precision is too coarse.
   constexpr float kFar = 16384;
   const I8 is_far = (Max(Abs(min_x), max_x) > Splat(kFar)) | (Max(Abs(min_y), max_y) > Splat(kFar));
   const I8 crosses = ((farthest <= zero) | is_far) & (nearest > zero) &
                      ((corner[0] != corner[1]) | (corner[1] != corner[2]));
   crossing = Bits(crosses);
   const F8 area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-  // Rows that run downwards turn counter-clockwise triangles into clockwise ones.
+  // Rows run downwards, so counter-clockwise triangles become clockwise.
   const bool counter_clockwise = drawn.group->mirrored != rows_upwards_;
   const I8 faces = both_sides ? area != zero : counter_clockwise ? area > zero : area < zero;
   const F8 width = Splat(static_cast<float>(width_)), height = Splat(static_cast<float>(height_));

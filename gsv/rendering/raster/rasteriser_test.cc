@@ -102,8 +102,8 @@ TEST(RasterMesh, CoarserLevelsDisplaceVerticesByAtMostTheirCell) {
     for (std::uint32_t i = 0; i < levels[l].vertex_count; ++i) {
       const std::uint32_t v = levels[l].first_vertex + i;
       const double radius = std::hypot(raster_mesh.x[v], raster_mesh.y[v], raster_mesh.z[v]);
-      // The displacements of all finer levels add up; each cell is 1.5 times as large as the one
-      // before.
+      // The displacements of all finer levels add up. The cells of a level are 1.5 times as large
+      // as those of the finer level.
       EXPECT_NEAR(radius, 1, std::sqrt(3.0) * 3 * levels[l].cell);
     }
   }

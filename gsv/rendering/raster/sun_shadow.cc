@@ -12,15 +12,16 @@ namespace {
 constexpr int kStride = kShadowSide + 16;
 constexpr int kFirst = kStride + 1;  // the index of texel (0, 0) of the map without its border
 
-// The resolution of shadows, in texels. The shadows of robots are rendered again for each snapshot.
-// The image must not depend on whether an object has moved.
+// The detail of casters in the shadow map, in texels. Shadows of robots are rendered for each
+// snapshot, so they have less detail. The image must not depend on whether an object has moved.
 struct Fineness {
   double moved_by;  // the approximate maximum displacement of a caster's vertices
   double smallest;  // the minimum radius of a caster
 };
 constexpr Fineness kThing{0.5, 0.5}, kRobot{3, 1.5};
 
-// The coarsest level whose vertices are displaced by at most `moved_by` and by a third of the radius.
+// Returns the coarsest level whose vertices are displaced by at most `moved_by` and by a third of the
+// radius.
 const Level& LevelFor(const std::vector<Level>& levels, const DrawItem& item, double moved_by) {
   const double scale =
       std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
@@ -140,10 +141,10 @@ F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
 
 F8 SunShadow::Visible(const F8x3& point) const {
   const F8 side = Splat(kShadowSide);
-  // Clamps to the border texels, which cast no shadow.
+  // Points outside the map use the border texels, which cast no shadow.
   const auto inside = [&](F8 at) { return Min(Max(at, Splat(-0.5f)), side + Splat(0.4f)); };
   const F8 x = point.x * side, y = point.y * side;
-  const F8 z = Max(point.z, Splat(0));  // points below the background are looked up at its height
+  const F8 z = Max(point.z, Splat(0));  // below the map, use the height of its lowest layer
   const F8 first = Lit(inside(x - Splat(0.6f)), inside(y - Splat(0.3f)), z);
   const F8 second = Lit(inside(x + Splat(0.6f)), inside(y + Splat(0.3f)), z);
   return Splat(0.5f) * (first + second);

@@ -21,7 +21,7 @@ class SunShadow {
             const geometry::Vector3& to_sun, const std::vector<CameraView>& views);
 
   const ShadowRegion& region() const { return region_; }
-  // The parts of the map with shadows of moving casters.
+  // The parts of the map that contain shadows of moving casters.
   const std::vector<ShadowRegion::Rectangle>& moved() const { return moved_; }
 
   // The fraction of sunlight at points of the map, in units of its sides from its corner. z grows
@@ -48,7 +48,7 @@ class SunShadow {
   std::vector<float> still_,
       moving_;  // kStride texels per row, with a border of one texel that casts no shadow
   ShadowRegion region_;
-  Drawn drawn_;                                 // describes the content of still_
+  Drawn drawn_;                                 // the present content of still_
   std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
   Rasteriser rasteriser_;
 };

@@ -42,8 +42,8 @@ F8 At(const TriangleSurface::Plane& plane, F8 dx, float dy) {
   return Fma(Splat(plane.a), dx, Splat(plane.c + plane.b * dy));
 }
 
-// The mip level at which a texel is about as large as a pixel, from the change of texture
-// coordinates across a pixel.
+// Returns the mip level at which a texel is about as large as a pixel. dx and dy: change of the
+// texture coordinates across a pixel.
 float LevelAt(const TriangleSurface& s, float dx, float dy, const RasterTexture& texture) {
   const auto at = [&](const TriangleSurface::Plane& p) { return p.c + p.a * dx + p.b * dy; };
   const float inverse_w = at(s.inverse_w);
@@ -149,7 +149,7 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
          At(surface.normal[2], dx, dy)};
   }
   if (group.double_sided) {
-    // The normal is that of the side which the camera sees.
+    // Use the normal of the side that the camera sees.
     n = Select(Dot(n, ray) > Splat(0), n * Splat(-1), n);
   }
   const SurfaceFactors& f = *drawn.factors;

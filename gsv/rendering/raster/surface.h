@@ -1,4 +1,4 @@
-// The surfaces at eight pixels.
+// Computes the surfaces that eight pixels see.
 #pragma once
 
 #include "gsv/rendering/raster/rasteriser.h"
@@ -30,9 +30,9 @@ struct TriangleSurface {
 
 TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& triangle);
 
-// Fills in the lanes of `mask`, which see one triangle: pixels from (x, y) to the right. The first
-// call fills in all lanes. `ray` is the direction of each pixel, with the component 1 along the
-// view.
+// Fills in the lanes of `mask`, which all see this triangle: pixels from (x, y) to the right. The
+// first call must fill in all lanes. `ray` is the direction of each pixel, with the component 1
+// along the view.
 void FillIn(const Drawn& drawn, const Triangle& triangle, const TriangleSurface& surface, int x,
             int y, I8 mask, bool is_first, const F8x3& ray, Surfaces& surfaces);
 

@@ -72,7 +72,7 @@ class Smoother {
     }
   }
 
-  // In blocks that fit into the cache.
+  // Transposes the numbers in blocks that fit into the cache.
   void Transpose(int width, int height) {
     constexpr int kBlock = 32;
     for (int y0 = 0; y0 < height; y0 += kBlock) {
@@ -131,7 +131,8 @@ class Smoother {
     }
   }
 
-  // Mixes the colour of the other side into the pixel beside the edge, as the fraction `share`.
+  // Mixes the fraction `share` of the colour on the other side of the edge into the pixel beside
+  // the edge.
   void Mix(int line, int i, int step, float share) {
     if (share <= 0) return;
     const std::size_t before =

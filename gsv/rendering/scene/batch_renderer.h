@@ -1,4 +1,4 @@
-// The interface of back ends, which render a batch of images and cache data for the next one.
+// The interface of back ends. They render batches of images, and cache data between batches.
 //
 // Threads  the render thread only.
 #pragma once

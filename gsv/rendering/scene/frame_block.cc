@@ -39,9 +39,9 @@ Rgb Mix(const Rgb& a, const Rgb& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
-// Ambient light, limited to a useful brightness. Some worlds specify almost none, because the
-// simulator they were made for adds its own; they would be dark. Others specify the maximum; they
-// would have no shadows.
+// Limits ambient light to a useful range. Worlds that specify almost none would be dark; the
+// simulator that they were made for adds its own. Worlds that specify the maximum would show no
+// shadows.
 Rgb Ambient(const model::Colour& asked) {
   constexpr double kMin = 0.3, kMax = 0.45;
   const Rgb c{asked.r, asked.g, asked.b};

@@ -1,4 +1,4 @@
-// The lamps of robots that are on.
+// Finds the lamps of robots that are on.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace gsv::rendering {
 
 struct LitLamp {
   int body = 0;
-  const world::DeviceMount* mount = nullptr;  // points into the snapshot
+  const world::DeviceMount* mount = nullptr;  // refers to the snapshot
   world::Glow glow;
 };
 

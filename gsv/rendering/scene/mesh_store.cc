@@ -41,7 +41,7 @@ Arrays WithNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>& o
   return arrays;
 }
 
-// Flat shading: each triangle has separate vertices with its normal.
+// Makes separate vertices for each triangle, with the triangle's normal (flat shading).
 Arrays WithoutNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>& order) {
   Arrays arrays;
   for (const std::uint32_t triangle : order) {
@@ -116,7 +116,7 @@ DrawShape MeshStore::Find(const Shape& shape) {
 std::shared_ptr<const DrawMesh> MeshStore::FindFileMesh(
     const std::shared_ptr<const TriangleMesh>& triangles) {
   FileMesh& entry = file_meshes_[triangles.get()];
-  // A destroyed mesh may have had the same address.
+  // An equal address is not enough: a destroyed mesh may have had the same one.
   if (entry.mesh == nullptr || entry.triangles.lock() != triangles) {
     entry = {triangles, make_(ArraysOf(*triangles))};
   }

@@ -31,7 +31,7 @@ struct DrawMesh {
   std::vector<MeshChunk> chunks;
 };
 
-// The mesh of a shape, and a scale. With the scale, all boxes share one mesh.
+// A shape as a mesh and a scale. So all boxes share one mesh.
 struct DrawShape {
   std::shared_ptr<const DrawMesh> mesh;
   geometry::Vector3 scale{1, 1, 1};

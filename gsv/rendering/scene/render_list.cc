@@ -25,8 +25,8 @@ SurfaceFactors FactorsOf(const model::Material& material) {
           0};
 }
 
-// The infinite ground is drawn as a horizontal rectangle of the size of a landscape, without a
-// texture.
+// Returns the shape to draw. An infinite ground plane becomes a large horizontal rectangle without
+// a texture.
 geometry::Shape AsDrawn(const model::Visual& visual) {
   constexpr double kLandscape = 20, kHorizon = 2000;
   const auto* plane = std::get_if<geometry::Plane>(&visual.shape);

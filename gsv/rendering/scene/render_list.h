@@ -18,10 +18,10 @@ namespace gsv::rendering {
 
 enum class Blending { kOpaque, kAlphaMask, kTransparent };
 
-// The common data of the items of one draw call.
+// The data that all items of one draw call share.
 struct DrawGroup {
   std::shared_ptr<const DrawMesh> mesh;
-  std::uint32_t chunk = 0;  // the chunk of the mesh
+  std::uint32_t chunk = 0;  // index of the chunk in the mesh
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   // each is null if the material has no such map
@@ -51,13 +51,13 @@ struct DrawItem {
   double radius = 0;  // radius of the bounding sphere about the centre
   SurfaceFactors factors;
   bool casts_shadow = false;
-  bool of_robot = false;  // whether it belongs to a robot or an avatar
+  bool of_robot = false;  // whether the item belongs to a robot or an avatar
 };
 
 // An item in the world.
 struct PlacedItem {
   // The columns of the matrix that rotates and scales from the mesh to the world's axes, and the
-  // origin.
+  // origin of the mesh in the world.
   std::array<geometry::Vector3, 3> columns;
   geometry::Vector3 origin;
   geometry::Vector3 centre;
@@ -78,7 +78,7 @@ class RenderList {
   const std::vector<DrawItem>& items() const { return items_; }
   const std::vector<PlacedItem>& placed() const { return placed_; }  // in the order of items()
 
-  // Whether a body still has its pose of the first snapshot. Always false for robots and avatars.
+  // Whether a body has not moved since the first snapshot. Always false for robots and avatars.
   bool IsStill(int body) const { return !bodies_[body].moved; }
   // The number of bodies that have moved.
   int moved_count() const { return moved_count_; }

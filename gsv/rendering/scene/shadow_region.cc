@@ -10,7 +10,8 @@ namespace {
 using geometry::Dot;
 using geometry::Vector3;
 
-// Larger casters do not enlarge the region, because one floor slab would blur every shadow.
+// Larger casters do not make the region larger, because one large floor slab would blur every
+// shadow.
 constexpr double kMaxRadius = 60;
 
 // The minimum side length of a shadow region, m. In a smaller region, the shadow of a single robot
@@ -79,7 +80,7 @@ std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_li
   // The distance from a surface at which its shadow is looked up: along its normal, and by the
   // filter.
   const double beside = 4 * TexelSize();
-  // A shadow has no end. This length is beyond the view of any camera.
+  // Shadows have no end; this length is beyond the view of every camera.
   const Vector3 shade = -1e7 * axes_[2];
   std::vector<std::pair<Vector3, Frustum>> seen;
   seen.reserve(views.size());
@@ -102,7 +103,7 @@ std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_li
 
 std::vector<ShadowRegion::Rectangle> ShadowRegion::PartsOf(
     const RenderList& render_list, const std::vector<std::size_t>& items) const {
-  // Copying the whole map is cheaper than copying more parts than this.
+  // If more parts than this have changed, copying the whole map is cheaper.
   constexpr std::size_t kMaxParts = 256;
   std::vector<Rectangle> parts;
   int last_body = -1;

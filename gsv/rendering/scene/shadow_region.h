@@ -22,19 +22,19 @@ class ShadowRegion {
   bool IsEmpty() const { return !(min_.x < max_.x); }
   double TexelSize() const;  // the longer side of a texel, m
 
-  // Whether a shadow may fall into this sphere; otherwise shadow lookups are skipped.
+  // Whether a shadow may fall into this sphere. If not, shadow look-ups are skipped.
   bool MayFallOn(const geometry::Vector3& centre, double radius) const;
 
-  // The indices of casters that have not moved.
+  // Returns the indices of casters that have not moved.
   static std::vector<std::size_t> StillCasters(const RenderList& render_list);
-  // The indices of moving casters whose shadow a camera may see.
+  // Returns the indices of moving casters whose shadows a camera may see.
   std::vector<std::size_t> MovingCasters(const RenderList& render_list,
                                          const std::vector<CameraView>& views) const;
 
   struct Rectangle {  // in texels, [min, max)
     int min_x, min_y, max_x, max_y;
   };
-  // The parts of the map around the bodies of some items, or the whole map if that is cheaper.
+  // Returns the parts of the map around the bodies of some items, or the whole map if that is cheaper.
   std::vector<Rectangle> PartsOf(const RenderList& render_list,
                                  const std::vector<std::size_t>& items) const;
 
@@ -46,7 +46,7 @@ class ShadowRegion {
 
  private:
   std::array<geometry::Vector3, 3> axes_;  // to the right, up, and towards the sun
-  geometry::Vector3 min_, max_;            // along axes_
+  geometry::Vector3 min_, max_;            // minimum and maximum along axes_
 };
 
 }  // namespace gsv::rendering

@@ -18,8 +18,9 @@ using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 using eprosima::fastrtps::rtps::LocatorsIterator;
 
-// Represents kDiscoveryGroup among the peers. The group itself cannot be used: participants with
-// default settings announce it too, and Fast DDS would then multicast more than announcements.
+// A placeholder for kDiscoveryGroup in the list of peers. The group itself cannot be in the list:
+// participants with default settings announce it too, and Fast DDS would then send also data to the
+// group.
 constexpr const char* kGroupPeer = "127.255.255.254";
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.3, 9.6.1.4
 
@@ -27,10 +28,11 @@ bool IsGroupPeer(const Locator_t& locator) {
   return locator.kind == LOCATOR_KIND_UDPv4 && IPLocator::toIPv4string(locator) == kGroupPeer;
 }
 
-// Fast DDS deletes no iterator through this base class.
+// Fast DDS never deletes an iterator through this base class, so its destructor need not be
+// virtual.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
-// Passes on all destinations except kGroupPeer. Data for kGroupPeer is multicast on this machine.
+// Skips kGroupPeer in a list of destinations, and multicasts its data on this machine instead.
 class WithoutGroup final : public LocatorsIterator {
  public:
   WithoutGroup(LocatorsIterator& next, const LocatorsIterator& end,
@@ -69,7 +71,7 @@ class Loopback final : public rtps::ChainingTransport {
     return low_level_transport_->get_configuration();
   }
 
-  // Addresses of this machine become 127.0.0.1; those of others are refused.
+  // Replaces addresses of this machine by 127.0.0.1, and refuses addresses of other machines.
   bool transform_remote_locator(const Locator_t& remote, Locator_t& result) const override {
     result = remote;
     if (IsGroupPeer(remote)) return true;

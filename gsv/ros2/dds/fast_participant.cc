@@ -40,11 +40,11 @@ namespace fast = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-constexpr std::uint32_t kMaxDomain = 232;  // higher ones have no ports
-// The number of participants on this machine that can be found without multicast.
+constexpr std::uint32_t kMaxDomain = 232;  // domains above this have no ports
+// The number of participants per machine that discovery without multicast looks for.
 constexpr std::uint32_t kMaxLocalPeers = 32;
-// Sends large samples in bursts of four datagrams of 64 KiB, 250 MiB/s in all. Linux gives a socket a buffer of 208 KiB
-// by default, and drops what comes while it is full.
+// A flow controller for large samples: bursts of four datagrams of 64 KiB, 250 MiB/s in all. A
+// socket has by default a buffer of 208 KiB in Linux, which drops what does not fit.
 constexpr const char* kLargeSamples = "large";
 constexpr std::int32_t kBurst = 4 << 16;   // bytes
 constexpr std::uint64_t kBurstPeriod = 1;  // ms
@@ -56,7 +56,7 @@ Guid GuidOf(const rtps::GUID_t& guid) {
   return bytes;
 }
 
-// The prefix of a GUID, which identifies the participant.
+// The first 12 bytes of a GUID, which identify the participant.
 using Prefix = std::array<std::uint8_t, 12>;
 
 Prefix PrefixOf(const Guid& guid) {
@@ -81,7 +81,7 @@ Request RequestOf(const fast::SampleInfo& info) {
   request.identity.writer = request.writer;
   request.identity.sequence =
       static_cast<std::int64_t>(info.sample_identity.sequence_number().to64long());
-  // In this field, clients of rmw_fastrtps name the reader that waits for the reply.
+  // A client of rmw_fastrtps writes into this field the reader that expects the reply.
   const rtps::GUID_t& reader = info.related_sample_identity.writer_guid();
   if (reader == rtps::GUID_t::unknown()) return request;
   request.identity.writer = GuidOf(reader);
@@ -126,7 +126,7 @@ base::Result<rtps::Locator_t> PeerOf(const std::string& peer) {
                     "ROS_STATIC_PEERS");
 }
 
-// Listening locators that suppress the default ones, among which are multicast addresses.
+// Sets listening addresses. Without them, Fast DDS also listens at multicast addresses.
 void UseUnicastOnly(const std::string& address, rtps::BuiltinAttributes& builtin,
                     rtps::LocatorList_t& user) {
   builtin.metatrafficMulticastLocatorList.clear();
@@ -134,7 +134,8 @@ void UseUnicastOnly(const std::string& address, rtps::BuiltinAttributes& builtin
   user.push_back(LocatorOf(address));
 }
 
-// Unicast announcements may cross and be lost: they are repeated sooner than the 3 s of the default.
+// Shortens the period of announcements (default: 3 s), because announcements of two participants
+// may cross and be lost.
 void AnnounceOften(rtps::BuiltinAttributes& builtin) {
   builtin.discovery_config.leaseDuration_announcementperiod = {1, 0};
   builtin.discovery_config.initial_announcements.count = 10;
@@ -151,7 +152,7 @@ void PaceLargeSamples(fast::DomainParticipantQos& qos) {
 
 base::Status UseTransport(const ParticipantOptions& options, fast::DomainParticipantQos& qos) {
   auto& wire = qos.wire_protocol();
-  qos.transport().use_builtin_transports = false;  // shared memory is one of them
+  qos.transport().use_builtin_transports = false;  // the built-in transports include shared memory
   wire.builtin.initialPeersList.push_back(LocatorOf("127.0.0.1"));
   AnnounceOften(wire.builtin);
   if (options.range == Range::kLocalhost) {
@@ -179,8 +180,8 @@ base::Status UseTransport(const ParticipantOptions& options, fast::DomainPartici
   return {};
 }
 
-// The index of a participant, from which its ports follow, is the lowest whose ports are free. Fast DDS takes other
-// ports where they are not, on which nobody looks for it, or none at all.
+// Chooses the index of a participant, which determines its ports: the lowest index whose ports are
+// free. If the ports are not free, Fast DDS uses others, where no participant looks, or none.
 class ParticipantIndex {
  public:
   ParticipantIndex(std::uint32_t domain, bool on_loopback) : domain_(domain) {
@@ -200,13 +201,14 @@ class ParticipantIndex {
 
  private:
   static inline base::Mutex mutex_;
-  // Of this process, by domain: Fast DDS may bind them a little later.
+  // The indices that this process has taken, by domain. Fast DDS may bind their ports a little
+  // later.
   static inline std::map<std::uint32_t, std::set<int>> taken_ GSV_GUARDED_BY(mutex_);
   const std::uint32_t domain_;
   int value_ = -1;
 };
 
-// DDS Security with the files of an SROS2 enclave. The names of the properties are those of DDS Security 1.1, 9.3 to 9.5.
+// Sets the properties of DDS Security (1.1, 9.3 to 9.5) for the files of an SROS2 enclave.
 void UseEnclave(const std::string& folder, fast::PropertyPolicyQos& policy) {
   const std::string authentication = "dds.sec.auth.builtin.PKI-DH.";
   const std::string access = "dds.sec.access.builtin.Access-Permissions.";
@@ -245,7 +247,8 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   ~FastWriter() override {
     if (writer_ == nullptr) return;
     writer_->set_listener(nullptr);
-    // A heartbeat during the deletion never ends if the history holds samples (Fast DDS, pull request 4076).
+    // If the history holds samples, Fast DDS may wait forever for a heartbeat (its pull request
+    // 4076).
     std::size_t removed = 0;
     (void)writer_->clear_history(&removed);
     publisher_.delete_datawriter(writer_);
@@ -355,7 +358,7 @@ class FastReader final : public Reader, fast::DataReaderListener {
   fast::DataReader* reader_ = nullptr;
 };
 
-// The endpoints of others.
+// The known endpoints of other participants.
 class EndpointList final : public fast::DomainParticipantListener {
  public:
   std::vector<Endpoint> list() const {
@@ -473,7 +476,7 @@ class FastParticipant final : public Participant {
                       "Fast DDS refuses the topic with type " + topic.type, topic.name);
   }
 
-  // Topics exist as long as the participant, so that robots that are added again can reuse them.
+  // Topics exist as long as the participant, so robots that are added again can reuse them.
   fast::Topic* TopicOf(const Topic& topic) {
     const base::MutexLock lock(mutex_);
     const auto found = topics_.find(topic.name);

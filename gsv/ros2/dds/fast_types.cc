@@ -5,7 +5,7 @@
 namespace gsv::ros2::dds {
 namespace {
 
-constexpr std::uint32_t kHeader = 4;  // bytes of encapsulation
+constexpr std::uint32_t kHeader = 4;  // size of the encapsulation header, bytes
 
 }  // namespace
 

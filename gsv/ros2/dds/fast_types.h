@@ -1,4 +1,4 @@
-// A type of Fast DDS whose samples are bytes.
+// A Fast DDS data type whose samples are sequences of bytes.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@
 
 namespace gsv::ros2::dds {
 
-// A sample in two parts, as a writer takes it. So the pixels of an image are copied only once.
+// An outgoing sample in two parts, so that the pixels of an image are copied only once.
 struct OutgoingSample {
   std::span<const std::byte> head;  // begins with the encapsulation header
   std::span<const std::byte> rest;
   std::size_t size() const { return head.size() + rest.size(); }
 };
 
-// A writer takes an OutgoingSample, a reader fills a std::vector<std::byte> with the encapsulation header.
+// A writer sends an OutgoingSample. A reader fills a std::vector<std::byte> that begins with the encapsulation header.
 class RawType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   RawType(const std::string& name, std::size_t max_size);
 
   bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  // A sample above the maximum size, or without a header, becomes an empty one.
+  // Returns an empty sample for one that is above the maximum size or has no header.
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override;
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override;
   void* createData() override { return new std::vector<std::byte>; }

@@ -1,4 +1,4 @@
-// The ports of a participant, and the loopback interface.
+// Finds free UDP ports for a participant on all interfaces or on loopback.
 //
 // A domain has two unicast ports for each index of a participant (RTPS 2.3, 9.6.1.1).
 #pragma once

@@ -1,8 +1,8 @@
-// Multicast on the loopback interface alone. It reaches programs that joined the group on any interface.
+// Multicast on the loopback interface alone. The datagrams reach programs that joined the group on any interface.
 //
 // Linux delivers it to each socket that is bound to the port and has joined any group
-// (IP_MULTICAST_ALL of ip(7)), provided that a program joined this group on loopback. The sender
-// does.
+// (IP_MULTICAST_ALL of ip(7)), provided that some program joined this group on loopback.
+// LocalMulticast joins it for that.
 //
 // This reaches participants that wait for multicast, as Cyclone DDS does with default settings.
 //
@@ -23,7 +23,7 @@ class LocalMulticast {
   LocalMulticast(const LocalMulticast&) = delete;
   LocalMulticast& operator=(const LocalMulticast&) = delete;
 
-  // Sends one datagram, which may be lost like any other.
+  // Sends one datagram. Delivery is not guaranteed.
   void Send(std::span<const std::byte> datagram, std::uint16_t port) const;
 
  private:

@@ -8,18 +8,18 @@
 
 namespace gsv::ros2::dds {
 
-// Increase it with each change of participant.h.
+// The version of the plug-in's interface. Increase it with each change of participant.h.
 inline constexpr int kModuleInterface = 4;
 inline constexpr const char* kModuleSymbol = "gsv_ros2_module";
 inline constexpr const char* kModuleFile = "gsv-ros2.so";
 
 struct Module {
   int interface_version = kModuleInterface;
-  const char* library = "";  // "Fast DDS 2.9.1"
+  const char* library = "";  // such as "Fast DDS 2.9.1"
   base::Result<std::unique_ptr<Participant>> (*make)(const ParticipantOptions& options) = nullptr;
 };
 
-// Finds the plug-in in one of `folders`, without loading it. Fails with kUnavailable where there is none.
+// Finds the plug-in in one of `folders`, without loading it. Fails with kUnavailable if no folder contains it.
 base::Result<std::string> FindModule(const std::vector<std::string>& folders);
 
 // Loads the plug-in from one of `folders`; it stays loaded. Fails with kUnavailable if none of them

@@ -1,7 +1,7 @@
 // The interface of a DDS participant: topics whose samples are bytes in CDR.
 //
-// No DDS library is named here. The implementation is a plug-in (module.h), so that a program without
-// ROS 2 neither loads nor links one.
+// This header depends on no DDS library. The implementation is a plug-in (module.h), so that a
+// program without ROS 2 neither loads nor links one.
 //
 // Threads  any. `on_message`, `on_request` and `on_match` are called on threads of the DDS library; they return at once and
 //          do not call back.
@@ -25,17 +25,16 @@ using Guid = std::array<std::uint8_t, 16>;
 
 struct Qos {
   bool is_reliable = true;
-  bool is_transient_local = false;  // late readers get the last `depth` samples
-  int depth = 10;                   // keep last
-  int heartbeat_ms =
-      0;  // so often a reliable writer asks what is missing; 0: the library's usual time
-  // Samples are larger than a datagram. They are sent in bursts that fit the usual socket buffer of a reader, with
-  // pauses between them. Write() only queues such a sample.
+  bool is_transient_local = false;  // readers that join later get the last `depth` samples
+  int depth = 10;                   // number of samples that are kept
+  int heartbeat_ms = 0;  // period of a reliable writer's heartbeats; 0 means the library's default
+  // Set this if samples are larger than a datagram. The writer then sends bursts that fit a usual
+  // socket buffer, with pauses between them. Write() only queues such a sample.
   bool is_large = false;
   friend bool operator==(const Qos&, const Qos&) = default;
 };
 
-// A topic with its DDS names.
+// A topic and its type, by their DDS names.
 struct Topic {
   std::string name;  // "rt/pebble/scan"
   std::string type;  // "sensor_msgs::msg::dds_::LaserScan_"
@@ -45,22 +44,21 @@ struct Topic {
 
 // The range of discovery.
 enum class Range {
-  kLocalhost,  // nothing leaves this machine, nothing is received from elsewhere
-  kPeers,      // the machines in `peers`, without multicast
-  kSubnet,     // multicast on all interfaces, and `peers`
+  kLocalhost,  // only participants on this machine
+  kPeers,      // this machine and the machines in `peers`, without multicast
+  kSubnet,     // multicast on all interfaces, and the machines in `peers`
 };
 
 struct ParticipantOptions {
   std::uint32_t domain = 0;  // 0 to 232
   Range range = Range::kLocalhost;
   std::vector<std::string> peers{};  // IPv4 addresses or host names
-  std::string name = "gsv";          // in discovery
+  std::string name = "gsv";          // name of the participant, which others see
   std::string user_data{};           // "enclave=/;"
   bool watches_endpoints = false;    // endpoints() works
-  // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty: none.
+  // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty for no security.
   std::string enclave_folder{};
-  std::string
-      insecure_reason{};  // why there is no security, though the user wants it where possible
+  std::string insecure_reason{};  // why security is off, although the user asked for it if possible
 };
 
 // Identifies the request to which a reply belongs: the client's endpoint and the number of the
@@ -70,7 +68,7 @@ struct SampleIdentity {
   std::int64_t sequence = 0;
 };
 
-// The identities of a request of a service, or of a reply.
+// The identities in a request to a service, or in a reply.
 struct Request {
   Guid writer{};            // the endpoint that sent it
   SampleIdentity identity;  // the identity for the reply
@@ -83,12 +81,12 @@ class Writer {
   // Writes one sample with its encapsulation header. Does not wait for readers: a reader that does
   // not keep up loses the oldest samples. One thread at a time.
   void Write(std::span<const std::byte> sample) { WriteParts(sample, {}); }
-  // The same for a sample in two parts, the second of which may be empty.
+  // Writes one sample in two parts, as Write() does; the second part may be empty.
   virtual void WriteParts(std::span<const std::byte> head, std::span<const std::byte> rest) = 0;
   // Writes one sample as the reply to a request.
   virtual void WriteReply(std::span<const std::byte> sample, const SampleIdentity& request) = 0;
-  // Whether a reader matches that belongs to the same participant as this endpoint. A reply that is
-  // written earlier is lost.
+  // Whether a matching reader belongs to the same participant as `endpoint`. If not, a reply to
+  // `endpoint` would be lost.
   virtual bool HasReaderBeside(const Guid& endpoint) const = 0;
   virtual bool has_readers() const = 0;
   virtual Guid guid() const = 0;
@@ -115,7 +113,7 @@ class Participant {
 
   virtual ~Participant() = default;
 
-  // `on_match` is called when a reader is added or removed; may be empty.
+  // `on_match` is called when a matching reader appears or disappears; it may be empty.
   virtual base::Result<std::unique_ptr<Writer>> MakeWriter(const Topic& topic,
                                                            std::function<void()> on_match) = 0;
   virtual base::Result<std::unique_ptr<Reader>> MakeReader(

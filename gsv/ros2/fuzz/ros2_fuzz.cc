@@ -1,5 +1,5 @@
-// Fuzzes the input from other participants: commands, requests of services, the node graph and the USER_DATA of
-// endpoints.
+// Fuzzes the input from other participants: commands, service requests, the node graph and the
+// USER_DATA of endpoints.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,7 +29,7 @@ const gsv::model::Model& OneJoint() {
   return kModel;
 }
 
-// Two bodies without shapes.
+// A snapshot of two bodies without shapes.
 const gsv::world::Snapshot& TwoBodies() {
   static const gsv::world::Snapshot kSnapshot = [] {
     gsv::model::Model model;

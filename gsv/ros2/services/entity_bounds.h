@@ -1,4 +1,4 @@
-// Computes the extent of bodies.
+// Computes bounding boxes of bodies.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@ namespace gsv::ros2 {
 
 // Returns the smallest box around a body's collision shapes, along the axes of its frame, at the
 // present joint positions. If it has no collision shapes, its visuals are used. Returns nullopt for
-// a body with neither, and for one with a plane, which is infinite.
+// a body without shapes, and for a body with a plane, which is infinite.
 std::optional<geometry::Bounds> BoundsOfBody(const world::Snapshot& snapshot, int body);
 
-// Returns the smallest box along the world's axes around such a box.
+// Returns the smallest box along the world's axes that contains `bounds`, a box along a body's axes.
 geometry::Bounds InWorld(const geometry::Bounds& bounds, const geometry::Pose& world_from_body);
 
 }  // namespace gsv::ros2

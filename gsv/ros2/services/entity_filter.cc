@@ -28,7 +28,8 @@ class Expression {
     };
     if (text.size() > kMaxExpression) return wrong("is longer than 256 characters");
     if (text.find('\0') != std::string::npos) return wrong("holds a NUL");
-    // Nested repetitions make regcomp() take gigabytes, and back references make regexec() take years.
+    // Refuse nested repetitions, for which regcomp() takes gigabytes, and back references, for
+    // which regexec() takes years.
     if (text.find('{') != std::string::npos)
       return wrong("has a repetition {n}, which is not accepted");
     for (std::size_t i = 0; i + 1 < text.size(); ++i) {

@@ -1,6 +1,6 @@
 // The filters of GetEntities and GetEntitiesStates.
 //
-// A filter is untrusted input. Regular expressions are restricted, so that their evaluation is
+// A filter is untrusted input. Regular expressions are restricted so that their evaluation is
 // fast.
 #pragma once
 

@@ -1,5 +1,5 @@
-// GetEntities, GetEntityInfo, GetEntityState, GetEntitiesStates, GetEntityBounds, SetEntityState, GetNamedPoses,
-// GetNamedPoseBounds and GetCurrentWorld.
+// Offers the services GetEntities, GetEntityInfo, GetEntityState, GetEntitiesStates,
+// GetEntityBounds, SetEntityState, GetNamedPoses, GetNamedPoseBounds and GetCurrentWorld.
 //
 // Every body of the simulation is an entity with the same name. Worlds have no named poses.
 #pragma once
@@ -11,7 +11,7 @@ namespace gsv::ros2 {
 // `served` must outlive the host of the services.
 void OfferEntityServices(ServedSimulation& served);
 
-// Returns the index of an entity, or kNotFound with a suggestion.
+// Returns the index of an entity. Fails with kNotFound, and suggests the closest name.
 base::Result<int> FindEntity(const world::Snapshot& snapshot, const std::string& name);
 
 }  // namespace gsv::ros2

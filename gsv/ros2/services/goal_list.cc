@@ -18,8 +18,8 @@ bool IsNotAfter(const Time& a, const Time& b) {
   return std::pair(a.sec, a.nanosec) <= std::pair(b.sec, b.nanosec);
 }
 
-// A request names one goal, or all goals up to an instant, or both. A request with neither means
-// all goals.
+// Whether `request` selects `goal`. A request names one goal, all goals up to an instant, or both.
+// A request with neither selects all goals.
 bool IsMeant(const CancelGoalRequest& request, const GoalInfo& goal) {
   const bool has_id = request.goal_info.goal_id.uuid != GoalList::Id{};
   const bool has_stamp = request.goal_info.stamp != Time{};

@@ -29,7 +29,7 @@ class GoalList {
   bool Begin(const Id& id);
   void Finish(const Id& id, Status status);
 
-  // Marks the goals of the request as canceling. The response lists them.
+  // Marks the goals that the request selects as canceling. The response lists them.
   messages::action_msgs::CancelGoalResponse Cancel(
       const messages::action_msgs::CancelGoalRequest& request);
 

@@ -65,7 +65,7 @@ base::Status Play(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.Start() : simulation.Resume();
 }
 
-// A simulation that has not started is paused before its first step.
+// Pauses a simulation. One that has not started is paused before its first step.
 base::Status Hold(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.RunThrough(base::SimTime(0)) : simulation.Pause();
 }
@@ -139,7 +139,7 @@ interfaces::Result EnterState(Simulation& simulation, std::uint8_t state) {
 
 base::Status TakeSteps(Simulation& simulation, std::uint64_t steps,
                        const std::function<bool()>& stops) {
-  constexpr std::uint64_t kMaxSteps = 1'000'000'000;  // the maximum of Simulation::Step()
+  constexpr std::uint64_t kMaxSteps = 1'000'000'000;  // as in Simulation::Step()
   const std::int64_t first = simulation.snapshot()->state.step;
   const auto count = static_cast<std::int64_t>(std::min(steps, kMaxSteps + 1));
   if (auto ok = simulation.Step(count); !ok) return ok;

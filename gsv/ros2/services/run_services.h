@@ -1,7 +1,7 @@
 // GetSimulatorFeatures, GetSimulationState, SetSimulationState, ResetSimulation and StepSimulation.
 //
-// The states of simulation_interfaces are phases of gsv: stopped is created, playing is starting or
-// running, and paused is paused. After its end a simulation is stopped until a reset.
+// The states of simulation_interfaces correspond to phases of gsv: stopped to created, playing to
+// starting or running, and paused to paused. An ended simulation is stopped until it is reset.
 #pragma once
 
 #include "gsv/ros2/services/simulation_services.h"
@@ -18,8 +18,8 @@ std::uint8_t StateOfPhase(simulation::Phase phase);
 messages::simulation_interfaces::Result EnterState(simulation::Simulation& simulation,
                                                    std::uint8_t state);
 
-// Takes steps and waits for them. Fails with kNotRunning unless it is paused or created, and with
-// kEnded if it was paused or ended before the last step, or if `stops` became true.
+// Takes steps and waits for them. Fails with kNotRunning unless the simulation is paused or created.
+// Fails with kEnded if it was paused or ended before the last step, or if `stops` became true.
 base::Status TakeSteps(simulation::Simulation& simulation, std::uint64_t steps,
                        const std::function<bool()>& stops);
 

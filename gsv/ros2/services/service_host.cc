@@ -19,8 +19,8 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxWaiting = 10'000;   // requests
 constexpr std::size_t kMaxRequest = 1 << 20;  // bytes
-constexpr std::size_t kMaxUnsent = 1000;      // maximum number of replies whose clients are not yet
-                                              // discovered
+constexpr std::size_t kMaxUnsent = 1000;      // maximum number of replies to clients that are not
+                                              // yet discovered
 // Maximum time for which a reply waits for its client. On a busy machine that loses a datagram,
 // discovery takes this long, because the datagram is sent again after a heartbeat, whose usual
 // period is 3 s.
@@ -30,11 +30,11 @@ constexpr std::chrono::milliseconds kRetry{10};
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kCycloneHeader = 16;
 
-// Deep enough for clients that send requests without waiting for replies, or do not run for some
-// seconds. If a client's socket had no space for a reply, the reply is sent again after a
-// heartbeat, as long as it is in the history.
+// The history is deep enough for clients that send requests without waiting for replies, or that do
+// not run for some seconds. If a client's socket had no space for a reply, a heartbeat causes it to
+// be sent again, as long as it is in the history.
 constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
-// The history of replies that may be large is shorter, to bound the memory.
+// A shorter history for replies that may be large, to bound the memory.
 constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
 
 std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const std::byte> middle,
@@ -63,7 +63,7 @@ class ServiceHost::Service {
   base::Mutex writing;  // one reply at a time
 };
 
-// Replies to clients that are not yet discovered.
+// Keeps replies to clients that are not yet discovered, and sends them after discovery.
 class ServiceHost::Outbox {
  public:
   Outbox() : thread_([this] { Run(); }) {}

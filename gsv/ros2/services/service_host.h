@@ -2,16 +2,16 @@
 //
 // A client of rmw_fastrtps finds its reply by the related sample identity (RTPS 2.3, 8.7.5; inline
 // QoS). A client of rmw_cyclonedds finds it by 16 bytes after the encapsulation header, which the
-// reply repeats. A request is of the second kind if the GUID of its writer has the vendor of
+// reply repeats. A request comes from rmw_cyclonedds if the GUID of its writer has the vendor of
 // Cyclone DDS or, with DDS Security (where GUIDs have no vendor), if it has no related identity.
 //
-// Requests are untrusted input. One that does not decode gets no reply; each service logs its
-// first.
+// Requests are untrusted input. A request that does not decode gets no reply. Each service logs the
+// first such request.
 //
 // Threads  Offer…(), Advertise() and the destructor on one. Handlers run on the threads of the
 //          host, one for each lane (kQuick and kLists share one), so that slow requests delay no
-//          quick ones. The rest on any.
-// Bounded  10,000 requests wait; further ones are dropped, and the first is logged.
+//          quick ones. Other functions on any thread.
+// Bounded  at most 10,000 requests wait; further ones are dropped, and the first is logged.
 #pragma once
 
 #include <atomic>
@@ -34,13 +34,13 @@ bool HasCycloneHeader(const dds::Request& request);
 class ServiceHost {
  public:
   enum class Lane {
-    kQuick,     // answered at once
-    kLists,     // answered at once, with replies that may be large
-    kSlow,      // reads files, or waits for the simulation
-    kStepping,  // takes as long as the simulation does
+    kQuick,     // requests that are answered at once
+    kLists,     // requests that are answered at once with replies that may be large
+    kSlow,      // requests that read files or wait for the simulation
+    kStepping,  // requests that wait for steps of the simulation
   };
   class Service;
-  // Sends the reply to one request, at most once. It may be used later and on another thread.
+  // Sends the reply to one request, at most once. The object may be kept, and used on another thread.
   class Replier {
    public:
     // Sends a complete message. Returns at once. The reply is sent when discovery has found the
@@ -57,16 +57,16 @@ class ServiceHost {
     friend class ServiceHost;
     std::weak_ptr<Service> service_;
     dds::Request request_;
-    std::vector<std::byte> header_;  // the header that rmw_cyclonedds expects
+    std::vector<std::byte> header_;  // header of a reply to rmw_cyclonedds; empty for other clients
   };
   using Handler = std::function<void(std::span<const std::byte> request, const Replier& reply)>;
 
   // `participant` must outlive the host. `has_hashes`: endpoints carry the hashes of their types.
   ServiceHost(dds::Participant& participant, bool has_hashes);
-  // Returns when no handler is running.
+  // Waits until no handler is running.
   ~ServiceHost();
 
-  // For example "/gsv/get_entities" of the type "simulation_interfaces/srv/GetEntities".
+  // Offers a service, such as "/gsv/get_entities" of the type "simulation_interfaces/srv/GetEntities".
   void OfferBytes(const std::string& service, const std::string& type, Lane lane, Handler handler);
 
   // `answer` is called with a Request and a Replier.
@@ -88,18 +88,18 @@ class ServiceHost {
                         });
   }
 
-  // Makes a writer, which the host owns, for a topic of an action. Returns null, and logs, if the
-  // participant refuses.
+  // Makes a writer for a topic of an action. The host owns the writer. Returns null, and logs, if
+  // the participant refuses.
   dds::Writer* Advertise(const std::string& topic, const std::string& type, const dds::Qos& qos);
 
-  // Appends a job to the lane. Returns false if too many jobs wait.
+  // Runs a job on the threads of a lane. Returns false if too many jobs wait.
   bool Do(Lane lane, std::function<void()> job);
 
-  // The endpoints of all services and topics.
+  // The readers of all services, for the node graph.
   const std::vector<dds::Guid>& readers() const { return readers_; }
   const std::vector<dds::Guid>& writers() const { return writers_; }
 
-  // Whether the host is being destroyed. Handlers that wait must then return.
+  // Whether the host is being destroyed. Handlers that wait must then return early.
   bool is_stopping() const { return is_stopping_; }
 
  private:

@@ -21,7 +21,7 @@ struct Reply {
   dds::SampleIdentity request;
 };
 
-// A participant of which the test is the other side. Clients are discovered at once.
+// A participant whose other side is the test. All clients count as discovered.
 class FakeParticipant final : public dds::Participant {
  public:
   using OnRequest = std::function<void(std::span<const std::byte>, const dds::Request&)>;

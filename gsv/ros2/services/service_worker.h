@@ -32,7 +32,7 @@ class ServiceWorker {
     changed_.notify_one();
     return true;
   }
-  // Ends after the current job, and drops the others.
+  // Finishes the current job, drops the others and ends the thread.
   void Stop() {
     {
       const base::MutexLock lock(mutex_);

@@ -1,4 +1,4 @@
-// The action SimulateSteps: takes steps one by one, with feedback after each.
+// Offers the action SimulateSteps: takes steps one by one, with feedback after each.
 //
 // Threads  handlers run on the quick lane, and steps on the stepping lane.
 #pragma once
@@ -33,7 +33,7 @@ class StepAction {
 
   ServedSimulation& served_;
   dds::Writer* feedback_ = nullptr;  // null: refused
-  dds::Writer* status_ = nullptr;    // the same
+  dds::Writer* status_ = nullptr;    // writer of the topic "status"; the host owns it
   mutable base::Mutex mutex_;
   GoalList goals_ GSV_GUARDED_BY(mutex_);
   std::map<GoalList::Id, Outcome> outcomes_ GSV_GUARDED_BY(mutex_);  // outcomes of finished goals

@@ -1,4 +1,4 @@
-// The services of simulation_interfaces for worlds and named poses.
+// Offers the services of simulation_interfaces for worlds and named poses.
 //
 // Threads  as ServiceHost.
 #pragma once
@@ -7,8 +7,8 @@
 
 namespace gsv::ros2 {
 
-// get_current_world and get_available_worlds answer. Loading and unloading a world, and named poses, are answered
-// with RESULT_FEATURE_UNSUPPORTED.
+// Offers get_current_world and get_available_worlds. Requests to load or unload a world, or for
+// named poses, get RESULT_FEATURE_UNSUPPORTED.
 void OfferWorldServices(ServedSimulation& served);
 
 }  // namespace gsv::ros2

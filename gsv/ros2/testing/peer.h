@@ -57,7 +57,7 @@ class Peer {
     readers_.push_back(*std::move(reader));
   }
 
-  // Returns the newest of at least `count` messages. Fails the test if they do not arrive.
+  // Waits for at least `count` messages and returns the newest. Fails the test if they do not arrive.
   template <typename Message>
   Message Await(const std::string& topic, std::size_t count = 1) {
     base::MutexLock lock(mutex_);
@@ -74,12 +74,12 @@ class Peer {
     return samples_[topic].size();
   }
 
-  // Returns a writer that has at least one matched reader.
+  // Returns a writer after it has at least one matched reader.
   std::unique_ptr<dds::Writer> Talk(const std::string& topic, const std::string& type,
                                     const dds::Qos& qos = {}) {
     auto writer =
         participant_->MakeWriter({DdsTopicName(topic), DdsTypeName(type), qos, {}}, [this] {
-          const base::MutexLock lock(mutex_);  // ensures that no waiter misses it
+          const base::MutexLock lock(mutex_);  // so that no waiting thread misses the notification
           changed_.notify_all();
         });
     EXPECT_TRUE(writer);

@@ -1,4 +1,4 @@
-// The names that ROS 2 services, and the topics of actions, have in DDS.
+// Maps the names of ROS 2 services and action topics to DDS names.
 //
 // Source  design.ros2.org, "Topic and Service name mapping to DDS".
 #pragma once
@@ -8,14 +8,15 @@
 
 namespace gsv::ros2 {
 
-// The topic and the type of one direction of a service, or of a topic.
+// The DDS topic and DDS type of the requests or the replies of a service, or of a topic.
 struct ServiceTopic {
   std::string name;  // "rq/gsv/spawn_entityRequest"
   std::string type;  // "simulation_interfaces::srv::dds_::SpawnEntity_Request_"
   friend bool operator==(const ServiceTopic&, const ServiceTopic&) = default;
 };
 
-// For example "/gsv/spawn_entity" of the type "simulation_interfaces/srv/SpawnEntity".
+// Returns the request topic of a service, such as "/gsv/spawn_entity" of the type
+// "simulation_interfaces/srv/SpawnEntity".
 ServiceTopic RequestTopic(std::string_view service, std::string_view type);
 ServiceTopic ResponseTopic(std::string_view service, std::string_view type);
 

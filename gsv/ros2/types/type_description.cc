@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint8_t kNested = 1, kString = 17, kBoundedString = 21;
 constexpr std::uint8_t kArray = 48, kBoundedSequence = 96,
-                       kSequence = 144;  // added to the kind of the value
+                       kSequence = 144;  // this constant is added to the id of the element type
 constexpr std::string_view kSeparator = "\n====";
 constexpr std::string_view kNextType = "MSG: ";
 
@@ -58,7 +58,7 @@ std::optional<FieldType> ParseFieldType(std::string_view text, std::string_view 
   static const std::map<std::string, std::uint8_t, std::less<>> kIds =
       {{"int8", 2},     {"uint8", 3},    {"int16", 4},       {"uint16", 5},
        {"int32", 6},    {"uint32", 7},   {"int64", 8},       {"uint64", 9},
-       {"float32", 10}, {"float64", 11}, {"char", 3},  // rosidl converts char to uint8
+       {"float32", 10}, {"float64", 11}, {"char", 3},  // rosidl treats char as uint8
        {"bool", 15},    {"byte", 16},    {"string", kString}};
   const std::size_t bracket = std::min(text.find('['), text.size());
   std::string_view value = text.substr(0, bracket);
@@ -97,7 +97,7 @@ base::Result<Fields> ParseFields(std::string_view name, std::string_view text) {
   return fields;
 }
 
-// Fails if a nested type is not defined.
+// Fails if a field has a type that is not defined.
 base::Status CheckReferences(const TypeDescription& description, const Fields& fields) {
   for (const FieldDescription& field : fields) {
     if (!field.type.nested_type.empty() &&

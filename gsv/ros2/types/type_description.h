@@ -16,7 +16,8 @@ namespace gsv::ros2 {
 
 // type_description_interfaces/msg/FieldType.
 struct FieldType {
-  std::uint8_t id = 0;                // the kind of the value, plus 48, 96 or 144 for arrays
+  std::uint8_t id = 0;                // the id of the element type, plus 48, 96 or 144 for arrays
+                                      // and sequences
   std::uint64_t capacity = 0;         // size of a fixed array or maximum of a bounded sequence
   std::uint64_t string_capacity = 0;  // maximum length of a bounded string
   std::string nested_type;            // "geometry_msgs/msg/Vector3"
@@ -29,24 +30,25 @@ struct FieldDescription {
 
 using Fields = std::vector<FieldDescription>;
 
-// A type, and all types that it uses directly or indirectly.
+// A type, and all types that its fields use directly or indirectly.
 struct TypeDescription {
   std::string name;  // "sensor_msgs/msg/LaserScan", "rcl_interfaces/srv/GetParameters"
   Fields fields;
-  std::map<std::string, Fields> referenced;  // types by name
+  std::map<std::string, Fields> referenced;  // the other types, by name
 };
 
-// Reads a schema in the encoding "ros2msg". A description has no constants and no default values.
-// Fails with kCorrupt if the text is not a definition, or names a type that it does not define.
+// Reads a schema in the encoding "ros2msg". Constants and default values are left out. Fails with
+// kCorrupt if the text is not a definition, or names a type that it does not define.
 [[nodiscard]] base::Result<TypeDescription> DescribeType(const messages::Schema& schema);
 
 // Returns the description of a service, which has fields of its request, its response and its
-// event. `name` is "rcl_interfaces/srv/GetParameters"; the schemas: request, response.
+// event. `name` is for example "rcl_interfaces/srv/GetParameters". The two schemas are those of the
+// request and the response.
 [[nodiscard]] base::Result<TypeDescription> DescribeService(std::string_view name,
                                                             const messages::Schema& request,
                                                             const messages::Schema& response);
 
-// Returns the text that is hashed: JSON as Python's json.dumps writes it, without default values.
+// Returns the text whose hash is computed: JSON in the format of Python's json.dumps, without default values.
 std::string CanonicalJson(const TypeDescription& description);
 
 }  // namespace gsv::ros2

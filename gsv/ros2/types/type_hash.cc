@@ -25,7 +25,7 @@ const messages::Schema* FindSchema(std::string_view name) {
   return found != schemas.end() && found->name == name ? &*found : nullptr;
 }
 
-// Definitions of GSV are always valid.
+// The definitions in GSV are always valid, so `description` is no error.
 std::string HashOf(const base::Result<TypeDescription>& description) {
   GSV_CHECK(description.has_value());
   return TypeHash(*description);

@@ -20,7 +20,7 @@ std::string TypeHash(const TypeDescription& description);
 std::string TypeHashOf(std::string_view type);
 
 // Returns the USER_DATA of an endpoint of that type: "typehash=RIHS01_…;". Both topics of a service
-// carry the hash of the service, so "pkg/srv/Name_Request" and "…_Response" stand for
+// carry the hash of the service: "pkg/srv/Name_Request" and "pkg/srv/Name_Response" give that of
 // "pkg/srv/Name". Empty if there is no hash.
 std::string TypeHashUserData(std::string_view type);
 

@@ -1,5 +1,5 @@
-// Compares with hashes that packages of ROS 2 publish: those of Jazzy, and of simulation_interfaces
-// 2.0.
+// Compares computed hashes with those that packages of ROS 2 Jazzy and simulation_interfaces 2.0
+// publish.
 #include "gsv/ros2/types/type_hash.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(TypeHash, OfMessagesEqualsThePublishedHashOfRos) {
        "RIHS01_cf43a306adff3337a0a47143d8f5689933bc70a30478f13b077dc1fe3bc5ad17"},
       {"simulation_interfaces/msg/SimulatorFeatures",
        "RIHS01_8b101c8529bc0ea3dcf056078254768f39832b9ef0adaf93bd5cea96c0de3305"},
-      // A fixed array of char.
+      // This type has a field that is a fixed array of char.
       {"service_msgs/msg/ServiceEventInfo",
        "RIHS01_41bcbbe07a75c9b52bc96bfd5c24d7f0fc0a08c0cb7921b3373c5732345a6f45"},
   };

@@ -1,5 +1,5 @@
-// Reads any text as a scenario. It must not crash. A scenario without problems must be equal after
-// it is written and read again.
+// Reads any text as a scenario. The reader must not crash. A scenario without problems must not
+// change when it is written and read again.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

@@ -21,7 +21,8 @@ std::optional<Number> NumberIn(const std::string& text) {
   return error == std::errc() && rest == end ? std::optional(number) : std::nullopt;
 }
 
-// A value of a wrong type stays a text, which ReadArguments() rejects.
+// Converts a text to the type of its parameter. A text that does not fit stays a text, which
+// ReadArguments() rejects.
 ArgumentValue FromText(ParameterType type, const std::string& text) {
   switch (type) {
     case ParameterType::kNumber:
@@ -81,7 +82,7 @@ std::string DescribeRange(const Parameter& parameter) {
   if (parameter.type == ParameterType::kFlag) return "true or false";
   if (parameter.type == ParameterType::kText) return "a text";
   std::string text = parameter.type == ParameterType::kInteger ? "a whole number" : "a number";
-  // Large bounds are written in full, such as 1000000000, because this is easier to read.
+  // Large bounds are written with all digits, such as 1000000000, because this is easier to read.
   if (std::isfinite(parameter.minimum)) text += fmt::format(" from {:.15g}", parameter.minimum);
   if (std::isfinite(parameter.maximum)) text += fmt::format(" to {:.15g}", parameter.maximum);
   if (!parameter.unit.empty()) text += fmt::format(" {}", parameter.unit);

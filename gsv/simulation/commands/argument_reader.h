@@ -12,11 +12,11 @@
 
 namespace gsv::simulation {
 
-// Checks typed values. A value without a fraction is accepted for integers and for numbers, as
-// either alternative.
+// Checks typed values. A value without a fraction is accepted for integer and for number
+// parameters.
 base::Result<Arguments> ReadArguments(const Command& command, Arguments::Values given);
 
-// Checks texts, each parsed as the type of its parameter: "-1.62", "true", "7".
+// Checks texts such as "-1.62", "true" and "7". Each is parsed as the type of its parameter.
 base::Result<Arguments> ReadArguments(const Command& command,
                                       const std::map<std::string, std::string>& given);
 

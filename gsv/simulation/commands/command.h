@@ -22,13 +22,13 @@ namespace gsv::simulation {
 
 class Simulation;
 
-// The order is that of ArgumentValue's alternatives.
+// The types have the order of ArgumentValue's alternatives.
 enum class ParameterType { kNumber, kInteger, kFlag, kText };
 using ArgumentValue = std::variant<double, std::int64_t, bool, std::string>;
 
 // Returns "number", "integer", "flag" or "text".
 const char* ToString(ParameterType type);
-// Returns the value as users write it, also in sba::NameValue: "-1.62", "true".
+// Returns the value as users write it, such as "-1.62" or "true"; also for sba::NameValue.
 std::string ToText(const ArgumentValue& value);
 
 struct Parameter {
@@ -36,12 +36,12 @@ struct Parameter {
   std::string_view former_name{};  // a former name that is still accepted; empty if there is none
   ParameterType type = ParameterType::kNumber;
   std::string_view unit{};     // such as "m/s²"; empty if there is none
-  std::string_view summary{};  // a noun phrase
+  std::string_view summary{};  // the meaning of the parameter, as a noun phrase
   // The range of numbers and integers, including the bounds.
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   // The default value, or a text that says what the command does without the argument. A parameter
-  // with neither is required.
+  // without either is required.
   std::optional<ArgumentValue> default_value{};
   std::string_view default_meaning{};
 

@@ -11,8 +11,8 @@ namespace gsv::simulation {
 
 std::span<const Command> Commands();
 
-// All commands, and a second entry under its former name for each command that has one. It is for
-// front ends whose clients choose a command by its name: HTTP routes and Foxglove services.
+// All commands. A command with a former name has a second entry under that name. Front ends whose
+// clients choose a command by its name need both: HTTP routes and Foxglove services.
 std::span<const Command> CommandsWithFormerNames();
 
 // Finds a command by its name or its former name. Returns null if there is none.

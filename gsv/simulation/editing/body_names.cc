@@ -30,7 +30,7 @@ base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecificat
                         robot.name);
     }
   }
-  // the next number by model, so that the search for a free number is short in a crowd
+  // next number to try for each model, so that the search for a free number stays short
   std::map<std::string, int> next_number;
   for (RobotSpecification& robot : robots) {
     if (!robot.name.empty()) continue;

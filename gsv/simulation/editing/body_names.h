@@ -12,11 +12,11 @@ namespace gsv::simulation {
 
 base::Status CheckBodyName(const std::string& name);
 
-// Returns an unused name in `layout`: the model's name, numbered from 2 if it is taken.
+// Returns a name that no body in `layout` has: the model's name, with a number from 2 if it is taken.
 std::string FreeName(const world::Layout& layout, const std::string& model);
 
-// Gives robots without a name that of their model. Fails if a name is invalid, or taken by a body
-// of `layout` or by another of the robots.
+// Gives robots without a name the name of their model. Fails if a name is invalid, or if a body of
+// `layout` or another of the robots has the same name.
 base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecification>& robots);
 
 }  // namespace gsv::simulation

@@ -1,4 +1,4 @@
-// The state of a world after bodies have been added or removed.
+// Computes the state of a world after bodies have been added or removed.
 #pragma once
 
 #include "gsv/world/state.h"

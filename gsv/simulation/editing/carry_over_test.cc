@@ -43,7 +43,7 @@ TEST(CarryOver, KeepsTheStateOfOldBodiesAndStartsNewOnesAtTheirInitialPose) {
   state.joint_velocities = {1, 2, 3};
   world::CommandJoint(*before, 0, 1, {world::JointCommand::Kind::kVelocity, 5}, state);
   state.joint_integrals = {6, 7, 8};
-  // "a" comes before "b", so the indices of the joints of "b" increase by one.
+  // "a" is sorted before "b", so the indices of the joints of "b" increase by one.
   const auto after = LayoutOf({Named("a", 1, -1), Named("b", 2, 0)});
   const world::State carried = CarryOver(*before, state, *after);
   EXPECT_EQ(carried.step, 7);

@@ -106,7 +106,7 @@ class CrowdPlacement {
     return false;
   }
 
-  // Finds the members that overlap a body, and takes their places from them.
+  // Finds the pedestrians that overlap a body, and removes them from their places.
   std::vector<std::size_t> TakeOverlapping(dynamics::Engine& engine) {
     const auto layout = MakeLayout();
     const world::State state = world::InitialState(*layout);
@@ -134,10 +134,12 @@ class CrowdPlacement {
 
   const world::Layout& layout_;
   const std::uint64_t seed_;
-  std::map<std::string, int> numbers_;  // numbers that are in use, by the name of the group
+  std::map<std::string, int> numbers_;  // numbers that names already use, by group
   std::vector<world::Body> members_;
-  std::vector<std::uint32_t> attempts_;             // by the index in members_
-  std::map<Cell, std::vector<std::size_t>> taken_;  // members that have a place; never iterated
+  std::vector<std::uint32_t> attempts_;             // number of attempts for each member of
+                                                    // members_
+  std::map<Cell, std::vector<std::size_t>> taken_;  // pedestrians that have a place, by cell; never
+                                                    // iterated
 };
 
 }  // namespace

@@ -8,22 +8,22 @@
 namespace gsv::simulation {
 namespace {
 
-constexpr double kPlacingTolerance = 1e-3;  // in m
+constexpr double kPlacingTolerance = 1e-3;  // m; a smaller overlap is accepted
 
-// Returns a body that `body` overlaps, or -1.
+// Returns the index of a body that `body` overlaps, or -1.
 int FindOverlap(dynamics::Engine& engine, const world::Layout& layout, const world::State& state,
                 int body) {
   int found = -1;
   for (const world::Contact& overlap : engine.OverlapsOf(state, body, kPlacingTolerance)) {
     found = overlap.first == body ? overlap.second : overlap.first;
-    // The error names a robot first, because robots are harder to move out of the way.
+    // Prefer a robot for the error message, because robots are harder to move out of the way.
     if (layout.bodies[static_cast<std::size_t>(found)].is_robot()) return found;
   }
   return found;
 }
 
-// Moves the body to the nearest free place, at most by its own radius. Returns false if there is
-// none.
+// Moves the body to the nearest free place, at most its own radius away. Returns false if there is
+// no free place.
 bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, world::State& state) {
   constexpr double kStride = 0.01;  // in m
   constexpr int kDirections = 16;
@@ -48,8 +48,8 @@ bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, wo
   return false;
 }
 
-// For each body, whether it overlaps no other body. Most bodies of a crowd overlap none, and
-// PushOut() moves a body only to a free place.
+// Returns, for each body, whether it overlaps no other body. This saves time: in a crowd most
+// bodies do not overlap, and PushOut() moves a body only to a free place.
 std::vector<bool> StandFree(dynamics::Engine& engine, const world::Layout& layout,
                             const world::State& state) {
   std::vector<bool> stand_free(layout.bodies.size(), true);
@@ -85,7 +85,7 @@ base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
     // If two new bodies are at the same place, only the second one is refused.
     if (std::find(name + 1, placed.end(), other.name) != placed.end()) continue;
     const std::string wanted = PlaceText(body.initial_pose);
-    // A robot that is more outside of a wall than in it is placed beside the wall.
+    // A robot whose larger part is outside of a wall is moved to a place beside the wall.
     if (body.is_robot() && !other.is_robot() && PushOut(engine, layout, index, state)) {
       const geometry::Pose& now = state.bodies[static_cast<std::size_t>(index)].world_from_model;
       pushed_out.push_back({*name, "starts at " + PlaceText(now) + ", since at " + wanted +

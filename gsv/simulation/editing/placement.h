@@ -14,17 +14,17 @@ namespace gsv::simulation {
 // Returns the position as a text, such as "(1, 2)".
 std::string PlaceText(const geometry::Pose& pose);
 
-// A robot that was pushed out of a body that is not a robot.
+// A robot that was pushed out of a body other than a robot.
 struct PushedOut {
   std::string robot;
-  std::string sentence;  // a sentence with the resolved position and the reason
+  std::string sentence;  // a sentence with the new position and the reason
 };
 
 // Resolves the placement of the bodies named `placed`, which are at their initial poses in `state`.
-// Two bodies overlap if their penetration exceeds a millimetre. A robot that overlaps a body other
-// than a robot is pushed out to the nearest free place, at most its own radius away, and `state` is
-// updated. If two placed bodies overlap, the second one is rejected. Fails for the first body for
-// which there is no space.
+// Two bodies overlap if they penetrate each other by more than a millimetre. A robot that overlaps
+// another kind of body is pushed out to the nearest free place, at most its own radius away; this
+// changes `state`. If two placed bodies overlap, the second one is rejected. Fails for the first
+// body for which there is no space.
 base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
                                                       const world::Layout& layout,
                                                       const std::vector<std::string>& placed,

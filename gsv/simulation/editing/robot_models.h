@@ -1,4 +1,4 @@
-// Models as robots, with their drives. Robots of one model and one choice share the result.
+// Makes robots, with their drives, from models. Robots of the same model and drive choice share the result.
 #pragma once
 
 #include <map>
@@ -21,8 +21,8 @@ class RobotModels {
   struct Entry {
     std::shared_ptr<const model::Model> model, robot;
   };
-  // By choice and by the address of the model, which the entry keeps alive. The map is never
-  // iterated.
+  // Results by the model's address and the drive choice. An entry keeps its model alive. The map is
+  // never iterated.
   std::map<std::pair<const model::Model*, std::string>, Entry> robots_;
 };
 

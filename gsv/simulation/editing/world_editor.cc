@@ -98,8 +98,8 @@ base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
     return status;
   }
   MoveDevices(*layout, state.time, state);
-  // A robot starts at the free place where it was added, also after a reset. If it was moved after
-  // the first step, it still starts there.
+  // After a reset, a robot starts at the free place where it was added, even if it was moved after
+  // the first step.
   std::vector<world::Body> settled = layout->bodies;
   for (const std::string& name : placed) {
     world::Body& body = settled[static_cast<std::size_t>(layout->Find(name))];

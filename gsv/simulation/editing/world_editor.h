@@ -1,4 +1,4 @@
-// Adds, removes and places the bodies of a simulated world, and sets its gravity. A failed change
+// Adds, removes and moves the bodies of a simulated world, and sets its gravity. A failed change
 // leaves the world unchanged.
 //
 // Threads  any, with the world's lock (world_mutex). The history of snapshots is restarted with each
@@ -23,17 +23,17 @@ class WorldEditor {
   WorldEditor(SimulatedWorld& world, std::shared_ptr<SharedState> shared, EventLog& events)
       : world_(world), shared_(std::move(shared)), events_(events) {}
 
-  // Names and places the robots: either all of them, or none.
+  // Adds robots, after choosing their names and resolving their placement: all of them, or none.
   base::Status AddRobots(std::vector<RobotSpecification>& robots) GSV_REQUIRES(world_mutex);
   // Adds an object and returns its name.
   base::Result<std::string> AddObject(const ObjectSpecification& object) GSV_REQUIRES(world_mutex);
   base::Status RemoveObject(const std::string& name) GSV_REQUIRES(world_mutex);
   // Removes bodies of any kind; unknown names are ignored.
   base::Status Remove(const std::vector<std::string>& names) GSV_REQUIRES(world_mutex);
-  // Places a body that is not fixed to the world.
+  // Moves a body that is not fixed to the world.
   base::Status Place(const std::string& name, const geometry::Pose& world_from_body, bool on_ground)
       GSV_REQUIRES(world_mutex);
-  // Places a body of any kind, by its index.
+  // Moves a body of any kind, by its index.
   base::Status PlaceAny(int body, const geometry::Pose& world_from_body, bool on_ground)
       GSV_REQUIRES(world_mutex);
   // Sets the gravity. The bodies do not change.
@@ -47,7 +47,7 @@ class WorldEditor {
   // index of the model's own body, which is ignored, or -1 if it has none yet.
   geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const
       GSV_REQUIRES(world_mutex);
-  // `placed` names the bodies that are new or moved; they are at their initial poses.
+  // `placed` are the names of bodies that are new or moved. These bodies are at their initial poses.
   base::Status ChangeBodies(std::vector<world::Body> bodies, const std::vector<std::string>& placed)
       GSV_REQUIRES(world_mutex);
   base::Status ChangeWorld(std::vector<world::Body> bodies,
@@ -65,7 +65,7 @@ class WorldEditor {
   SimulatedWorld& world_;
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;
-  // Removed objects, the newest last. Copies of them can be added.
+  // Objects that were removed, ordered from the oldest to the newest. Copies of them can be added.
   std::deque<world::Body> removed_ GSV_GUARDED_BY(world_mutex);
 };
 

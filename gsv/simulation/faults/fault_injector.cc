@@ -94,7 +94,7 @@ base::Status FaultInjector::Apply(const Fault& fault) {
     agent->LoseMotor();
   } else {
     const world::Body& body = world_.layout()->bodies[static_cast<std::size_t>(agent->body())];
-    // The faults were checked at the start, but the name may now belong to a robot of another
+    // Faults are checked at the start of a run, but the name may now belong to a robot of another
     // model.
     const int joint = model::FindJoint(body.model->joints, fault.part);
     if (joint < 0 || !body.is_rigid()) {

@@ -35,7 +35,7 @@ class FaultInjector {
   // Applies a fault. Emits an event even if the fault cannot be applied.
   base::Status Inject(const scenario::Fault& fault) GSV_REQUIRES(world_mutex)
       GSV_EXCLUDES(simulation_mutex);
-  // Returns static bodies to their poses before the faults, for the next start.
+  // Moves static bodies back to their poses before the faults, for the next start.
   base::Status UndoMoves() GSV_REQUIRES(world_mutex);
 
  private:

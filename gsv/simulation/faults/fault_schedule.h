@@ -1,5 +1,5 @@
-// The order of faults. A fault is applied between two steps, at the first instant at or after its
-// time, before any agent is woken or reads. So its moment is deterministic.
+// Orders the faults of a run. A fault is applied between two steps, at the first instant at or
+// after its time, before any agent wakes or reads a sensor. So its moment is deterministic.
 #pragma once
 
 #include <algorithm>
@@ -26,9 +26,9 @@ class FaultSchedule {
   bool IsDue(base::SimTime now) const {
     return done_ < faults_.size() && base::FromSeconds(faults_[done_].at) <= now;
   }
-  // Returns the next fault, which must be due, and moves on to the one after it.
+  // Returns the next fault, which must be due, and advances to the following one.
   const scenario::Fault& TakeDue() { return faults_[done_++]; }
-  // Returns to the first fault.
+  // Starts again with the first fault.
   void Rewind() { done_ = 0; }
 
  private:

@@ -1,6 +1,6 @@
 // The events of a simulation, and the observers that are notified of them.
 //
-// Threads  any; it has its own lock, and takes no other lock while it holds it.
+// Threads  any; the log has its own lock, and takes no other lock meanwhile.
 #pragma once
 
 #include <atomic>
@@ -19,12 +19,12 @@ namespace gsv::simulation {
 
 class EventLog {
  public:
-  // Events carry the step and time of the latest snapshot of `history`, which outlives the log. The
-  // log keeps the newest `capacity` events.
+  // Events carry the step and time of the latest snapshot of `history`, which must outlive the log.
+  // The log keeps the newest `capacity` events.
   explicit EventLog(const SnapshotHistory& history, std::size_t capacity = 10'000)
       : history_(history), events_{capacity}, outputs_{kMaxOutputs} {}
 
-  // Appends an event and passes it to every observer, with the log's lock held.
+  // Appends an event and notifies every observer. The log's lock is held meanwhile.
   void Emit(std::string kind, std::string robot = {}, std::string detail = {},
             std::shared_ptr<const Edit> edit = nullptr);
   // Returns the kept events from number `first` on. The first event of a simulation has the number
@@ -32,17 +32,17 @@ class EventLog {
   std::vector<Event> Since(std::uint64_t first) const;
   // The number of events so far, including dropped ones.
   std::uint64_t count() const;
-  // The same for output (IsOutput()), which neither Since() returns nor count() counts.
+  // The same for lines of output (IsOutput()). Since() does not return them, and count() does not count them.
   std::vector<Event> OutputsSince(std::uint64_t first) const;
   std::uint64_t output_count() const;
 
   void AddObserver(std::shared_ptr<Observer> observer);
   void RemoveObserver(const std::shared_ptr<Observer>& observer);
-  // Passes a snapshot to every observer, without holding a lock.
+  // Calls OnSnapshot() of every observer. No lock is held meanwhile.
   void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
   // Whether an observer requests the times of steps.
   bool wants_times() const { return wants_times_.load(std::memory_order_relaxed); }
-  // Passes the times of a step to the observers that request them, without holding a lock.
+  // Calls OnTimes() of the observers that request the times of steps. No lock is held meanwhile.
   void Publish(const StepTimes& times) const;
 
  private:

@@ -78,7 +78,7 @@ TEST(EventLog, NotifiesObserversUntilTheyAreRemoved) {
   EXPECT_THAT(second->steps, ElementsAre(1, 2));
 }
 
-// Reads the log from within a callback, as observers may do.
+// Reads the log inside a callback, which observers may do.
 class LogReader final : public Observer {
  public:
   explicit LogReader(const EventLog& log) : log_(log) {}

@@ -20,7 +20,7 @@ bool HasLeft(const geometry::Pose& anchor, const geometry::Pose& pose) {
   return std::abs(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z) < least_cosine;
 }
 
-// Returns the command that the drive follows; zero after its timeout.
+// Returns the command that the drive applies; zero after its timeout.
 world::DriveCommand CommandInEffect(const world::Snapshot& snapshot, std::size_t body) {
   const world::DriveState& drive = snapshot.state.bodies[body].drive;
   if (drive.command == world::DriveCommand{}) return {};
@@ -96,7 +96,7 @@ Motion MotionHistory::Of(const world::Snapshot& snapshot, int body) const {
   motion.command = CommandInEffect(snapshot, index);
   motion.linear = Norm(state.linear_velocity);
   motion.angular = state.angular_velocity.z;
-  // The index of the body in the last layout; a body that was added since then is not followed yet.
+  // The index of the body in the last layout. A body that was added later has no history yet.
   int known = body;
   if (snapshot.layout != layout_) {
     known = layout_ == nullptr ? -1 : layout_->Find(snapshot.layout->bodies[index].name);

@@ -1,9 +1,9 @@
 // Follows the motion of robots' bases: since when each one moves or does not move, and for how long
-// it was commanded to move without effect. It costs a comparison of poses per robot every 0.1 s of
-// simulated time.
+// it was commanded to move without effect. For this, the poses of each robot are compared every 0.1
+// s of simulated time.
 //
 // A base counts as moving if within the last second its distance from an earlier pose exceeded 1 cm
-// or 0.02 rad. A base that vibrates or creeps below this speed does not move.
+// or 0.02 rad. So a base that vibrates or creeps does not count as moving.
 //
 // Threads      one at a time.
 // Determinism  a function of the followed snapshots.
@@ -17,7 +17,7 @@
 
 namespace gsv::simulation {
 
-// Whether the base was commanded to move for `stuck_after` without moving, and still is.
+// Whether the base did not move for `stuck_after` although it was commanded to, and still does not.
 bool IsStuck(const Motion& motion, SimTime stuck_after);
 
 class MotionHistory {
@@ -32,9 +32,9 @@ class MotionHistory {
 
  private:
   struct Track {
-    geometry::Pose anchor;  // its pose at some time within the last second
+    geometry::Pose anchor;  // pose at some time within the last second
     SimTime anchored_at{0};
-    SimTime moved_at{0};  // time at which it last moved
+    SimTime moved_at{0};  // the last time at which the base moved
     SimTime moves_since{0};
     SimTime commanded_for{0};
     SimTime contact_since{0};
@@ -50,7 +50,7 @@ class MotionHistory {
   SimTime sampled_{0};
 };
 
-// Returns for each body the first one that it touches, except bodies that carry it; -1: none.
+// Returns, for each body, the first other body that it touches, or -1. Bodies that carry it are ignored.
 std::vector<int> ContactPartners(const world::Snapshot& snapshot);
 
 }  // namespace gsv::simulation

@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 constexpr SimTime kStep = 10ms;
 
-// A robot and a wall whose states the test sets.
+// Makes snapshots of a robot and a wall with given states.
 class MotionHistoryTest : public ::testing::Test {
  protected:
   MotionHistoryTest() {
@@ -37,7 +37,7 @@ class MotionHistoryTest : public ::testing::Test {
 
   world::BodyState& robot() { return snapshot_.state.bodies[0]; }
 
-  // Steps with the given speed along x.
+  // Takes steps in which the robot moves along x at this speed.
   void Run(SimTime duration, double speed) {
     for (SimTime end = snapshot_.state.time + duration; snapshot_.state.time < end;) {
       snapshot_.state.time += kStep;

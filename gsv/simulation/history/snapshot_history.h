@@ -1,5 +1,5 @@
-// The snapshots that sensors read. It keeps the latest one. For each cadence in use it also keeps
-// the newest snapshot at a sampling instant whose readings are available.
+// Stores the snapshots that sensors read: the latest one and, for each cadence in use, the newest
+// snapshot at a sampling instant whose readings are already available.
 //
 // A sensor with the period P samples at 0, P, 2P, …. Sample k is taken at the first step at or
 // after kP. It becomes available at the first step at which the latency has passed. Before the
@@ -21,7 +21,7 @@
 namespace gsv::simulation {
 
 struct Cadence {
-  base::SimTime period{0};   // 0 stands for a sample at every step, without a latency
+  base::SimTime period{0};   // 0 means a sample at every step, without a latency
   base::SimTime latency{0};  // the time from the sampling instant until the sample is available
   // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const Cadence&, const Cadence&) = default;
@@ -31,7 +31,7 @@ class SnapshotHistory {
  public:
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;
 
-  // The results of At() at one instant. Many readers can use a frame without a lock.
+  // The results of At() at one instant. Many threads can read a frame without a lock.
   class Frame {
    public:
     const SnapshotPtr& latest() const { return latest_; }
@@ -55,20 +55,20 @@ class SnapshotHistory {
   // Returns the snapshot that a sensor with this cadence reads. A new cadence starts with the
   // latest snapshot.
   SnapshotPtr At(const Cadence& cadence);
-  // Registers a cadence. Sensors call this when they are mounted, so that observers do not change
-  // the result.
+  // Registers a cadence. Sensors call this when they are mounted, so that later reads by observers
+  // do not change the result.
   void Use(const Cadence& cadence) { (void)At(cadence); }
   void MakeFrame(Frame& frame) const;
 
   void Publish(SnapshotPtr snapshot);
-  // Restarts the history after a change between two steps, such as an added robot. It drops older
-  // snapshots.
+  // Restarts the history after a change between two steps, such as an added robot. Older snapshots
+  // are dropped.
   void Restart(SnapshotPtr snapshot);
 
  private:
   struct Kept {
     SnapshotPtr arrived;
-    // snapshots that are not available yet; at most as many as the latency has periods
+    // snapshots that are not available yet; at most the latency divided by the period
     std::deque<SnapshotPtr> coming;
   };
 

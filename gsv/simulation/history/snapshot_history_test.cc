@@ -21,8 +21,8 @@ TEST(SnapshotHistory, ASensorWithoutAPeriodReadsTheLatest) {
 }
 
 TEST(SnapshotHistory, AnInstantIsTakenAtTheFirstStepAtOrAfterIt) {
-  // With steps of 10 ms, the samples of the instants 0, 25, 50, 75, 100 ms are taken at 0, 30, 50,
-  // 80, 100 ms.
+  // With steps of 10 ms, the samples of the instants 0, 25, 50, 75 and 100 ms are taken at 0, 30,
+  // 50, 80 and 100 ms.
   SnapshotHistory history(At(0, 10ms));
   EXPECT_EQ(history.At({25ms})->state.step, 0);
   const int expected[] = {0, 0, 0, 3, 3, 5, 5, 5, 8, 8, 10};

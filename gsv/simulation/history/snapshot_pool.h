@@ -1,4 +1,4 @@
-// A pool of snapshots that have no readers. Later steps reuse their memory.
+// A pool of snapshots that nobody reads any more. Later steps reuse their memory.
 //
 // Threads  any. Snapshots may outlive the pool.
 #pragma once
@@ -13,8 +13,8 @@ namespace gsv::simulation {
 
 class SnapshotPool {
  public:
-  // Returns a snapshot that may have old content. It goes back to the pool when its last reader
-  // releases it.
+  // Returns a snapshot, whose content may be old. When its last reader releases it, the snapshot
+  // returns to the pool.
   std::shared_ptr<world::Snapshot> Take() {
     std::unique_ptr<world::Snapshot> snapshot = shelf_->Take();
     return {snapshot.release(), [shelf = shelf_](world::Snapshot* done) {

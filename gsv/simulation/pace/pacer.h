@@ -15,14 +15,14 @@ class Pacer {
  public:
   // `factor` is the target real-time factor, > 0.
   Pacer(base::SimTime step, double factor);
-  // Sets the factor from now on. It also applies to the distance from the previous step to the next
+  // Sets the factor from now on, also for the time between the previous step and the next
   // one.
   void SetRealTimeFactor(double factor);
 
   // Starts or restarts the schedule, so that the next step is due now.
   void Restart(WallTime now);
   WallTime due() const { return due_; }
-  // Records that a step starts now. Returns true if it is late.
+  // Records that a step starts now. Returns whether the step is late.
   bool StepStarts(WallTime now);
   std::uint64_t late_steps() const { return late_steps_; }
   void ResetLateSteps() { late_steps_ = 0; }

@@ -1,4 +1,4 @@
-// The real-time schedule of a run and its measured real-time factor.
+// Keeps the real-time schedule of a run, and measures its real-time factor.
 //
 // Threads  one call at a time.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace gsv::simulation {
 
-// Rejects a target real-time factor that is not in (0, 1e6]. The error names `simulation`.
+// Fails for a target real-time factor that is not in (0, 1e6]. The error names `simulation`.
 base::Status CheckRealTimeFactor(double factor, const std::string& simulation);
 
 class RunPace {
@@ -35,7 +35,7 @@ class RunPace {
     statistics_.Stepped(end, now, end - start);
   }
 
-  // Sets the members of `status` that concern wall-clock time.
+  // Sets those members of `status` that concern wall-clock time.
   void FillStatus(SimulationStatus& status) const;
 
  private:

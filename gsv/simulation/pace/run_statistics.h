@@ -12,14 +12,14 @@ class RunStatistics {
  public:
   void Started(WallTime wall, base::SimTime time);
   void Stopped(WallTime wall, base::SimTime time);
-  // Records a step, which took `duration`. Call it after each step. It keeps about ten samples per
-  // second.
+  // Records a step, which took `duration`. Call it after each step. About ten samples per second
+  // are stored.
   void Stepped(WallTime wall, base::SimTime time, WallDuration duration);
 
-  // The actual real-time factor: over the last second while the simulation runs, else over its
+  // The actual real-time factor over the last second. When the simulation does not run: over its
   // whole running time.
   double real_time_factor() const;
-  // The wall-clock time spent running, up to the last call.
+  // The wall-clock time for which the simulation has run, up to the last call.
   WallDuration wall_time() const;
   WallDuration mean_step_time() const;
 

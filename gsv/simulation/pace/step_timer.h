@@ -1,4 +1,4 @@
-// Measures the wall-clock time of steps by part. Every moment belongs to one part.
+// Measures the wall-clock time of each part of a step. Every moment belongs to one part.
 //
 // Threads  the stepping thread.
 #pragma once
@@ -15,11 +15,11 @@ class StepTimer {
  public:
   using Part = std::chrono::nanoseconds StepTimes::*;
 
-  // Ignores the time since the end of the last step, as after a pause.
+  // Ignores the time since the end of the last step. Call this after a pause.
   void Interrupt() { ended_ = WallTime(); }
-  // Declares that a part of the time since the end of the last step was a wait for the wall clock.
+  // Declares that `idle` of the time since the last step was a wait until this step was due.
   void AddIdle(WallDuration idle) { idle_ += idle; }
-  // Starts the times of a step. For `held_up_by` see StepTimes.
+  // Begins to measure a step. `held_up_by` is explained at StepTimes.
   void Begin(WallTime start, std::string held_up_by) {
     times_ = {};
     if (ended_ != WallTime()) {
@@ -30,7 +30,7 @@ class StepTimer {
     idle_ = {};
     mark_ = start;
   }
-  // Adds the time since the last call, or since Begin(), to a part.
+  // Adds the time since the last call, or since Begin(), to the time of a part.
   void Mark(Part part, WallTime now = WallNow()) {
     times_.*part += now - mark_;
     mark_ = now;

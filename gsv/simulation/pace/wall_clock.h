@@ -1,5 +1,5 @@
-// The wall clock. This is the only file of the core that reads it. It serves to schedule real time,
-// to limit waits and to show times to users. No simulated value depends on it.
+// The wall clock. This is the only file of the core that reads it. Its uses are the schedule in
+// real time, time limits, and times that users see. No simulated value depends on it.
 #pragma once
 
 #include <chrono>

@@ -15,7 +15,7 @@ bool AgentClocks::WaitUntil(ClockId id, base::SimTime until, base::SimTime now) 
   const auto it = clocks_.find(id);
   GSV_CHECK(it != clocks_.end());
   Clock& clock = it->second;
-  // In a pause, the instant may have come although the agent was not woken yet.
+  // In a pause, the instant may be reached although the agent has not been woken.
   if (clock.waiting && clock.until == until) return false;
   if (until <= now) {
     clock.waiting = false;

@@ -16,30 +16,30 @@ namespace gsv::simulation {
 
 class AgentClocks {
  public:
-  // Opens a clock. The clock runs.
+  // Opens a clock, which then runs.
   ClockId Open();
   bool IsOpen(ClockId clock) const { return clocks_.contains(clock); }
   void Close(ClockId clock) { clocks_.erase(clock); }
 
-  // Makes the clock wait for the first step time at or after `until`. Returns true if that time has
-  // come already; the clock then continues. Repeating a wait that has ended or is pending changes
-  // nothing. A wait is pending until Wake(), so that no agent continues in a simulation that is
+  // Makes the clock wait until the first step at or after `until`. Returns true if that step has
+  // already been taken; the clock then runs on. Repeating a wait that has ended or is pending
+  // changes nothing. Only Wake() ends a pending wait, so no agent runs in a simulation that is
   // paused at that instant.
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
 
   bool IsWaiting(ClockId clock) const;
   bool IsWaitingUntil(ClockId clock, base::SimTime until) const;
 
-  // Ends the waits for instants up to `now`. Returns true if a clock that was waiting runs again.
+  // Ends the waits for instants up to `now`. Returns whether a clock that waited now runs again.
   bool Wake(base::SimTime now);
 
   int count() const { return static_cast<int>(clocks_.size()); }  // The number of open clocks.
   bool HasOpened() const { return next_id_ > 1; }
   bool IsFinished() const { return HasOpened() && clocks_.empty(); }
-  // Whether a clock runs, or no clock has been opened yet.
+  // Whether a clock runs, or none has been opened yet.
   bool IsRunning() const;
 
-  // The cycle number of the clock's last exchange that sent a command; 0 if there was none.
+  // The cycle number of the clock's last exchange with a command; 0 if there was none.
   std::uint64_t last_cycle(ClockId clock) const;
   void set_last_cycle(ClockId clock, std::uint64_t cycle);
 
@@ -51,7 +51,7 @@ class AgentClocks {
     base::SimTime until{0};
     std::uint64_t last_cycle = 0;
   };
-  std::map<ClockId, Clock> clocks_;  // open clocks only
+  std::map<ClockId, Clock> clocks_;  // only the open clocks
   ClockId next_id_ = 1;
 };
 

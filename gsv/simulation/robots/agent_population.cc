@@ -10,8 +10,8 @@ namespace gsv::simulation {
 
 namespace {
 
-// A sentence about a failed call, without the process that was called. Recordings hold the
-// sentence, and equal runs must have equal recordings.
+// Removes the name of the called process from an error sentence. The sentence is recorded, and
+// equal runs must have equal recordings.
 std::string WithoutProcess(std::string sentence, const BehaviourPort& behaviour) {
   const std::string process = " on " + behaviour.place();
   if (const auto at = sentence.find(process); at != std::string::npos) {
@@ -72,7 +72,7 @@ std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
 void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
   for (const AgentPtr& agent : WithBehaviour()) {
     caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
-      // A behaviour may ignore the pause, because the clock stops anyway.
+      // A behaviour may fail to handle a pause; its clock stops anyway.
       if (const auto status = (behaviour.get()->*call)(); !status) {
         events_.Emit(
             "behaviour_silent", agent->robot(),
@@ -86,7 +86,7 @@ void AgentPopulation::End(std::string reason, bool is_stuck) {
   shared_->end_reason = std::move(reason);
   for (const auto& [name, agent] : agents_) agent->wait_event()->Open();
   for (const AgentPtr& agent : WithBehaviour()) {
-    // a call to a behaviour that is stuck in its turn would not return either
+    // a behaviour that does not return from its turn would not return from this call either
     if (is_stuck && agent->in_turn_since()) continue;
     caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { (void)behaviour->Stop(); });
   }

@@ -1,4 +1,4 @@
-// The agents of a simulation's robots, by name, and the calls to their behaviours.
+// The agents of a simulation's robots, by name. Also calls the robots' behaviours.
 //
 // Threads  any, with SharedState::mutex (simulation_mutex) as declared.
 #pragma once
@@ -20,18 +20,18 @@ class AgentPopulation {
  public:
   using AgentPtr = std::shared_ptr<RobotAgent>;
 
-  // `caller` must be closed before the population and the log are destroyed.
+  // `caller` must be closed before this population and the log are destroyed.
   AgentPopulation(std::shared_ptr<SharedState> shared, EventLog& events, BehaviourCaller& caller)
       : shared_(std::move(shared)), events_(events), caller_(caller) {}
 
-  // `behaviour` may be null.
+  // Adds the agent of a robot. `behaviour` may be null.
   void Add(const std::string& name, std::shared_ptr<const model::Model> model, bool is_avatar,
            std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
-  // Ends the calls of the agent with that name, then stops and destroys its behaviour.
+  // Ends the agent's current calls, then stops and destroys its behaviour.
   void Remove(const std::string& name) GSV_REQUIRES(simulation_mutex);
   void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour)
       GSV_REQUIRES(simulation_mutex);
-  // Gives each agent the index of its body.
+  // Tells each agent the index of its body in the layout.
   void AssignBodies(const world::Layout& layout) GSV_REQUIRES(simulation_mutex);
 
   const std::map<std::string, AgentPtr>& all() const GSV_REQUIRES(simulation_mutex) {
@@ -40,7 +40,7 @@ class AgentPopulation {
   AgentPtr Find(const std::string& name) const
       GSV_REQUIRES(simulation_mutex);  // Returns null if there is no agent with that name.
   std::vector<AgentPtr> WithBehaviour() const GSV_REQUIRES(simulation_mutex);
-  // Whether there has ever been a behaviour in this process.
+  // Whether a behaviour has ever run in this process.
   bool has_hosted() const { return has_hosted_; }
 
   // Posts a call to every behaviour. If a call fails, an event "behaviour_silent" names `what`.
@@ -53,7 +53,7 @@ class AgentPopulation {
   // Resets all agents after the calls that End() posted have returned. Behaviours then wait for
   // Init().
   void Reset() GSV_REQUIRES(simulation_mutex);
-  // Starts to check whether behaviours have died. Deaths are reported when the checks end.
+  // Starts to check whether behaviours have died. Each death is reported when its check ends.
   void CheckForDeaths() GSV_REQUIRES(simulation_mutex);
   // Marks an agent as dead if the call of its behaviour failed.
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
@@ -61,7 +61,7 @@ class AgentPopulation {
 
   std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot, SimTime stuck_after) const
       GSV_REQUIRES(simulation_mutex);
-  // The first robot for which the simulation has waited longer than 0.1 s, with the time. Empty if
+  // The first robot for which the simulation has waited longer than 0.1 s, with this time. Empty if
   // there is none.
   std::string WaitingFor() const GSV_REQUIRES(simulation_mutex);
 
@@ -72,7 +72,7 @@ class AgentPopulation {
   EventLog& events_;
   BehaviourCaller& caller_;
   std::map<std::string, AgentPtr> agents_ GSV_GUARDED_BY(simulation_mutex);
-  // Robots whose behaviour has not yet answered IsDead().
+  // Robots whose behaviours have not yet answered IsDead().
   std::set<std::string> liveness_checks_ GSV_GUARDED_BY(simulation_mutex);
   std::atomic<bool> has_hosted_{false};
 };

@@ -22,7 +22,7 @@ class BehaviourCaller {
   BehaviourCaller& operator=(const BehaviourCaller&) = delete;
 
   void Post(std::string key, std::function<void()> call);
-  // Waits for the posted calls. No call may be posted afterwards.
+  // Waits until all posted calls have returned. No call may be posted afterwards.
   void Close();
   // Waits until every posted call has returned. Returns false after `timeout` of wall-clock time.
   bool WaitUntilIdle(std::chrono::milliseconds timeout);
@@ -34,7 +34,7 @@ class BehaviourCaller {
   };
 
   void Work();
-  // Returns the first task whose key is not in progress, or end() if there is none.
+  // Returns the first task whose key is not in use by a running call, or end() if there is none.
   std::deque<Task>::iterator FindRunnable() GSV_REQUIRES(mutex_);
 
   base::Mutex mutex_;

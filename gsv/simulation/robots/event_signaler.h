@@ -1,5 +1,5 @@
-// Signals the wait events of many agents on its own thread. If no processor is free, waking one
-// thread takes tens of microseconds. Waking a thousand threads would delay the next step.
+// Signals the wait events of many agents on its own thread, so that this does not delay the next
+// step: if no processor is free, waking one thread takes tens of microseconds.
 //
 // Threads  Open() from one thread at a time.
 #pragma once
@@ -22,9 +22,9 @@ class EventSignaler {
   EventSignaler& operator=(const EventSignaler&) = delete;
   ~EventSignaler();
 
-  // Signals the events and clears `events`. It signals a few events itself, and its thread signals
-  // many, soon and in this order. An agent waits again only after its event was signalled, so the
-  // queue holds at most one event per agent.
+  // Signals the events and clears `events`. The caller's thread signals a few events itself. If
+  // there are many, the signaler's thread signals them soon, in this order. An agent waits again
+  // only after its event was signalled, so the queue holds at most one event per agent.
   void Open(Events& events);
 
  private:

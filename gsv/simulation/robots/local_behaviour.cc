@@ -12,7 +12,7 @@ sensing::Sampling Turn::Instant::MakeSampling() const {
 }
 
 void Turn::Instant::NoteRays() const {
-  // It is read first, so that threads do not take the cache line from each other by writing.
+  // The flag is read before it is written, because needless writes would slow down other threads.
   if (casts_rays.load(std::memory_order_relaxed)) return;
   casts_rays.store(true, std::memory_order_relaxed);
 }

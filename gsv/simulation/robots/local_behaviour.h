@@ -1,5 +1,5 @@
-// A behaviour in this process. The simulation runs it in turns between two steps, on the threads of
-// its team. A turn lasts from a wake to the next wait.
+// A behaviour in this process. The simulation runs its turns between two steps, on the threads of a
+// team. A turn begins when the behaviour wakes and ends when it waits again.
 //
 // Threads      a behaviour takes one turn at a time, not always on the same thread. Different
 //              behaviours take turns at the same time.
@@ -23,19 +23,20 @@
 
 namespace gsv::simulation {
 
-// The operations of a behaviour in its turn. The last call of WaitUntil(), Block(), Finish() and
-// Fail() determines the end of the turn; without any of them the behaviour has finished.
+// The operations of a behaviour in its turn. The last call of WaitUntil(), Block(), Finish() or
+// Fail() decides what follows the turn; without any of them the behaviour has finished.
 class Turn {
  public:
-  // The data that all turns of one instant share.
+  // The data that all turns at one instant share.
   struct Instant {
     base::SimTime now{0};
     SnapshotHistory::Frame snapshots;
     sensing::RaySceneCache* rays = nullptr;
     std::uint64_t seed = 0;
-    bool is_timed = false;  // whether turns are timed, see RobotAgent::turn_took()
+    bool is_timed = false;  // whether the durations of turns are measured, see
+                            // RobotAgent::turn_took()
 
-    // Prepares the ray scene on the team, if turns of the last instant have cast rays.
+    // Builds the ray scene, on the threads of the team, if turns at the last instant have cast rays.
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 
@@ -46,7 +47,7 @@ class Turn {
   };
 
   Turn() = default;
-  // `sampling` is that of the behaviour's robot at this instant.
+  // `sampling` is the Sampling of the behaviour's robot at this instant.
   Turn(const Instant& instant, const sensing::Sampling& sampling)
       : instant_(&instant), sampling_(&sampling) {}
 
@@ -54,33 +55,33 @@ class Turn {
 
   // Reads a sensor at this instant. Slow sensors must be read in Block().
   base::Result<sensing::Reading> Read(MountedSensor& sensor) const;
-  // Sets the values of the readings that the sensors of `beams` take at this instant, for sensors
-  // without an update rate.
+  // Sets the values that the sensors of `beams` measure at this instant. These sensors have no
+  // update rate.
   void ReadBeams(const sensing::BeamSet& beams, std::span<double> values) const;
   base::SimTime snapshot_time() const { return sampling_->snapshot()->state.time; }
   // Declares that the turn will read this many sensors that cast rays.
   void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
 
-  // Commands the base from this step on. A later command replaces this one.
+  // Commands the base from this step on. A later call replaces the command.
   void Command(const world::DriveCommand& command) { commands_.SetDrive({0, command}); }
   // Commands a joint of the robot's model from this step on.
   base::Status CommandJoint(int joint, const world::JointCommand& command);
   JointReading ReadJoint(int joint) const;  // Returns the state of a joint at this instant.
-  // Sends a message by a radio to the robot `receiver`, or to all robots if it is empty.
+  // Sends a message by a radio to the robot `receiver`, or to all robots if `receiver` is empty.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content);
   // Commands an actuator from this instant on.
   base::Status CommandDevice(const MountedSensor& actuator, world::DeviceCommand command);
-  // Counts an exchange on the behaviour's clock.
+  // Counts an exchange (command, wait, readings) on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 
-  // Ends the turn. The next turn is at the first step at or after `instant`, or at once if that has
-  // come.
+  // Ends the turn. The next turn is at the first step at or after `instant`, or at once if that
+  // step was already taken.
   void WaitUntil(base::SimTime instant) { end_ = Waiting{instant}; }
   // Ends the turn and runs `work` on another thread, for slow work such as an image. The next turn
   // starts when `work` is done. In lockstep, simulated time stands still meanwhile.
   void Block(std::function<void()> work) { end_ = Blocked{std::move(work)}; }
   void Finish() { end_ = Finished{}; }
-  // Ends the run with an error, instead of Finish(). See Agent::GiveUp().
+  // Ends the behaviour's run with an error. See Agent::GiveUp().
   void Fail(std::string reason) { end_ = Failed{std::move(reason)}; }
 
  private:
@@ -110,10 +111,10 @@ class LocalBehaviour : public BehaviourPort {
   bool IsDead() final { return false; }
   bool time_managed() const final { return true; }
 
-  // The clock of the turns. Start() has opened it.
+  // The clock of the turns, which Start() has opened.
   virtual ClockId clock() const = 0;
-  // Takes a turn. It must return, because nothing can interrupt it. If it exceeds the deadline, the
-  // simulation fails, and requests that need the world are refused until it returns.
+  // Executes a turn. The function must return, because nothing can interrupt it. If it exceeds the
+  // deadline, the simulation fails, and requests that need the world are refused until it returns.
   virtual void TakeTurn(Turn& turn) = 0;
 };
 

@@ -6,10 +6,11 @@
 namespace gsv::simulation {
 namespace {
 
-// The maximum number of samples in progress at one time; each holds a snapshot of the whole world.
+// The maximum number of samples that wait for their latency; each keeps a snapshot of the whole
+// world.
 constexpr double kMaxUnderWay = 100;
 
-// The parameter `latency` (s, 0) is common to all types.
+// Reads the parameter `latency` (s, default 0), which sensors of all types have.
 base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
                                 const std::string& where) {
   const auto refuse = [&](const char* sentence) {
@@ -134,7 +135,7 @@ void MountedSensor::Fail(std::shared_ptr<const world::Snapshot> snapshot) {
 
 void MountedSensor::Forget() {
   const base::MutexLock lock(mutex_);
-  ForbidSweeps();  // the behaviour will be initialised again, and opens its sensors again
+  ForbidSweeps();  // the behaviour will be initialised again, and will open its sensors again
   sweeps_ = nullptr;
   has_failed_ = false;
   silent_since_ = nullptr;

@@ -1,5 +1,5 @@
-// A sensor on a robot. It has a design, which all robots of a model share, and the robot's newest
-// reading.
+// A sensor on a robot: its design, which all robots of a model share, and its newest reading on
+// this robot.
 //
 // Threads  any. Sampling a sensor does not block other sensors.
 #pragma once
@@ -31,7 +31,7 @@ base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription descript
                                                const sensing::SensorRegistry& types,
                                                const std::string& where);
 
-// The sensor designs of each model. They are made for the first robot of the model.
+// The sensor designs of each model. They are made when the first robot of the model is added.
 class SensorDesigns {
  public:
   explicit SensorDesigns(std::shared_ptr<const sensing::SensorRegistry> types)
@@ -47,17 +47,18 @@ class SensorDesigns {
  private:
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   base::Mutex mutex_;
-  // The map is only for look-ups and is never iterated.
+  // Used for look-ups only, never iterated.
   std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>> known_
       GSV_GUARDED_BY(mutex_);
 };
 
-// The sensors of a robot that its behaviour reads together, so that single sensors need not count.
+// The sensors of a robot that its behaviour reads together (a sweep). Sweeps are counted here, and
+// not once per sensor.
 struct Sweeps {
-  // How often the behaviour has read all of them. The thread of the behaviour's turn writes it.
+  // The number of sweeps. Only the thread of the behaviour's turn writes it.
   std::atomic<std::uint64_t> count{0};
-  // Becomes false if one of the sensors fails, or if another reader needs the same samples. Then
-  // the sensors are read one by one.
+  // Becomes false if one of the sensors fails, or if another reader needs the same samples. From
+  // then on, sensors are read one by one.
   std::atomic<bool> is_allowed{true};
 };
 
@@ -70,25 +71,25 @@ class MountedSensor {
   bool casts_rays() const { return design_->sensor != nullptr && design_->sensor->CastsRays(); }
   bool takes_long() const { return design_->sensor != nullptr && design_->sensor->TakesLong(); }
 
-  // Returns null for a sensor that is not a device.
+  // Returns the sensor as a device (an actuator or radio), or null if it is none.
   std::shared_ptr<const sensing::Device> device() const {
     const auto* const device = design_->sensor != nullptr ? design_->sensor->device() : nullptr;
     return device != nullptr ? std::shared_ptr<const sensing::Device>(design_, device) : nullptr;
   }
 
-  // Returns the sample at the instant of `sampling`. It is taken now, unless it was taken before.
+  // Returns the sample at the instant of `sampling`. If it was not taken yet, it is taken now.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
   // Like Read(), but for a caller that is not the robot's behaviour, such as a live topic.
   base::Result<sensing::Reading> Watch(const sensing::Sampling& sampling);
 
-  // From now on, each of these sweeps counts as a reading of this sensor.
+  // From now on, each of these sweeps also counts as a reading of this sensor.
   void Join(std::shared_ptr<Sweeps> sweeps);
 
-  // Applies a fault. From now on the newest sample is that of `snapshot`. If that is null, reading
-  // fails.
+  // Applies a fault. From now on, the newest sample is the one of `snapshot`. If `snapshot` is
+  // null, readings fail.
   void Fail(std::shared_ptr<const world::Snapshot> snapshot);
 
-  // Counts the readings that the behaviour receives.
+  // Counts a reading that the behaviour received.
   void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
   std::uint64_t readings() const;
 
@@ -104,8 +105,9 @@ class MountedSensor {
 
   mutable base::Mutex mutex_;
   std::shared_ptr<Sweeps> sweeps_ GSV_GUARDED_BY(mutex_);   // null: none
-  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // count when it joined
-  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;   // -1 if it was never sampled
+  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // number of sweeps when Join() was
+                                                            // called
+  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;   // step of the newest sample, or -1
   std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;
   sensing::Reading newest_ GSV_GUARDED_BY(mutex_);
   bool has_failed_ GSV_GUARDED_BY(mutex_) = false;

@@ -92,7 +92,7 @@ base::Result<ClockId> RobotAgent::OpenClock() {
 base::Status RobotAgent::CloseClock(ClockId clock) {
   AgentCallLock lock(*shared_);
   if (auto ok = CheckClock(clock); !ok) return ok;
-  // the clocks of a behaviour that has given up keep their state
+  // if the behaviour has given up, its clocks keep their state
   if (has_given_up_) return CheckAlive();
   clocks_.Close(clock);
   wait_event_.Open();
@@ -129,7 +129,7 @@ bool RobotAgent::BeginWait(ClockId clock, SimTime until) {
   return true;
 }
 
-// The analysis does not know that `lock` is the lock which the caller holds.
+// The thread-safety analysis does not know that `lock` is the lock that the caller holds.
 base::Result<Wait> RobotAgent::WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,
                                       std::chrono::milliseconds lease)
     GSV_NO_THREAD_SAFETY_ANALYSIS {
@@ -277,7 +277,7 @@ base::Status RobotAgent::CloseSensor(const std::string& name) {
   const auto sensor = rack_.Find(name);
   if (auto ok = rack_.Close(name); !ok) return ok;
   auto device = (*sensor)->device();
-  // Closing an actuator of the model does not end its command.
+  // If an actuator belongs to the model, closing it does not end its command.
   const bool ends = device != nullptr && (device->IsOnWhileOpen() || !rack_.Find(name));
   if (ends && CheckAlive()) {
     Commands().Add({DeviceAction::Kind::kSwitchOff, std::move(device)});
@@ -390,8 +390,8 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-// The index of the body changes only with the world's lock held, and the stepping thread holds that
-// lock. The behaviour changes only before the run has started.
+// No lock is needed: the index of the body changes only with the world's lock held, which the
+// stepping thread holds now. The behaviour changes only before the run has started.
 void RobotAgent::TakeTurn(const Turn::Instant& instant,
                           sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);

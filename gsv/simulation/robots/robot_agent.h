@@ -20,7 +20,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
              std::shared_ptr<SharedState> shared);
 
-  // Implementation of Agent.
+  // The members of Agent.
   const std::string& robot() const override { return robot_; }
   std::string model() const override { return model_->name; }
   double footprint_radius() const override { return model::FootprintRadius(*model_); }
@@ -56,38 +56,38 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Returns a reading for an observer.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
 
-  // For stepping: sets the robot's index in the current layout.
+  // Sets the robot's index in the current layout.
   void SetBody(int body) GSV_REQUIRES(simulation_mutex) { body_ = body; }
   int body() const GSV_REQUIRES(simulation_mutex) { return body_; }
   void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
   const std::shared_ptr<BehaviourPort>& behaviour() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_;
   }
-  // Whether the behaviour is in this process. Then it takes turns, and no thread waits for it.
+  // Whether the behaviour is in this process. Such a behaviour takes turns, and has no waiting thread.
   bool is_hosted() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_ != nullptr && behaviour_->local() != nullptr;
   }
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
-  // Whether this agent still runs, so that the simulation waits for it and must not step.
+  // Whether the agent still runs, so that the next step must wait for it.
   bool BlocksStep() const GSV_REQUIRES(simulation_mutex);
-  // Whether the agent blocks the step itself, and not only because other agents have their turn
-  // before it.
+  // Whether the agent itself delays the step, and does not wait for the turns of other
+  // agents.
   bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
   WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
   struct Woken {
-    // whether its wait event must be signalled, preferably with no lock held
+    // whether the wait event must be signalled, preferably without holding a lock
     bool has_passed = false;
-    bool has_died = false;  // whether a reported death has taken effect
+    bool has_died = false;  // whether a death that was reported now takes effect
   };
   // Ends waits for instants up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
-  // The event for which its calls wait. After a signal, a call checks whether its wait is over.
+  // The event on which the agent's calls wait. After a signal, a call checks whether its wait is over.
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
-  // Marks the agent as unresponsive at once, because it runs and does not wait.
+  // Marks the agent as unresponsive, because it runs and does not wait.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
-  // Reports the behaviour's death. It takes effect when the agent wakes next, or at once if it
-  // runs.
+  // Reports the behaviour's death. It takes effect when the agent wakes next, or at once if the
+  // agent runs.
   void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
   bool is_alive() const GSV_REQUIRES(simulation_mutex) {
     return fate_ == Fate::kAlive && !death_reported_;
@@ -95,12 +95,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool is_watched() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_ != nullptr && is_alive() && !is_removed_;
   }
-  // Returns and clears the commands for the next step, without those for motors and joints that
-  // have failed.
+  // Returns and clears the commands for the next step. Commands for motors and joints that have
+  // failed are left out.
   RobotCommands TakeCommands() GSV_REQUIRES(simulation_mutex);
   // Applies the initial commands of its devices.
   void StartDevices() GSV_REQUIRES(simulation_mutex);
-  // Faults. From the next step on the drive stops, or the joint has no motor.
+  // Apply faults: from the next step on, the drive stops, or the joint has no motor.
   void LoseMotor() GSV_REQUIRES(simulation_mutex);
   void LoseJoint(int joint) GSV_REQUIRES(simulation_mutex);
   void MarkRemoved() GSV_REQUIRES(simulation_mutex);
@@ -115,12 +115,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void AddToHash(base::Hash& hash) const GSV_REQUIRES(simulation_mutex);
   SensorRack& rack() { return rack_; }
 
-  // The turn of a local behaviour. TakeTurn() needs no lock. ApplyTurn() applies its result and
-  // returns the work that the behaviour waits for, if any.
+  // The turn of a local behaviour. TakeTurn() needs no lock. ApplyTurn() applies the turn's result
+  // and returns the work that the behaviour waits for, if there is any.
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
   // The start of the current turn; empty between turns. Any thread may call this.
   std::optional<WallTime> in_turn_since() const;
-  // The duration of the last timed turn. The stepping thread may call this after the turn.
+  // How long the last timed turn took. Only the stepping thread may call this, after the turn.
   WallDuration turn_took() const { return turn_took_; }
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
   // Marks its local behaviour as ready for a turn.
@@ -137,17 +137,17 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                             std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
-  // Makes the clock wait. Returns false if `until` has come already.
+  // Makes the clock wait. Returns false if `until` is already reached.
   bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
   void ReportFailure(std::string_view reason) GSV_REQUIRES(simulation_mutex);
-  // Updates whether the simulation waits for this agent. Call it after every change that may
-  // matter.
+  // Updates whether the simulation waits for this agent. Call it after every change that may affect
+  // this.
   void UpdateRunningCount() GSV_REQUIRES(simulation_mutex);
 
-  // Returns the commands for the next step, and registers the agent in SharedState::commanded.
+  // Returns the agent's commands for the next step, and adds the agent to SharedState::commanded.
   RobotCommands& Commands() GSV_REQUIRES(simulation_mutex);
   void StopDriving() GSV_REQUIRES(simulation_mutex) { Commands().SetDrive({}); }
-  // From the next step on, switches on a device that is on while it is open.
+  // Switches on, from the next step on, a device that is on while it is open.
   void SwitchOn(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
   // Applies the initial command of a device.
   void StartDevice(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
@@ -182,8 +182,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};
   WallTime running_since_ GSV_GUARDED_BY(simulation_mutex){};
 
-  Turn turn_;  // used by the stepping thread, and during a turn by the thread that takes the turn
-  std::atomic<WallTime> turn_began_{WallTime()};  // WallTime() between turns
+  Turn turn_;  // used by the stepping thread and, during a turn, by the thread of the turn
+  std::atomic<WallTime> turn_began_{WallTime()};  // start of the current turn; WallTime() between
+                                                  // turns
   WallDuration turn_took_{};                      // used like turn_
 };
 

@@ -1,5 +1,5 @@
 // The commands that a robot's behaviour has given between two steps: to drive, joints and devices.
-// The next step takes them.
+// The next step applies them.
 //
 // Determinism  commands of one robot are applied in the order of its behaviour. Commands of
 //              different robots are independent.
@@ -29,27 +29,27 @@ struct DeviceAction {
 
 // Whether the sensor accepts Agent::CommandDevice().
 bool TakesCommands(const MountedSensor& sensor);
-// Converts a command to an action. Rejects a sensor that takes no commands, and an invalid command.
-// `robot` is the place that errors name.
+// Converts a command to an action. Fails if the sensor accepts no commands, or if the command is
+// invalid. `robot` is the place that errors name.
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot);
 
 class RobotCommands {
  public:
   struct Drive {
-    ClockId clock = 0;  // the clock of the exchange; 0 if the command was given directly
+    ClockId clock = 0;  // the clock of the exchange that sent the command; 0 if there was none
     world::DriveCommand command;
   };
 
   void SetDrive(const Drive& drive) { drive_ = drive; }
-  // Sets the drive, unless a command of a later clock is already set.
+  // Sets the command of the drive, unless a command of a clock with a higher id is already set.
   void OfferDrive(const Drive& drive);
   void CommandJoint(int joint, const world::JointCommand& command);
   void ForgetJoint(int joint);
-  // Adds an action and removes the earlier actions that it makes void.
+  // Adds an action, and removes earlier actions that the new one replaces.
   void Add(DeviceAction action);
-  // Adds a message of a radio to the robot `receiver`, or to all robots if it is empty. Rejects a
-  // sensor that is not a radio, a message that is too long, and more than 64 messages in one step.
+  // Adds a message of a radio to the robot `receiver`, or to all robots if `receiver` is empty. Fails
+  // for a sensor that is not a radio, a message that is too long, and more than 64 messages in one step.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content,
                     const std::string& robot);
 
@@ -60,7 +60,7 @@ class RobotCommands {
 
   bool empty() const { return !drive_ && joints_.empty() && devices_.empty(); }
   std::optional<Drive>& drive() { return drive_; }
-  // Commands by the joint's index in the robot's model. The last one of a joint applies.
+  // Commands of joints, by index in the robot's model. For each joint, the last command applies.
   const std::vector<std::pair<int, world::JointCommand>>& joints() const { return joints_; }
   std::vector<DeviceAction>& devices() { return devices_; }
 

@@ -17,18 +17,18 @@ using MountedSensorPtr = std::shared_ptr<MountedSensor>;
 
 class SensorRack {
  public:
-  // Starts with the sensors of the robot's model. `designs` must outlive the rack.
+  // The rack begins with the sensors of the robot's model. `designs` must outlive the rack.
   SensorRack(std::string robot, const std::shared_ptr<const model::Model>& model,
              SensorDesigns& designs);
 
   std::vector<model::SensorDescription> Descriptions() const;
-  // The types of which sensors can be created.
+  // The sensor types that can be created.
   std::vector<std::string> TypeNames() const { return designs_.types().names(); }
 
   // Creates and opens a sensor. `link_count` is the number of links of the model.
   base::Status Create(model::SensorDescription description, int link_count);
   base::Status Open(const std::string& name);
-  // Closes a sensor. Removes it if it was created; a sensor of the model can be opened again.
+  // Closes a sensor. A created sensor is removed; a sensor of the model can be opened again.
   base::Status Close(const std::string& name);
   // Closes all sensors, removes created ones, and clears readings and counts.
   void Reset();
@@ -42,12 +42,13 @@ class SensorRack {
  private:
   struct Slot {
     MountedSensorPtr sensor;
-    bool is_created = false;  // whether a caller created it, and it does not belong to the model
+    bool is_created = false;  // whether a caller created the sensor; false if it belongs to the
+                              // model
     bool is_open = false;
   };
   // Returns null if the name is unknown.
   const Slot* FindSlot(const std::string& name) const GSV_REQUIRES(mutex_);
-  // The index of the first slot whose name is not less than `name`.
+  // The index of the first slot whose name is `name` or sorted after it.
   std::size_t PlaceOf(const std::string& name) const GSV_REQUIRES(mutex_);
   base::Error NoSuchSensor(const std::string& name) const;
 
@@ -55,7 +56,7 @@ class SensorRack {
   SensorDesigns& designs_;
   mutable base::Mutex mutex_;
   std::vector<Slot> slots_ GSV_GUARDED_BY(mutex_);  // ordered by name
-  // Readings of closed sensors, by type.
+  // Number of readings of sensors that are closed, by type.
   std::map<std::string, std::uint64_t> closed_readings_ GSV_GUARDED_BY(mutex_);
 };
 

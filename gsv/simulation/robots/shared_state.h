@@ -1,5 +1,5 @@
 // The state that a simulation, its stepping thread and its agents share, under one mutex. Agents
-// keep it alive, so that late calls find a simulation that has ended.
+// keep the state alive, so that a late call finds that the simulation has ended.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ namespace gsv::simulation {
 
 class RobotAgent;
 
-// Stands for SharedState::mutex in the thread-safety analysis. The parts of a simulation have
-// pointers of their own to the state, and the analysis cannot prove that they are equal.
+// Represents SharedState::mutex in the thread-safety analysis. Parts of a simulation have separate
+// pointers to the state, and the analysis cannot know that they are equal.
 class GSV_CAPABILITY("mutex") SimulationMutex {
  public:
   // Declares to the analysis that the calling thread holds the mutex. Checks nothing at run time.
@@ -30,25 +30,26 @@ struct SharedState {
               std::shared_ptr<const sensing::SensorRegistry> types)
       : history(std::move(initial)), designs(std::move(types)), mode(m), seed(s) {}
 
-  // These members have locks of their own.
+  // The next members have their own locks.
   SnapshotHistory history;
   sensing::RaySceneCache rays;
   SensorDesigns designs;
   const Mode mode;
   const std::uint64_t seed;
 
-  // SimulationLock and AgentCallLock lock it.
+  // Used by SimulationLock and AgentCallLock.
   base::Mutex line;
   base::Mutex mutex;
   // Notifies the stepping thread that the phase changed, that the last running agent waits, or that
   // a local behaviour can continue.
   base::ConditionVariable changed;
-  // The reason with which the calls of agents end; empty while they may continue.
+  // The reason why calls of agents end; empty while they may continue.
   std::string end_reason GSV_GUARDED_BY(simulation_mutex);
   SimTime now GSV_GUARDED_BY(simulation_mutex){0};
   MotionHistory motions GSV_GUARDED_BY(simulation_mutex);
 
-  // Agents register here. A function that removes an agent from the world removes its entries.
+  // Agents add themselves to the following lists. A function that removes an agent from the world
+  // must remove its entries.
   //
   // The number of agents that block the next step.
   int running GSV_GUARDED_BY(simulation_mutex) = 0;
@@ -56,18 +57,18 @@ struct SharedState {
   TimerQueue<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
   // Agents with a command for the next step.
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);
-  // The local behaviours whose turn it is.
+  // The local behaviours that have a turn now.
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);
-  // Whether deaths of agents were reported. The agents may still be running.
+  // Whether deaths of agents were reported. The dead agents may still count as running.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
-  // While steps are timed: the robot whose behaviour the step waited for last, empty for none.
+  // Whether steps are timed, and the robot whose behaviour the step waited for last (empty for none).
   bool is_timed GSV_GUARDED_BY(simulation_mutex) = false;
   std::string held_up_by GSV_GUARDED_BY(simulation_mutex);
-  // The robots whose behaviour has given up, each with the sentence that the stepping thread emits.
+  // The robots whose behaviours have given up, with a sentence each, which the stepping thread emits.
   std::vector<std::pair<std::string, std::string>> given_up GSV_GUARDED_BY(simulation_mutex);
 };
 
-// Holds SharedState::mutex for its lifetime, except between unlock() and lock().
+// A lock of SharedState::mutex for the lifetime of this object, except between unlock() and lock().
 class GSV_SCOPED_CAPABILITY SimulationLock {
  public:
   explicit SimulationLock(SharedState& state) GSV_ACQUIRE(simulation_mutex) : lock_(state.mutex) {}
@@ -75,7 +76,7 @@ class GSV_SCOPED_CAPABILITY SimulationLock {
   SimulationLock(const SimulationLock&) = delete;
   SimulationLock& operator=(const SimulationLock&) = delete;
 
-  // The analysis knows the mutex as simulation_mutex.
+  // In the analysis, the mutex is called simulation_mutex.
   void lock() GSV_ACQUIRE() GSV_NO_THREAD_SAFETY_ANALYSIS { lock_.lock(); }
   void unlock() GSV_RELEASE() GSV_NO_THREAD_SAFETY_ANALYSIS { lock_.unlock(); }
   // The lock that base::ConditionVariable needs.
@@ -85,9 +86,9 @@ class GSV_SCOPED_CAPABILITY SimulationLock {
   base::MutexLock lock_;
 };
 
-// Holds SharedState::mutex for the calls of agents, of which there may be a thousand at once. They
-// queue for `line` first. The stepping thread locks the mutex directly, so it waits for at most one
-// of them.
+// A lock of SharedState::mutex for calls of agents, of which there may be a thousand at once. These
+// calls first queue at `line`. The stepping thread locks the mutex directly, so it waits for at
+// most one of them.
 class GSV_SCOPED_CAPABILITY AgentCallLock {
  public:
   explicit AgentCallLock(SharedState& state) GSV_ACQUIRE(simulation_mutex) : state_(state) {
@@ -99,7 +100,7 @@ class GSV_SCOPED_CAPABILITY AgentCallLock {
   AgentCallLock(const AgentCallLock&) = delete;
   AgentCallLock& operator=(const AgentCallLock&) = delete;
 
-  // The analysis knows the mutex as simulation_mutex.
+  // In the analysis, the mutex is called simulation_mutex.
   void lock() GSV_ACQUIRE() GSV_NO_THREAD_SAFETY_ANALYSIS {
     const base::MutexLock first_in_line(state_.line);
     state_.mutex.lock();

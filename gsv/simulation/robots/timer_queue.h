@@ -1,5 +1,5 @@
-// Sleepers, ordered by the instant at which they wake. An entry is a hint: a sleeper checks its own
-// clocks, so superfluous entries do no harm.
+// A queue of waiting objects (sleepers), ordered by the instant at which they wake. A sleeper
+// checks its own clocks when it is woken, so superfluous entries do no harm.
 //
 // Threads  the owner synchronises access.
 #pragma once
@@ -29,7 +29,7 @@ class TimerQueue {
   }
 
   // Removes the sleepers whose instant has come and calls `wake` for each, in the order of the
-  // instants and then of the entries.
+  // instants and, for equal instants, in the order in which they were added.
   template <typename Wake>
   void TakeDue(base::SimTime now, const Wake& wake) {
     while (HasDue(now)) {

@@ -1,4 +1,4 @@
-// An event for which the calls of an agent wait. It has its own lock, so that many agents that wake
+// An event on which the calls of an agent wait. It has its own lock, so that many agents that wake
 // at one instant do not contend for the simulation's lock.
 //
 // Threads  any.
@@ -13,14 +13,14 @@ namespace gsv::simulation {
 
 class WaitEvent {
  public:
-  // The number of signals so far. If a thread reads it under the lock of its condition and then
-  // calls WaitAfter(), it misses no signal.
+  // The number of signals so far. A thread that reads it under the lock of its condition, and then
+  // calls WaitAfter() with it, misses no signal.
   std::uint64_t signals() const {
     const base::MutexLock lock(mutex_);
     return signals_;
   }
 
-  // Signals the event: wakes all waiting threads. This takes a system call if there are any.
+  // Signals the event and so wakes all waiting threads. If there are any, this takes a system call.
   void Open() {
     {
       const base::MutexLock lock(mutex_);
@@ -29,7 +29,7 @@ class WaitEvent {
     opened_.notify_all();
   }
 
-  // Waits for a signal after the first `signals` ones. Returns false at `until`.
+  // Waits until there were more than `signals` signals. Returns false at the time `until`.
   bool WaitAfter(std::uint64_t signals, WallTime until) {
     base::MutexLock lock(mutex_);
     return opened_.wait_until(lock, until,

@@ -1,4 +1,4 @@
-// Requests that change the life cycle of a simulation.
+// Implements requests that change the life cycle of a simulation.
 #include <cstdio>
 #include <utility>
 

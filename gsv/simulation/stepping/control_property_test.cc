@@ -70,7 +70,7 @@ class Curves final : public BehaviourPort {
 
 struct Scene {
   Mode mode = Mode::kLockstep;
-  std::int64_t duration = 0;  // in steps; 0 for a run that has no end
+  std::int64_t duration = 0;  // number of steps; 0 for a run without end
   int behaviours = 0;
 };
 
@@ -123,8 +123,8 @@ base::Status Perform(Simulation& simulation, const Request& request) {
 }
 
 Observed Observe(const Simulation& simulation) {
-  // Reads phase and time at once. Otherwise a last step in between would look like a pause at the
-  // end of the run.
+  // Reads phase and time together. Otherwise, a last step between the two reads would look like a
+  // pause at the end of the run.
   const SimulationStatus status = simulation.status();
   return {status.phase == Phase::kStarting ? Phase::kRunning : status.phase, status.step};
 }

@@ -1,4 +1,4 @@
-// Requests that change the bodies of a simulated world, and the record of these edits.
+// Implements requests that change the bodies of a simulated world, and records these edits.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -37,7 +37,7 @@ base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
   return CheckBehaviour(*robot.behaviour, mode, where);
 }
 
-// The file of a model, or its name if it has no file.
+// Returns the file of a model, or the model's name if it has no file.
 std::string SourceOf(const model::Model& model) {
   return model.source.empty() ? model.name : model.source;
 }
@@ -69,7 +69,7 @@ Edit EditOf(const ObjectSpecification& object, const std::string& name) {
   return edit;
 }
 
-// The shortest text that is parsed as the same number.
+// Returns the shortest text that is parsed as the same number.
 std::string ShortestText(double number) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof text, number);
@@ -190,7 +190,7 @@ base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& na
     const SimulationLock lock(*shared_);
     for (const std::string& name : names) agents_.Remove(name);
   }
-  // No step is taken meanwhile, and other threads can look up an agent without waiting for the
+  // No step is taken meanwhile. Other threads can look up agents without waiting for the
   // engine.
   (void)editor_.Remove(names);  // removing bodies cannot fail
   AssignBodies();
@@ -230,7 +230,7 @@ base::Status SteppingSimulation::RemoveObject(const std::string& name) {
   if (auto ok = editor_.RemoveObject(name); !ok) return ok;
   {
     const SimulationLock lock(*shared_);
-    agents_.Remove(name);  // the agent of a station
+    agents_.Remove(name);  // a station has an agent
   }
   AssignBodies();
   RecordEdit(RemovalOf(name), "object_removed");

@@ -1,5 +1,5 @@
-// Objects are added, removed and rotated while the simulation is paused, and the same edits are
-// repeated in another run.
+// Tests that objects are added, removed and rotated while the simulation is paused, and that the
+// same edits can be repeated in another run.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -82,7 +82,7 @@ TEST(Editing, AnObjectPlacedInTheAirFalls) {
   crate.on_ground = false;
   ASSERT_TRUE(simulation->AddObject(crate));
   PauseAt(*simulation, 300ms);
-  // The object falls freely, with steps of at most a millisecond.
+  // The object falls freely. The tolerance allows for steps of up to a millisecond.
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, 1.2 - 9.8 * 0.3 * 0.3 / 2, 9.8 * 0.3 * 1e-3);
   ASSERT_TRUE(simulation->Resume());
   ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
@@ -118,7 +118,8 @@ TEST(Editing, AStaticObjectThatWasAddedCanBeMovedAndRemoved) {
   ASSERT_TRUE(simulation->AddObject(Thing(Crate(0.5, true), 1, 1, "shelf")));
   ASSERT_TRUE(simulation->PlaceBody("shelf", PlanarPose(1, -1, 0, 0), true));
   EXPECT_NEAR(PoseOf(*simulation, "shelf").position.y, -1, 1e-12);
-  // There is not enough space for a robot at this place, but there is at the object's former place.
+  // At this place there is not enough space for a robot. There is at the place where the object was
+  // before.
   EXPECT_FALSE(simulation->AddRobot(Robot("robot", 1, -1)));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   EXPECT_TRUE(simulation->RemoveObject("shelf"));
@@ -203,8 +204,8 @@ TEST(Editing, RecordsWhetherAllBehavioursHadTheirTurnBeforeTheEdit) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-// The hash of a run with edits at two instants, in pauses before and after the turns at these
-// instants.
+// Returns the hash of a run with edits at two instants: one in a pause before the turns, and one
+// after the turns.
 std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   auto simulation = Make(Room(1s));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.3))));

@@ -1,4 +1,4 @@
-// Carries out the decisions of RunControl: it starts and stops behaviours, emits events, schedules
+// Carries out the decisions of RunControl: starts and stops behaviours, emits events, schedules
 // real time, and wakes threads that wait for a phase.
 //
 // Threads  any, with SharedState::mutex (simulation_mutex) as declared.
@@ -20,7 +20,7 @@ namespace gsv::simulation {
 class LifeCycle {
  public:
   // All arguments except the specification must outlive the life cycle. The BehaviourCaller must be
-  // closed before.
+  // closed before this object is destroyed.
   LifeCycle(const Specification& specification, const WorldLock& world_lock,
             std::shared_ptr<SharedState> shared, EventLog& events, AgentPopulation& agents,
             BehaviourCaller& caller)
@@ -37,13 +37,13 @@ class LifeCycle {
   RunPace& pace() GSV_REQUIRES(simulation_mutex) { return pace_; }
   const RunPace& pace() const GSV_REQUIRES(simulation_mutex) { return pace_; }
 
-  // Carries out a change of run(). `detail` becomes the detail of its event.
+  // Carries out a change that run() returned. `detail` becomes the detail of the change's event.
   void Apply(RunControl::Change change, const std::string& detail = {})
       GSV_REQUIRES(simulation_mutex);
   void Fail(const std::string& reason) GSV_REQUIRES(simulation_mutex);
   // Begins a reset. Returns false if there is nothing to reset.
   bool BeginReset() GSV_REQUIRES(simulation_mutex);
-  // Ends a reset. Call it after everything else was reset.
+  // Ends a reset. Call it when everything else has been reset.
   void FinishReset() GSV_REQUIRES(simulation_mutex);
 
   // Starts behaviours. The run begins when all of them have answered.

@@ -49,7 +49,7 @@ base::Result<RunControl::Change> RunControl::Pause() {
 
 base::Result<RunControl::Change> RunControl::Resume() {
   if (phase_ == Phase::kRunning || phase_ == Phase::kStarting) {
-    steps_left_ = -1;  // the run continues beyond the requested steps
+    steps_left_ = -1;  // the run continues after the requested steps
     return Change::kNone;
   }
   if (auto ok = Require({Phase::kPaused}, "resume"); !ok) return base::Fail(ok.error());
@@ -123,11 +123,11 @@ RunControl::Change RunControl::EndTurns(SimTime now) {
 
 RunControl::Change RunControl::EndStep(SimTime now) {
   turns_have_begun_ = false;
-  // A step that was in progress during a pause does not count as one of the steps requested after
-  // the pause.
+  // Steps that were requested after a pause do not include a step that was in progress during the
+  // pause.
   if (steps_left_ > 0 && run_of_step_ == run_) --steps_left_;
-  // A run that was paused during its last step also finishes here, because resuming it would take
-  // one more step.
+  // A run that was paused during its last step also finishes here. Otherwise, resuming it would
+  // take one step more.
   if (duration_ > SimTime(0) && now >= duration_) {
     const bool ends = phase_ != Phase::kStopped && phase_ != Phase::kFailed;
     return ends ? Enter(Phase::kFinished, Change::kFinished) : Change::kNone;

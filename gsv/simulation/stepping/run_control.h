@@ -1,6 +1,7 @@
 // The life cycle of a run: its phase, its end, and the result.
 //
 // RunControl decides. Its owner carries out the Change that a call returns: it starts behaviours,
+// RunControl decides. Its owner carries out the Change that a call returns: starts behaviours,
 // emits events and wakes threads.
 //
 // Errors   a request that the phase does not allow fails with kNotRunning and changes nothing.
@@ -19,7 +20,7 @@ namespace gsv::simulation {
 
 class RunControl {
  public:
-  // The effect of a call on the phase.
+  // How a call changes the phase.
   enum class Change {
     kNone,
     kStarted,   // created → starting
@@ -31,19 +32,19 @@ class RunControl {
     kFailed,    // any → failed
   };
 
-  // Errors name `simulation`. A run with a `duration` of 0 ends only when it is stopped.
+  // Errors name `simulation`. If `duration` is 0, the run ends only when it is stopped.
   RunControl(std::string simulation, SimTime duration)
       : simulation_(std::move(simulation)), duration_(duration) {}
 
   Phase phase() const { return phase_; }
   bool is_running() const { return phase_ == Phase::kRunning; }
-  // Whether it is stopped, finished or failed.
+  // Whether the phase is stopped, finished or failed.
   bool has_ended() const;
   // Fails with kNotRunning unless the phase is among `allowed`. `action` completes "to …" in the
   // error.
   base::Status Require(std::initializer_list<Phase> allowed, const char* action) const;
 
-  // The requests of Simulation.
+  // The requests, as in the class Simulation.
   base::Result<Change> Start();
   base::Result<Change> Pause();
   base::Result<Change> Resume();
@@ -65,22 +66,22 @@ class RunControl {
 
   // Called by the stepping thread when it wakes the agents that wait for this instant.
   void BeginTurns() { turns_have_begun_ = true; }
-  // Called when all turns at `now` are over. Returns kPaused if RunThrough() ends here.
+  // Call this when all turns at `now` are over. Returns kPaused if RunThrough() ends at `now`.
   Change EndTurns(SimTime now);
   void BeginStep() { run_of_step_ = run_; }
-  // Called when the step that led to `now` is over.
+  // Call this when the step that ended at `now` is complete.
   Change EndStep(SimTime now);
 
   Change Fail(std::string reason);
   const std::string& failure() const { return failure_; }
 
-  // The hash of the state in which the run finished. Empty in all other phases.
+  // The hash of the state at which the run finished; empty in all other phases.
   const std::string& final_hash() const { return final_hash_; }
   void SetFinalHash(std::string hash) { final_hash_ = std::move(hash); }
 
-  // The number of times that the run has started or resumed.
+  // How many times the run has started or resumed.
   std::uint64_t run() const { return run_; }
-  // The moment of an edit that is made now. `all_wait` is true if no agent is in its turn.
+  // When an edit that is made now happens, relative to turns. `all_wait` is true if no agent is in its turn.
   Edit::Moment MomentOfEdit(bool all_wait) const;
   // Edits of bodies before the first start are part of the setup and do not count.
   void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }
@@ -96,13 +97,13 @@ class RunControl {
 
   Phase phase_ = Phase::kCreated;
   int starts_pending_ = 0;
-  // The instants at which the run pauses by itself. They are set when it starts or resumes.
-  std::optional<SimTime> run_until_;    // the run pauses when a step has reached it
-  std::optional<SimTime> run_through_;  // the run pauses when the turns at it are over
-  std::int64_t steps_left_ = -1;        // -1 for any number of steps
+  // The instants at which the run pauses by itself. They are set at a start or a resume.
+  std::optional<SimTime> run_until_;    // pauses after the step that reaches it
+  std::optional<SimTime> run_through_;  // pauses after the turns at this instant
+  std::int64_t steps_left_ = -1;        // pauses after this number of steps; -1 for none
 
   std::uint64_t run_ = 0;
-  std::uint64_t run_of_step_ = 0;  // the value of `run_` when the present step began
+  std::uint64_t run_of_step_ = 0;  // value of `run_` when the current step began
   bool turns_have_begun_ = false;
   bool was_edited_ = false;
   std::string failure_;

@@ -17,8 +17,8 @@ using life_cycle::Observed;
 using life_cycle::Request;
 using Change = RunControl::Change;
 
-// A run without a world, in which a step is one nanosecond. It uses a RunControl as LifeCycle and
-// StepLoop do, but on one thread.
+// A run without a world, in which a step is one nanosecond. It calls RunControl in the way of
+// LifeCycle and StepLoop, but on one thread.
 class BareRun {
  public:
   // `starts` is the number of behaviours that start with the run. They answer when the test
@@ -57,7 +57,7 @@ class BareRun {
     ++step_;
     return run_.EndStep(now());
   }
-  // Takes steps until the run rests. Returns false if it does not rest within 100 steps.
+  // Takes steps until the run pauses or ends. Returns false if this takes more than 100 steps.
   bool ApplyTurn() {
     while (has_pending_start()) AnswerStart();
     if (is_in_step_) EndStep();
@@ -118,8 +118,8 @@ constexpr Request kRequests[] = {
 
 constexpr const char* kNames[] = {"start", "pause", "resume", "step", "run_until", "stop", "reset"};
 
-// Tries every continuation of a sequence. Each must agree with the model, and must rest where the
-// model rests.
+// Tries every continuation of a sequence. After each, the run must agree with the
+// model.
 class Explorer {
  public:
   // Returns the first sequence that disagrees with the model, or an empty text.
@@ -185,7 +185,7 @@ class Explorer {
 };
 
 struct Scope {
-  std::int64_t duration;  // in steps; 0 for a run that has no end
+  std::int64_t duration;  // number of steps; 0 for a run without end
   int starts;             // the number of behaviours that start with the run
   int length;             // the maximum length of the sequences
 };
@@ -245,7 +245,7 @@ TEST(RunControl, PausesAtItsInstantEvenIfBehavioursAreStillStarting) {
   run.BeginStep();
   ASSERT_TRUE(run.Pause());
   ASSERT_EQ(run.RunUntil(SimTime(1), SimTime(0)), Change::kResumed);
-  run.BeginStart();  // the start of a robot that was added in the pause
+  run.BeginStart();  // starts the behaviour of a robot that was added during the pause
   EXPECT_EQ(run.EndStep(SimTime(1)), Change::kPaused);
   run.EndStart();
   EXPECT_EQ(run.RunIfStarted(), Change::kNone);
@@ -305,7 +305,8 @@ TEST(RunControl, RecordsTheTurnsThatAnEditPrecedes) {
   BareRun run(0, 0);
   EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kBeforeTurns);
   ASSERT_TRUE(run.Perform({Action::kStep, 1}));
-  EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kAmidTurns);  // the run is running
+  EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kAmidTurns);  // the run is in the phase
+                                                                          // "running"
   TakeSteps(run, 1);
   EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kBeforeTurns);
   ASSERT_TRUE(run.control().RunThrough(run.now(), run.now()));

@@ -11,13 +11,13 @@
 namespace gsv::simulation {
 namespace {
 
-// The number of turns that a thread takes at a time: some tens of microseconds of work.
+// The number of turns that a thread executes at a time: some tens of microseconds of work.
 constexpr std::size_t kTurnsAPiece = 16;
 
-// Reason for a pause without a request.
+// The reason of a pause that nobody requested.
 constexpr const char* kReachedTarget = "the requested time is reached";
 
-// Gives the calling thread priority over a crowd of behaviours, which all want to run at the
+// Raises the priority of the calling thread above that of behaviours, which all want to run at the
 // instant of a step. The system may refuse this: a higher priority needs CAP_SYS_NICE or a limit
 // (ulimit -e) of 30 or more.
 void RaiseThreadPriority() { (void)setpriority(PRIO_PROCESS, 0, -10); }
@@ -107,7 +107,7 @@ void StepLoop::WakeAgents() {
   if (!has_reported_deaths && !shared.sleepers.HasDue(shared.now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
-    simulation_mutex.AssertHeld();  // this function holds the mutex
+    simulation_mutex.AssertHeld();  // the calling function holds the mutex
     const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
     if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.wait_event());
     if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
@@ -137,11 +137,11 @@ void StepLoop::TakeTurns() {
     for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
   const SimulationLock lock(shared);
-  parts_.world.lock().SetStuck(false);  // the behaviour has returned after all
+  parts_.world.lock().SetStuck(false);  // the behaviour has finally returned
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (RobotAgent* agent : turns_) {
     if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
-    // The agent may repeatedly have waited for instants that were past.
+    // Check again: the agent may have waited meanwhile, for instants that were already past.
     if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
   if (is_timed_) NoteLongestTurn();
@@ -180,7 +180,7 @@ bool StepLoop::AllWait(SimulationLock& lock) {
   const auto deadline = [&]() GSV_REQUIRES(simulation_mutex) {
     return longest->running_since() + parts_.specification.deadline;
   };
-  // The population may change while the lock is released, so `longest` keeps the agent alive.
+  // Agents may be removed while the lock is released, so `longest` keeps this agent alive.
   const std::cv_status status = shared.changed.wait_until(lock.inner(), deadline());
   if (status == std::cv_status::timeout && run_.is_running() && longest->BlocksStep() &&
       WallNow() >= deadline()) {
@@ -255,8 +255,8 @@ bool StepLoop::BeginStep(WallTime start) {
   SharedState& shared = *parts_.shared;
   const SimulationLock lock(shared);
   if (!run_.is_running()) return false;
-  // Between the check and the locks, a robot may have been added, a clock may have been opened, or
-  // the last running agent may have ended.
+  // Check again: before the locks were taken, a robot may have been added, a clock may have been
+  // opened, or the last running agent may have ended.
   if (shared.mode == Mode::kLockstep && (shared.running > 0 || shared.has_reported_deaths))
     return false;
   is_timed_ = shared.is_timed = parts_.events.wants_times();
@@ -295,7 +295,7 @@ void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, W
   SharedState& shared = *parts_.shared;
   const WallTime end = WallNow();
   const SimulationLock lock(shared);
-  // The snapshot and its phase become visible together: see Simulation::status().
+  // The snapshot and its phase become visible at the same time, see Simulation::status().
   shared.history.Publish(snapshot);
   shared.now = snapshot->state.time;
   shared.motions.Follow(*snapshot);

@@ -1,5 +1,5 @@
-// The stepping thread of a simulation. It wakes agents, gives local behaviours their turns, and
-// waits until all agents wait (lockstep) or for the wall clock (real time). Then it takes a step.
+// The stepping thread of a simulation. For each step, it wakes agents and executes the turns of local behaviours.
+// Then it waits until all agents wait (lockstep) or until the step is due (real time), and takes the step.
 //
 // Determinism  in lockstep no value depends on when calls arrive. Commands are applied from the
 //              instant at which their agent runs, and loops follow the order of names.
@@ -23,7 +23,7 @@ namespace gsv::simulation {
 
 class StepLoop {
  public:
-  // The objects that the loop uses; all must outlive the loop.
+  // The objects that the loop uses. All must outlive the loop.
   struct Parts {
     const Specification& specification;
     std::shared_ptr<SharedState> shared;
@@ -33,38 +33,38 @@ class StepLoop {
     LifeCycle& life_cycle;
     SimulatedWorld& world;
     FaultInjector& faults;
-    std::shared_ptr<base::ThreadTeam> team;  // used only with the world's lock held
+    std::shared_ptr<base::ThreadTeam> team;  // used only while the world's lock is held
   };
 
   // Starts the thread.
   explicit StepLoop(Parts parts);
   StepLoop(const StepLoop&) = delete;
   StepLoop& operator=(const StepLoop&) = delete;
-  // Quit() must have been called.
+  // Quit() and Join() must have been called.
   ~StepLoop() = default;
   // Makes the thread end after the current step.
   void Quit() GSV_REQUIRES(simulation_mutex);
   // Waits for the end of the thread. The caller must not hold a lock.
   void Join();
 
-  // The hash of the world, the agents' waits and the applied faults.
+  // Returns the hash of the world, the agents' waits and the applied faults.
   std::string HashNow() const GSV_REQUIRES(world_mutex, simulation_mutex);
 
  private:
   void Run();
   void ApplyFaults();
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
-  // Runs the local behaviours that are due until they wait.
+  // Executes the turns of local behaviours until all of them wait.
   void TakeTurns();
-  // Stores the robot with the longest of these turns, unless another agent delays the step.
+  // Stores the robot whose turn took the longest, unless another agent delays the step.
   void NoteLongestTurn() GSV_REQUIRES(simulation_mutex);
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
-  // Returns true if every agent waits. Otherwise it waits for a change first and returns false.
+  // Returns true if every agent waits. Otherwise waits for a change and returns false.
   bool AllWait(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   void TakeStep();
-  // Returns false if the step must not be taken.
+  // Begins a step. Returns false if the step must not be taken.
   bool BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
   void ApplyCommands() GSV_REQUIRES(world_mutex, simulation_mutex);
   void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start)
@@ -74,13 +74,13 @@ class StepLoop {
   RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
   bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
 
-  // Used by the stepping thread only.
+  // The stepping thread alone uses these.
   SnapshotPool snapshots_;
   DeviceActions device_actions_;    // the actions for the next step
   Turn::Instant instant_;           // the instant of the current turns
   std::vector<RobotAgent*> turns_;  // the agents of the current turns
   EventSignaler event_signaler_;
-  EventSignaler::Events woken_;  // events of the agents that were just woken
+  EventSignaler::Events woken_;  // wait events of the agents that were just woken
   bool is_timed_ = false;        // whether an observer requests the times of steps
   StepTimer timer_;
 

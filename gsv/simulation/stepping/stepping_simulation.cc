@@ -16,8 +16,8 @@ constexpr int kCallingThreads = 8;
 
 std::atomic<int> left_to_themselves{0};
 
-// In real time the processes of the behaviours use the other processors. A team of threads is
-// slower than a single thread if one of its threads has to wait for a processor.
+// In real time, the other processors are left to the behaviours' processes. A team is slower than
+// one thread if one of its threads has to wait for a processor.
 int ThreadsFor(const Specification& specification) {
   if (specification.threads > 0) return specification.threads;
   return specification.mode == Mode::kRealTime ? 1 : base::ThreadTeam::DefaultThreads();
@@ -46,7 +46,7 @@ std::shared_ptr<const world::Layout> LayoutOf(
   return world::MakeLayout(1, std::move(bodies), world);
 }
 
-// Creates the first layout with the pedestrians, and gives it to the engine.
+// Makes the first layout, including the pedestrians, and passes it to the engine.
 base::Result<std::shared_ptr<const world::Layout>> FirstLayout(const Specification& specification,
                                                                dynamics::Engine& engine) {
   auto layout = LayoutOf(specification.world);
@@ -134,7 +134,7 @@ SteppingSimulation::~SteppingSimulation() {
   }
   watchdog_.Stop();
   step_loop_.Join();
-  caller_.Close();  // closed first, because its pending calls use the other members
+  caller_.Close();  // closed first, because calls in progress use the other members
 }
 
 int Simulation::AbandonedSimulations() { return left_to_themselves; }

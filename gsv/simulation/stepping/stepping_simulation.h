@@ -1,4 +1,4 @@
-// The implementation of Simulation. It connects the parts that own its data, and passes requests to
+// Implements Simulation. The class connects the parts that own the data, and passes requests to
 // them.
 //
 //   RunControl, LifeCycle   the phase, and the actions on its changes
@@ -31,7 +31,7 @@ class SteppingSimulation final : public Simulation {
   // Destroys the simulation, or abandons it if a behaviour in this process does not return.
   static void Dispose(SteppingSimulation* simulation);
 
-  // Defined in editing.cc.
+  // Implemented in editing.cc.
   base::Result<std::vector<std::string>> AddRobots(std::vector<RobotSpecification> robots) override;
   base::Status RemoveRobot(const std::string& name) override;
   base::Result<std::string> AddObject(ObjectSpecification object) override;
@@ -45,7 +45,7 @@ class SteppingSimulation final : public Simulation {
   base::Status SetGravity(std::optional<double> z) override;
   bool was_edited() const override;
 
-  // Defined in control.cc.
+  // Implemented in control.cc.
   base::Status Start() override;
   base::Status Pause() override;
   base::Status Resume() override;
@@ -59,7 +59,7 @@ class SteppingSimulation final : public Simulation {
   Phase WaitForPhase(const std::vector<Phase>& phases,
                      std::chrono::milliseconds timeout) const override;
 
-  // Defined in stepping_simulation.cc.
+  // Implemented in stepping_simulation.cc.
   const Specification& specification() const override { return specification_; }
   SimulationStatus status() const override;
   std::shared_ptr<const world::Snapshot> snapshot() const override;
@@ -86,14 +86,14 @@ class SteppingSimulation final : public Simulation {
   base::Result<AgentPopulation::AgentPtr> RequireAgent(const std::string& robot) const;
   base::Status RefuseStuck() const;
 
-  // Calls `request` with run_ with the locks held. It returns a Result<RunControl::Change>.
+  // Calls `request` with run_, with the locks held. `request` returns a Result<RunControl::Change>.
   template <typename Request>
   base::Status Perform(Request request);
   // Waits until no call to a behaviour is in progress. Fails if a behaviour in this process does
   // not return.
   base::Status AwaitCalls();
 
-  // Waits a short time for the end of the turns of behaviours in other processes.
+  // Waits a short time until behaviours in other processes have ended their turns.
   void AwaitTurns() const;
   base::Status CheckMayEdit(const WorldGuard& guard) const;
   void AssignBodies() GSV_REQUIRES(world_mutex);

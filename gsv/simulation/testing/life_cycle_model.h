@@ -1,6 +1,6 @@
 // For tests: a model of the requests start, pause, resume, step, run until, stop and reset. The run
-// advances by itself, so the model holds every state that the simulation may be in. Answers and
-// observations must be consistent with one of them.
+// advances by itself, so the model keeps every state that the simulation may be in. Each answer and
+// observation must be possible in one of these states.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,11 @@ enum class Action { kStart, kPause, kResume, kStep, kRunUntil, kStop, kReset };
 
 struct Request {
   Action action;
-  // for kStep the number of steps, for kRunUntil the step of its instant
+  // number of steps for kStep, or target step for kRunUntil
   std::int64_t argument = 0;
 };
 
-// An observation. The phase kStarting counts as running.
+// An observation by a test. The phase kStarting counts as running.
 struct Observed {
   Phase phase;
   std::int64_t step;
@@ -36,11 +36,12 @@ struct Interval {
 // A possible state of the simulation.
 struct State {
   Phase phase = Phase::kCreated;
-  Interval step;                    // the step of the latest snapshot
-  std::optional<Interval> counted;  // while running, the step at which the requested steps end
+  Interval step;                    // range of steps that the latest snapshot may have
+  std::optional<Interval> counted;  // while running: the step at which the requested number of
+                                    // steps is complete
   std::optional<std::int64_t> run_until;
 
-  // The step at which the run pauses by itself.
+  // Returns the step at which the run pauses by itself.
   std::optional<Interval> Goal() const {
     if (!run_until) return counted;
     if (!counted) return Interval{*run_until, *run_until};
@@ -57,7 +58,7 @@ class LifeCycleModel {
   explicit LifeCycleModel(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}
 
   // Applies a request. `seen` was observed just before it, and `ok` was its answer. Returns false
-  // if no state allows this.
+  // if this is impossible in every state.
   bool Requested(const Request& request, const Observed& seen, bool ok) {
     std::vector<State> next;
     for (const State& state : WithSpontaneousChanges()) {
@@ -78,7 +79,7 @@ class LifeCycleModel {
         continue;
       if (state.phase == Phase::kPaused && seen.step >= end_) continue;
       state.step.low = seen.step;
-      // The step that was in progress when a pause or stop came is the last one.
+      // A step that was in progress at a pause or stop is the last one.
       if (state.phase != Phase::kRunning)
         state.step.high = std::min(state.step.high, seen.step + 1);
       next.push_back(state);
@@ -87,7 +88,7 @@ class LifeCycleModel {
     return !states_.empty();
   }
 
-  // Whether the run pauses or ends by itself in every possible state.
+  // Whether the run pauses or ends by itself, in every possible state.
   bool WillPause() const {
     return std::all_of(states_.begin(), states_.end(), [this](const State& state) {
       return state.phase != Phase::kRunning || state.Goal() || end_ != kUnbounded;
@@ -105,7 +106,7 @@ class LifeCycleModel {
   std::vector<State> WithSpontaneousChanges() const {
     std::vector<State> all = states_;
     for (const State& state : states_) {
-      // The step that was in progress when the pause came may have been the run's last.
+      // A step that was in progress at a pause may have been the run's last.
       if (state.phase == Phase::kPaused && state.step.high >= end_)
         all.push_back(Frozen(Phase::kFinished, {end_, end_}));
       if (state.phase != Phase::kRunning) continue;
@@ -140,8 +141,8 @@ class LifeCycleModel {
       case Action::kStep:
         return request.argument < 1 || !IsAtRest(state);
       case Action::kRunUntil:
-        // The request is refused when the clock has passed that instant. The clock of a running
-        // simulation may have done so.
+        // The request is refused if its instant is past. While the simulation runs, this may be so
+        // or not.
         return request.argument <= state.step.high || !(is_running || IsAtRest(state));
       case Action::kStop:
       case Action::kReset:

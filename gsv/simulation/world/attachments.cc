@@ -9,7 +9,7 @@ namespace {
 
 using dynamics::Attachment;
 
-// The attachments that devices hold, ordered by robot and then by device.
+// Returns the attachments of devices in `state`, ordered by robot and then by device.
 std::vector<Attachment> HeldIn(const world::Layout& layout, const world::State& state) {
   std::vector<Attachment> held;
   if (state.devices == nullptr) return held;
@@ -47,7 +47,8 @@ void Attachments::Follow(const world::Layout& layout, const world::State& state,
     if (!Contains(held, each)) engine.Detach(each.held_body);
   }
   for (const Attachment& each : held) {
-    // Grippers hold only dynamic bodies, and each body is held by at most one gripper.
+    // A gripper grasps only dynamic bodies, and only one gripper can hold a body. So attaching
+    // succeeds.
     if (!Contains(attached_, each)) GSV_CHECK(engine.Attach(each, state));
   }
   attached_ = std::move(held);

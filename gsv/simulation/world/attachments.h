@@ -1,4 +1,4 @@
-// Keeps the attachments of the engine in step with the bodies that devices hold.
+// Attaches bodies to devices in the engine, as the state of the devices requires.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,15 @@ namespace gsv::simulation {
 
 class Attachments {
  public:
-  // Gives `layout` to `engine`, with the attachments of `state`.
+  // Sets the layout of `engine`, with the attachments of `state`.
   base::Status SetLayout(const std::shared_ptr<const world::Layout>& layout,
                          const world::State& state, dynamics::Engine& engine);
-  // Attaches and detaches the bodies whose attachment has changed since the last call. `layout` is
-  // that of the engine.
+  // Attaches and detaches the bodies whose attachment has changed since the last call. `layout`
+  // must be the engine's.
   void Follow(const world::Layout& layout, const world::State& state, dynamics::Engine& engine);
 
  private:
-  std::vector<dynamics::Attachment> attached_;  // the attachments that the engine has
+  std::vector<dynamics::Attachment> attached_;  // attachments in the engine
 };
 
 }  // namespace gsv::simulation

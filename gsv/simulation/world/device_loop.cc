@@ -5,7 +5,7 @@
 namespace gsv::simulation {
 namespace {
 
-// Casts rays in the scene of a snapshot, which is made for the first ray.
+// Casts rays in a snapshot. The ray scene is built when the first ray is cast.
 class SnapshotRays final : public world::RayCaster {
  public:
   SnapshotRays(std::shared_ptr<const world::Snapshot> snapshot, sensing::RaySceneCache& cache,
@@ -24,7 +24,7 @@ class SnapshotRays final : public world::RayCaster {
   mutable std::shared_ptr<const sensing::RayScene> scene_;
 };
 
-// The devices of a state. They are copied at the first change.
+// The device states of a world. They are copied when the first one changes.
 class ChangingDevices {
  public:
   explicit ChangingDevices(world::State& state) : state_(state) {}

@@ -1,4 +1,4 @@
-// Steps the devices of robots, whatever their types.
+// Steps the devices of all robots, whatever their types.
 //
 // Determinism  the result is a function of the snapshot, the state and the actions. It does not
 //              depend on the order of robots in `actions`.
@@ -20,8 +20,8 @@ namespace gsv::simulation {
 using DeviceActions = std::vector<std::pair<std::string, std::vector<DeviceAction>>>;
 
 // Call this before the bodies move. Applies `actions` in the order of robots' names, then calls
-// BeforeStep() of each device for the step of `length` that begins at `now`. `state` is that at
-// `now`. Returns the transmissions of radios.
+// BeforeStep() of each device for the step of `length` that begins at `now`. `state` is the state
+// at `now`. Returns the transmissions of radios.
 std::vector<world::Transmission> StepDevices(const std::shared_ptr<const world::Snapshot>& now,
                                              base::SimTime length, DeviceActions actions,
                                              sensing::RaySceneCache& rays, base::ThreadTeam* team,
@@ -30,7 +30,7 @@ std::vector<world::Transmission> StepDevices(const std::shared_ptr<const world::
 // Call this after the bodies have moved to their poses at `time`. Calls AfterMove() of each device.
 void MoveDevices(const world::Layout& layout, base::SimTime time, world::State& state);
 
-// Call this after bodies of `layout` were added, removed or placed. `placed` names the placed ones.
+// Call this after bodies of `layout` were added, removed or moved. `placed` names the moved ones.
 // Calls CarryOver() of each device, and removes devices of removed robots.
 void CarryOverDevices(const world::Layout& layout, const std::vector<std::string>& placed,
                       world::State& state);

@@ -1,4 +1,4 @@
-// The world of a simulation: layout, state and engine.
+// The world of a simulation: its layout, state and engine.
 //
 // Threads  any, with lock() (world_mutex) as declared.
 #pragma once
@@ -15,7 +15,7 @@ namespace gsv::simulation {
 
 class SimulatedWorld {
  public:
-  // Starts in the initial state of `layout`, which the engine must have.
+  // The world starts in the initial state of `layout`, which must be the engine's layout.
   SimulatedWorld(std::unique_ptr<dynamics::Engine> engine,
                  std::shared_ptr<const world::Layout> layout);
 
@@ -32,8 +32,8 @@ class SimulatedWorld {
     return state_.bodies[static_cast<std::size_t>(layout_->Find(body))].world_from_model;
   }
 
-  // Gives `layout` to the engine, with the attachments of `state`. Call Replace() or Restore()
-  // afterwards.
+  // Sets the engine's layout, with the attachments of `state`. If this succeeds, call Replace(); if
+  // not, call Restore().
   base::Status TryLayout(const std::shared_ptr<const world::Layout>& layout,
                          const world::State& state) GSV_REQUIRES(world_mutex) {
     return attachments_.SetLayout(layout, state, *engine_);
@@ -41,7 +41,7 @@ class SimulatedWorld {
   base::Status Restore() GSV_REQUIRES(world_mutex) { return TryLayout(layout_, state_); }
   base::Status Replace(std::shared_ptr<const world::Layout> layout, world::State state)
       GSV_REQUIRES(world_mutex);
-  // Returns to the initial state.
+  // Sets the initial state.
   void Reset() GSV_REQUIRES(world_mutex);
 
   // Attaches and detaches the bodies that devices have grasped and released since the last step.

@@ -14,8 +14,8 @@
 
 namespace gsv::simulation {
 
-// Stands for a world's mutex in the thread-safety analysis. The parts of a simulation have
-// references of their own to it.
+// Represents a world's mutex in the thread-safety analysis. Parts of a simulation have separate
+// references to the mutex.
 class GSV_CAPABILITY("mutex") WorldMutex {};
 inline WorldMutex world_mutex;
 
@@ -35,7 +35,7 @@ class WorldLock {
   std::atomic<bool> is_stuck_{false};
 };
 
-// Holds the world's lock for its lifetime; for the stepping thread.
+// Locks the world for the lifetime of this object. For the stepping thread only.
 class GSV_SCOPED_CAPABILITY SteppingWorldGuard {
  public:
   explicit SteppingWorldGuard(WorldLock& world) GSV_ACQUIRE(world_mutex) : lock_(world.mutex_) {}
@@ -47,9 +47,9 @@ class GSV_SCOPED_CAPABILITY SteppingWorldGuard {
   const base::TimedMutexLock lock_;
 };
 
-// Holds the world's lock for its lifetime, for all threads except the stepping thread. If the
-// simulation is stuck, it does not hold the lock. So callers must check is_held(), which the
-// analysis cannot verify.
+// Locks the world for the lifetime of this object. For all threads except the stepping thread. If
+// the simulation is stuck, the lock is not taken. Callers must check is_held(), which the
+// thread-safety analysis cannot verify.
 class GSV_SCOPED_CAPABILITY WorldGuard {
  public:
   explicit WorldGuard(WorldLock& world) GSV_ACQUIRE(world_mutex) : world_(world) { Lock(); }
@@ -62,7 +62,7 @@ class GSV_SCOPED_CAPABILITY WorldGuard {
   bool is_held() const { return is_held_; }
 
  private:
-  // The analysis knows the mutex as world_mutex.
+  // In the analysis, the mutex is called world_mutex.
   void Lock() GSV_NO_THREAD_SAFETY_ANALYSIS {
     while (!is_held_ && !world_.is_stuck()) {
       is_held_ = world_.mutex_.try_lock_for(WorldLock::kPollPeriod);
