@@ -53,9 +53,9 @@ class Spawner {
   // Whether the program can change the world that it publishes.
   virtual bool loads_worlds() const = 0;
   // Replaces the published simulation by a new one of this world (World::name, World::uri, or
-  // another file), which is not started. The published simulation is kept if this fails: with
-  // kNotFound if there is no such world, kBadModel if its file is refused, kInvalidArgument if this
-  // kind of URI is not accepted, kCorrupt if `is_strict` and reading the file gives warnings.
+  // another file), which is not started. The published simulation is kept if this fails.
+  // Errors: kNotFound if there is no such world; kBadModel if its file is refused; kInvalidArgument
+  // if this kind of URI is not accepted; kCorrupt if `is_strict` and the file gives warnings.
   virtual base::Status LoadWorld(const std::string& uri, bool is_strict) = 0;
   // Ends the published simulation.
   virtual base::Status UnloadWorld() = 0;
