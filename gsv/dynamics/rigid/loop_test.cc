@@ -93,7 +93,7 @@ TEST_P(FourBarLinkage, RockerFollowsFreudensteinsEquation) {
 
 INSTANTIATE_TEST_SUITE_P(Loops, FourBarLinkage,
                          ::testing::Values(JointKind::kContinuous, JointKind::kBall),
-                         [](const auto& info) { return std::string(NameOf(info.param)); });
+                         [](const auto& loop) { return std::string(NameOf(loop.param)); });
 
 // A fixed joint holds the linkage against its weight.
 TEST(LoopJoint, FixedLoopJointHoldsAllLinks) {
