@@ -296,6 +296,17 @@ class Contents(unittest.TestCase):
         self.assertEqual(odometry["pose"]["pose"]["position"], {"x": 0, "y": 0, "z": 0})
         self.assertEqual(odometry["twist"]["twist"]["linear"], {"x": 0, "y": 0, "z": 0})
 
+    def test_moves_a_joint_by_arrays_of_numbers(self):
+        for field, value in (("position", "0.25"), ("velocity", "0.05")):
+            with running_gsv() as gsv:
+                done = subprocess.run([PEER, "joint", "/arm", field, value, "--domain", DOMAIN, "--timeout", "40"],
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                result = json.loads(done.stdout)
+                self.assertAlmostEqual(result["value"], float(value), 6)
+                self.assertFalse(result["moved_by_bad"])
+            self.assertEqual(gsv.log.count("from ROS 2 is refused"), 1, gsv.log)  # the first of the robot
+
     def test_ignores_malformed_samples(self):
         with running_gsv() as gsv:
             done = subprocess.run([PEER, "malformed", "/arm", "--domain", DOMAIN, "--timeout", "40"],

@@ -77,6 +77,11 @@ Json ToJson(const rosgraph_msgs_msg_dds__Clock_& message) { return {{"clock", Of
 
 Json ToJson(const std_msgs_msg_dds__String_& message) { return {{"data", message.data}}; }
 
+Json ToJson(const std_msgs_msg_dds__Float64MultiArray_& message) {
+  const auto& data = message.data;
+  return {{"data", std::vector<double>(data._buffer, data._buffer + data._length)}};
+}
+
 Json ToJson(const geometry_msgs_msg_dds__PoseStamped_& message) {
   return {{"header", Of(message.header)}, {"pose", Of(message.pose)}};
 }

@@ -11,6 +11,7 @@ using Json = nlohmann::ordered_json;
 
 Json ToJson(const rosgraph_msgs_msg_dds__Clock_& message);
 Json ToJson(const std_msgs_msg_dds__String_& message);
+Json ToJson(const std_msgs_msg_dds__Float64MultiArray_& message);
 Json ToJson(const geometry_msgs_msg_dds__PoseStamped_& message);
 Json ToJson(const geometry_msgs_msg_dds__Twist_& message);
 Json ToJson(const geometry_msgs_msg_dds__TwistStamped_& message);

@@ -15,6 +15,8 @@
 //                                                infinities, and 20,000 commands from a second publisher, 10,000 a second
 //   ros2_peer call                               calls the services in the lines of its standard input (ros2_calls.h)
 //   ros2_peer call-many ENTITY                   calls get_entity_state --count times, --window at a time
+//   ros2_peer joint ROBOT position|velocity VALUE  commands the robot's only joint until joint_states
+//                                                shows the value; arrays without it come first
 //   ros2_peer malformed ROBOT                    sends truncated samples, and samples with huge counts, to its command
 //                                                topics and to a service of /gsv
 //   ros2_peer endpoints TOPIC…                   prints endpoints of other participants until each topic (rt/clock)
@@ -69,6 +71,7 @@ const std::map<std::string, Type>& Types() {
       GSV_PEER_TYPE(sensor_msgs, Range),
       GSV_PEER_TYPE(sensor_msgs, Imu),
       GSV_PEER_TYPE(sensor_msgs, JointState),
+      GSV_PEER_TYPE(std_msgs, Float64MultiArray),
       GSV_PEER_TYPE(sensor_msgs, Image),
       GSV_PEER_TYPE(sensor_msgs, CameraInfo),
       GSV_PEER_TYPE(rcl_interfaces, Log),
@@ -334,6 +337,43 @@ int Latency(const Arguments& arguments) {
   return 0;
 }
 
+// One array is sent for each message of the joint's state. The first has two numbers and the second
+// NaN: neither must move the joint. The others have the value, until the joint has it.
+int MoveJoint(const Arguments& arguments) {
+  if (arguments.words.size() != 3) Die("joint needs a robot, position or velocity, and a value");
+  const std::string& robot = arguments.words[0];
+  const bool is_position = arguments.words[1] == "position";
+  const double wanted = std::atof(arguments.words[2].c_str());
+  Participant participant(arguments);
+  const dds_entity_t states =
+      participant.Reader(TypeNamed("sensor_msgs/msg/JointState"), robot + "/joint_states");
+  const dds_entity_t command =
+      participant.Writer(TypeNamed("std_msgs/msg/Float64MultiArray"),
+                         robot + "/joint_" + arguments.words[1] + "_controller/commands");
+  participant.Watch(states);
+  if (!WaitForReader(participant, command)) return 1;
+  double value = 0;
+  int sent = 0;
+  bool was_moved_by_bad = false;
+  while (std::abs(value - wanted) > 1e-6) {
+    if (!participant.WaitForData()) return 1;
+    while (TakeOne(states, [&](const void* sample) {
+      const auto* state = static_cast<const sensor_msgs_msg_dds__JointState_*>(sample);
+      value = is_position ? state->position._buffer[0] : state->velocity._buffer[0];
+      was_moved_by_bad = was_moved_by_bad || (sent <= 2 && value != 0);
+      double numbers[] = {sent == 1 ? std::nan("") : wanted, wanted};
+      std_msgs_msg_dds__Float64MultiArray_ array{};
+      array.data._length = array.data._maximum = sent == 0 ? 2 : 1;
+      array.data._buffer = numbers;
+      dds_write(command, &array);
+      ++sent;
+    })) {
+    }
+  }
+  Print({{"value", value}, {"moved_by_bad", was_moved_by_bad}});
+  return 0;
+}
+
 // Bad commands are sent for each odometry message, for about two seconds. The robot's odometry must
 // stay finite.
 int Disturb(const Arguments& arguments) {
@@ -480,7 +520,8 @@ int Endpoints(const Arguments& arguments) {
 
 int Main(int count, char** words) {
   if (count < 2)
-    Die("expected listen, count, latency, drive, step, disturb, malformed, call, call-many or "
+    Die("expected listen, count, latency, drive, step, disturb, joint, malformed, call, call-many "
+        "or "
         "endpoints");
   const std::string command = words[1];
   const Arguments arguments = Parse(count, words);
@@ -488,6 +529,7 @@ int Main(int count, char** words) {
   if (command == "count") return Count(arguments);
   if (command == "drive") return Drive(arguments);
   if (command == "latency") return Latency(arguments);
+  if (command == "joint") return MoveJoint(arguments);
   if (command == "malformed") return Malformed(arguments);
   if (command == "step") return Step(arguments);
   if (command == "disturb") return Disturb(arguments);
