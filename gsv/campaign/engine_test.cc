@@ -63,7 +63,8 @@ TEST_F(EngineTest, CommandLineOverridesTheFile) {
 
 TEST_F(EngineTest, ProblemsNameThePlaceOfEachError) {
   const std::pair<const char*, const char*> bad[]{
-      {"engine: pbs", "c.yaml:1:9: there is no engine \"pbs\"; take local, slurm or ssh"},
+      {"engine: pbs",
+       "c.yaml:1:9: there is no engine \"pbs\"; the engines are local, slurm or ssh"},
       {"slurm: {queue: short}", "c.yaml:1:9: there is no key \"queue\" here"},
       {"slurm: {runs_per_task: 0}", "c.yaml:1:24: runs_per_task must be"},
       {"slurm: {runs_per_task: 1, runs_a_task: 1}",

@@ -23,16 +23,11 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/formats/sdf/named_pose.h"
 #include "gsv/formats/sdf/read_options.h"
 #include "gsv/model/world_description.h"
 
 namespace gsv::formats {
-
-// A <frame> of a world.
-struct NamedPose {
-  std::string name;
-  geometry::Pose world_from_pose;
-};
 
 class ModelLibrary {
  public:

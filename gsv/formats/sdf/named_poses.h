@@ -5,7 +5,8 @@
 
 #include <tinyxml2.h>
 
-#include "gsv/formats/sdf_reader.h"
+#include "gsv/formats/sdf/named_pose.h"
+#include "gsv/model/world_description.h"
 
 namespace gsv::formats {
 
