@@ -11,7 +11,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
@@ -66,25 +65,6 @@ def running_gsv(*options):
         gsv.communicate(timeout=30)
 
 
-POSTS = """<sdf version="1.9"><world name="posts">
-  <frame name="post"><pose>2 0 0 0 0 1.5707963267948966</pose></frame>
-  <frame name="gate" attached_to="post"><pose relative_to="post">1 0 0 0 0 0</pose></frame>
-</world></sdf>"""
-
-
-@contextlib.contextmanager
-def serving_gsv():
-    gsv = subprocess.Popen([GSV, "serve", "--ros2", "--port", "0"], env={**os.environ, "ROS_DOMAIN_ID": DOMAIN},
-                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    client = Client()
-    try:
-        yield client
-    finally:
-        client.close()
-        gsv.terminate()
-        gsv.communicate(timeout=30)
-
-
 class Services(unittest.TestCase):
     def test_read_entities(self):
         with running_gsv() as client:
@@ -114,29 +94,8 @@ class Services(unittest.TestCase):
             self.assertEqual(worlds["result"]["result"], OK)
             self.assertLessEqual({"office", "maze"}, set(worlds["names"]))
             self.assertEqual(call("load_world office"),
-                             {"result": UNSUPPORTED, "error_message":
-                              "`gsv run` keeps its world. To load worlds, start `gsv serve --ros2`"})
-            self.assertEqual(call("unload_world")["result"], UNSUPPORTED)
-
-    def test_load_and_unload_worlds(self):
-        with tempfile.TemporaryDirectory() as folder, serving_gsv() as client:
-            call = client.call
-            self.assertEqual(call("unload_world")["result"], 101)  # NO_WORLD_LOADED
-            self.assertEqual(call("get_current_world")["result"]["result"], INCORRECT_STATE)
-            self.assertEqual(call("load_world offise")["result"]["result"], NOT_FOUND)
-            self.assertEqual(call("load_world office"), {"result": {"result": OK, "error_message": ""},
-                                                         "name": "office"})
-            self.assertEqual(call("get_current_world")["name"], "office")
-            path = os.path.join(folder, "posts.sdf")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(POSTS)
-            self.assertEqual(call(f"load_world {path}")["name"], "posts")
-            poses = call("get_named_poses")["poses"]
-            # The gate is 1 m before the post, which stands at (2, 0, 0) and looks along y.
-            for found, wanted in zip(poses["gate"], [2, 1, 0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5]):
-                self.assertAlmostEqual(found, wanted)
-            self.assertEqual(call("unload_world")["result"], OK)
-            self.assertEqual(call("get_current_world")["result"]["result"], INCORRECT_STATE)
+                             {"result": UNSUPPORTED, "error_message": "a simulation keeps its world. Start "
+                              "another one with gsv run WORLD --ros2"})
 
     def test_move_spawn_and_delete_while_it_runs(self):
         with running_gsv() as client:
