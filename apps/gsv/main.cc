@@ -149,11 +149,17 @@ void GroupCommands(CLI::App& app) {
 }
 
 // Returns the arguments in reverse order, as CLI11 wants them. `gsv help run` is `gsv run --help`.
-std::vector<std::string> WordsOf(int argc, char** argv) {
+// Without "--help", an unknown command is an error.
+std::vector<std::string> WordsOf(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
-    words.emplace_back("--help");
+    const auto is_named = [&](const CLI::App* command) {
+      return command->get_name() == words.front();
+    };
+    if (words.empty() || !app.get_subcommands(is_named).empty()) {
+      words.emplace_back("--help");
+    }
   }
   std::reverse(words.begin(), words.end());
   return words;
@@ -209,7 +215,7 @@ int main(int argc, char** argv) {
   GroupCommands(app);
   TakeOneValuePerOption(app);
   try {
-    app.parse(WordsOf(argc, argv));
+    app.parse(WordsOf(app, argc, argv));
   } catch (const CLI::ParseError& error) {
     return EndOutput(stdout, app.exit(error) == 0 ? kOk : kUsage);
   } catch (const std::exception& exception) {

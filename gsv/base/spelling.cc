@@ -73,8 +73,4 @@ std::string DidYouMean(std::string_view written, const std::vector<std::string>&
   return closest.empty() ? "" : ". Did you mean " + closest + "?";
 }
 
-std::string Counted(std::uint64_t count, std::string_view noun) {
-  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
-}
-
 }  // namespace gsv::base

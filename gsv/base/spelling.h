@@ -1,7 +1,6 @@
-// Words in messages: suggestions for misspelt names, such as "Did you mean office?", and plurals.
+// Suggestions for misspelt names, such as "Did you mean office?".
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +24,5 @@ std::string ClosestName(std::string_view written, const std::vector<std::string>
 
 // The end of an error message about an unknown name: ". Did you mean NAME?", or empty.
 std::string DidYouMean(std::string_view written, const std::vector<std::string>& known);
-
-// A number of things: "1 error", "2 errors".
-std::string Counted(std::uint64_t count, std::string_view noun);
 
 }  // namespace gsv::base

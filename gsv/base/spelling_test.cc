@@ -35,11 +35,5 @@ TEST(Spelling, DidYouMeanFormatsTheEndOfAMessage) {
   EXPECT_EQ(DidYouMean("fly", {"rec", "run"}), "");
 }
 
-TEST(Spelling, OneIsSingular) {
-  EXPECT_EQ(Counted(0, "error"), "0 errors");
-  EXPECT_EQ(Counted(1, "error"), "1 error");
-  EXPECT_EQ(Counted(2, "error"), "2 errors");
-}
-
 }  // namespace
 }  // namespace gsv::base

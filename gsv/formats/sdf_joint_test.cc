@@ -61,6 +61,27 @@ TEST_F(SdfJointTest, AUniversalJointBecomesTwoJointsWithACrossBetweenThem) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
+TEST_F(SdfJointTest, AJointWithoutAnAxisIsReported) {
+  const auto model = ReadJoint("prismatic", "");
+  ASSERT_THAT(model->joints, SizeIs(1));
+  EXPECT_EQ(model->joints[0].axis, (Vector3{0, 0, 1}));
+  ASSERT_THAT(problems_, testing::Not(IsEmpty()));
+  EXPECT_THAT(problems_[0].message, HasSubstr("the joint has no <axis>; the z axis is used"));
+}
+
+TEST_F(SdfJointTest, APlaneWithoutANormalIsReported) {
+  const auto model = Read(
+      "<link name='a'><collision name='c'><geometry><plane><normal>0 0 0</normal></plane>"
+      "</geometry></collision></link>");
+  ASSERT_THAT(model->links, SizeIs(1));
+  ASSERT_THAT(model->links[0].collisions, SizeIs(1));
+  const auto* plane = std::get_if<geometry::Plane>(&model->links[0].collisions[0].shape);
+  ASSERT_NE(plane, nullptr);
+  EXPECT_EQ(plane->normal, (Vector3{0, 0, 1}));
+  ASSERT_THAT(problems_, testing::Not(IsEmpty()));
+  EXPECT_THAT(problems_[0].message, HasSubstr("the plane's normal is zero; the z axis is used"));
+}
+
 TEST_F(SdfJointTest, ABallJointBecomesThreeJoints) {
   const auto model = ReadJoint("ball", "");
   ASSERT_THAT(model->joints, SizeIs(3));

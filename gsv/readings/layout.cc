@@ -1,5 +1,7 @@
 #include "gsv/readings/layout.h"
 
+#include "gsv/base/counted.h"
+
 #include <algorithm>
 
 namespace gsv::readings {
@@ -17,15 +19,11 @@ std::size_t CountOf(const Columns& columns, Multiplicity occurs) {
                     [&](const Layout::Column& column) { return column.occurs == occurs; }));
 }
 
-std::string Counted(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 // Returns a text such as "3 values and 1 label"; empty if both are 0.
 std::string Counted(std::size_t values, std::size_t labels) {
-  const std::string names = labels > 0 ? Counted(labels, "label") : "";
+  const std::string names = labels > 0 ? base::Counted(labels, "label") : "";
   if (values == 0) return names;
-  return Counted(values, "value") + (names.empty() ? "" : " and " + names);
+  return base::Counted(values, "value") + (names.empty() ? "" : " and " + names);
 }
 
 // Shortens a name: "point.x" after "point.y" becomes ".x".
@@ -99,7 +97,7 @@ base::Error WrongSize(const Layout& layout, std::size_t values, std::size_t labe
                       const std::string& where) {
   return {base::ErrorCode::kCorrupt,
           "a reading has the wrong size: expected " + layout.Sizes() + ", found " +
-              Counted(values, "value") + " and " + Counted(labels, "label"),
+              base::Counted(values, "value") + " and " + base::Counted(labels, "label"),
           where};
 }
 

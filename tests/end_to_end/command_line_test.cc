@@ -260,6 +260,8 @@ TEST(CommandLine, UnknownCommandIsReported) {
   EXPECT_EQ(said({"world", "burn"}), "gsv: there is no command burn. See gsv world --help\n");
   EXPECT_EQ(said({"--swim"}), "gsv: there is no option --swim. See gsv --help\n");
   EXPECT_EQ(said({"rnu"}), "gsv: there is no command rnu. Did you mean run? See gsv --help\n");
+  EXPECT_EQ(said({"help", "rnu"}),
+            "gsv: there is no command rnu. Did you mean run? See gsv --help\n");
   EXPECT_EQ(said({"run", "--robott", "pebble"}),
             "gsv: there is no option --robott. Did you mean --robot? See gsv run --help\n");
   EXPECT_EQ(said({"ps", "office", "again"}), "gsv: unexpected argument again. See gsv ps --help\n");

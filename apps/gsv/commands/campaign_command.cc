@@ -11,6 +11,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/option_values.h"
+#include "gsv/base/counted.h"
 #include "gsv/campaign/queue_cost.h"
 #include "gsv/campaign/report.h"
 
@@ -72,9 +73,9 @@ int PrintStatus(campaign::Results& results, bool json) {
     if (cost) line["queue"] = campaign::ToJson(*cost);
     std::puts(line.dump().c_str());
   } else {
-    std::printf("%zu of %lld runs: %zu passed, %zu failed, %zu error%s\n", all->size(),
+    std::printf("%zu of %lld runs: %zu passed, %zu failed, %s\n", all->size(),
                 static_cast<long long>(*planned), by_status["passed"], by_status["failed"],
-                by_status["error"], by_status["error"] == 1 ? "" : "s");
+                base::Counted(by_status["error"], "error").c_str());
     if (cost) std::printf("%s\n", campaign::Sentence(*cost).c_str());
   }
   return by_status["passed"] == all->size() ? kOk : kAssertionFailed;

@@ -13,7 +13,7 @@
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/sensor_types.h"
-#include "gsv/base/spelling.h"
+#include "gsv/base/counted.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/model/drive_choice.h"
 

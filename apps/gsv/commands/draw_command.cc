@@ -17,7 +17,7 @@
 #include "apps/gsv/scenes/model_alone.h"
 #include "apps/gsv/scenes/moving_scene.h"
 #include "apps/gsv/serving/limit_option.h"
-#include "gsv/base/spelling.h"
+#include "gsv/base/counted.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/geometry/box_corners.h"
 #include "gsv/rendering/renderer.h"

@@ -10,7 +10,7 @@
 #include "apps/gsv/process/option_values.h"
 #include "apps/gsv/running/film.h"
 #include "apps/gsv/running/recorded_images.h"
-#include "gsv/base/spelling.h"
+#include "gsv/base/counted.h"
 
 namespace gsv::app {
 namespace {

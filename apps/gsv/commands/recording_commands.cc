@@ -23,6 +23,7 @@
 #include "apps/gsv/running/video_export.h"
 #include "apps/gsv/serving/ros2_access.h"
 #include "apps/gsv/serving/viewer_options.h"
+#include "gsv/base/counted.h"
 #include "gsv/base/spelling.h"
 #include "gsv/gateway/http/target.h"
 #include "gsv/recording/attachments/scene_attachments.h"

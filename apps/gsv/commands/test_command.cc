@@ -18,6 +18,7 @@
 #include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "apps/gsv/trials/test_report.h"
+#include "gsv/base/counted.h"
 #include "gsv/base/mutex.h"
 
 namespace gsv::app {
@@ -192,8 +193,9 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
     std::puts(ToJson(results, wall).c_str());
   } else {
     const std::size_t errors = Count(results, TestResult::Status::kError);
-    std::printf("%zu passed, %zu failed, %zu error%s in %.1f s\n", passed,
-                Count(results, TestResult::Status::kFailed), errors, errors == 1 ? "" : "s", wall);
+    std::printf("%zu passed, %zu failed, %s in %.1f s\n", passed,
+                Count(results, TestResult::Status::kFailed), base::Counted(errors, "error").c_str(),
+                wall);
   }
   if (session.is_cancelled()) return kInterrupted;
   if (arguments.open) OpenFirstFailure(results, signals);

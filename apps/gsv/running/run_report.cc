@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/counted.h"
 #include "gsv/health/health_book.h"
 
 namespace gsv::app {
@@ -20,11 +21,6 @@ double Seconds(std::chrono::nanoseconds time) { return static_cast<double>(time.
 const char* BehaviourText(const simulation::RobotStatus& robot) {
   if (!robot.behaviour.empty()) return robot.behaviour.c_str();
   return robot.is_station ? "(station)" : "-";
-}
-
-// "1 collision", "2 collisions"
-std::string Counted(std::uint64_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 const char* OutcomeText(simulation::Phase phase) {
@@ -77,7 +73,7 @@ std::string RobotLines(const simulation::SimulationStatus& status, const health:
     std::snprintf(line, sizeof line, "  %-*.64s %-*.64s %-12s %7.2f m  ", name_width,
                   robot->name.c_str(), behaviour_width, BehaviourText(*robot),
                   ToString(robot->phase), robot->distance);
-    text += line + Counted(robot->collisions, "collision");
+    text += line + base::Counted(robot->collisions, "collision");
     const std::string sentence = health == nullptr ? "" : health::FinalSentence(*health);
     text += (sentence.empty() ? "" : "; " + sentence) + "\n";
   }

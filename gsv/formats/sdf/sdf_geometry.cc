@@ -148,10 +148,16 @@ base::Result<SdfShape> ReadPolyline(const sdf::ElementPtr& geometry) {
       geometry::Mesh{std::make_shared<const geometry::TriangleMesh>(std::move(*mesh))}, {}, {}};
 }
 
-base::Result<SdfShape> ReadPlane(const sdf::Plane& plane) {
+base::Result<SdfShape> ReadPlane(const sdf::Plane& plane, const ReadingContext& context) {
+  geometry::Vector3 normal = FromIgnition(plane.Normal());
+  if (!(Norm(normal) > 0)) {
+    context.Warn("the plane's normal is zero; the z axis is used",
+                 plane.Element() == nullptr ? context.source.string()
+                                            : PlaceOf(*plane.Element(), context.source));
+    normal = {0, 0, 1};
+  }
   const geometry::Vector2 size{plane.Size().X(), plane.Size().Y()};
-  return Checked(geometry::Plane{geometry::Normalized(FromIgnition(plane.Normal())), size},
-                 {size.x, size.y});
+  return Checked(geometry::Plane{geometry::Normalized(normal), size}, {size.x, size.y});
 }
 
 // Cones exist in SDFormat since 1.11: libsdformat 12 keeps the element unchanged.
@@ -186,7 +192,7 @@ base::Result<SdfShape> ReadGeometry(const sdf::Geometry& geometry, const sdf::El
     const Vector3 radii = FromIgnition(ellipsoid->Radii());
     return Checked(geometry::Ellipsoid{radii}, {radii.x, radii.y, radii.z});
   }
-  if (const sdf::Plane* plane = geometry.PlaneShape()) return ReadPlane(*plane);
+  if (const sdf::Plane* plane = geometry.PlaneShape()) return ReadPlane(*plane, context);
   if (const sdf::Mesh* mesh = geometry.MeshShape()) return ReadMesh(*mesh, file, context);
   if (const sdf::Heightmap* map = geometry.HeightmapShape()) {
     const sdf::ElementPtr owner = element->GetParent();

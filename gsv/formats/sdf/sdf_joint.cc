@@ -86,6 +86,9 @@ std::vector<Joint> InARow(const sdf::Joint& source, const Joint& joint, const st
     } else if (has_two) {
       context.Warn("the joint needs two axes", place);
       row.back().axis = i == 0 ? geometry::Vector3{1, 0, 0} : geometry::Vector3{0, 1, 0};
+    } else if (row.back().kind != JointKind::kFixed) {
+      context.Warn("the joint has no <axis>; the z axis is used", place);
+      row.back().axis = {0, 0, 1};
     }
   }
   return row;

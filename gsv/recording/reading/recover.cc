@@ -1,5 +1,4 @@
 #include "gsv/recording/reading/recover.h"
-#include "gsv/base/spelling.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/counted.h"
 #include "gsv/recording/mcap/bag_folder.h"
 #include "gsv/recording/mcap/mcap_file_writer.h"
 #include "gsv/recording/reading/lasting_messages.h"

@@ -82,7 +82,7 @@ export class PoseInterpolator {
   readAt(stamp: number, out: Float64Array): boolean {
     const last = this.samples.at(-1);
     if (!last || last.poses.length !== out.length) return false;
-    // Of several samples with the same time, as after an edit while paused, the newest counts.
+    // An edit in a paused simulation adds a sample with the same time. The newest of them is used.
     const after = this.samples.findIndex((sample) => sample.stamp > stamp);
     const to = this.samples[after];
     const from = this.samples[after - 1];
