@@ -21,15 +21,19 @@ async function editing(here: Required<BodyPlace> = BEFORE, phase: "paused" | "ru
     scene: scene({ bodies: [body("a"), body("box", { isRobot: false })] }),
     status: simulationStatus(phase, { robots: [robotStatus("a")] }),
   });
+  const without = (name: string) => (store.get().scene?.bodies ?? []).filter((each) => each.name !== name);
+  const arrive = (name: string, isRobot: boolean) =>
+    store.set({ scene: scene({ bodies: [...without(name), body(name, { isRobot })] }) });
+  const leave = async (_: string, name: string) => store.set({ scene: scene({ bodies: without(name) }) });
   const api = {
     models: vi.fn(async () => []),
     objectModels: vi.fn(async () => ["crate"]),
     behaviours: vi.fn(async () => ({ offers: [], startCommand: "" })),
     placeBody: vi.fn(async () => {}),
-    addRobot: vi.fn(async () => "b_2"),
-    removeRobot: vi.fn(async () => {}),
-    addObject: vi.fn(async () => "crate_2"),
-    removeObject: vi.fn(async () => {}),
+    addRobot: vi.fn(async (_: string, { name }: { name: string }) => (arrive(name || "b_2", true), name || "b_2")),
+    removeRobot: vi.fn(leave),
+    addObject: vi.fn(async (_: string, { name }: { name: string }) => (arrive(name || "crate_2", false), name || "crate_2")),
+    removeObject: vi.fn(leave),
   };
   const pause = vi.fn(async () => store.set({ status: simulationStatus("paused") }));
   const control = new EditControl(store, api as never, { placeOf: () => here }, pause);
@@ -100,7 +104,6 @@ test("editing pauses a running simulation, and ends when it resumes", async () =
 test("an added object is selected, and undo and redo keep its name", async () => {
   const { store, api, control } = await editing();
   expect(store.get().editing!.objects).toEqual(["crate"]);
-  store.set({ scene: scene({ bodies: [body("crate_2", { isRobot: false })] }) });
   expect(await control.addObject({ name: "", model: "crate", place: null })).toBe(true);
   expect(api.addObject).toHaveBeenCalledWith("house", { name: "", model: "crate", place: null });
   expect(store.get().editing).toMatchObject({ chosen: "crate_2", undo: ["add crate"] });
@@ -173,16 +176,25 @@ test("a copied body is pasted beside the original each time, and is then selecte
   expect(api.removeObject).toHaveBeenCalledTimes(1);
 });
 
-test("pasted bodies stay selected if scenes arrive that have only some of them", async () => {
+test("an edit lasts until the scene shows it, so that the next one finds the body", async () => {
+  const { store, api, control } = await editing();
+  api.addObject.mockResolvedValueOnce("crate_2"); // the scene arrives later than the answer
+  const added = control.addObject({ name: "", model: "crate", place: null });
+  await vi.waitFor(() => expect(api.addObject).toHaveBeenCalled());
+  expect(store.get().editing).toMatchObject({ isBusy: true, chosen: null });
+  store.set(({ scene: before }) => ({ scene: scene({ bodies: [...before!.bodies, body("crate_2", { isRobot: false })] }) }));
+  expect(await added).toBe(true);
+  expect(store.get().editing).toMatchObject({ isBusy: false, chosen: "crate_2" });
+  expect(await control.removeAll(["crate_2"])).toBe(true);
+  expect(api.removeObject).toHaveBeenCalledWith("house", "crate_2");
+});
+
+test("bodies that another person removes are no longer selected", async () => {
   const { store, control } = await editing();
   control.copy(["box", "a"]);
   await control.paste();
-  const bodies = [body("a"), body("box", { isRobot: false })];
-  store.set({ scene: scene({ bodies: [...bodies, body("crate_2", { isRobot: false })] }) });
   expect(store.get().editing).toMatchObject({ chosen: "crate_2", more: ["b_2"] });
-  store.set({ scene: scene({ bodies: [...bodies, body("crate_2", { isRobot: false }), body("b_2")] }) });
-  expect(store.get().editing).toMatchObject({ chosen: "crate_2", more: ["b_2"] });
-  store.set({ scene: scene({ bodies: [...bodies, body("crate_2", { isRobot: false })] }) });
+  store.set(({ scene: before }) => ({ scene: scene({ bodies: before!.bodies.filter(({ name }) => name !== "b_2") }) }));
   expect(store.get().editing).toMatchObject({ chosen: "crate_2", more: [] });
 });
 

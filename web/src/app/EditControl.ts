@@ -13,6 +13,8 @@ import { notify } from "./notices";
 
 const MOST_EDITS = 100;
 const STANDS_M = 1e-6; // if a body moved by less, it was only rotated
+const SHOWN_WITHIN_MS = 10_000;
+const SHOWN_POLL_MS = 20;
 const PASTED_AT_M = 0.5; // offset of a copy from the original, along x and y
 
 export interface Bodies {
@@ -38,8 +40,6 @@ export class EditControl {
   private takenBack: Edit[] = [];
   // Poses that were set here, but are not in a received scene yet.
   private readonly unseen = new Map<string, BodyPlace>();
-  // Bodies that were added here, but are not in a received scene yet.
-  private readonly arriving = new Set<string>();
   private copied: Copied[] = [];
   private pastes = 0; // how many times the copied bodies were pasted
 
@@ -58,10 +58,9 @@ export class EditControl {
       ({ scene }) => scene,
       (scene) => {
         this.unseen.clear();
-        for (const { name } of scene?.bodies ?? []) this.arriving.delete(name);
         const { editing } = this.store.get();
-        if (!editing) return this.arriving.clear();
-        const isThere = (body: string) => this.arriving.has(body) || (scene?.bodies.some(({ name }) => name === body) ?? false);
+        if (!editing) return;
+        const isThere = (body: string) => scene?.bodies.some(({ name }) => name === body) ?? false;
         if (editing.chosen !== null && !isThere(editing.chosen)) this.choose(null);
         else if (!editing.more.every(isThere)) this.patch({ more: editing.more.filter(isThere) });
       },
@@ -238,20 +237,34 @@ export class EditControl {
       name: `add ${object.model ?? object.copy_of}`,
       apply: async () => {
         name = await this.api.addObject(simulation, { ...object, name, place });
-        this.added(name, names);
+        names.push(name);
+        await this.hasCome(name);
       },
       revert: async () => {
         place = this.placeOf(name) ?? place; // redo adds the object at the place where it was
-        this.arriving.delete(name);
         await this.api.removeObject(simulation, name);
+        await this.hasGone(name);
       },
     };
   }
 
-  // Call this after a body was added. A scene with it may have arrived before the server's answer.
-  private added(name: string, names: string[]): void {
-    names.push(name);
-    if (!this.bodyOf(name)) this.arriving.add(name);
+  // Waits until the received scene and poses include a body that was added. Before that, it could be neither selected,
+  // moved nor removed.
+  private hasCome(body: string): Promise<void> {
+    return this.until(() => this.bodyOf(body) !== undefined && this.bodies.placeOf(body) !== null);
+  }
+
+  // Waits until the received scene no longer includes a body that was removed.
+  private hasGone(body: string): Promise<void> {
+    return this.until(() => this.bodyOf(body) === undefined);
+  }
+
+  // Gives up after some seconds, because the connection may be lost, and if the page shows something else.
+  private async until(isTrue: () => boolean): Promise<void> {
+    const { simulation } = this.store.get();
+    const end = Date.now() + SHOWN_WITHIN_MS;
+    const isWanted = () => Date.now() < end && this.store.get().simulation === simulation;
+    while (!isTrue() && isWanted()) await new Promise((resolve) => setTimeout(resolve, SHOWN_POLL_MS));
   }
 
   private arrival(simulation: string, robot: RobotSetUp, isAvatar: boolean, names: string[]): Edit {
@@ -260,13 +273,14 @@ export class EditControl {
       name: `add ${robot.model}`,
       apply: async () => {
         name = await this.api.addRobot(simulation, { ...robot, name, place }, isAvatar);
-        this.added(name, names);
+        names.push(name);
+        await this.hasCome(name);
       },
       revert: async () => {
         const stood = this.placeOf(name);
-        this.arriving.delete(name);
         place = stood ? upright(stood) : place; // redo adds the robot at the place where it was
         await this.api.removeRobot(simulation, name);
+        await this.hasGone(name);
       },
     };
   }
@@ -277,8 +291,14 @@ export class EditControl {
     if (!simulation || !place) return null;
     return {
       name: `remove ${object}`,
-      apply: () => this.api.removeObject(simulation, object),
-      revert: async () => void (await this.api.addObject(simulation, { name: object, copy_of: object, place })),
+      apply: async () => {
+        await this.api.removeObject(simulation, object);
+        await this.hasGone(object);
+      },
+      revert: async () => {
+        await this.api.addObject(simulation, { name: object, copy_of: object, place });
+        await this.hasCome(object);
+      },
     };
   }
 
@@ -289,8 +309,14 @@ export class EditControl {
     const isAvatar = this.isAvatar(robot);
     return {
       name: `remove ${robot}`,
-      apply: () => this.api.removeRobot(simulation, robot),
-      revert: async () => void (await this.api.addRobot(simulation, again, isAvatar)),
+      apply: async () => {
+        await this.api.removeRobot(simulation, robot);
+        await this.hasGone(robot);
+      },
+      revert: async () => {
+        await this.api.addRobot(simulation, again, isAvatar);
+        await this.hasCome(robot);
+      },
     };
   }
 
@@ -351,7 +377,6 @@ export class EditControl {
   }
 
   private end(): void {
-    this.arriving.clear();
     this.store.set({ editing: null, placing: false, chosenPose: null });
   }
 

@@ -18,11 +18,12 @@ function past(api: Partial<SimulationApi>) {
     connection: { phase: "open" },
     simulation: "house",
     status: simulationStatus("running"),
+    isLive: true,
     time: 40,
   });
   const enterPast = vi.fn(async () => {
     await Promise.resolve();
-    store.set({ replay: REPLAY, inPast: true });
+    store.set({ replay: REPLAY, isLive: false, inPast: true });
   });
   const session = { enterPast, goLive: vi.fn() };
   const replay = { seek: vi.fn(async () => {}) };

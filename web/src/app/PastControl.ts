@@ -33,10 +33,8 @@ export class PastControl {
 
   start(): void {
     this.store.watch(
-      ({ simulation, connection, status, replay, abilities }) => ({
-        // A replay has no stored past. The status shows a replay, and the server shows whether it replays a
-        // recording.
-        simulation: status !== null && replay === null && abilities.recording === "" ? simulation : null,
+      ({ simulation, connection, isLive }) => ({
+        simulation: isLive ? simulation : null, // a replay has no stored past
         isOpen: connection.phase === "open",
       }),
       ({ simulation, isOpen }) => {
@@ -84,7 +82,7 @@ export class PastControl {
   }
 
   private async ask(simulation: string): Promise<void> {
-    const isWanted = () => this.store.get().simulation === simulation && this.store.get().replay === null;
+    const isWanted = () => this.store.get().simulation === simulation && this.store.get().isLive;
     try {
       const kept = await this.api.kept(simulation);
       if (!isWanted()) return;

@@ -40,6 +40,7 @@ const NOTHING_WATCHED: Partial<State> = {
   status: null,
   time: 0,
   replay: null,
+  isLive: false,
   kept: null,
   inPast: false,
   events: [],
@@ -134,7 +135,7 @@ export class Session implements TopicSource, LiveViewSource {
     try {
       const replay = await this.api.replay(simulation);
       if (this.store.get().simulation !== simulation) throw new Error("Another simulation was opened meanwhile.");
-      this.switchStream(simulation, { inPast: true, replay, events: [] });
+      this.switchStream(simulation, { inPast: true, replay, isLive: false, events: [] });
     } catch (error) {
       this.api.leavePast();
       throw error;
@@ -407,6 +408,7 @@ export class Session implements TopicSource, LiveViewSource {
       const status = await this.api.status(name);
       if (this.store.get().simulation !== name) return;
       this.takeStatus(status);
+      this.store.set({ isLive: status.replay === null });
       this.newsSince = Math.min(this.newsSince, status.time);
       if (status.replay) void this.fetchEvents(name);
     } catch {

@@ -83,6 +83,7 @@ export interface State {
   status: SimulationStatus | null;
   time: number; // s, simulated
   replay: Replay | null; // null if this is no replay, or if unknown
+  isLive: boolean; // whether the server has said that this is no replay
   kept: Kept | null; // the stored past of the running simulation; null if there is none, or if unknown
   inPast: boolean; // whether the page replays the past of a running simulation
   events: RecordedEvent[]; // events of the recording or the run, ordered by time
@@ -138,6 +139,7 @@ export const initialState: State = {
   status: null,
   time: 0,
   replay: null,
+  isLive: false,
   kept: null,
   inPast: false,
   events: [],
