@@ -1,9 +1,9 @@
 #!/usr/bin/env node
 // Measures the viewer in a browser without a graphics card: the time to the first image and to the
-// list of robots, the time from a click to the displayed selection, frames per second, traffic, and
-// the number of drawing calls.
+// list of robots, the time from a click to the displayed selection, frames per second, traffic, the
+// number of drawing calls, and the images that the server draws and pushes.
 //
-//   bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing]]
+//   bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing|pushed]]
 //
 // BUILD is a release build (build/release). WORLD is a world for the first image; the default is
 // the TurtleBot3 house in GSV_REAL_DIR. The third word selects a single measurement. The machine
@@ -16,7 +16,7 @@ import process from "node:process";
 const HOUSE = path.join(process.env.GSV_REAL_DIR ?? "", "turtlebot3/worlds/turtlebot3_house.world");
 const [build, given, only = ""] = process.argv.slice(2);
 const world = given || HOUSE;
-if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing]]");
+if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing|pushed]]");
 process.env.GSV_BUILD_DIR = path.resolve(build);
 const { openBrowser, openPage, waitUntilDrawn } = await import("../tests/browser/browser.mjs");
 const { crowd, noteClicks, timeClicks } = await import("../tests/browser/crowd.mjs");
@@ -27,6 +27,8 @@ const CLICKS = 20;
 const ARRIVALS = 7;
 const FRAMES_S = 15;
 const SIZE = { width: 1280, height: 800 };
+const FULL_WINDOW = { width: 1366, height: 768 };
+const IN_OFFICE = ["office", "--robot", "pebble@-2,-1", "--behaviour", "wander", "--in-process"];
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-viewing-"));
 
@@ -116,6 +118,28 @@ const frames = (robots) =>
       return { robots, frames_a_second: Math.round((10_000 * (after - before)) / (to - from)) / 10 };
     }),
   );
+
+// Measures the view that the server draws: images per second, and the time from a state of the world to its image
+// on the screen.
+const pushed = (name, args) =>
+  withServer(args, async (url) => {
+    const browser = await openBrowser({ ...FULL_WINDOW, drawer: null, webgl: false });
+    try {
+      const { page } = await openPage(browser, url);
+      await waitUntilDrawn(page, 120_000);
+      await new Promise((resolve) => setTimeout(resolve, 3000)); // the panels have been laid out
+      const images = () => page.evaluate(() => [[...window.gsv.imageDelaysMs], performance.now()]);
+      const [before, from] = await images();
+      await new Promise((resolve) => setTimeout(resolve, FRAMES_S * 1000));
+      const [after, to] = await images();
+      const delays = after.slice(before.length).sort((a, b) => a - b);
+      const delay = (part) => Math.round(delays[Math.floor(part * (delays.length - 1))]);
+      const each_second = Math.round((10_000 * delays.length) / (to - from)) / 10;
+      return { world: name, images_a_second: each_second, delay_ms: { median: delay(0.5), p95: delay(0.95) } };
+    } finally {
+      await browser.close();
+    }
+  });
 
 // Counts the calls and triangles of each frame that a graphics card would get, and the time of the
 // page's script for it. Nothing is omitted for lack of a card.
@@ -265,6 +289,13 @@ try {
   if (isWanted("traffic")) result.traffic = [await traffic(50, true), await traffic(50, false), await traffic(500, true), await traffic(500, false)];
   if (isWanted("frames")) result.frames = [await frames(100), await frames(1000)];
   if (isWanted("drawing")) result.drawing = [await drawing(100), await drawing(1000)];
+  if (isWanted("pushed")) {
+    result.pushed = [
+      await pushed("office", IN_OFFICE),
+      await pushed("50 robots", crowd(folder, 50)),
+      await pushed("500 robots", crowd(folder, 500)),
+    ];
+  }
   console.log(JSON.stringify(result, null, 2));
 } finally {
   fs.rmSync(folder, { recursive: true, force: true });
