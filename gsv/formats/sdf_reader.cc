@@ -10,6 +10,7 @@
 #include "gsv/base/spelling.h"
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/model_store.h"
+#include "gsv/formats/sdf/named_poses.h"
 #include "gsv/formats/sdf/shape_model.h"
 #include "gsv/formats/sdf/world_reader.h"
 #include "gsv/formats/support/naming_rules.h"
@@ -67,6 +68,15 @@ class ModelLibrary::Reader {
     auto world = formats::ReadWorld(*xml, store_, problems);
     problems.insert(problems.end(), broken_rules.begin(), broken_rules.end());
     return world;
+  }
+
+  base::Result<std::vector<NamedPose>> ReadNamedPosesOf(const WorldDescription& world) {
+    const base::MutexLock lock(mutex_);
+    base::Problems known;  // they were reported when the world was read
+    auto xml = ReadXml(world.source, store_.finder(), store_.limits(), known);
+    if (!xml) return Fail(xml.error());
+    const auto* const element = xml->root->FirstChildElement("world");
+    return element == nullptr ? std::vector<NamedPose>() : NamedPosesIn(*element, world);
   }
 
   base::Result<std::shared_ptr<const Model>> ReadModelNamed(const std::string& name,
@@ -184,6 +194,10 @@ ModelLibrary::~ModelLibrary() = default;
 base::Result<WorldDescription> ModelLibrary::ReadWorld(const fs::path& path,
                                                        base::Problems& problems) {
   return reader_->ReadWorldAt(path, problems);
+}
+
+base::Result<std::vector<NamedPose>> ModelLibrary::ReadNamedPoses(const WorldDescription& world) {
+  return reader_->ReadNamedPosesOf(world);
 }
 
 base::Result<std::shared_ptr<const Model>> ModelLibrary::ReadModel(const std::string& name_or_path,

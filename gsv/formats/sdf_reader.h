@@ -20,8 +20,10 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/formats/sdf/named_pose.h"
 #include "gsv/formats/sdf/read_options.h"
 #include "gsv/model/world_description.h"
 
@@ -38,6 +40,10 @@ class ModelLibrary {
   // and with a ground plane unless the model has a plane as collision shape.
   base::Result<model::WorldDescription> ReadWorld(const std::filesystem::path& path,
                                                   base::Problems& problems);
+
+  // Reads the frames of a world from its file again. They are those of the file, at the start. A
+  // model that serves as a world has none.
+  base::Result<std::vector<NamedPose>> ReadNamedPoses(const model::WorldDescription& world);
 
   // Reads a model by its file (SDFormat or URDF), its folder, or its name. A name is found as
   // model://NAME from `named_in` (a file; default: the current folder). A name "shape:…" is a box, a

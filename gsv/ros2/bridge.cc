@@ -48,7 +48,7 @@ using WallClock = std::chrono::steady_clock;
 class SimulationBridge final : public Bridge {
  public:
   SimulationBridge(dds::Participant& participant, Options options,
-                   const std::shared_ptr<Simulation>& simulation, Spawner* spawner);
+                   const std::shared_ptr<Simulation>& simulation, SimulationServices* services);
   ~SimulationBridge() override;
 
  private:
@@ -93,12 +93,19 @@ class SimulationBridge final : public Bridge {
   std::map<std::string, std::unique_ptr<RobotTopics>> robots_;  // by body
   SlowLane slow_;  // declared last, because it uses the members above
   bool has_checked_namespaces_ = false;
-  std::unique_ptr<SimulationServices> services_;
+  std::unique_ptr<SimulationServices> own_services_;  // null: those of the caller
+  SimulationServices& services_;
   std::thread thread_;
 };
 
+void AppendServices(const SimulationServices& services, NodeInfo& node) {
+  node.readers.insert(node.readers.end(), services.readers().begin(), services.readers().end());
+  node.writers.insert(node.writers.end(), services.writers().begin(), services.writers().end());
+}
+
 SimulationBridge::SimulationBridge(dds::Participant& participant, Options options,
-                                   const std::shared_ptr<Simulation>& simulation, Spawner* spawner)
+                                   const std::shared_ptr<Simulation>& simulation,
+                                   SimulationServices* services)
     : participant_(participant),
       options_(std::move(options)),
       simulation_(simulation),
@@ -109,10 +116,16 @@ SimulationBridge::SimulationBridge(dds::Participant& participant, Options option
       types_(std::make_shared<sensing::SensorRegistry>(simulation->sensor_types())),
       sensors_(*types_),
       graph_(participant, options_.distro),
-      node_(participant, options_.distro, "/", "gsv", [this] {
-        has_matched_ = true;
-        feed_->Wake();
-      }) {
+      node_(participant, options_.distro, "/", "gsv",
+            [this] {
+              has_matched_ = true;
+              feed_->Wake();
+            }),
+      own_services_(services == nullptr
+                        ? std::make_unique<SimulationServices>(
+                              participant, options_.distro != Distro::kHumble, nullptr)
+                        : nullptr),
+      services_(services == nullptr ? *own_services_ : *services) {
   static_frames_ = node_.Advertise("/tf_static", "tf2_msgs/msg/TFMessage", kLatchedQos);
   log_ = node_.Advertise("/rosout", "rcl_interfaces/msg/Log", kLogQos);
   diagnostics_ =
@@ -129,11 +142,9 @@ SimulationBridge::SimulationBridge(dds::Participant& participant, Options option
         for (const auto& [body, robot] : robots_) robot->AppendMovingFrames(snapshot, message);
         return message;
       }));
-  services_ = std::make_unique<SimulationServices>(
-      participant, options_.distro != Distro::kHumble, simulation, spawner,
-      [this](const std::string& robot, const std::string& name_space) {
-        return SetNamespace(robot, name_space);
-      });
+  services_.Serve(simulation, [this](const std::string& robot, const std::string& name_space) {
+    return SetNamespace(robot, name_space);
+  });
   Follow(*simulation);
   Refresh(*simulation);
   simulation->AddObserver(feed_);
@@ -150,7 +161,7 @@ SimulationBridge::~SimulationBridge() {
   is_stopping_ = true;
   feed_->Close();
   thread_.join();
-  services_.reset();  // the thread names them in the graph
+  services_.Serve(nullptr, {});
   if (const auto simulation = simulation_.lock()) simulation->RemoveObserver(feed_);
   slow_.Drain();
   if (feed_->dropped() > 0) {
@@ -289,11 +300,7 @@ void SimulationBridge::SendStaticFrames(const world::Snapshot& snapshot) {
 
 void SimulationBridge::SendGraph() {
   std::vector<NodeInfo> nodes{node_.info()};
-  const auto append = [](const std::vector<dds::Guid>& from, std::vector<dds::Guid>& to) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  append(services_->readers(), nodes.front().readers);
-  append(services_->writers(), nodes.front().writers);
+  AppendServices(services_, nodes.front());
   for (const auto& [body, robot] : robots_) nodes.push_back(robot->node());
   graph_.Publish(nodes);
 }
@@ -350,12 +357,31 @@ void SimulationBridge::Repeat() {
   if (!slow.empty()) slow_.Offer(std::move(slow), moment, true);
 }
 
+class ServicesAlone final : public Bridge {
+ public:
+  ServicesAlone(dds::Participant& participant, Distro distro, SimulationServices& services)
+      : graph_(participant, distro) {
+    services.Serve(nullptr, {});
+    NodeInfo node{"/", "gsv", {}, {}};
+    AppendServices(services, node);
+    graph_.Publish({node});
+  }
+
+ private:
+  Graph graph_;
+};
+
 }  // namespace
+
+std::unique_ptr<Bridge> Bridge::StartWithoutWorld(dds::Participant& participant, Distro distro,
+                                                  SimulationServices& services) {
+  return std::make_unique<ServicesAlone>(participant, distro, services);
+}
 
 std::unique_ptr<Bridge> Bridge::Start(dds::Participant& participant, Options options,
                                       const std::shared_ptr<Simulation>& simulation,
-                                      Spawner* spawner) {
-  return std::make_unique<SimulationBridge>(participant, std::move(options), simulation, spawner);
+                                      SimulationServices* services) {
+  return std::make_unique<SimulationBridge>(participant, std::move(options), simulation, services);
 }
 
 }  // namespace gsv::ros2

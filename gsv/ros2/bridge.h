@@ -1,5 +1,5 @@
-// Connects one simulation to ROS 2: publishes the robots' sensors, receives commands, and offers
-// the services that control the simulation.
+// Connects one simulation to ROS 2: publishes the robots' sensors, receives commands, and has the
+// services control the simulation.
 //
 // Threads  one publisher thread, one thread for slow sensors, and those of the
 //          services; members from any thread. The stepping thread only hands
@@ -11,19 +11,22 @@
 
 #include "gsv/ros2/dds/participant.h"
 #include "gsv/ros2/options.h"
-#include "gsv/ros2/services/spawner.h"
+#include "gsv/ros2/services/simulation_services.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::ros2 {
 
 class Bridge {
  public:
-  // `participant` must outlive the bridge, and watch endpoints. `spawner` must outlive it too;
-  // without one (null), SpawnEntity is not supported. The bridge does not keep the simulation
-  // alive.
+  // `participant` and `services` must outlive the bridge; the participant watches endpoints. If
+  // `services` is null, the bridge makes its own, which add no models. The bridge does not keep the
+  // simulation alive.
   static std::unique_ptr<Bridge> Start(dds::Participant& participant, Options options,
                                        const std::shared_ptr<simulation::Simulation>& simulation,
-                                       Spawner* spawner = nullptr);
+                                       SimulationServices* services = nullptr);
+  // Without a simulation: only the node /gsv with its services exists.
+  static std::unique_ptr<Bridge> StartWithoutWorld(dds::Participant& participant, Distro distro,
+                                                   SimulationServices& services);
   virtual ~Bridge() = default;
 };
 

@@ -235,14 +235,17 @@ void Calls::AddQueries() {
     }
     return {{"result", Of(reply.result)}, {"names", names}};
   });
-  GSV_SIMULATION_CALL("load_world", LoadWorld)
-  [](auto& request, const Words& words) {
-    static std::string uri;
-    uri = Word(words, 0);
-    request.uri = Text(uri);
-    request.resource_string = Text("");
-  },
-      kResult);
+  GSV_SIMULATION_CALL("get_named_poses", GetNamedPoses)
+  kNothing, [](const auto& reply) -> Json {
+    Json poses = Json::object();
+    for (std::uint32_t i = 0; i < reply.poses._length; ++i) {
+      const auto& each = reply.poses._buffer[i];
+      const auto& p = each.pose.position;
+      const auto& q = each.pose.orientation;
+      poses[each.name] = {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+    }
+    return {{"result", Of(reply.result)}, {"poses", poses}};
+  });
   GSV_SIMULATION_CALL("get_named_pose_bounds", GetNamedPoseBounds)
   [](auto& request, const Words&) {
     request.name = Text("any"); }, kResult);
@@ -275,6 +278,25 @@ void Calls::AddChanges() {
     return {{"result", Of(reply.result)}, {"entity_name", reply.entity_name}};
       });
   GSV_SIMULATION_CALL("delete_entity", DeleteEntity) kEntity, kResult);
+  GSV_SIMULATION_CALL("set_entity_info", SetEntityInfo)
+  [](auto& request, const Words& words) {
+    kEntity(request, words);
+    request.info.description = Text("");
+  },
+      kResult);
+  GSV_SIMULATION_CALL("load_world", LoadWorld)
+  [](auto& request, const Words& words) {
+    static std::string uri, text;
+    uri = Word(words, 0);
+    text = Word(words, 2);
+    request.uri = Text(uri);
+    request.resource_string = Text(text);
+    request.fail_on_unsupported_element = Word(words, 1) == "strict";
+  },
+      [](const auto& reply) -> Json {
+    return {{"result", Of(reply.result)}, {"name", reply.world.name}};
+      });
+  GSV_SIMULATION_CALL("unload_world", UnloadWorld) kNothing, kResult);
 }
 
 void Calls::AddRun() {

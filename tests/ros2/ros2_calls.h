@@ -13,7 +13,8 @@ namespace gsv::ros2_peer {
 //   get_simulator_features     get_entities [FILTER]      get_entities_states [FILTER]   get_entity_info ENTITY
 //   get_entity_state ENTITY    get_entity_bounds ENTITY   set_entity_state ENTITY X Y Z [SPEED]
 //   spawn_entity URI NAME NAMESPACE X Y Z                 delete_entity ENTITY           get_spawnables
-//   get_current_world          get_available_worlds       load_world URI
+//   get_current_world          get_available_worlds       load_world URI [-|strict [TEXT]]
+//   unload_world               get_named_poses            set_entity_info ENTITY
 //   get_named_pose_bounds NAME get_simulation_state       set_simulation_state STATE
 //   reset_simulation SCOPE     step_simulation STEPS      list_parameters                get_parameters NAME
 //   send_goal ID STEPS         get_result ID              cancel_goal ID                 feedback COUNT

@@ -11,11 +11,13 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import unittest
 
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
 DOMAIN = str(100 + os.getpid() % 40)  # apart from others on this machine
+EARLY_CALLS = 5  # starts of gsv with a call as soon as its services are found
 CALLS = "3400"  # of each client: 10,200 in all
 UNSUPPORTED, OK, NOT_FOUND, INCORRECT_STATE, FAILED = range(5)
 STOPPED, PLAYING, PAUSED, QUITTING = range(4)
@@ -65,6 +67,93 @@ def running_gsv(*options):
         gsv.communicate(timeout=30)
 
 
+POSTS = """<sdf version="1.9"><world name="posts">
+  <frame name="post"><pose>2 0 0 0 0 1.5707963267948966</pose></frame>
+  <frame name="gate" attached_to="post"><pose relative_to="post">1 0 0 0 0 0</pose></frame>
+</world></sdf>"""
+
+
+@contextlib.contextmanager
+def serving_gsv():
+    gsv = subprocess.Popen([GSV, "serve", "--ros2", "--port", "0"], env={**os.environ, "ROS_DOMAIN_ID": DOMAIN},
+                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    client = Client()
+    try:
+        yield client
+    finally:
+        client.close()
+        gsv.terminate()
+        gsv.communicate(timeout=30)
+
+
+def result_of(reply):
+    """The number in a reply, which some services have inside a further result."""
+    result = reply["result"]
+    return result["result"] if isinstance(result, dict) else result
+
+
+def works(*lines):
+    return lambda call: all(result_of(call(line)) == OK for line in lines)
+
+
+def gets(line, holds):
+    def trial(call):
+        reply = call(line)
+        return result_of(reply) == OK and holds(reply)
+    return trial
+
+
+def sets_state(call):
+    is_stopped = call("get_simulation_state")["state"] == STOPPED
+    return result_of(call(f"set_simulation_state {PLAYING if is_stopped else STOPPED}")) == OK
+
+
+def pauses(call):
+    if call("get_simulation_state")["state"] != PLAYING:
+        call(f"set_simulation_state {PLAYING}")
+    done = result_of(call(f"set_simulation_state {PAUSED}")) == OK
+    while done and call("get_simulation_state")["state"] != PAUSED:
+        pass
+    return done
+
+
+def steps_by_action(call):
+    return call("send_goal 7 2") == {"accepted": True} and call("get_result 7")["status"] == SUCCEEDED
+
+
+def resets_spawned(call):
+    return (result_of(call("spawn_entity model://pebble added - 2 2.5 0")) == OK
+            and result_of(call("reset_simulation 4")) == OK and call("get_entities ^added$")["entities"] == [])
+
+
+WORLD_LOADING, WORLD_UNLOADING = 40, 43
+# Trials of the features of simulation_interfaces 2 that gsv has, in an order in which each can succeed.
+FEATURES = {
+    45: gets("get_available_worlds", lambda reply: "office" in reply["names"]),                   # AVAILABLE_WORLDS
+    44: gets("get_current_world", lambda reply: reply["name"] == "office"),                       # WORLD_INFO_GETTING
+    2: works("get_named_poses"),                                                                  # NAMED_POSES
+    14: gets("get_spawnables", lambda reply: "model://pebble" in reply["uris"]),                  # SPAWNABLES
+    0: works("spawn_entity model://pebble tried - 1 2.5 0"),                                      # SPAWNING
+    5: gets("get_entity_bounds tried", lambda reply: len(reply["bounds"]["points"]) == 2),        # ENTITY_BOUNDS
+    6: gets("get_entity_bounds tried", lambda reply: reply["bounds"]["type"] == 1),               # ENTITY_BOUNDS_BOX
+    8: gets("get_entity_info tried", lambda reply: reply["category"] == 1),                       # ENTITY_CATEGORIES
+    10: gets("get_entity_state tried", lambda reply: abs(reply["state"]["position"][0] - 1) < 1e-6),
+    11: works("set_entity_state tried 2 2.5 0"),                                                  # ENTITY_STATE_SETTING
+    12: works("get_entity_info tried"),                                                           # ENTITY_INFO_GETTING
+    1: works("delete_entity tried"),                                                              # DELETING
+    24: works("get_simulation_state"),                                                 # SIMULATION_STATE_GETTING
+    25: sets_state,                                                                    # SIMULATION_STATE_SETTING
+    26: pauses,                                                                        # SIMULATION_STATE_PAUSE
+    31: works("step_simulation 1"),                                                    # STEP_SIMULATION_SINGLE
+    32: works("step_simulation 5"),                                                    # STEP_SIMULATION_MULTIPLE
+    33: steps_by_action,                                                               # STEP_SIMULATION_ACTION
+    23: resets_spawned,                                                                # SIMULATION_RESET_SPAWNED
+    20: works("reset_simulation 0"),                                                   # SIMULATION_RESET
+    WORLD_LOADING: works("load_world maze"),
+    WORLD_UNLOADING: works("unload_world", "load_world office"),
+}
+
+
 class Services(unittest.TestCase):
     def test_read_entities(self):
         with running_gsv() as client:
@@ -93,9 +182,30 @@ class Services(unittest.TestCase):
             worlds = call("get_available_worlds")
             self.assertEqual(worlds["result"]["result"], OK)
             self.assertLessEqual({"office", "maze"}, set(worlds["names"]))
-            self.assertEqual(call("load_world office"),
-                             {"result": UNSUPPORTED, "error_message": "a simulation keeps its world. Start "
-                              "another one with gsv run WORLD --ros2"})
+            self.assertEqual(call("load_world office")["result"],
+                             {"result": UNSUPPORTED, "error_message":
+                              "`gsv run` keeps its world. To load worlds, start `gsv serve --ros2`"})
+            self.assertEqual(call("unload_world")["result"], UNSUPPORTED)
+
+    def test_load_and_unload_worlds(self):
+        with tempfile.TemporaryDirectory() as folder, serving_gsv() as client:
+            call = client.call
+            self.assertEqual(call("unload_world")["result"], 101)  # NO_WORLD_LOADED
+            self.assertEqual(call("get_current_world")["result"]["result"], INCORRECT_STATE)
+            self.assertEqual(call("load_world offise")["result"]["result"], NOT_FOUND)
+            self.assertEqual(call("load_world office"), {"result": {"result": OK, "error_message": ""},
+                                                         "name": "office"})
+            self.assertEqual(call("get_current_world")["name"], "office")
+            path = os.path.join(folder, "posts.sdf")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(POSTS)
+            self.assertEqual(call(f"load_world {path}")["name"], "posts")
+            poses = call("get_named_poses")["poses"]
+            # The gate is 1 m before the post, which stands at (2, 0, 0) and looks along y.
+            for found, wanted in zip(poses["gate"], [2, 1, 0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5]):
+                self.assertAlmostEqual(found, wanted)
+            self.assertEqual(call("unload_world")["result"], OK)
+            self.assertEqual(call("get_current_world")["result"]["result"], INCORRECT_STATE)
 
     def test_move_spawn_and_delete_while_it_runs(self):
         with running_gsv() as client:
@@ -153,13 +263,39 @@ class Services(unittest.TestCase):
             self.assertEqual(call("get_result 3")["status"], CANCELED)
             self.assertEqual(call("cancel_goal 9")["return_code"], 2)  # unknown
 
-    def test_tell_the_truth_about_features_and_time(self):
+    def test_answer_the_first_call_after_the_start(self):
+        for _ in range(EARLY_CALLS):
+            with running_gsv() as client:
+                self.assertEqual(client.call("get_current_world")["result"], {"result": OK, "error_message": ""})
+
+    def test_answer_for_time(self):
         with running_gsv() as client:
-            features = client.call("get_simulator_features")["features"]
-            self.assertEqual(features, [0, 1, 5, 6, 8, 10, 11, 12, 14, 20, 23, 24, 25, 26, 31, 32, 33, 44, 45])
             self.assertEqual(client.call("list_parameters"), ["use_sim_time"])
             self.assertEqual(client.call("get_parameters use_sim_time"), {"type": 1, "bool_value": True})
             self.assertEqual(client.call("get_parameters other"), {"type": 0, "bool_value": False})
+
+    def test_do_each_feature_that_they_announce(self):
+        with running_gsv() as client:
+            features = client.call("get_simulator_features")
+            self.assertEqual(features["spawn_formats"], ["sdf", "urdf"])
+            self.assertEqual(set(features["features"]), set(FEATURES) - {WORLD_LOADING, WORLD_UNLOADING})
+            self.try_features(client, features["features"])
+
+    def test_do_each_feature_that_a_server_announces(self):
+        with serving_gsv() as client:
+            features = client.call("get_simulator_features")["features"]
+            self.assertEqual(set(features), set(FEATURES))
+            self.assertEqual(result_of(client.call("load_world office")), OK)
+            self.try_features(client, features)
+            self.assertEqual(result_of(client.call("load_world - - <sdf/>")), UNSUPPORTED)
+
+    def try_features(self, client, features):
+        """Tries features in the order of FEATURES, then calls what no feature announces."""
+        for feature, works in FEATURES.items():
+            if feature in features:
+                self.assertTrue(works(client.call), f"feature {feature}")
+        for line in ("get_named_pose_bounds", "set_entity_info wall"):
+            self.assertEqual(result_of(client.call(line)), UNSUPPORTED, line)
 
     def test_lose_no_reply_to_clients_of_both_conventions_at_once(self):
         with running_gsv():

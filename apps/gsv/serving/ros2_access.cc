@@ -185,6 +185,12 @@ Ros2Access::~Ros2Access() {
     watcher = std::move(watcher_);
   }
   if (watcher.joinable()) watcher.join();
+  ros2::SimulationServices* services = nullptr;
+  {
+    const base::MutexLock lock(publishing_);
+    services = services_.get();
+  }
+  if (services != nullptr) services->Close();  // without the mutex, because handlers may lock it
 }
 
 std::string DescribeReach(const ros2::dds::ParticipantOptions& options) {
@@ -213,8 +219,16 @@ base::Status Ros2Access::Join() {
 
 void Ros2Access::Show(const SimulationPointer& simulation, ros2::Options options) {
   bridge_.reset();  // removes the topics of the previous simulation
+  if (services_ == nullptr) {
+    const ros2::Distro distro = options_.value_or(options).distro;
+    services_ = std::make_unique<ros2::SimulationServices>(
+        *participant_, distro != ros2::Distro::kHumble, spawner_.get());
+  }
   published_ = simulation;
-  bridge_ = ros2::Bridge::Start(*participant_, std::move(options), simulation, spawner_.get());
+  has_world_ = simulation != nullptr;
+  bridge_ = has_world_ ? ros2::Bridge::Start(*participant_, std::move(options), simulation,
+                                             services_.get())
+                       : ros2::Bridge::StartWithoutWorld(*participant_, options.distro, *services_);
 }
 
 Ros2Access::SimulationPointer Ros2Access::Published() {
@@ -232,6 +246,7 @@ void Ros2Access::Publish(const SimulationPointer& simulation) {
 void Ros2Access::Follow() {
   const base::MutexLock lock(publishing_);
   follows_ = true;
+  spawner_->LoadWorldsBy([this](const SimulationPointer& next) { return Replace(next); });
   watcher_ = std::thread([this] { Watch(); });
 }
 
@@ -288,18 +303,47 @@ base::Status Ros2Access::Publish(const SimulationPointer& simulation, ros2::Opti
   return {};
 }
 
+void Ros2Access::Update() {
+  if (has_world_ && Published() == nullptr) {
+    bridge_.reset();
+    has_world_ = false;
+    if (!is_on()) {
+      services_.reset();
+      participant_.reset();
+    }
+  }
+  if (!follows_ || has_world_) return;
+  const std::vector<SimulationPointer> all = list_();
+  if (!all.empty() || bridge_ == nullptr) {
+    Show(all.empty() ? nullptr : all.front(), *options_);
+  }
+}
+
+base::Status Ros2Access::Replace(const SimulationPointer& next) {
+  SimulationPointer previous;
+  {
+    const base::MutexLock lock(publishing_);
+    previous = Published();
+    if (previous == nullptr && next == nullptr) {
+      return base::Fail(base::ErrorCode::kNotFound, "no world is loaded");
+    }
+    if (previous == next) return {};  // the watcher has found it already
+    if (next != nullptr) Show(next, *options_);
+  }
+  if (previous == nullptr) return {};
+  const base::Status removed = factory_.Destroy(previous->specification().name);
+  const base::MutexLock lock(publishing_);
+  Update();
+  return removed;
+}
+
 void Ros2Access::Watch() {
   base::MutexLock lock(mutex_);
   while (!is_stopping_) {
     lock.unlock();
     {
       const base::MutexLock publishing(publishing_);
-      if (bridge_ != nullptr && Published() == nullptr) {
-        bridge_.reset();
-        if (!is_on()) participant_.reset();
-      }
-      const std::vector<SimulationPointer> all = list_();
-      if (bridge_ == nullptr && follows_ && !all.empty()) Show(all.front(), *options_);
+      Update();
     }
     lock.lock();
     changed_.wait_for(lock, kWatchPeriod, [this]() GSV_REQUIRES(mutex_) { return is_stopping_; });

@@ -92,7 +92,8 @@ class Ros2Access final : public Ros2Publisher {
   std::string Exposure() const;
   // Publishes the simulation of `gsv run`.
   void Publish(const SimulationPointer& simulation);
-  // Publishes the first simulation in the list, and the next one when that has ended.
+  // Publishes the first simulation in the list, and the next one when that has ended. ROS 2 nodes
+  // may load another world.
   void Follow();
 
   gateway::SimulationFactory::Ros2Support Support() override;
@@ -108,6 +109,10 @@ class Ros2Access final : public Ros2Publisher {
         list_(std::move(list)) {}
   base::Status Join() GSV_REQUIRES(publishing_);
   void Show(const SimulationPointer& simulation, ros2::Options options) GSV_REQUIRES(publishing_);
+  // Publishes what the list of simulations asks for.
+  void Update() GSV_REQUIRES(publishing_);
+  // Publishes `next`, if it is not null, and removes the published simulation.
+  base::Status Replace(const SimulationPointer& next);
   // Returns the currently published simulation, or null.
   SimulationPointer Published() GSV_REQUIRES(publishing_);
   void Watch();
@@ -122,8 +127,11 @@ class Ros2Access final : public Ros2Publisher {
   std::unique_ptr<ros2::dds::Participant> participant_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<Ros2Spawner> spawner_ GSV_GUARDED_BY(publishing_);
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(publishing_);
+  // With --ros2 they exist until the end. Else they end with the published simulation.
+  std::unique_ptr<ros2::SimulationServices> services_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<ros2::Bridge> bridge_ GSV_GUARDED_BY(publishing_);
   bool follows_ GSV_GUARDED_BY(publishing_) = false;
+  bool has_world_ GSV_GUARDED_BY(publishing_) = false;  // whether bridge_ is of a simulation
   std::thread watcher_ GSV_GUARDED_BY(publishing_);
 
   base::Mutex mutex_;

@@ -16,6 +16,13 @@ constexpr std::string_view kModelScheme = "model://";
 constexpr std::string_view kFileScheme = "file://";
 constexpr std::size_t kMaxUri = 4096;
 
+bool IsFile(const std::string& uri) { return uri.starts_with(kFileScheme) || uri.starts_with('/'); }
+
+base::Status CheckLength(const std::string& uri) {
+  if (uri.size() <= kMaxUri) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument, "the URI is longer than 4096 bytes");
+}
+
 bool IsForRobots(const model::Model& model) {
   return model.drive || !model.control_systems.empty() ||
          model::GuessDrive(model).kind != model::DriveKind::kNone;
@@ -44,23 +51,68 @@ std::vector<ros2::Spawner::Spawnable> Ros2Spawner::Spawnables() {
   return all;
 }
 
-base::Result<std::string> Ros2Spawner::ModelOf(const std::string& uri) {
-  if (uri.size() > kMaxUri) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "the URI is longer than 4096 bytes");
-  }
-  const bool is_file = uri.starts_with(kFileScheme) || uri.starts_with('/');
-  if (is_file && !reads_files_) {
+base::Result<std::string> Ros2Spawner::FileOf(const std::string& uri) const {
+  if (!reads_files_) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "files are not read while other machines reach gsv. Use --model-path and the "
-                      "model's name",
+                      "files are not read while other machines reach gsv. Use --model-path and a "
+                      "model's name, or a built-in world",
                       uri);
   }
-  if (is_file) {
-    std::string file = uri.starts_with('/') ? uri : uri.substr(kFileScheme.size());
-    std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) return file;
-    return base::Fail(base::ErrorCode::kNotFound, "there is no such file", file);
+  std::string file = uri.starts_with('/') ? uri : uri.substr(kFileScheme.size());
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) return file;
+  return base::Fail(base::ErrorCode::kNotFound, "there is no such file", file);
+}
+
+base::Result<std::string> Ros2Spawner::WorldOf(const std::string& uri) {
+  if (auto ok = CheckLength(uri); !ok) return base::Fail(ok.error());
+  std::vector<std::string> names;
+  for (World& world : Worlds()) {
+    if (uri == world.name || uri == world.uri || uri == std::string(kFileScheme) + world.uri) {
+      return std::move(world.name);
+    }
+    names.push_back(std::move(world.name));
   }
+  if (IsFile(uri)) return FileOf(uri);
+  return base::Fail(base::ErrorCode::kNotFound,
+                    "there is no world of this name" + base::DidYouMean(uri, names) +
+                        ". GetAvailableWorlds lists them",
+                    uri);
+}
+
+base::Result<std::vector<ros2::Spawner::NamedPose>> Ros2Spawner::NamedPoses(
+    const simulation::Simulation& simulation) {
+  auto read = library_.ReadNamedPoses(*simulation.specification().world);
+  if (!read) return base::Fail(read.error());
+  std::vector<NamedPose> poses;
+  for (formats::NamedPose& each : *read) {
+    poses.push_back({std::move(each.name), each.world_from_pose});
+  }
+  return poses;
+}
+
+base::Status Ros2Spawner::LoadWorld(const std::string& uri, bool is_strict) {
+  auto world = WorldOf(uri);
+  if (!world) return base::Fail(world.error());
+  gateway::SimulationRequest request;
+  request.scenario.world = *std::move(world);
+  if (is_strict) {
+    const auto preview = factory_.Show(request);
+    if (!preview) return base::Fail(preview.error().error);
+    if (!preview->warnings.empty()) {
+      return base::Fail(base::ErrorCode::kCorrupt, preview->warnings.front(), uri);
+    }
+  }
+  const auto created = factory_.Create(request);
+  if (!created) return base::Fail(created.error().error);
+  return replace_(*created);
+}
+
+base::Status Ros2Spawner::UnloadWorld() { return replace_(nullptr); }
+
+base::Result<std::string> Ros2Spawner::ModelOf(const std::string& uri) {
+  if (auto ok = CheckLength(uri); !ok) return base::Fail(ok.error());
+  if (IsFile(uri)) return FileOf(uri);
   std::string name = uri.starts_with(kModelScheme) ? uri.substr(kModelScheme.size()) : uri;
   std::vector<std::string> known = factory_.Objects();
   for (const auto& model : factory_.Models()) known.push_back(model.name);

@@ -1,7 +1,10 @@
-// Adds models to a simulation for ROS 2's SpawnEntity.
+// Adds models to a simulation for ROS 2's SpawnEntity, and creates simulations for LoadWorld.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gsv/formats/sdf_reader.h"
@@ -17,18 +20,34 @@ class Ros2Spawner final : public ros2::Spawner {
   Ros2Spawner(gateway::SimulationFactory& factory, formats::ModelLibrary& library, bool reads_files)
       : factory_(factory), library_(library), reads_files_(reads_files) {}
 
+  // Publishes a simulation in place of the present one, which ends. With null, none is published.
+  // Fails with kNotFound if that is so already.
+  using Replace = std::function<base::Status(const std::shared_ptr<simulation::Simulation>&)>;
+  // Lets clients load worlds. To be called before there are clients.
+  void LoadWorldsBy(Replace replace) { replace_ = std::move(replace); }
+
   std::vector<World> Worlds() override;
   std::vector<Spawnable> Spawnables() override;
   base::Result<std::string> Spawn(simulation::Simulation& simulation,
                                   const ros2::SpawnRequest& request) override;
+  base::Result<std::vector<NamedPose>> NamedPoses(
+      const simulation::Simulation& simulation) override;
+  bool loads_worlds() const override { return static_cast<bool>(replace_); }
+  base::Status LoadWorld(const std::string& uri, bool is_strict) override;
+  base::Status UnloadWorld() override;
 
  private:
+  // Returns the name or the file of a world.
+  base::Result<std::string> WorldOf(const std::string& uri);
+  // Returns the file that a URI names. Fails unless files may be read, and it exists.
+  base::Result<std::string> FileOf(const std::string& uri) const;
   // Returns the name or the file of a model.
   base::Result<std::string> ModelOf(const std::string& uri);
 
   gateway::SimulationFactory& factory_;
   formats::ModelLibrary& library_;
   const bool reads_files_;
+  Replace replace_;  // empty: worlds cannot be loaded
 };
 
 }  // namespace gsv::app

@@ -62,6 +62,13 @@ base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element) {
   return written;
 }
 
+base::Result<WrittenPose> ReadFramePose(const tinyxml2::XMLElement& frame) {
+  auto at = ReadPose(frame);
+  const char* const attached_to = frame.Attribute("attached_to");
+  if (at && at->relative_to.empty() && attached_to != nullptr) at->relative_to = attached_to;
+  return at;
+}
+
 void WorldFrames::Add(const std::string& name, WrittenPose at, Pose frame_from_origin,
                       const std::map<std::string, Pose>* inner_frames) {
   entries_[name] = {std::move(at), frame_from_origin, inner_frames};

@@ -21,6 +21,9 @@ struct WrittenPose {
 // @degrees, or seven with @rotation_format "quat_xyzw". A malformed or infinite pose is an error.
 base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element);
 
+// Reads the pose of a <frame>. Without @relative_to it is relative to what it is attached to.
+base::Result<WrittenPose> ReadFramePose(const tinyxml2::XMLElement& frame);
+
 class WorldFrames {
  public:
   // `frame_from_origin` transforms from the model's (or frame's) own origin to the frame that `at`

@@ -289,10 +289,9 @@ class WorldReader {
   }
 
   void TakeFrame(const XMLElement& element) {
-    WrittenPose at = PoseOf(element);
-    const char* attached_to = element.Attribute("attached_to");
-    if (at.relative_to.empty() && attached_to != nullptr) at.relative_to = attached_to;
-    if (const char* name = element.Attribute("name")) frames_.Add(name, at);
+    const auto at = ReadFramePose(element);
+    if (!at) context_.Warn(at.error().message, Place(element));
+    if (const char* name = element.Attribute("name")) frames_.Add(name, at.value_or(WrittenPose{}));
   }
 
   void ParseDocuments() {

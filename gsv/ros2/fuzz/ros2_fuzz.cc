@@ -64,6 +64,8 @@ void TakeRequests(std::span<const std::byte> bytes) {
   (void)messages::Decode<interfaces::SpawnEntityRequest>(bytes);
   (void)messages::Decode<interfaces::GetAvailableWorldsRequest>(bytes);
   (void)messages::Decode<interfaces::SetEntityInfoRequest>(bytes);
+  (void)messages::Decode<interfaces::LoadWorldRequest>(bytes);
+  (void)messages::Decode<interfaces::GetNamedPosesRequest>(bytes);
   (void)messages::Decode<interfaces::SimulateStepsSendGoalRequest>(bytes);
   (void)messages::Decode<messages::rcl_interfaces::SetParametersRequest>(bytes);
 }

@@ -11,16 +11,18 @@ messages::geometry_msgs::Vector3 VectorOf(const geometry::Vector3& v) { return {
 
 }  // namespace
 
+messages::geometry_msgs::Pose MessageOf(const geometry::Pose& pose) {
+  return {{pose.position.x, pose.position.y, pose.position.z},
+          {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w}};
+}
+
 messages::simulation_interfaces::EntityState StateOf(const world::Snapshot& snapshot, int body) {
   const auto index = static_cast<std::size_t>(body);
   const world::BodyState& state = snapshot.state.bodies[index];
-  const geometry::Pose& pose = state.world_from_model;
   messages::simulation_interfaces::EntityState message;
   message.header.stamp = messages::ToMessage(snapshot.state.time);
   message.header.frame_id = kEntityFrame;
-  message.pose.position = {pose.position.x, pose.position.y, pose.position.z};
-  message.pose.orientation = {pose.orientation.x, pose.orientation.y, pose.orientation.z,
-                              pose.orientation.w};
+  message.pose = MessageOf(state.world_from_model);
   message.twist = {VectorOf(state.linear_velocity), VectorOf(state.angular_velocity)};
   if (index < snapshot.accelerations.size()) {
     const world::Acceleration& acceleration = snapshot.accelerations[index];

@@ -9,11 +9,13 @@
 
 namespace gsv::ros2 {
 
-// The frame of every pose.
+// The frame in which all poses are given.
 inline constexpr const char* kEntityFrame = "world";
 
 // Returns a body's state in the frame "world". Velocities and accelerations are of its origin.
 messages::simulation_interfaces::EntityState StateOf(const world::Snapshot& snapshot, int body);
+
+messages::geometry_msgs::Pose MessageOf(const geometry::Pose& pose);
 
 // Converts a box to two corners: first the upper right one, then the lower left one.
 messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
@@ -24,8 +26,8 @@ messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 base::Result<geometry::Pose> PoseIn(const std::string& frame,
                                     const messages::geometry_msgs::Pose& pose);
 
-// Whether a pose is upright and at height zero, as the default pose is. A body at such a pose is
-// put on the floor.
+// Whether a pose is upright at height zero, like the default pose. Bodies with such a pose are put
+// on the floor.
 bool StandsOnTheFloor(const geometry::Pose& pose);
 
 }  // namespace gsv::ros2

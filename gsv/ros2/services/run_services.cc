@@ -22,7 +22,7 @@ bool HasEnded(Phase phase) {
   return phase == Phase::kStopped || phase == Phase::kFinished || phase == Phase::kFailed;
 }
 
-interfaces::GetSimulatorFeaturesResponse GetFeatures(bool can_spawn) {
+interfaces::GetSimulatorFeaturesResponse GetFeatures(bool can_spawn, bool loads_worlds) {
   interfaces::GetSimulatorFeaturesResponse response;
   response.features.features = {Features::kDeleting,
                                 Features::kEntityBounds,
@@ -41,13 +41,17 @@ interfaces::GetSimulatorFeaturesResponse GetFeatures(bool can_spawn) {
                                 Features::kWorldInfoGetting};
   if (can_spawn) {
     for (const std::uint8_t each :
-         {Features::kSpawning, Features::kSpawnables, Features::kSimulationResetSpawned,
-          Features::kAvailableWorlds}) {
+         {Features::kSpawning, Features::kNamedPoses, Features::kSpawnables,
+          Features::kSimulationResetSpawned, Features::kAvailableWorlds}) {
       response.features.features.push_back(each);
     }
     response.features.spawn_formats = {"sdf", "urdf"};
-    std::sort(response.features.features.begin(), response.features.features.end());
   }
+  if (loads_worlds) {
+    response.features.features.push_back(Features::kWorldLoading);
+    response.features.features.push_back(Features::kWorldUnloading);
+  }
+  std::sort(response.features.features.begin(), response.features.features.end());
   response.features.custom_info = "gsv";
   return response;
 }
@@ -61,7 +65,7 @@ base::Status Play(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.Start() : simulation.Resume();
 }
 
-// A simulation that has not started is paused before its first step.
+// Pauses a simulation. One that has not started is paused before its first step.
 base::Status Hold(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.RunThrough(base::SimTime(0)) : simulation.Pause();
 }
@@ -86,7 +90,7 @@ interfaces::ResetSimulationResponse Reset(ServedSimulation& served, Simulation& 
                "time and state can only be reset together: set both SCOPE_TIME and SCOPE_STATE")};
   }
   if ((scope & ResetRequest::kScopeSpawned) != 0) {
-    for (const std::string& name : std::exchange(served.spawned, {})) {
+    for (const std::string& name : std::exchange(served.spawned(), {})) {
       const base::Status removed = RemoveEntity(simulation, name);
       const bool is_gone = removed || removed.error().code == base::ErrorCode::kNotFound;
       if (!is_gone) return {ResultOf(removed)};
@@ -135,7 +139,7 @@ interfaces::Result EnterState(Simulation& simulation, std::uint8_t state) {
 
 base::Status TakeSteps(Simulation& simulation, std::uint64_t steps,
                        const std::function<bool()>& stops) {
-  constexpr std::uint64_t kMaxSteps = 1'000'000'000;  // the maximum of Simulation::Step()
+  constexpr std::uint64_t kMaxSteps = 1'000'000'000;  // as in Simulation::Step()
   const std::int64_t first = simulation.snapshot()->state.step;
   const auto count = static_cast<std::int64_t>(std::min(steps, kMaxSteps + 1));
   if (auto ok = simulation.Step(count); !ok) return ok;
@@ -156,20 +160,24 @@ base::Status TakeSteps(Simulation& simulation, std::uint64_t steps,
 void OfferRunServices(ServedSimulation& served) {
   served.host.Offer<interfaces::GetSimulatorFeaturesRequest>(
       served.node + "/get_simulator_features", "simulation_interfaces/srv/GetSimulatorFeatures",
-      Lane::kQuick,
-      [can_spawn = served.spawner != nullptr](const interfaces::GetSimulatorFeaturesRequest&) {
-        return GetFeatures(can_spawn);
+      Lane::kQuick, [&served](const interfaces::GetSimulatorFeaturesRequest&) {
+        return GetFeatures(served.spawner != nullptr, served.loads_worlds());
       });
-  served.Offer<interfaces::GetSimulationStateRequest, interfaces::GetSimulationStateResponse>(
-      "get_simulation_state", "GetSimulationState", Lane::kQuick,
-      [](const Simulation& simulation, const interfaces::GetSimulationStateRequest&) {
-        return interfaces::GetSimulationStateResponse{{StateOfPhase(PhaseOf(simulation))},
-                                                      Succeeded()};
+  served.host.Offer<interfaces::GetSimulationStateRequest>(
+      served.node + "/get_simulation_state", "simulation_interfaces/srv/GetSimulationState",
+      Lane::kQuick, [&served](const interfaces::GetSimulationStateRequest&) {
+        const auto simulation = served.simulation();
+        const std::uint8_t state =
+            simulation == nullptr ? State::kStateNoWorld : StateOfPhase(PhaseOf(*simulation));
+        return interfaces::GetSimulationStateResponse{{state}, Succeeded()};
       });
-  served.Offer<interfaces::SetSimulationStateRequest, SetResponse>(
-      "set_simulation_state", "SetSimulationState", Lane::kSlow,
-      [](Simulation& simulation, const interfaces::SetSimulationStateRequest& request) {
-        return SetResponse{EnterState(simulation, request.state.state)};
+  served.host.Offer<interfaces::SetSimulationStateRequest>(
+      served.node + "/set_simulation_state", "simulation_interfaces/srv/SetSimulationState",
+      Lane::kSlow, [&served](const interfaces::SetSimulationStateRequest& request) {
+        const auto simulation = served.simulation();
+        if (simulation != nullptr) return SetResponse{EnterState(*simulation, request.state.state)};
+        return SetResponse{
+            Failed(SetResponse::kIncorrectTransition, served.NoSimulation().error_message)};
       });
   served.Offer<ResetRequest, interfaces::ResetSimulationResponse>(
       "reset_simulation", "ResetSimulation", Lane::kSlow,

@@ -10,71 +10,92 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/ros2/services/results.h"
 #include "gsv/ros2/services/service_host.h"
 #include "gsv/ros2/services/spawner.h"
 
 namespace gsv::ros2 {
 
-// The simulation that the services control, and their shared state.
+// The simulation that the services control, and their shared state. Another simulation may take its
+// place, or none.
+//
+// Threads  any, except for spawned().
 class ServedSimulation {
  public:
   using SetNamespace =
       std::function<base::Status(const std::string& robot, const std::string& name_space)>;
 
   // The host and the spawner must outlive this. The name of the node is "/gsv". With a null spawner
-  // nothing can be added. `namespace_setter` is called with an added robot's namespace.
-  ServedSimulation(ServiceHost& service_host, std::string node_name,
-                   const std::shared_ptr<simulation::Simulation>& simulation,
-                   Spawner* model_spawner, SetNamespace namespace_setter)
-      : host(service_host),
-        node(std::move(node_name)),
-        spawner(model_spawner),
-        set_namespace(std::move(namespace_setter)),
-        simulation_(simulation) {}
+  // nothing can be added.
+  ServedSimulation(ServiceHost& service_host, std::string node_name, Spawner* model_spawner)
+      : host(service_host), node(std::move(node_name)), spawner(model_spawner) {}
+
+  // Sets the simulation; null: no world is loaded. `set_namespace` is called with an added robot's
+  // namespace, until this is called again.
+  void Serve(const std::shared_ptr<simulation::Simulation>& simulation, SetNamespace set_namespace);
 
   // Offers a service of simulation_interfaces, for example "get_entities", "GetEntities". `answer`
   // is called with the simulation and a Request, and returns the Response with its result.
   template <typename Request, typename Response, typename Answer>
   void Offer(const char* name, const char* type, ServiceHost::Lane lane, Answer answer) {
-    host.Offer<Request>(
-        node + "/" + name, std::string("simulation_interfaces/srv/") + type, lane,
-        [simulation = simulation_, answer = std::move(answer)](const Request& request) -> Response {
-          if (const auto there = simulation.lock()) return answer(*there, request);
-          Response gone;
-          gone.result = Failed(messages::simulation_interfaces::Result::kResultIncorrectState,
-                               "the simulation has ended");
-          return gone;
-        });
+    host.Offer<Request>(node + "/" + name, std::string("simulation_interfaces/srv/") + type, lane,
+                        [this, answer = std::move(answer)](const Request& request) -> Response {
+                          if (const auto there = simulation()) return answer(*there, request);
+                          Response gone;
+                          gone.result = NoSimulation();
+                          return gone;
+                        });
   }
 
-  std::shared_ptr<simulation::Simulation> simulation() const { return simulation_.lock(); }
+  // Returns null if there is none.
+  std::shared_ptr<simulation::Simulation> simulation() const;
+  // The result of a request that needs a simulation, if there is none.
+  messages::simulation_interfaces::Result NoSimulation() const;
+  base::Status SetNamespaceOf(const std::string& robot, const std::string& name_space) const;
+  bool loads_worlds() const { return spawner != nullptr && spawner->loads_worlds(); }
+  // Returns the names of entities that were added to the simulation. Used on the slow lane.
+  std::set<std::string>& spawned();
 
   ServiceHost& host;
   const std::string node;
   Spawner* const spawner;
-  const SetNamespace set_namespace;
-  std::set<std::string> spawned;  // names of added entities; used on the slow lane
 
  private:
-  const std::weak_ptr<simulation::Simulation> simulation_;
+  mutable base::Mutex mutex_;
+  std::weak_ptr<simulation::Simulation> simulation_ GSV_GUARDED_BY(mutex_);
+  SetNamespace set_namespace_ GSV_GUARDED_BY(mutex_);
+  std::uint64_t count_ GSV_GUARDED_BY(mutex_) = 0;  // of simulations so far
+  std::set<std::string> spawned_;
+  std::uint64_t spawned_in_ = 0;  // the number of the simulation of spawned_
 };
 
 class StepAction;
 
 class SimulationServices {
  public:
-  // `participant` and `spawner` must outlive this. See ServedSimulation and ServiceHost.
-  SimulationServices(dds::Participant& participant, bool has_hashes,
-                     const std::shared_ptr<simulation::Simulation>& simulation, Spawner* spawner,
-                     ServedSimulation::SetNamespace set_namespace);
+  // `participant` and `spawner` must outlive this. See ServedSimulation and ServiceHost. Clients
+  // find no service before the first Serve().
+  SimulationServices(dds::Participant& participant, bool has_hashes, Spawner* spawner);
   ~SimulationServices();
 
-  const std::vector<dds::Guid>& readers() const { return host_->readers(); }
-  const std::vector<dds::Guid>& writers() const { return host_->writers(); }
+  // See ServedSimulation. The first call offers the services, so that the first request of a client
+  // already reaches this simulation. One call at a time.
+  void Serve(const std::shared_ptr<simulation::Simulation>& simulation,
+             ServedSimulation::SetNamespace set_namespace);
+  // Ends the services: no handler runs afterwards.
+  void Close();
+
+  // The endpoints of the services, for the node graph. Empty before the first Serve().
+  const std::vector<dds::Guid>& readers() const { return readers_; }
+  const std::vector<dds::Guid>& writers() const { return writers_; }
 
  private:
+  void Offer();
+
+  std::vector<dds::Guid> readers_, writers_;
   std::unique_ptr<ServiceHost> host_;  // destroyed first: its handlers use the others
   std::unique_ptr<ServedSimulation> served_;
   std::unique_ptr<StepAction> steps_;

@@ -10,8 +10,8 @@ namespace interfaces = messages::simulation_interfaces;
 using simulation::Simulation;
 using Lane = ServiceHost::Lane;
 
-constexpr int kMaxNumber = 10'000;  // the maximum number that is appended to a name that exists
-                                    // already
+constexpr int kMaxNumber = 10'000;  // highest number that makes a name
+                                    // unique
 constexpr std::size_t kMaxName = 200;
 
 using SpawnResponse = interfaces::SpawnEntityResponse;
@@ -35,7 +35,7 @@ bool IsTaken(const Simulation& simulation, const std::string& name) {
   return simulation.snapshot()->layout->Find(name) >= 0;
 }
 
-// Returns the requested name, with a number if it exists already. Returns an empty text if no
+// Returns `wanted`, with a number appended if that name is taken. Returns an empty text if no
 // number is free.
 std::string FreeName(const Simulation& simulation, const std::string& wanted) {
   if (!IsTaken(simulation, wanted)) return wanted;
@@ -75,11 +75,11 @@ SpawnResponse Spawn(ServedSimulation& served, Simulation& simulation,
   }
   const base::Result<std::string> name = served.spawner->Spawn(simulation, spawn);
   if (!name) return NotSpawned(name.error());
-  served.spawned.insert(*name);
+  served.spawned().insert(*name);
   if (!request.entity_namespace.empty()) {
-    if (const auto ok = served.set_namespace(*name, request.entity_namespace); !ok) {
+    if (const auto ok = served.SetNamespaceOf(*name, request.entity_namespace); !ok) {
       (void)RemoveEntity(simulation, *name);
-      served.spawned.erase(*name);
+      served.spawned().erase(*name);
       return NotSpawned(SpawnResponse::kNamespaceInvalid, ok.error().Sentence());
     }
   }
@@ -131,7 +131,7 @@ void OfferSpawnServices(ServedSimulation& served) {
       "delete_entity", "DeleteEntity", Lane::kSlow,
       [&served](Simulation& simulation, const interfaces::DeleteEntityRequest& request) {
         const base::Status removed = RemoveEntity(simulation, request.entity);
-        if (removed) served.spawned.erase(request.entity);
+        if (removed) served.spawned().erase(request.entity);
         return interfaces::DeleteEntityResponse{ResultOf(removed)};
       });
 }

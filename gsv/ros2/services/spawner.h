@@ -1,4 +1,5 @@
-// Gives the services the models and worlds of the program; adds models for SpawnEntity.
+// Gives the services the models and worlds of the program; adds models for SpawnEntity, and loads
+// worlds for LoadWorld.
 //
 // Threads  one at a time. Calls may take seconds, because models are read.
 #pragma once
@@ -32,14 +33,33 @@ class Spawner {
     std::string uri;   // its file
   };
 
+  struct NamedPose {
+    std::string name;
+    geometry::Pose world_from_pose;
+  };
+
   virtual ~Spawner() = default;
   virtual std::vector<World> Worlds() = 0;
   virtual std::vector<Spawnable> Spawnables() = 0;
-  // Adds a robot, or an object, for which a running simulation is paused and resumed. Returns its name. Fails with kNotFound if there is no such model, with kCorrupt if its file
-  // is refused, with kInvalidArgument if this kind of URI is not accepted, and else as Simulation::AddRobot()
-  // or AddObject() does.
+  // Adds a robot, or an object, for which a running simulation is paused and resumed. Returns its
+  // name. Errors: kNotFound if there is no such model; kCorrupt if its file is refused;
+  // kInvalidArgument if this kind of URI is not accepted; else those of Simulation::AddRobot() or
+  // AddObject().
   virtual base::Result<std::string> Spawn(simulation::Simulation& simulation,
                                           const SpawnRequest& request) = 0;
+  // Returns the named poses of the world's file.
+  virtual base::Result<std::vector<NamedPose>> NamedPoses(
+      const simulation::Simulation& simulation) = 0;
+
+  // Whether the program can change the world that it publishes.
+  virtual bool loads_worlds() const = 0;
+  // Replaces the published simulation by a new one of this world (World::name, World::uri, or
+  // another file), which is not started. The published simulation is kept if this fails.
+  // Errors: kNotFound if there is no such world; kBadModel if its file is refused; kInvalidArgument
+  // if this kind of URI is not accepted; kCorrupt if `is_strict` and the file gives warnings.
+  virtual base::Status LoadWorld(const std::string& uri, bool is_strict) = 0;
+  // Ends the published simulation.
+  virtual base::Status UnloadWorld() = 0;
 };
 
 }  // namespace gsv::ros2

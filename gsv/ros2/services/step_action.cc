@@ -79,9 +79,14 @@ void StepAction::Execute(const GoalList::Id& id, std::uint64_t steps) {
     (void)goals_.Begin(id);
     SendStatus();
   }
-  const auto simulation = served_.simulation();
-  if (simulation == nullptr) return;
-  Finish(id, Take(*simulation, id, steps));
+  if (const auto simulation = served_.simulation()) {
+    Finish(id, Take(*simulation, id, steps));
+    return;
+  }
+  Outcome outcome;
+  outcome.status = GoalStatus::kStatusAborted;
+  outcome.result.result = served_.NoSimulation();
+  Finish(id, outcome);
 }
 
 StepAction::Outcome StepAction::Take(simulation::Simulation& simulation, const GoalList::Id& id,

@@ -1,5 +1,9 @@
 #include "gsv/ros2/services/world_services.h"
 
+#include <utility>
+
+#include "gsv/ros2/services/entity_messages.h"
+
 namespace gsv::ros2 {
 namespace {
 
@@ -30,7 +34,7 @@ interfaces::GetAvailableWorldsResponse AvailableWorlds(
   response.result = Succeeded();
   for (Spawner::World& each : served.spawner->Worlds()) {
     interfaces::WorldResource world;
-    world.description = "start it with gsv run " + each.name;
+    if (!served.loads_worlds()) world.description = "start it with gsv run " + each.name;
     world.name = std::move(each.name);
     world.world_resource.uri = std::move(each.uri);
     response.worlds.push_back(std::move(world));
@@ -38,39 +42,97 @@ interfaces::GetAvailableWorldsResponse AvailableWorlds(
   return response;
 }
 
-constexpr const char* kOneWorld =
-    "a simulation keeps its world. Start another one with gsv run WORLD --ros2";
-constexpr const char* kNoNamedPoses = "worlds of gsv have no named poses";
+using LoadResponse = interfaces::LoadWorldResponse;
+
+constexpr const char* kKeepsItsWorld =
+    "`gsv run` keeps its world. To load worlds, start `gsv serve --ros2`";
+
+LoadResponse NotLoaded(const base::Error& error) {
+  switch (error.code) {
+    case base::ErrorCode::kInvalidArgument:
+      return {Failed(LoadResponse::kUnsupportedFormat, error.Sentence()), {}};
+    case base::ErrorCode::kBadModel:
+      return {Failed(LoadResponse::kResourceParseError, error.Sentence()), {}};
+    case base::ErrorCode::kCorrupt:
+      return {Failed(LoadResponse::kUnsupportedElements, error.Sentence()), {}};
+    default:
+      return {ResultOf(error), {}};
+  }
+}
+
+LoadResponse LoadWorld(const ServedSimulation& served,
+                       const interfaces::LoadWorldRequest& request) {
+  if (!served.loads_worlds()) return {NotSupported(kKeepsItsWorld), {}};
+  if (request.uri.empty()) {
+    if (!request.resource_string.empty()) {
+      return {NotSupported("a resource_string is not supported. Give a uri"), {}};
+    }
+    return {Failed(LoadResponse::kNoResource, "there is no uri. GetAvailableWorlds lists worlds"),
+            {}};
+  }
+  const auto loaded = served.spawner->LoadWorld(request.uri, request.fail_on_unsupported_element);
+  if (!loaded) return NotLoaded(loaded.error());
+  const auto simulation = served.simulation();
+  if (simulation == nullptr) return {served.NoSimulation(), {}};  // somebody unloaded it
+  return {Succeeded(), CurrentWorld(*simulation, {}).world};
+}
+
+interfaces::UnloadWorldResponse UnloadWorld(const ServedSimulation& served) {
+  if (!served.loads_worlds()) return {NotSupported(kKeepsItsWorld)};
+  const auto unloaded = served.spawner->UnloadWorld();
+  if (unloaded) return {Succeeded()};
+  if (unloaded.error().code == base::ErrorCode::kNotFound) {
+    return {Failed(interfaces::UnloadWorldResponse::kNoWorldLoaded, unloaded.error().Sentence())};
+  }
+  return {ResultOf(unloaded.error())};
+}
+
+interfaces::GetNamedPosesResponse NamedPoses(const ServedSimulation& served,
+                                             const Simulation& simulation,
+                                             const interfaces::GetNamedPosesRequest& request) {
+  if (served.spawner == nullptr) return {NotSupported("this program reads no named poses"), {}};
+  if (!request.tags.tags.empty()) return {NotSupported("named poses have no tags"), {}};
+  const auto poses = served.spawner->NamedPoses(simulation);
+  if (!poses) return {ResultOf(poses.error()), {}};
+  interfaces::GetNamedPosesResponse response;
+  response.result = Succeeded();
+  for (const Spawner::NamedPose& each : *poses) {
+    interfaces::NamedPose pose;
+    pose.name = each.name;
+    pose.pose = MessageOf(each.world_from_pose);
+    response.poses.push_back(std::move(pose));
+  }
+  return response;
+}
 
 }  // namespace
 
 void OfferWorldServices(ServedSimulation& served) {
   served.Offer<interfaces::GetCurrentWorldRequest, interfaces::GetCurrentWorldResponse>(
       "get_current_world", "GetCurrentWorld", Lane::kQuick, &CurrentWorld);
-  served.Offer<interfaces::GetAvailableWorldsRequest, interfaces::GetAvailableWorldsResponse>(
-      "get_available_worlds", "GetAvailableWorlds", Lane::kSlow,
-      [&served](const Simulation&, const interfaces::GetAvailableWorldsRequest& request) {
+  served.host.Offer<interfaces::GetAvailableWorldsRequest>(
+      served.node + "/get_available_worlds", "simulation_interfaces/srv/GetAvailableWorlds",
+      Lane::kSlow, [&served](const interfaces::GetAvailableWorldsRequest& request) {
         return AvailableWorlds(served, request);
       });
-  served.Offer<interfaces::LoadWorldRequest, interfaces::LoadWorldResponse>(
-      "load_world", "LoadWorld", Lane::kQuick,
-      [](const Simulation&, const interfaces::LoadWorldRequest&) {
-        return interfaces::LoadWorldResponse{NotSupported(kOneWorld), {}};
+  served.host.Offer<interfaces::LoadWorldRequest>(
+      served.node + "/load_world", "simulation_interfaces/srv/LoadWorld", Lane::kSlow,
+      [&served](const interfaces::LoadWorldRequest& request) {
+        return LoadWorld(served, request);
       });
-  served.Offer<interfaces::UnloadWorldRequest, interfaces::UnloadWorldResponse>(
-      "unload_world", "UnloadWorld", Lane::kQuick,
-      [](const Simulation&, const interfaces::UnloadWorldRequest&) {
-        return interfaces::UnloadWorldResponse{NotSupported(kOneWorld)};
-      });
+  served.host.Offer<interfaces::UnloadWorldRequest>(
+      served.node + "/unload_world", "simulation_interfaces/srv/UnloadWorld", Lane::kSlow,
+      [&served](const interfaces::UnloadWorldRequest&) { return UnloadWorld(served); });
   served.Offer<interfaces::GetNamedPosesRequest, interfaces::GetNamedPosesResponse>(
-      "get_named_poses", "GetNamedPoses", Lane::kQuick,
-      [](const Simulation&, const interfaces::GetNamedPosesRequest&) {
-        return interfaces::GetNamedPosesResponse{NotSupported(kNoNamedPoses), {}};
+      "get_named_poses", "GetNamedPoses", Lane::kSlow,
+      [&served](const Simulation& simulation, const interfaces::GetNamedPosesRequest& request) {
+        return NamedPoses(served, simulation, request);
       });
   served.Offer<interfaces::GetNamedPoseBoundsRequest, interfaces::GetNamedPoseBoundsResponse>(
       "get_named_pose_bounds", "GetNamedPoseBounds", Lane::kQuick,
       [](const Simulation&, const interfaces::GetNamedPoseBoundsRequest&) {
-        return interfaces::GetNamedPoseBoundsResponse{NotSupported(kNoNamedPoses), {}};
+        return interfaces::GetNamedPoseBoundsResponse{NotSupported("named poses have no bounds"),
+                                                      {}};
       });
 }
 

@@ -1,0 +1,16 @@
+// A frame of a world, with a name.
+#pragma once
+
+#include <string>
+
+#include "gsv/geometry/pose.h"
+
+namespace gsv::formats {
+
+// A <frame> of a world.
+struct NamedPose {
+  std::string name;
+  geometry::Pose world_from_pose;
+};
+
+}  // namespace gsv::formats
