@@ -106,6 +106,12 @@ void CommandInput::CommandJoints(const std::vector<int>& joints, world::JointCom
                                  const std::vector<double>& values, const char* topic) {
   const std::shared_ptr<simulation::Agent> agent = agent_.lock();
   if (agent == nullptr) return;
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(values.begin(), values.end(), is_finite)) {
+    return Note(base::Fail(base::ErrorCode::kInvalidArgument,
+                           "the values must be finite, found NaN or infinity"),
+                topic);
+  }
   base::Status status;
   for (std::size_t i = 0; i < joints.size() && status; ++i) {
     status = agent->CommandJoint(joints[i], {kind, values[i]});

@@ -1,7 +1,7 @@
 // Applies the commands that ROS 2 nodes send to a robot's drive and joints.
 //
 // The bytes are untrusted input. A message that cannot be decoded, or contains a number that is not
-// finite, is rejected. The first rejected message of each topic is logged.
+// finite, is rejected as a whole: no joint gets a command of it. The first rejected message of each topic is logged.
 //
 // Threads  Take…() on any threads; a command applies from the next step on.
 #pragma once

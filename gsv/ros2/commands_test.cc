@@ -1,6 +1,7 @@
 #include "gsv/ros2/commands.h"
 
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,69 @@ TEST(CommandInput, KeepsOnlyTheLatestOfAFlood) {
   robot.input->TakeTwist(TwistBytes(0.5));
   EXPECT_EQ(robot.input->taken(), 10'001u);
   EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);
+}
+
+// A robot with two prismatic joints at 0 m, which planar kinematics moves at 1 m/s.
+simulation::RobotSpecification TwoSliders() {
+  auto model = std::make_shared<model::Model>();
+  model->links.resize(3);
+  model->links[0].name = "base";
+  model->links[0].collisions.push_back({"base", {}, geometry::Box{{0.5, 0.5, 0.3}}, {}});
+  for (const int child : {1, 2}) {
+    model::Joint joint;
+    joint.name = child == 1 ? "first" : "second";
+    joint.kind = model::JointKind::kPrismatic;
+    joint.parent = 0;
+    joint.child = child;
+    joint.position_limits = {0, 1};
+    joint.velocity_limit = 1;
+    model->joints.push_back(joint);
+    model->links[static_cast<std::size_t>(child)].name = joint.name;
+  }
+  model->drive.emplace();
+  model->drive->kind = model::DriveKind::kVelocity;
+  model->movement = model::Movement::kPlanar;
+  simulation::RobotSpecification robot = simulation::Robot("robot", 0, 0);
+  robot.model = model;
+  return robot;
+}
+
+messages::Bytes ArrayBytes(const std::vector<double>& values) {
+  messages::Bytes bytes;
+  messages::CdrWriter writer(bytes);
+  writer.WriteCount(0);
+  writer.Write(std::uint32_t{0});
+  writer.WriteCount(values.size());
+  for (const double value : values) writer.Write(value);
+  return bytes;
+}
+
+// Sends `arrays` of positions for the two joints, one after the other. Returns the positions after 1 s.
+std::vector<double> PositionsAfter(const std::vector<std::vector<double>>& arrays) {
+  const auto simulation = simulation::Make(simulation::Lockstep(std::chrono::seconds(1)));
+  EXPECT_TRUE(simulation->AddRobot(TwoSliders()));
+  CommandInput input(simulation->agent("robot"));
+  for (const std::vector<double>& each : arrays) {
+    input.TakeJoints(ArrayBytes(each), {0, 1}, world::JointCommand::Kind::kPosition);
+  }
+  EXPECT_EQ(input.taken() + input.refused(), arrays.size());
+  EXPECT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
+  const auto snapshot = simulation->snapshot();
+  return {simulation::JointReadingIn(*snapshot, snapshot->layout->Find("robot"), 0).position,
+          simulation::JointReadingIn(*snapshot, snapshot->layout->Find("robot"), 1).position};
+}
+
+TEST(CommandInput, CommandsEachJointByAnArray) {
+  const auto positions = PositionsAfter({{0.25, 0.5}});
+  EXPECT_NEAR(positions[0], 0.25, 1e-9);
+  EXPECT_NEAR(positions[1], 0.5, 1e-9);
+}
+
+TEST(CommandInput, CommandsNoJointByAnArrayWithABadNumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(PositionsAfter({{0.25, nan}, {0.25, -infinity}, {nan, 0.5}, {0.25}, {0.1, 0.2, 0.3}}),
+            (std::vector<double>{0, 0}));
 }
 
 TEST(CommandInput, ForgetsARobotThatIsGone) {

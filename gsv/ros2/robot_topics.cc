@@ -45,9 +45,9 @@ std::vector<int> FreeJoints(const model::Model& model) {
   std::vector<int> joints;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const int joint = static_cast<int>(j);
-    if (model::TakesCommands(model.joints[j].kind) && !world::IsOfDrive(model, joint)) {
-      joints.push_back(joint);
-    }
+    const model::Joint& each = model.joints[j];
+    const bool is_free = model::TakesCommands(each.kind) && !each.mimic;
+    if (is_free && !world::IsOfDrive(model, joint)) joints.push_back(joint);
   }
   return joints;
 }

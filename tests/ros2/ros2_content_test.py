@@ -32,7 +32,7 @@ WORLD = """<sdf version="1.9"><world name="room"><gravity>0 0 -9.8</gravity>
 <box><size>1 20 2</size></box></geometry></collision><visual name="box"><geometry><box><size>1 20 2</size></box></geometry>
 </visual></link></model></world></sdf>
 """
-ROBOT = """<sdf version="1.9"><model name="arm"><link name="base_link">
+ROBOT = """<sdf version="1.11"><model name="arm"><link name="base_link">
 <collision name="body"><pose>0 0 0.15 0 0 0</pose><geometry><cylinder><radius>0.2</radius><length>0.3</length>
 </cylinder></geometry></collision>
 <sensor name="lidar" type="gpu_lidar"><pose>0.1 0 0.35 0 0 0</pose><update_rate>10</update_rate><lidar><scan><horizontal>
@@ -47,6 +47,9 @@ ROBOT = """<sdf version="1.9"><model name="arm"><link name="base_link">
 <link name="lift"><pose>0 0 0.4 0 0 0</pose></link>
 <joint name="lift_joint" type="prismatic"><parent>base_link</parent><child>lift</child><axis><xyz>0 0 1</xyz>
 <limit><lower>0</lower><upper>0.5</upper></limit></axis></joint>
+<link name="shade"><pose>0 0 0.6 0 0 0</pose></link>
+<joint name="shade_joint" type="prismatic"><parent>base_link</parent><child>shade</child><axis><xyz>0 0 1</xyz>
+<mimic joint="lift_joint"><multiplier>-2</multiplier></mimic></axis></joint>
 <plugin filename="gz-sim-velocity-control-system" name="gz::sim::systems::VelocityControl"/></model></sdf>
 """
 # A box of 2 kg that carries a mast of 0.5 kg. It rests on the ground, by rigid-body dynamics, and has no drive.
@@ -287,15 +290,16 @@ class Contents(unittest.TestCase):
         self.assertEqual((info["binning"], info["roi"], info["do_rectify"]), ([0, 0], [0, 0, 0, 0], False))
 
     def check_joints(self, joints):
-        self.assertEqual(joints["name"], ["lift_joint"])
-        self.assertEqual(joints["position"], [0])
-        self.assertEqual(joints["velocity"], [0])
+        self.assertEqual(joints["name"], ["lift_joint", "shade_joint"])
+        self.assertEqual(joints["position"], [0, 0])
+        self.assertEqual(joints["velocity"], [0, 0])
 
     def check_odometry(self, odometry):
         self.assertEqual((odometry["header"]["frame_id"], odometry["child_frame_id"]), ("arm/odom", "arm/base_link"))
         self.assertEqual(odometry["pose"]["pose"]["position"], {"x": 0, "y": 0, "z": 0})
         self.assertEqual(odometry["twist"]["twist"]["linear"], {"x": 0, "y": 0, "z": 0})
 
+    # The array has a number for the lift, and none for the shade, which follows the lift.
     def test_moves_a_joint_by_arrays_of_numbers(self):
         for field, value in (("position", "0.25"), ("velocity", "0.05")):
             with running_gsv() as gsv:
