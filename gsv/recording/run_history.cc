@@ -61,7 +61,6 @@ Selection StateSelection() {
 
 WriterOptions RingWriting() {
   WriterOptions options;
-  options.file.compression_level = 1;
   options.when_full = WhenFull::kDrop;
   options.queue_size = kQueueSize;
   return options;

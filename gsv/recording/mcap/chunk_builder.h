@@ -1,7 +1,8 @@
 // Collects messages, and makes a chunk with a message index of them.
 #pragma once
 
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "gsv/recording/mcap/compression.h"
 #include "gsv/recording/mcap/mcap_records.h"
@@ -12,31 +13,32 @@ class ChunkBuilder {
  public:
   explicit ChunkBuilder(int compression_level) : compressor_(compression_level) {}
 
-  void Add(const MessageRecord& message);
+  // Adds a message. `record` is its complete record, as Append() writes it.
+  void Add(std::uint16_t channel, base::SimTime log_time, std::span<const std::byte> record);
 
-  bool empty() const { return index_.empty(); }
-  std::size_t size() const {
-    return records_.size();
-  }  // Size of the collected messages before
-     // compression.
+  bool empty() const { return records_.empty(); }
+  // Returns the size of the collected messages before compression.
+  std::size_t size() const { return records_.size(); }
 
-  // A chunk record and its message index records, as bytes, and their data for the summary. Offsets
-  // are counted from the start of the chunk.
+  // A chunk record and its message index records, as bytes, and their data for the summary.
   struct Chunk {
     Bytes bytes;
     ChunkIndexRecord index;
-    std::map<std::uint16_t, std::uint64_t> message_counts;  // number of messages by channel
+    // The channels of the chunk, in ascending order, and the number of messages of each.
+    std::vector<std::pair<std::uint16_t, std::uint64_t>> message_counts;
   };
-  // Returns the collected messages as a chunk, and clears them. There must be at least one
-  // message.
-  Chunk Take();
+  // Returns the collected messages as a chunk at `offset` of the file, and clears them. There must
+  // be at least one message. The chunk stays valid until the next call.
+  const Chunk& Take(std::uint64_t offset);
 
  private:
   ZstdCompressor compressor_;
   Bytes records_;
-  std::map<std::uint16_t, MessageIndexRecord> index_;
+  std::vector<MessageIndexRecord> index_;  // by channel; without entries for channels not in use
+  std::vector<std::uint16_t> channels_;    // channels with entries
   base::SimTime start_{};
   base::SimTime end_{};
+  Chunk chunk_;  // the last chunk; its memory is reused
 };
 
 }  // namespace gsv::recording

@@ -20,13 +20,13 @@ ZstdCompressor::ZstdCompressor(int level) : context_(ZSTD_createCCtx()) {
   GSV_CHECK(!ZSTD_isError(ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, level)));
 }
 
-Bytes ZstdCompressor::Compress(std::span<const std::byte> bytes) {
-  Bytes out(ZSTD_compressBound(bytes.size()));
+std::span<const std::byte> ZstdCompressor::Compress(std::span<const std::byte> bytes) {
+  const std::size_t bound = ZSTD_compressBound(bytes.size());
+  if (out_.size() < bound) out_.resize(bound);
   const std::size_t size =
-      ZSTD_compress2(context_.get(), out.data(), out.size(), bytes.data(), bytes.size());
+      ZSTD_compress2(context_.get(), out_.data(), out_.size(), bytes.data(), bytes.size());
   GSV_CHECK(!ZSTD_isError(size));
-  out.resize(size);
-  return out;
+  return std::span(out_).first(size);
 }
 
 base::Result<Bytes> ZstdDecompress(std::span<const std::byte> bytes, std::size_t size) {

@@ -21,13 +21,15 @@ class ZstdCompressor {
   // `level` is zstd's compression level, 1 to 19.
   explicit ZstdCompressor(int level);
 
-  Bytes Compress(std::span<const std::byte> bytes);
+  // Returns the compressed bytes. They stay valid until the next call.
+  std::span<const std::byte> Compress(std::span<const std::byte> bytes);
 
  private:
   struct Free {
     void operator()(ZSTD_CCtx_s* context) const;
   };
   std::unique_ptr<ZSTD_CCtx_s, Free> context_;
+  Bytes out_;
 };
 
 // Decompresses to `size` bytes. Returns kCorrupt if the result has another size. Allocates at most

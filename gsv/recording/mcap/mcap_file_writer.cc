@@ -93,18 +93,23 @@ base::Status McapFileWriter::AddChannel(ChannelRecord channel) {
 }
 
 base::Status McapFileWriter::Write(const MessageRecord& message) {
+  record_.clear();
+  Append(record_, message);
+  return WriteEncoded(message.channel_id, message.log_time, record_);
+}
+
+base::Status McapFileWriter::WriteEncoded(std::uint16_t channel, base::SimTime log_time,
+                                          std::span<const std::byte> record) {
   GSV_CHECK(!closed_);
   if (!status_) return status_;
-  chunk_.Add(message);
+  chunk_.Add(channel, log_time, record);
   return chunk_.size() >= options_.chunk_size ? CloseChunk() : status_;
 }
 
 base::Status McapFileWriter::CloseChunk() {
   if (!status_ || chunk_.empty()) return status_;
-  ChunkBuilder::Chunk chunk = chunk_.Take();
-  ChunkIndexRecord& index = chunk.index;
-  index.chunk_offset = position_;
-  for (auto& [channel, offset] : index.message_index_offsets) offset += position_;
+  const ChunkBuilder::Chunk& chunk = chunk_.Take(position_);
+  const ChunkIndexRecord& index = chunk.index;
   WriteRaw(chunk.bytes);
   if (!status_) return status_;
 
@@ -113,7 +118,8 @@ base::Status McapFileWriter::CloseChunk() {
   statistics_.end = first ? index.end : std::max(statistics_.end, index.end);
   ++statistics_.chunk_count;
   for (const auto& [channel, count] : chunk.message_counts) {
-    statistics_.channel_message_counts[channel] += count;
+    if (message_counts_.size() <= channel) message_counts_.resize(std::size_t{channel} + 1);
+    message_counts_[channel] += count;
     statistics_.message_count += count;
   }
   Append(chunk_indexes_, index);
@@ -169,6 +175,11 @@ void McapFileWriter::WriteEnd() {
   statistics_.channel_count = static_cast<std::uint32_t>(channels_.size());
   statistics_.attachment_count = static_cast<std::uint32_t>(attachment_indexes_.size());
   statistics_.metadata_count = static_cast<std::uint32_t>(metadata_indexes_.size());
+  for (std::size_t channel = 0; channel < message_counts_.size(); ++channel) {
+    if (message_counts_[channel] == 0) continue;
+    statistics_.channel_message_counts[static_cast<std::uint16_t>(channel)] =
+        message_counts_[channel];
+  }
 
   SummaryBuilder summary(position_);
   summary.AddGroup(Opcode::kSchema, Values(schemas_));

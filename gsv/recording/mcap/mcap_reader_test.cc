@@ -173,7 +173,7 @@ TEST(McapReader, RejectsFilesThatAreNotRecordings) {
 TEST(McapReader, LimitsTheMemoryForADecompressedChunk) {
   const Bytes zeros(std::size_t{64} << 20);
   ZstdCompressor compressor(1);
-  const Bytes packed = compressor.Compress(zeros);
+  const std::span<const std::byte> packed = compressor.Compress(zeros);
   ASSERT_LT(packed.size(), zeros.size() / 1000);
   Bytes bytes = HeadOfForeignFile();
   Append(bytes, ChunkRecord{0ms, 0ms, zeros.size(), 0, "zstd", packed});

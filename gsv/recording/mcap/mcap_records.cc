@@ -31,6 +31,31 @@ class RecordFrame {
   std::size_t content_ = 0;
 };
 
+// Fields of a fixed total size, encoded apart from a growing buffer.
+template <std::size_t kSize>
+class FixedBytes {
+ public:
+  template <std::unsigned_integral Number>
+  void Put(Number value) {
+    std::memcpy(bytes_.data() + size_, &value, sizeof value);
+    size_ += sizeof value;
+  }
+  void PutTime(std::chrono::nanoseconds time) {
+    GSV_CHECK(time.count() >= 0);
+    Put(static_cast<std::uint64_t>(time.count()));
+  }
+
+  const std::byte* data() const { return bytes_.data(); }
+  static constexpr std::size_t size() { return kSize; }
+
+ private:
+  std::array<std::byte, kSize> bytes_;
+  std::size_t size_ = 0;
+};
+
+// Size of the fields of a message before its data.
+constexpr std::size_t kMessageHeadSize = 2 + 4 + 8 + 8;
+
 template <typename Map, typename PutEntry>
 void PutMap(Bytes& out, const Map& map, PutEntry put_entry) {
   Put(out, std::uint32_t{0});
@@ -46,7 +71,8 @@ void PutStrings(Bytes& out, const StringMap& map) {
   });
 }
 
-void PutNumbers(Bytes& out, const std::map<std::uint16_t, std::uint64_t>& map) {
+template <typename Map>
+void PutNumbers(Bytes& out, const Map& map) {
   PutMap(out, map, [&](std::uint16_t key, std::uint64_t value) {
     Put(out, key);
     Put(out, value);
@@ -73,6 +99,11 @@ std::map<std::uint16_t, std::uint64_t> GetNumbers(ByteReader& reader, bool& ok) 
   }
   ok = ok && entries.ok();
   return map;
+}
+
+std::vector<std::pair<std::uint16_t, std::uint64_t>> ListOf(
+    const std::map<std::uint16_t, std::uint64_t>& map) {
+  return {map.begin(), map.end()};
 }
 
 template <typename Record>
@@ -113,13 +144,30 @@ void Append(Bytes& out, const ChannelRecord& record) {
   PutStrings(out, record.metadata);
 }
 
+// Nearly all records of a file are messages. So `out` grows once for all fields.
 void Append(Bytes& out, const MessageRecord& record) {
-  const RecordFrame frame(out, Opcode::kMessage);
-  Put(out, record.channel_id);
-  Put(out, record.sequence);
-  PutTime(out, record.log_time);
-  PutTime(out, record.publish_time);
-  PutBytes(out, record.data);
+  FixedBytes<kRecordHeaderSize + kMessageHeadSize> head;
+  head.Put(static_cast<std::uint8_t>(Opcode::kMessage));
+  head.Put(std::uint64_t{kMessageHeadSize + record.data.size()});
+  head.Put(record.channel_id);
+  head.Put(record.sequence);
+  head.PutTime(record.log_time);
+  head.PutTime(record.publish_time);
+  const std::size_t start = out.size();
+  out.resize(start + head.size() + record.data.size());
+  std::memcpy(out.data() + start, head.data(), head.size());
+  if (record.data.empty()) return;
+  std::memcpy(out.data() + start + head.size(), record.data.data(), record.data.size());
+}
+
+MessageHead ReadMessageHead(std::span<const std::byte> content) {
+  GSV_CHECK(content.size() >= kMessageHeadSize);
+  ByteReader reader(content);
+  MessageHead head;
+  head.channel_id = reader.Get<std::uint16_t>();
+  reader.Get<std::uint32_t>();  // the sequence number
+  head.log_time = reader.GetTime();
+  return head;
 }
 
 void Append(Bytes& out, const ChunkRecord& record) {
@@ -137,8 +185,10 @@ void Append(Bytes& out, const MessageIndexRecord& record) {
   const RecordFrame frame(out, Opcode::kMessageIndex);
   Put(out, record.channel_id);
   PutMap(out, record.entries, [&](base::SimTime time, std::uint64_t offset) {
-    PutTime(out, time);
-    Put(out, offset);
+    FixedBytes<2 * sizeof(std::uint64_t)> entry;
+    entry.PutTime(time);
+    entry.Put(offset);
+    PutBytes(out, std::span(entry.data(), entry.size()));
   });
 }
 
@@ -277,7 +327,7 @@ std::optional<ChunkIndexRecord> Parse(std::span<const std::byte> content) {
                           reader.GetTime(),
                           reader.Get<std::uint64_t>(),
                           reader.Get<std::uint64_t>(),
-                          GetNumbers(reader, ok),
+                          ListOf(GetNumbers(reader, ok)),
                           reader.Get<std::uint64_t>(),
                           reader.GetString(),
                           reader.Get<std::uint64_t>(),

@@ -99,7 +99,8 @@ struct ChunkIndexRecord {
   base::SimTime end{};
   std::uint64_t chunk_offset = 0;  // offset of the chunk's record in the file
   std::uint64_t chunk_length = 0;  // length of the whole record
-  std::map<std::uint16_t, std::uint64_t> message_index_offsets{};
+  // Channels in ascending order, with the offset of each one's message index in the file.
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> message_index_offsets{};
   std::uint64_t message_index_length = 0;
   std::string compression{};
   std::uint64_t compressed_size = 0;
@@ -176,6 +177,14 @@ void Append(Bytes& out, const MetadataRecord& record);
 void Append(Bytes& out, const MetadataIndexRecord& record);
 void Append(Bytes& out, const SummaryOffsetRecord& record);
 void Append(Bytes& out, const DataEndRecord& record);
+
+// The start of a message's content, which Append() encodes first.
+struct MessageHead {
+  std::uint16_t channel_id = 0;
+  base::SimTime log_time{};
+};
+// Reads the start of the content of a message that Append() has encoded.
+MessageHead ReadMessageHead(std::span<const std::byte> content);
 
 // Parses the content of one record, without opcode and length. Not defined for MessageIndex,
 // SummaryOffset and DataEnd, which readers do not need. Checks the CRC of an attachment.

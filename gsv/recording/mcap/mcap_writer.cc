@@ -16,11 +16,16 @@ constexpr std::size_t kWorthWaking = std::size_t{256} << 10;
 
 // Writes the records in `batch`, which Append() has joined, one by one.
 void WriteBatch(McapFileWriter& file, std::span<const std::byte> batch) {
+  const std::span<const std::byte> all = batch;
   while (const std::optional<RawRecord> record = TakeRecord(batch)) {
     switch (record->opcode) {
-      case Opcode::kMessage:
-        file.Write(*Parse<MessageRecord>(record->content));
+      case Opcode::kMessage: {
+        const MessageHead head = ReadMessageHead(record->content);
+        const std::size_t size = kRecordHeaderSize + record->content.size();
+        const std::size_t start = all.size() - batch.size() - size;
+        file.WriteEncoded(head.channel_id, head.log_time, all.subspan(start, size));
         break;
+      }
       case Opcode::kSchema:
         file.AddSchema(*Parse<SchemaRecord>(record->content));
         break;
