@@ -17,6 +17,8 @@ COMPILERS = {
     "option_typeE",
     "_ZNSt7__cxx1111basic_regexIcNS_12regex_traitsIcEEE10_M_compileEPKcS5_NSt15regex_constants18syntax_option_typeE",
 }
+# sdf::Element::Clone(), which gsv/formats/sdf/shared_descriptions.cc defines.
+CLONE = "_ZNK3sdf3v127Element5CloneEv"
 LATE = ("libsdformat", "libignition", "libassimp", "libembree", "libssl", "libcrypto", "libsqlite", "libtiff")
 
 
@@ -37,6 +39,12 @@ class Start(unittest.TestCase):
             compilers = {word for word in called if word in COMPILERS}
             self.assertTrue(compilers, f"{name} compiles its regular expressions with another function")
             self.assertLessEqual(compilers, defined)
+
+    def test_shares_descriptions_of_elements(self):
+        defined = {line.split()[-1] for line in output_of("nm", "-D", "--defined-only", GSV).splitlines()}
+        self.assertIn(CLONE, defined)
+        library = f"/usr/lib/x86_64-linux-gnu/{find_library('sdformat12')}"
+        self.assertIn(CLONE, output_of("readelf", "-rW", library), "libsdformat cannot call another definition")
 
 
 if __name__ == "__main__":

@@ -26,6 +26,8 @@ using base::Problem;
 // maximum number of repairs of one document; each requires another parse
 constexpr int kMaxRepairs = 64;
 constexpr std::size_t kLongestMessage = 300;
+// maximum number of schemas that are kept
+constexpr std::size_t kMaxSchemas = 8;
 
 // libsdformat names text that is not from a file "<data-string>" or "<urdf-string>", and does not
 // number the lines of the latter.
@@ -91,8 +93,8 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
 }
 
 // The schema without elements of many descriptions that the text does not have. For each element that
-// libsdformat reads, it copies the element's description with all descriptions below it. None of these
-// elements is required, and libsdformat makes none of them from others, except from URDF.
+// libsdformat reads, it copies the list of descriptions below it. None of these elements is required, and
+// libsdformat makes none of them from others, except from URDF.
 sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex()) {
   // schemas by the set of omitted elements
   static std::map<std::set<std::string>, sdf::ElementPtr> schemas;
@@ -104,6 +106,7 @@ sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex())
     }
   }
   if (absent.empty()) return SdfSchema();
+  if (schemas.size() >= kMaxSchemas && !schemas.contains(absent)) schemas.clear();
   sdf::ElementPtr& schema = schemas[absent];
   if (schema == nullptr) schema = MakeSdfSchema(absent);
   return schema;
