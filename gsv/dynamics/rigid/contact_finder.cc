@@ -1,7 +1,6 @@
 #include "gsv/dynamics/rigid/contact_finder.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace gsv::dynamics {
 namespace {
@@ -101,63 +100,9 @@ void ContactFinder::PlaceStatic(const world::State& state) {
       list.push_back({dynamics::Place(piece, pose.position, rotation), collider});
     }
   }
-  static_order_.resize(statics_.size());
-  std::iota(static_order_.begin(), static_order_.end(), 0);
-  nodes_.clear();
-  if (!statics_.empty()) BuildNode(0, static_cast<int>(statics_.size()));
-}
-
-// Splits at the median of the longest side.
-int ContactFinder::BuildNode(int first, int count) {
-  constexpr int kLeaf = 4;
-  const auto piece = [&](int at) -> const PlacedPiece& {
-    return statics_[static_cast<std::size_t>(at)].placed;
-  };
-  const int index = static_cast<int>(nodes_.size());
-  nodes_.emplace_back();
-  const auto begin = static_order_.begin() + first, end = begin + count;
-  Vector3 low = piece(*begin).low, high = piece(*begin).high;
-  for (auto at = begin; at != end; ++at) {
-    low = Least(low, piece(*at).low);
-    high = Greatest(high, piece(*at).high);
-  }
-  int left = -1, right = -1;
-  if (count > kLeaf) {
-    const Vector3 size = high - low;
-    const auto middle = [&](int at) {
-      const Vector3 twice = piece(at).low + piece(at).high;
-      return size.x >= size.y && size.x >= size.z ? twice.x
-                                                  : (size.y >= size.z ? twice.y : twice.z);
-    };
-    std::nth_element(begin, begin + count / 2, end, [&](int a, int b) {
-      return std::pair(middle(a), a) < std::pair(middle(b), b);
-    });
-    left = BuildNode(first, count / 2);
-    right = BuildNode(first + count / 2, count - count / 2);
-  }
-  nodes_[static_cast<std::size_t>(index)] = {low, high, left, right, first, count};
-  return index;
-}
-
-// In ascending order.
-void ContactFinder::FindStaticNear(const Vector3& low, const Vector3& high) {
-  near_.clear();
-  if (nodes_.empty()) return;
-  stack_.assign(1, 0);
-  while (!stack_.empty()) {
-    const Node& node = nodes_[static_cast<std::size_t>(stack_.back())];
-    stack_.pop_back();
-    if (!Overlap(low, high, node.low, node.high, 0)) continue;
-    if (node.left >= 0) {
-      stack_.push_back(node.left);
-      stack_.push_back(node.right);
-      continue;
-    }
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      near_.push_back(static_order_[static_cast<std::size_t>(i)]);
-    }
-  }
-  std::sort(near_.begin(), near_.end());
+  std::vector<BoxBvh::Box> boxes;
+  for (const StaticPiece& piece : statics_) boxes.push_back({piece.placed.low, piece.placed.high});
+  static_bvh_.Build(boxes);
 }
 
 int ContactFinder::AddPlanar(const Solid& solid) {
@@ -325,15 +270,14 @@ void ContactFinder::AddStaticPairs(const Group& group) {
               margin);
     }
   }
-  if (nodes_.empty() || !Overlap(group.low, group.high, nodes_[0].low, nodes_[0].high, margin)) {
-    return;
-  }
   for (int i = group.first_piece; i < group.first_piece + group.piece_count; ++i) {
     const PlacedPiece& piece = pieces_[static_cast<std::size_t>(i)];
-    FindStaticNear(piece.low - wide, piece.high + wide);
+    near_.clear();
+    static_bvh_.ForEachNear(piece.low - wide, piece.high + wide,
+                            [&](int at) { near_.push_back(at); });
+    std::sort(near_.begin(), near_.end());
     for (const int at : near_) {
       const StaticPiece& other = statics_[static_cast<std::size_t>(at)];
-      if (!Overlap(piece.low, piece.high, other.placed.low, other.placed.high, margin)) continue;
       AddPair(collider_of_piece_[static_cast<std::size_t>(i)], piece, other.collider, other.placed,
               margin);
     }

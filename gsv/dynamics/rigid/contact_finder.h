@@ -19,6 +19,7 @@
 #include "gsv/dynamics/rigid/contact.h"
 #include "gsv/dynamics/rigid/moving_body.h"
 #include "gsv/dynamics/rigid/rigid_scene.h"
+#include "gsv/dynamics/shapes/box_bvh.h"
 
 namespace gsv::dynamics {
 
@@ -69,16 +70,9 @@ class ContactFinder {
     PlacedPiece placed;
     int collider = 0;
   };
-  struct Node {
-    geometry::Vector3 low, high;
-    int left = -1, right = -1;  // children; -1: a leaf
-    int first = 0, count = 0;   // of a leaf, in static_order_
-  };
 
   void PlaceStatic(const world::State& state);
-  int BuildNode(int first, int count);
   void PlaceGroup(Group& group);
-  void FindStaticNear(const geometry::Vector3& low, const geometry::Vector3& high);
   void AddGroupPairs(double substep);
   void AddGroupPair(const Group& a, const Group& b);
   void AddStaticPairs(const Group& group);
@@ -100,8 +94,8 @@ class ContactFinder {
   std::size_t rigid_pieces_ = 0;
   std::vector<geometry::Pose> static_poses_;
   std::vector<StaticPiece> statics_, planes_;
-  std::vector<int> static_order_, near_, stack_;
-  std::vector<Node> nodes_;
+  BoxBvh static_bvh_;  // of statics_
+  std::vector<int> near_;
   std::vector<int> order_;  // groups by their least x
   std::vector<std::pair<int, int>> group_pairs_;
   std::vector<Contact> contacts_;

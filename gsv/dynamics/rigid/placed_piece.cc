@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "gsv/dynamics/rigid/triangle_surface.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -73,31 +75,10 @@ class OnPlane {
     }
   }
 
-  // A cylinder whose axis leans from the normal by less than about 45° stands on its lower rim. One
-  // that leans by less than a milliradian stands upright.
   void AddCylinder() {
-    constexpr double kLies = 0.7, kStandsUpright = 1e-3;
-    const double radius = piece_.piece->half.x, half = piece_.piece->half.z;
-    const Vector3& axis = piece_.rotation.z;
-    const double up = Dot(normal_, axis);
-    const Vector3 lower = axis * (up > 0 ? -half : half);
-    Vector3 down = axis * up - normal_, aside;
-    if (Norm(down) > kStandsUpright) {
-      down = Normalized(down);
-      aside = Cross(axis, down);
-    } else {
-      // Uses the same points of the rim as before, in whatever direction the cylinder leans.
-      down = piece_.rotation.x;
-      aside = piece_.rotation.y;
-    }
-    Add(lower + radius * down, 0);
-    if (std::abs(up) < kLies) {
-      Add(radius * down - lower, 0);
-      return;
-    }
-    Add(lower - radius * down, 0);
-    Add(lower + radius * aside, 0);
-    Add(lower - radius * aside, 0);
+    std::array<Vector3, 4> lowest;
+    const int count = LowestOfCylinder(piece_, normal_, lowest);
+    for (int i = 0; i < count; ++i) Add(lowest[static_cast<std::size_t>(i)], 0);
   }
 
  private:
@@ -174,6 +155,8 @@ bool AddInOrder(const PlacedPiece& first, const PlacedPiece& second, double marg
                 std::vector<TouchPoint>& points) {
   const PieceKind a = first.piece->kind, b = second.piece->kind;
   if (b == PieceKind::kPlane) return AddOnPlane(first, second, margin, points);
+  if (b == PieceKind::kMesh)
+    return second.piece->triangles->AddPoints(first, second, margin, points);
   if (a == PieceKind::kSphere && b == PieceKind::kSphere) {
     AddSphereOnSphere(first.position, first.piece->half.x, second.position, second.piece->half.x,
                       margin, points);
@@ -200,16 +183,49 @@ bool AddInOrder(const PlacedPiece& first, const PlacedPiece& second, double marg
 
 }  // namespace
 
+// A cylinder whose axis leans from the normal by less than about 45° stands on its lower rim. One
+// that leans by less than a milliradian stands upright.
+int LowestOfCylinder(const PlacedPiece& cylinder, const Vector3& normal,
+                     std::array<Vector3, 4>& lowest) {
+  constexpr double kLies = 0.7, kStandsUpright = 1e-3;
+  const double radius = cylinder.piece->half.x, half = cylinder.piece->half.z;
+  const Vector3& axis = cylinder.rotation.z;
+  const double up = Dot(normal, axis);
+  const Vector3 lower = axis * (up > 0 ? -half : half);
+  Vector3 down = axis * up - normal, aside;
+  if (Norm(down) > kStandsUpright) {
+    down = Normalized(down);
+    aside = Cross(axis, down);
+  } else {
+    // Uses the same points of the rim as before, in whatever direction the cylinder leans.
+    down = cylinder.rotation.x;
+    aside = cylinder.rotation.y;
+  }
+  lowest[0] = lower + radius * down;
+  if (std::abs(up) < kLies) {
+    lowest[1] = radius * down - lower;
+    return 2;
+  }
+  lowest[1] = lower - radius * down;
+  lowest[2] = lower + radius * aside;
+  lowest[3] = lower - radius * aside;
+  return 4;
+}
+
 PlacedPiece Place(const Piece& piece, const Vector3& position, const Matrix3& rotation) {
   PlacedPiece placed;
   placed.piece = &piece;
   placed.rotation = rotation * piece.rotation;
   placed.position = position + rotation * piece.solid_from_piece.position;
+  SetBoundsOf(placed);
+  return placed;
+}
+
+void SetBoundsOf(PlacedPiece& placed) {
   Vector3 middle;
-  const Vector3 half = ExtentOf(piece, placed.rotation, middle);
+  const Vector3 half = ExtentOf(*placed.piece, placed.rotation, middle);
   placed.low = placed.position + middle - half;
   placed.high = placed.position + middle + half;
-  return placed;
 }
 
 bool AddTouchPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,

@@ -1,6 +1,7 @@
 // A piece of a solid where it is now, and the points at which two pieces touch.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "gsv/dynamics/rigid/rigid_body.h"
@@ -17,6 +18,9 @@ struct PlacedPiece {
 // Where the piece is if its solid is at `position`, with these axes.
 PlacedPiece Place(const Piece& piece, const geometry::Vector3& position, const Matrix3& rotation);
 
+// Sets the box around it.
+void SetBoundsOf(PlacedPiece& placed);
+
 // A point at which two pieces touch, or may touch soon.
 struct TouchPoint {
   geometry::Vector3 on_second;  // world
@@ -27,13 +31,18 @@ struct TouchPoint {
 // Adds the points at which two pieces are closer than `margin`, in closed form. False for a pair of
 // kinds that it does not know.
 //
-// Sphere and capsule  one point, or one at each end.
+// Sphere and capsule  one point, or one at each end. A sphere on triangles: see TriangleSurface.
 // Cylinder            on a plane: the lowest point of both rims, or four points of the rim on which
-//                     it stands.
+//                     it stands. On triangles: see TriangleSurface.
 // Box                 on a plane: its corners. On a box: the corners of the area that both faces
 //                     share, at most four, or the point at which two edges cross.
 bool AddTouchPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                     std::vector<TouchPoint>& points);
+
+// The points of a cylinder from its middle that are nearest to a plane below it: the lowest of both
+// rims, or four of the rim on which it stands. Returns their number.
+int LowestOfCylinder(const PlacedPiece& cylinder, const geometry::Vector3& normal,
+                     std::array<geometry::Vector3, 4>& lowest);
 
 // The box on the box of AddTouchPoints().
 void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,

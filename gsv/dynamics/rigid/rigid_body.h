@@ -17,9 +17,11 @@ class btCollisionShape;
 
 namespace gsv::dynamics {
 
+class TriangleSurface;
+
 // One shape of a solid: what contacts are found with.
 struct Piece {
-  enum class Kind : std::uint8_t { kSphere, kBox, kCylinder, kCapsule, kPlane, kOther };
+  enum class Kind : std::uint8_t { kSphere, kBox, kCylinder, kCapsule, kPlane, kMesh, kOther };
   Kind kind = Kind::kOther;
   geometry::Pose solid_from_piece;
   Matrix3 rotation;                   // of solid_from_piece
@@ -28,6 +30,7 @@ struct Piece {
   geometry::Vector3 normal;           // of a plane, through the piece's origin
   geometry::Vector3 middle, box;      // of the box around it, and half of its size
   btCollisionShape* shape = nullptr;  // never null
+  const TriangleSurface* triangles = nullptr;  // of a static mesh
   model::Surface surface;
 };
 

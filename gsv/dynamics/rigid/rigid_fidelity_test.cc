@@ -176,6 +176,46 @@ TEST(RigidFidelity, ABallRollsDownAnInclineAtFiveSeventhsOfTheSlope) {
   EXPECT_WITHIN_PERCENT((Inverse(incline) * world.position("ball")).x, expected, 0.5);
 }
 
+// The plane of Inclined() as triangles: strips across the slope, of which each square is cut along
+// another diagonal than the one before.
+std::shared_ptr<model::Model> InclineOfTriangles() {
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
+  constexpr std::uint32_t kColumns = 40;
+  for (std::uint32_t i = 0; i <= kColumns; ++i) {
+    const double x = 0.17 * i - 1;
+    mesh->positions.insert(mesh->positions.end(), {{x, -1, 0}, {x, 1, 0}});
+    if (i == kColumns) break;
+    const std::uint32_t a = 2 * i, b = a + 1, c = a + 2, d = a + 3;
+    if (i % 2 == 0) {
+      mesh->triangles.insert(mesh->triangles.end(), {{a, c, d}, {a, d, b}});
+    } else {
+      mesh->triangles.insert(mesh->triangles.end(), {{a, c, b}, {c, d, b}});
+    }
+  }
+  return testing::ModelOf(geometry::Mesh{std::move(mesh), {1, 1, 1}});
+}
+
+TEST(RigidFidelity, BallsAndWheelsRollDownTrianglesAsDownAPlane) {
+  const double angle = 0.2;
+  const Pose incline = Inclined(angle);
+  const geometry::Quaternion lying = geometry::FromAxisAngle({1, 0, 0}, -std::numbers::pi / 2);
+  TestWorld world(MakeWorldEngine());
+  world.AddStatic("incline", InclineOfTriangles(), incline);
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 1), incline * At(0, 0.5, 0.1));
+  world.AddRigid("wheel", SolidOf(geometry::Cylinder{0.1, 0.08}, 1),
+                 incline * Pose{{0, -0.5, 0.1}, lying});
+  ASSERT_TRUE(world.Start());
+  world.Run(2, kStep);
+  const double slid = kG * std::sin(angle) * 2 * 2 / 2;
+  const Vector3 ball = Inverse(incline) * world.position("ball");
+  const Vector3 wheel = Inverse(incline) * world.position("wheel");
+  EXPECT_WITHIN_PERCENT(ball.x, 5.0 / 7 * slid, 0.5);
+  EXPECT_WITHIN_PERCENT(wheel.x, 2.0 / 3 * slid, 0.5);
+  EXPECT_WITHIN(wheel.y, -0.5, 1e-6, "m");
+  EXPECT_WITHIN(wheel.z, 0.1, 2e-5, "m");
+  EXPECT_WITHIN(ball.z, 0.1, 2e-5, "m");
+}
+
 TEST(RigidFidelity, ACollisionKeepsMomentum) {
   const double speed = 2, e = 0.7 * 0.7;  // the product of both surfaces'
   const model::Surface bouncy = SurfaceOf(0, 0.7);

@@ -36,6 +36,10 @@ void SetKind(Piece& piece) {
       piece.kind = Kind::kPlane;
       piece.normal = FromBullet(static_cast<const btStaticPlaneShape&>(shape).getPlaneNormal());
       break;
+    case TRIANGLE_MESH_SHAPE_PROXYTYPE:
+      piece.kind = Kind::kMesh;
+      piece.triangles = static_cast<const TriangleSurface*>(shape.getUserPointer());
+      break;
     default:
       break;
   }

@@ -129,6 +129,8 @@ btBvhTriangleMeshShape* RigidShapes::MeshOf(const geometry::Mesh& mesh) {
       made->positions.data(), static_cast<int>(3 * sizeof(btScalar)));
   made->shape = std::make_unique<btBvhTriangleMeshShape>(made->triangles.get(), true);
   made->shape->setMargin(0);
+  made->surface = std::make_unique<TriangleSurface>(*mesh.triangles, mesh.scale);
+  made->shape->setUserPointer(made->surface.get());
   return meshes_.emplace(key, std::move(made)).first->second->shape.get();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gsv/dynamics/rigid/bullet_types.h"
+#include "gsv/dynamics/rigid/triangle_surface.h"
 #include "gsv/dynamics/shapes/footprint.h"
 #include "gsv/geometry/shape.h"
 
@@ -18,14 +19,15 @@ namespace gsv::dynamics {
 
 inline constexpr int kMaxPieces = 32;
 
-// A mesh as Bullet reads it, with the data that Bullet points to. It is slow to make, so it is kept
+// A mesh as TriangleSurface and Bullet read it, with the data that Bullet points to. It is slow to make, so it is kept
 // from layout to layout.
 struct StandingMesh {
   std::shared_ptr<const geometry::TriangleMesh> source;
   std::vector<btScalar> positions;
   std::vector<int> indices;
   std::unique_ptr<btTriangleIndexVertexArray> triangles;
-  std::unique_ptr<btBvhTriangleMeshShape> shape;
+  std::unique_ptr<TriangleSurface> surface;
+  std::unique_ptr<btBvhTriangleMeshShape> shape;  // its user pointer is `surface`
 };
 
 class RigidShapes {

@@ -1,0 +1,72 @@
+// The triangles of a static mesh with their neighbours, and the contacts of wheels and spheres with
+// them.
+//
+// Sides        both sides of a triangle are solid: a body is on the side on which its middle is.
+// Inner edges  a body that rolls over the edge between two triangles is not caught by it. An edge or
+//              vertex may be touched from those directions only in which no triangle beside it is
+//              nearer (Ericson, "Real-Time Collision Detection", 2005, 3.6: Voronoi regions).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gsv/dynamics/rigid/placed_piece.h"
+#include "gsv/dynamics/shapes/box_bvh.h"
+#include "gsv/geometry/triangle_mesh.h"
+
+namespace gsv::dynamics {
+
+class TriangleSurface {
+ public:
+  // Two triangles are neighbours if they share two vertices of equal positions. Triangles without
+  // area are left out.
+  TriangleSurface(const geometry::TriangleMesh& mesh, const geometry::Vector3& scale);
+
+  // Adds the points at which a cylinder or sphere is closer than `margin` to the triangles, as
+  // AddTouchPoints() of placed_piece.h does. For pieces of other kinds: returns false if they may
+  // touch, and adds nothing.
+  //
+  // Sphere    the nearest point of each face, edge or vertex.
+  // Cylinder  the lowest points of its rims above a face; of an edge the point nearest to its axis and
+  //           those at its rims; vertices.
+  bool AddPoints(const PlacedPiece& piece, const PlacedPiece& mesh, double margin,
+                 std::vector<TouchPoint>& points) const;
+
+ private:
+  enum class Edge : std::uint8_t {
+    kOpen,   // no neighbour, or several
+    kFlat,   // the neighbour is in the same plane
+    kOwn,    // shared with one neighbour
+    kOther,  // the same, and the neighbour has it as its own
+  };
+  // Edges run from each corner to the next.
+  struct Triangle {
+    std::array<int, 3> vertices{};
+    std::array<int, 3> beside{};  // the same edge of the neighbour: 3 * triangle + edge, or -1
+    std::array<Edge, 3> edges{};
+    geometry::Vector3 normal;
+    std::array<geometry::Vector3, 3> inwards;  // unit, in the plane, from each edge
+  };
+  class SphereContacts;
+  class CylinderContacts;
+
+  void AddTriangle(const std::array<int, 3>& vertices);
+  void JoinNeighbours();
+  void ListVerticesBeside();
+  const geometry::Vector3& CornerOf(const Triangle& triangle, std::size_t corner) const {
+    return vertices_[static_cast<std::size_t>(triangle.vertices[corner])];
+  }
+  // Whether something in the direction `normal` from the edge or the vertex is not nearer to a
+  // triangle or an edge beside it.
+  bool MayTouchEdge(const Triangle& triangle, std::size_t edge,
+                    const geometry::Vector3& normal) const;
+  bool MayTouchVertex(int vertex, const geometry::Vector3& normal) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<geometry::Vector3> vertices_;
+  std::vector<int> first_beside_, beside_;  // of each vertex, those with which it shares an edge
+  BoxBvh bvh_;
+};
+
+}  // namespace gsv::dynamics

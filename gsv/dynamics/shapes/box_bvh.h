@@ -1,0 +1,66 @@
+// A bounding volume hierarchy (BVH) of boxes, built once.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::dynamics {
+
+class BoxBvh {
+ public:
+  // Along the axes of the frame that all boxes have in common.
+  struct Box {
+    geometry::Vector3 low, high;
+  };
+
+  void Build(std::span<const Box> boxes);
+
+  // Calls `use` with the index of each box that meets the box from `low` to `high`. The order depends
+  // on nothing but the boxes that it was built of.
+  template <typename Use>
+  void ForEachNear(const geometry::Vector3& low, const geometry::Vector3& high,
+                   const Use& use) const {
+    // Each level halves the boxes, and leaves one node behind.
+    int stack[64];
+    int depth = 0;
+    if (!nodes_.empty()) stack[depth++] = 0;
+    while (depth > 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(stack[--depth])];
+      if (!Meets(node.box, low, high)) continue;
+      if (node.right >= 0) {
+        stack[depth++] = node.right;
+        stack[depth++] = static_cast<int>(&node - nodes_.data()) + 1;
+        continue;
+      }
+      for (int i = node.first; i < node.first + node.count; ++i) {
+        const Entry& entry = entries_[static_cast<std::size_t>(i)];
+        if (Meets(entry.box, low, high)) use(entry.index);
+      }
+    }
+  }
+
+ private:
+  struct Entry {
+    Box box;
+    int index;
+  };
+  // The left child follows its parent.
+  struct Node {
+    Box box;
+    int right = -1;  // -1: a leaf
+    int first = 0, count = 0;
+  };
+
+  static bool Meets(const Box& box, const geometry::Vector3& low, const geometry::Vector3& high) {
+    return box.low.x <= high.x && low.x <= box.high.x && box.low.y <= high.y &&
+           low.y <= box.high.y && box.low.z <= high.z && low.z <= box.high.z;
+  }
+  int BuildNode(int first, int count);
+
+  std::vector<Entry> entries_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace gsv::dynamics
