@@ -1,5 +1,5 @@
-// Begins tasks that take long, before the rest of the page's script is read: starts the graphics, and requests the
-// data that the page shows first.
+// Begins tasks that take long, before the rest of the page's script is read: starts the graphics,
+// and requests the data that the page shows first.
 import { EarlyRequests } from "./api/EarlyRequests";
 import { pageCredentials } from "./api/credentials";
 import { startGraphics } from "./scene/graphics";

@@ -128,7 +128,8 @@ function showSelectedPose(): void {
   if (selection === null || !latest) return;
   const pose = selected.update(selection, latest, performance.now());
   if (pose) store.set({ selectedPose: pose });
-  // If the simulation is paused or the replay was moved here, no further poses arrive, so a timer shows this one.
+  // If the simulation is paused or the replay was moved here, no further poses arrive, so a timer
+  // shows this one.
   else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 
@@ -146,8 +147,8 @@ async function openWorld(): Promise<void> {
   drawing = startDrawing(store, api, session, world, { inSoftware, chosen: chosenDrawer(storage, parameters) });
 }
 
-// Resolves when the browser has drawn the present page, so that the list of robots need not wait for the 3D view. In
-// the background, nothing is drawn.
+// Resolves when the browser has drawn the present page, so that the list of robots need not wait
+// for the 3D view. In the background, nothing is drawn.
 function painted(): Promise<void> {
   return new Promise((resolve) => {
     setTimeout(resolve, LONGEST_PAINTING_MS);

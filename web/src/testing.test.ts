@@ -29,7 +29,7 @@ describe("window.gsv.ready", () => {
     void window.gsv.ready.then(() => (isReady = true));
 
     store.set({ scene: {} as SceneDescription });
-    world.frames += 1; // without the shape
+    world.frames += 1; // the frame without the shape
     nextFrame();
     await Promise.resolve();
     expect(isReady).toBe(false);

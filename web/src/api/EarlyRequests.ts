@@ -1,5 +1,5 @@
-// Requests the data that the page shows first, while the rest of the page's script is still being loaded. Each answer
-// is used once, for the page's own request of the same address.
+// Requests the data that the page shows first, while the rest of the page's script is still being
+// loaded. Each answer is used once, for the page's own request of the same address.
 import { simulationPath } from "./JsonServer";
 
 // An older answer is not used.
@@ -19,8 +19,8 @@ export class EarlyRequests {
     private readonly now: () => number = () => performance.now(),
   ) {}
 
-  // Requests the list of simulations, then the status, the scene and the models of the simulation `wanted`, or else
-  // of the first one. The page reports errors when it repeats a request.
+  // Requests the list of simulations, then the status, the scene and the models of the simulation
+  // `wanted`, or else of the first one. The page reports errors when it repeats a request.
   async begin(wanted: string | null): Promise<void> {
     try {
       const simulations = (await this.ask("api/simulations")) as { name: string }[];

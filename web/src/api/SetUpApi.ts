@@ -176,8 +176,8 @@ export class SetUpApi {
     await this.server.delete(`${simulationPath(simulation)}/objects/${encodeURIComponent(object)}`);
   }
 
-  // Returns the present state of the world as files. `file` is the name with which the scenario refers to the world
-  // file.
+  // Returns the present state of the world as files. `file` is the name with which the scenario
+  // refers to the world file.
   async saveWorld(simulation: string, file: string): Promise<SavedWorld> {
     const path = `${simulationPath(simulation)}/world?file=${encodeURIComponent(file)}`;
     const answer = objectAt(await this.server.get(path, LONG_TIMEOUT_MS), "world");

@@ -88,8 +88,8 @@ export class SimulationApi {
     }
   }
 
-  // Opens the stored past as a replay for this page only. All further requests are sent to this replay, until
-  // leavePast().
+  // Opens the stored past as a replay for this page only. All further requests are sent to this
+  // replay, until leavePast().
   async openPast(name: string): Promise<void> {
     const answer = objectAt(await this.root.post(`${simulationPath(name)}/history`, {}), "history");
     this.server.moveTo(textAt(answer.base, "history.base"));
@@ -148,8 +148,8 @@ export class SimulationApi {
     return parseScene(await this.server.get(`${simulationPath(name)}/scene`));
   }
 
-  // Returns an image of the view that the server draws. `query` contains the parameters of view.jpg in
-  // docs/api.yaml.
+  // Returns an image of the view that the server draws. `query` contains the parameters of view.jpg
+  // in docs/api.yaml.
   image(name: string, query: string, signal: AbortSignal): Promise<Response> {
     return this.server.fetch(`view.jpg?simulation=${encodeURIComponent(name)}&${query}`, signal);
   }
@@ -215,13 +215,14 @@ export class SimulationApi {
     return parseRecording(await this.server.post(`${simulationPath(name)}/recording`, { record }));
   }
 
-  // Makes the live stream list the topics of the robot's sensors, even if there are very many topics.
+  // Makes the live stream list the topics of the robot's sensors, even if there are very many
+  // topics.
   async listTopics(name: string, robot: string): Promise<void> {
     await this.server.get(`${simulationPath(name)}/robots/${encodeURIComponent(robot)}/topics`);
   }
 
-  // The robot stops soon after the last command, so that it does not continue if the page crashes or
-  // the connection is lost.
+  // The robot stops soon after the last command, so that it does not continue if the page crashes
+  // or the connection is lost.
   async drive(name: string, robot: string, drive: Drive): Promise<void> {
     const path = `${simulationPath(name)}/robots/${encodeURIComponent(robot)}/drive`;
     await this.server.post(path, { ...drive, timeout_s: DRIVE_TIMEOUT_S });

@@ -1,8 +1,8 @@
 // A value over a whole recording, as far as the server has read it.
 import { listAt, numberAt, objectAt, textOr } from "./json";
 
-// The requested value: a number in a topic's messages, in a robot's state, or (if neither is given) in the
-// simulation's state.
+// The requested value: a number in a topic's messages, in a robot's state, or (if neither is given)
+// in the simulation's state.
 export interface CurveOf {
   topic?: string;
   robot?: string;

@@ -14,7 +14,7 @@ export interface Joint {
   maximum: number;
   maxVelocity: number;
   maxEffort: number; // unit: N m or N
-  command: { kind: JointCommandKind; value: number } | null; // the last command
+  command: { kind: JointCommandKind; value: number } | null; // the latest command; null: none
   refusal: string; // why the joint accepts no commands; empty if it does
 }
 

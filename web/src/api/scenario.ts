@@ -1,6 +1,6 @@
-// A simulation that is being set up: its world, its robots and its options. Metres, radians, seconds. The
-// server accepts it as JSON, which is also a valid scenario file (docs/formats/scenario.md), because JSON is
-// YAML.
+// A simulation that is being set up: its world, its robots and its options. Metres, radians,
+// seconds. The server accepts it as JSON, which is also a valid scenario file
+// (docs/formats/scenario.md), because JSON is YAML.
 import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textOr } from "./json";
 import type { PedestrianSetUp } from "./pedestrians";
@@ -130,8 +130,8 @@ export function robotJson(robot: RobotSetUp): JsonObject {
   };
 }
 
-// Parses a scenario. Throws an error with the place if `value` is no scenario. `left` lists keys that the page does
-// not know and ignores.
+// Parses a scenario. Throws an error with the place if `value` is no scenario. `left` lists keys
+// that the page does not know and ignores.
 export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
   const json = objectAt(value, "the file");
   const { ros2, robots } = parseRos2(json.ros2, parseRobots(json.robots, "robots"));

@@ -85,8 +85,8 @@ export class App {
     this.filming = new Filming(store, () => world()?.video() ?? null);
   }
 
-  // Sends one action. Its effects arrive with the live stream, so the answer may come after later events. If the
-  // server refuses the action, its sentence is shown.
+  // Sends one action. Its effects arrive with the live stream, so the answer may come after later
+  // events. If the server refuses the action, its sentence is shown.
   act(action: Action, count = 1): Promise<void> {
     return this.command(action, (simulation) => this.api.act(simulation, action, count));
   }
@@ -133,8 +133,8 @@ export class App {
     }));
   }
 
-  // Handles a click on a body: selects a robot, or in edit mode an object. If `isAdding`, the body is added to the
-  // selection, or removed if it is already selected.
+  // Handles a click on a body: selects a robot, or in edit mode an object. If `isAdding`, the body
+  // is added to the selection, or removed if it is already selected.
   pick(body: string | null, isAdding = false): void {
     const { scene, editing } = this.store.get();
     if (isAdding && editing && body !== null && chosenOf(this.store.get()) !== null) return this.addToChoice(body);
@@ -161,8 +161,8 @@ export class App {
     else this.pickAll(rest);
   }
 
-  // Selects this camera mode for the selected robot, or for the first one if none is selected. Calling it again ends
-  // the mode.
+  // Selects this camera mode for the selected robot, or for the first one if none is selected.
+  // Calling it again ends the mode.
   toggleViewMode(mode: ViewMode): void {
     const { selection, viewMode, status } = this.store.get();
     const robot = selection ?? status?.robots[0]?.name ?? null;

@@ -1,4 +1,5 @@
-// Replays a second recording together with the first one, at the same simulated time, for comparison.
+// Replays a second recording together with the first one, at the same simulated time, for
+// comparison.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { CurveOf, WholeCurve } from "../api/curve";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
@@ -13,7 +14,8 @@ import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
 import { recordingOf } from "./NotesControl";
 
-// If the two are farther apart than this, the second recording is moved to the instant of the first.
+// If the two are farther apart than this, the second recording is moved to the instant of the
+// first.
 const FARTHEST_APART_S = 0.15;
 
 type CompareApi = Pick<SimulationApi, "another" | "rootServer" | "difference">;

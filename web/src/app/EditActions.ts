@@ -1,5 +1,5 @@
-// The actions that edit the selected bodies, in a simulation (EditControl) or in the form for a new one
-// (SetUpControl).
+// The actions that edit the selected bodies, in a simulation (EditControl) or in the form for a new
+// one (SetUpControl).
 import type { BodyPlace, SetUpApi } from "../api/SetUpApi";
 import type { Placed } from "../api/scenario";
 import { findRobot } from "../api/scenario";

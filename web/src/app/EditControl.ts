@@ -1,5 +1,5 @@
-// Edits the bodies of a paused simulation, with undo and redo. The server stores no history, so undo performs the
-// opposite edit.
+// Edits the bodies of a paused simulation, with undo and redo. The server stores no history, so
+// undo performs the opposite edit.
 import type { BodyPlace, NewObject, SetUpApi } from "../api/SetUpApi";
 import type { Placed, RobotSetUp } from "../api/scenario";
 import type { Editing, GizmoTool } from "../state/editing";
@@ -87,8 +87,8 @@ export class EditControl {
     });
   }
 
-  // Selects the object that further edits change; null means the selected robot. Clears the rest of the
-  // selection.
+  // Selects the object that further edits change; null means the selected robot. Clears the rest of
+  // the selection.
   choose(object: string | null): void {
     const { editing } = this.store.get();
     if (editing && (editing.chosen !== object || editing.more.length > 0)) this.patch({ chosen: object, more: [] });
@@ -118,8 +118,8 @@ export class EditControl {
     return move ? this.do({ ...move, name: `${isTurn ? "turn" : "move"} ${body}` }) : Promise.resolve(false);
   }
 
-  // Sets exactly these poses; robots stay upright on the floor. Resolves to whether all bodies now have their
-  // pose.
+  // Sets exactly these poses; robots stay upright on the floor. Resolves to whether all bodies now
+  // have their pose.
   pose(posed: readonly Posed[]): Promise<boolean> {
     const moves = posed.flatMap((each) => {
       const before = this.placeOf(each.body);
@@ -248,8 +248,8 @@ export class EditControl {
     };
   }
 
-  // Waits until the received scene and poses include a body that was added. Before that, it could be neither selected,
-  // moved nor removed.
+  // Waits until the received scene and poses include a body that was added. Before that, it could
+  // be neither selected, moved nor removed.
   private hasCome(body: string): Promise<void> {
     return this.until(() => this.bodyOf(body) !== undefined && this.bodies.placeOf(body) !== null);
   }
@@ -259,7 +259,8 @@ export class EditControl {
     return this.until(() => this.bodyOf(body) === undefined);
   }
 
-  // Gives up after some seconds, because the connection may be lost, and if the page shows something else.
+  // Gives up after some seconds, because the connection may be lost, and if the page shows
+  // something else.
   private async until(isTrue: () => boolean): Promise<void> {
     const { simulation } = this.store.get();
     const end = Date.now() + SHOWN_WITHIN_MS;
@@ -388,8 +389,8 @@ export class EditControl {
     this.store.set(({ editing }) => (editing ? { editing: { ...editing, ...change } } : {}));
   }
 
-  // Performs an edit. Only one is performed at a time. Returns false if another edit is in progress, or if the server
-  // refuses (the reason is shown).
+  // Performs an edit. Only one is performed at a time. Returns false if another edit is in
+  // progress, or if the server refuses (the reason is shown).
   private async ask(work: () => Promise<void>): Promise<boolean> {
     if (!this.store.get().editing || this.store.get().editing?.isBusy) return false;
     this.patch({ isBusy: true });
@@ -410,7 +411,8 @@ function upright(place: BodyPlace) {
   return { x: place.x, y: place.y, yaw: place.yaw, ...(place.z !== undefined && { z: place.z }) };
 }
 
-// Returns the place of an object, which keeps its orientation. If it is only rotated, it also keeps its height.
+// Returns the place of an object, which keeps its orientation. If it is only rotated, it also keeps
+// its height.
 function asObject(place: Placed, before: BodyPlace, isTurn: boolean): BodyPlace {
   const { roll = 0, pitch = 0, z } = before;
   return { ...place, roll, pitch, ...(isTurn && z !== undefined && { z }) };

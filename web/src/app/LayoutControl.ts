@@ -53,8 +53,8 @@ export class LayoutControl {
     this.showText(text, `The layout ${name}`);
   }
 
-  // Shows a preset by its name, or a layout by its text. `what` is the layout's name in error messages. Returns
-  // whether the layout could be shown.
+  // Shows a preset by its name, or a layout by its text. `what` is the layout's name in error
+  // messages. Returns whether the layout could be shown.
   showText(text: string, what: string): boolean {
     const preset = PRESETS.find(({ name }) => name === text);
     if (preset) {

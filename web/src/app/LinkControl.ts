@@ -1,4 +1,5 @@
-// Makes links to the present view. Opens the simulation, time and view that the page's address contains.
+// Makes links to the present view. Opens the simulation, time and view that the page's address
+// contains.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import type { LinkedView, Viewpoint } from "../state/link";
@@ -31,8 +32,8 @@ export class LinkControl {
     private readonly layouts: LinkedLayouts | null = null,
   ) {}
 
-  // Shows the content of the page's address as soon as it is available, and after each change of the
-  // address.
+  // Shows the content of the page's address as soon as it is available, and after each change of
+  // the address.
   start(window: Window): void {
     const read = () => {
       this.wanted = linkedView(window.location.hash);
@@ -81,8 +82,8 @@ export class LinkControl {
     void this.goToInstant();
   }
 
-  // Goes to the instant in the address. The page may learn only later that it shows a recording. This pauses the
-  // replay.
+  // Goes to the instant in the address. The page may learn only later that it shows a recording.
+  // This pauses the replay.
   private async goToInstant(): Promise<void> {
     const { replay, kept, status } = this.store.get();
     const time = this.instant;

@@ -12,8 +12,8 @@ import { shallowEqual } from "../state/Store";
 const MOST_READINGS = 16; // maximum number of sensors whose readings are drawn at a time
 const FRAMES_TOPIC = "/tf_static";
 const BEAMS_TOPIC = "/gsv/beams";
-// If there are more robots, only the beams of the selected robot are drawn, because the beams of all robots would
-// hide everything.
+// If there are more robots, only the beams of the selected robot are drawn, because the beams of
+// all robots would hide everything.
 export const MOST_ROBOTS_WITH_BEAMS = 20;
 const BUMPERS = ["contact", "bumper"];
 const RADIO_TOPIC = "/gsv/radio";
@@ -78,8 +78,8 @@ export class OverlayFeed {
   ) {}
 
   start(): void {
-    // Watches only the inputs that matter, because the state changes many times per second and may contain thousands
-    // of sensors.
+    // Watches only the inputs that matter, because the state changes many times per second and may
+    // contain thousands of sensors.
     this.store.watch(
       ({ simulation, scene, shown, selection, viewMode, replay }) => ({
         simulation,

@@ -93,16 +93,16 @@ export class PeopleControl {
       this.isThere = people.you !== 0;
       this.take(people);
     } catch (error) {
-      // Ignored if the connection failed, which is reported elsewhere. A server without a list of viewers allows all
-      // actions.
+      // Ignored if the connection failed, which is reported elsewhere. A server without a list of
+      // viewers allows all actions.
       if (!(error instanceof ApiError)) return;
       this.isThere = false;
       this.store.set({ people: NO_PEOPLE });
     }
   }
 
-  // Takes the list of viewers from a message. The message goes to all viewers, so it does not say which one this page
-  // is.
+  // Takes the list of viewers from a message. The message goes to all viewers, so it does not say
+  // which one this page is.
   private hear(text: string): void {
     const { you } = this.store.get().people;
     if (you !== 0) this.take({ ...parsePeople(JSON.parse(text)), you });

@@ -34,8 +34,8 @@ export class RecordControl {
     );
   }
 
-  // One press ends a recording only if this page has started it, because a command line or another viewer may need
-  // other recordings. For those, the page asks first.
+  // One press ends a recording only if this page has started it, because a command line or another
+  // viewer may need other recordings. For those, the page asks first.
   press(): void {
     const { recording } = this.store.get();
     if (recording?.isOn && recording.path !== this.startedHere) this.store.set({ stopRecordingAsked: true });

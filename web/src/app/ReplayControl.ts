@@ -1,7 +1,7 @@
 // Plays a recording, for the timeline and the keys.
 //
-// The server performs one seek at a time. While it does, only the last requested instant is kept, for example while a
-// slider is dragged. Steps are added up.
+// The server performs one seek at a time. While it does, only the last requested instant is kept,
+// for example while a slider is dragged. Steps are added up.
 import type { Action, SimulationApi } from "../api/SimulationApi";
 import type { Replay } from "../api/replay";
 import type { State } from "../state/State";
@@ -35,8 +35,8 @@ export class ReplayControl {
     return this.act("resume");
   }
 
-  // Goes to an instant of the recording. Resolves when the replay is at this instant, or at one that was requested
-  // later.
+  // Goes to an instant of the recording. Resolves when the replay is at this instant, or at one
+  // that was requested later.
   seek(time: number): Promise<void> {
     const { replay } = this.store.get();
     if (!replay) return Promise.resolve();

@@ -126,8 +126,8 @@ export class Session implements TopicSource, LiveViewSource {
     void this.fetchScene(name, () => {}); // if the stream opens without the scene, the scene is fetched again
   }
 
-  // Shows the past of the simulation that the server stores, as a replay for this page only. The page does not change
-  // until the replay sends data.
+  // Shows the past of the simulation that the server stores, as a replay for this page only. The
+  // page does not change until the replay sends data.
   async enterPast(): Promise<void> {
     const { simulation, inPast } = this.store.get();
     if (simulation === null || inPast) return;
@@ -255,8 +255,8 @@ export class Session implements TopicSource, LiveViewSource {
     this.start();
   }
 
-  // Returns whether there is something to connect to: a requested recording may no longer exist. Throws errors that
-  // may not occur at the next attempt.
+  // Returns whether there is something to connect to: a requested recording may no longer exist.
+  // Throws errors that may not occur at the next attempt.
   private async openRecording(): Promise<boolean> {
     const { recording } = this.wanted;
     if (recording === null || this.hasOpened) return true;
@@ -340,8 +340,8 @@ export class Session implements TopicSource, LiveViewSource {
     this.wishes.lookSoon();
   }
 
-  // Checks whether the simulation still exists; it may not after a restart of the server. If not, the page searches
-  // for other simulations.
+  // Checks whether the simulation still exists; it may not after a restart of the server. If not,
+  // the page searches for other simulations.
   private async checkStillThere(name: string): Promise<void> {
     try {
       await this.api.status(name);
@@ -421,7 +421,8 @@ export class Session implements TopicSource, LiveViewSource {
     if (this.store.get().simulation === name) this.store.set({ events });
   }
 
-  // Handles an event. A new subscription also delivers past events; only later events are shown as notices.
+  // Handles an event. A new subscription also delivers past events; only later events are shown as
+  // notices.
   private takeEvent(message: LifecycleEventMessage): void {
     if (seconds(message.stamp) < this.newsSince) return;
     if (message.event === "agent_dead" || message.event === "agent_unresponsive") {

@@ -1,8 +1,8 @@
-// Sets up a simulation: sends the user's changes to the server, which returns the scene at the start and the
-// problems. Finally creates the simulation.
+// Sets up a simulation: sends the user's changes to the server, which returns the scene at the
+// start and the problems. Finally creates the simulation.
 //
-// One preview is requested at a time. While it is pending, only the last state of the form is kept for the next
-// request.
+// One preview is requested at a time. While it is pending, only the last state of the form is kept
+// for the next request.
 import { ApiError } from "../api/JsonServer";
 import type { SetUpApi } from "../api/SetUpApi";
 import type { PedestrianSetUp } from "../api/pedestrians";
@@ -142,7 +142,8 @@ export class SetUpControl {
     }
   }
 
-  // Uploads a world from this machine with its files. If there are several worlds, the user chooses one.
+  // Uploads a world from this machine with its files. If there are several worlds, the user chooses
+  // one.
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
     if (!this.store.get().setUp) await this.open();
     this.patch(() => ({ isBusy: true, isHeld: true }));

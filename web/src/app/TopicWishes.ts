@@ -1,6 +1,6 @@
-// If there are very many sensors, a server lists the topics of the first ones only, and those of other robots on
-// request (docs/formats/live.md). This class requests the topics of robots if a subscription to one of their sensors
-// has no topic.
+// If there are very many sensors, a server lists the topics of the first ones only, and those of
+// other robots on request (docs/formats/live.md). This class requests the topics of robots if a
+// subscription to one of their sensors has no topic.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";

@@ -1,5 +1,5 @@
-// Chooses whether the browser or the server draws the view. By default, the server draws it if the browser has no
-// WebGL or is slow. The user's choice has priority, and is stored.
+// Chooses whether the browser or the server draws the view. By default, the server draws it if the
+// browser has no WebGL or is slow. The user's choice has priority, and is stored.
 import type { Store } from "../state/Store";
 import type { Drawer, State } from "../state/State";
 

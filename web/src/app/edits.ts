@@ -28,8 +28,8 @@ export function inOrder(name: string, edits: readonly Edit[]): Edit {
   };
 }
 
-// Performs the edits in an order that the server allows. If an edit fails because another body still occupies the
-// place, it is tried again after the others.
+// Performs the edits in an order that the server allows. If an edit fails because another body
+// still occupies the place, it is tried again after the others.
 export function together(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
     const done: Edit[] = [];

@@ -11,7 +11,8 @@ export function scenarioFileName(scenario: Scenario): string {
   return `${titleOf(scenario)}.yaml`;
 }
 
-// In a recording, `true` lets the server choose a name. A file for `gsv run` must contain a name instead.
+// In a recording, `true` lets the server choose a name. A file for `gsv run` must contain a name
+// instead.
 export function scenarioFile(scenario: Scenario): Blob {
   const json = scenarioJson(scenario);
   if (scenario.record) json.record = `${titleOf(scenario)}.mcap`;

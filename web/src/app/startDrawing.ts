@@ -38,7 +38,8 @@ export function startDrawing(
     if (!choice.serverFailed()) store.set({ view: "none" });
   };
   const use = (drawer: Drawer) => {
-    // A simulation that is still being set up does not exist on the server, so the browser draws it.
+    // A simulation that is still being set up does not exist on the server, so the browser draws
+    // it.
     const isOnServer = drawer === "server" && store.get().setUp === null;
     if (!isOnServer) {
       world.drawBy(null);

@@ -27,7 +27,8 @@ export function zoomed(side: Side, factor: number): Side {
   return { ...side, zoom: Math.min(LARGEST_ZOOM, Math.max(SMALLEST_ZOOM, side.zoom * factor)) };
 }
 
-// The attributes that determine the camera completely. If one of them is set, the user cannot rotate the view.
+// The attributes that determine the camera completely. If one of them is set, the user cannot
+// rotate the view.
 export const PLACING = ["eye", "target", "follow", "camera"] as const;
 const PASSED = [...PLACING, "fov", "quality", "token", "simulation"] as const;
 

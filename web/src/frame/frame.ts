@@ -1,5 +1,5 @@
-// The common parts of all pages except the viewer: the bar with links to the simulation and to the other
-// pages.
+// The common parts of all pages except the viewer: the bar with links to the simulation and to the
+// other pages.
 import "../style/page.css";
 import "../style/panels.css";
 import "../style/frame.css";

@@ -36,8 +36,8 @@ export class AvatarSteering {
   private unsent: Drive | null = null;
   private told: Drive = STANDING;
 
-  // `avatar` returns the name of the avatar to drive, or null. `send` may fail; it reports this itself.
-  // `hearsSingleKeys` is whether letters also drive, and not only arrow keys.
+  // `avatar` returns the name of the avatar to drive, or null. `send` may fail; it reports this
+  // itself. `hearsSingleKeys` is whether letters also drive, and not only arrow keys.
   constructor(
     private readonly avatar: () => string | null,
     private readonly send: (avatar: string, drive: Drive) => Promise<void>,

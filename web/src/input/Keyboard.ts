@@ -1,5 +1,5 @@
-// The keys of the page. They have no effect while the user types or chooses from a list, or while a dialog is open. A
-// focused button handles Space and Enter itself.
+// The keys of the page. They have no effect while the user types or chooses from a list, or while a
+// dialog is open. A focused button handles Space and Enter itself.
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
 import { PANELS } from "../panels/registry";
@@ -94,8 +94,8 @@ export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
   return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
 }
 
-// Whether the focused element handles keys itself. Two do not: the timeline's slider, and a field of a dialog that
-// was just closed and still has the focus for a moment.
+// Whether the focused element handles keys itself. Two do not: the timeline's slider, and a field
+// of a dialog that was just closed and still has the focus for a moment.
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof Element)) return false;
   if (target.closest("dialog:not([open])")) return false;

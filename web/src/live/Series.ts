@@ -1,5 +1,5 @@
-// The values of one curve by simulated time. Only the newest values are stored: an hour at one value per second, or
-// eleven minutes of poses.
+// The values of one curve by simulated time. Only the newest values are stored: an hour at one
+// value per second, or eleven minutes of poses.
 
 export const MOST_SAMPLES = 20_000;
 const FIRST_CAPACITY = 512;
@@ -22,8 +22,8 @@ export class Series {
     return this.values[this.from + index]!;
   }
 
-  // Adds a value. It replaces an earlier value of the same instant. A value for an earlier instant is inserted at its
-  // place.
+  // Adds a value. It replaces an earlier value of the same instant. A value for an earlier instant
+  // is inserted at its place.
   push(time: number, value: number): void {
     if (this.to === this.times.length) this.makeRoom();
     let at = this.to;

@@ -1,11 +1,12 @@
-// The values of 16-bit grey PNGs, such as a thermal camera's images. A browser's own decoder keeps only 8 of the 16
-// bits.
+// The values of 16-bit grey PNGs, such as a thermal camera's images. A browser's own decoder keeps
+// only 8 of the 16 bits.
 import type { ValueImage } from "./valueImage";
 
 const SIGNATURE = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const MOST_PIXELS = 1 << 24;
 
-// Returns null if `png` is not a complete 16-bit grey PNG without filters, the form that gsv writes.
+// Returns null if `png` is not a complete 16-bit grey PNG without filters, the form that gsv
+// writes.
 export async function valuesOfGreyPng(png: Uint8Array): Promise<ValueImage | null> {
   const parts = partsOf(png);
   if (!parts) return null;

@@ -29,8 +29,8 @@ const STOPS = [
 ] as const;
 const NOTHING = [32, 38, 46, 255] as const; // the colour of pixels without a measurement
 
-// The image of a depth camera: the distance along the viewing direction, which is x in the camera's frame. Returns
-// null if the cloud has no rows.
+// The image of a depth camera: the distance along the viewing direction, which is x in the camera's
+// frame. Returns null if the cloud has no rows.
 export function depthImageOf({ width, height, fields, data, point_step, row_step, is_bigendian }: PointCloud): ValueImage | null {
   const x = fields.find(({ name, datatype }) => name === "x" && datatype === FLOAT32);
   const isWhole = height > 1 && width > 0 && width * height <= MAX_PIXELS && point_step >= 4 && row_step >= width * point_step;

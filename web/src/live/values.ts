@@ -1,5 +1,5 @@
-// Extracts the numbers in a message, each with a key and the server's unit. The code contains no sensor types: fields
-// are shown by their names.
+// Extracts the numbers in a message, each with a key and the server's unit. The code contains no
+// sensor types: fields are shown by their names.
 
 import type { Units } from "../api/scene";
 
@@ -12,8 +12,8 @@ export interface LiveValue {
 const MOST_VALUES = 64; // maximum number of values of one message
 const LONGEST_LISTED = 8; // longer lists are summarised
 const DEEPEST = 6;
-// Fields that are not shown: they describe the time, the uncertainty or the construction of the sensor, not its
-// reading.
+// Fields that are not shown: they describe the time, the uncertainty or the construction of the
+// sensor, not its reading.
 const LEFT_OUT = new RegExp(
   `^(${[
     "header|stamp|.*covariance|.*_covariance_type|status",
@@ -78,7 +78,8 @@ function collectObjects(list: unknown[], key: string, depth: number, values: Liv
   if (typeof list[0] === "object") collect(list[0], `${key}[0]`, depth + 1, values);
 }
 
-// Collects all values of a short list, or the minimum and maximum of the finite values of a long one.
+// Collects all values of a short list, or the minimum and maximum of the finite values of a long
+// one.
 function collectList(list: NumberList, key: string, values: LiveValue[]): void {
   if (list.length === 0) return;
   if (list.length <= LONGEST_LISTED) {
@@ -108,7 +109,8 @@ function isNumberList(value: unknown): value is NumberList {
   return Array.isArray(value) && typeof value[0] === "number";
 }
 
-// Returns the names in messages such as JointState, which have a name for each number in the other fields.
+// Returns the names in messages such as JointState, which have a name for each number in the other
+// fields.
 function namesBeside(fields: Record<string, unknown>): string[] | null {
   const { name } = fields;
   if (!Array.isArray(name) || name.length === 0) return null;

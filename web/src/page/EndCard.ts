@@ -33,7 +33,8 @@ export function createEndCard(app: App): HTMLElement {
   );
 }
 
-// Returns facts such as "5 robots · 1:00.00 simulated", "2 robots stuck" and "Expectations: 3 of 5 held".
+// Returns facts such as "5 robots · 1:00.00 simulated", "2 robots stuck" and "Expectations: 3 of 5
+// held".
 export function endFacts(state: State): string[] {
   const { status, time, expectations } = state;
   const robots = listedRobots(state);

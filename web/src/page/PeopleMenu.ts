@@ -61,7 +61,8 @@ function nameField(app: App): HTMLElement {
   return element("label", { class: "people-name" }, element("span", {}, "Your name"), field);
 }
 
-// The button that requests or releases control, depending on whether you have control or wait for it.
+// The button that requests or releases control, depending on whether you have control or wait for
+// it.
 function controlButton(app: App): HTMLElement {
   const button = element("button", { class: "button", type: "button" });
   let wants = true;
@@ -89,7 +90,8 @@ function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {
   return asks ? "Cancel request" : "Ask for control";
 }
 
-// The question to the controller when somebody requests control. Without an answer, the other viewer gets control.
+// The question to the controller when somebody requests control. Without an answer, the other
+// viewer gets control.
 export function createControlQuestion(app: App): HTMLElement {
   const sentence = element("p", {});
   const button = (label: string, grants: boolean, primary: boolean) =>

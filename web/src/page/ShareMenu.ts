@@ -17,7 +17,8 @@ export function createShareMenu(app: App): HTMLElement {
     menuItem("Save image", "X", "Save the current view as PNG", () => void app.savePicture(), "camera"),
     film,
   );
-  // The first button copies a link, which also works without a view. The other buttons need the view.
+  // The first button copies a link, which also works without a view. The other buttons need the
+  // view.
   const ofTheView = [...menu.sheet.querySelectorAll("button")].slice(1);
   app.store.watch(
     ({ view }) => view === "open",

@@ -76,8 +76,8 @@ export function createStatusBar(app: App): HTMLElement {
   return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, frames, connection);
 }
 
-// Returns the text about the speed. In lockstep, there is no target factor, only an actual one. A replay has its own
-// speed.
+// Returns the text about the speed. In lockstep, there is no target factor, only an actual one. A
+// replay has its own speed.
 function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus, replay: Replay | null): string {
   if (replay) return formatFactor(replay.speed);
   const actual = formatFactor(realTimeFactor);

@@ -1,5 +1,5 @@
-// The timeline of a recording, or of a run whose past is stored: a slider for the time, marks of events, and controls
-// for playback, notes and comparison.
+// The timeline of a recording, or of a run whose past is stored: a slider for the time, marks of
+// events, and controls for playback, notes and comparison.
 import type { App } from "../app/App";
 import { SPEEDS } from "../app/ReplayControl";
 import { shallowEqual } from "../state/Store";

@@ -19,7 +19,8 @@ export function commandsOf(app: App): Command[] {
   return [...runCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...topicCommands(app)];
 }
 
-// Returns the entries that contain each word of the text. Entries that begin with the text come first.
+// Returns the entries that contain each word of the text. Entries that begin with the text come
+// first.
 export function findCommands(commands: readonly Command[], text: string): Command[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const fitting = commands.filter(({ group, label }) => {

@@ -1,4 +1,5 @@
-// Draws curves against another curve, such as the path of a point. Both axes can have the same scale.
+// Draws curves against another curve, such as the path of a point. Both axes can have the same
+// scale.
 import type uPlot from "uplot";
 import type { Range } from "./columns";
 import { rangeOf } from "./columns";

@@ -1,5 +1,5 @@
-// Draws curves against simulated time: one uPlot chart per unit, one below the other, with the same time
-// axis.
+// Draws curves against simulated time: one uPlot chart per unit, one below the other, with the same
+// time axis.
 import type uPlot from "uplot";
 import { formatTime } from "../ui/format";
 import type { DrawnCurve, Range } from "./columns";

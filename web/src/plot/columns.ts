@@ -81,8 +81,8 @@ export function rangeOf(lists: readonly (readonly (number | null)[])[]): Range {
   return { min: min - MARGIN * span, max: max + MARGIN * span };
 }
 
-// Returns the time range of the axis: the newest `span` seconds before `now`, or everything (null). `whole` is the
-// range of a recording.
+// Returns the time range of the axis: the newest `span` seconds before `now`, or everything (null).
+// `whole` is the range of a recording.
 export function timeRange(
   curves: readonly DrawnCurve[],
   span: number | null,

@@ -1,4 +1,5 @@
-// The views that the server draws and pushes over the live stream ("Views" in docs/formats/live.md).
+// The views that the server draws and pushes over the live stream ("Views" in
+// docs/formats/live.md).
 
 const HEADER_BYTES = 20; // after the header of all messages: sequence, number, time
 

@@ -54,8 +54,8 @@ function parseRecordingLine(json: unknown): RecordingLine {
   };
 }
 
-// Returns the address of a page that replays the recording in its own session, from a simulated time
-// on.
+// Returns the address of a page that replays the recording in its own session, from a simulated
+// time on.
 export function replayUrl(name: string, from: number | null = null): string {
   return `./?recording=${encodeURIComponent(name)}${from === null ? "" : `#t=${from}`}`;
 }

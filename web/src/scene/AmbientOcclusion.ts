@@ -1,7 +1,7 @@
-// Darkens corners and the ground below bodies, where less light from around arrives. It follows
-// "Scalable Ambient Obscurance" (McGuire, Mara, Luebke 2012): the depths of the bodies are drawn
-// once more with half the pixels, each pixel compares its place with some around it, and the result
-// is smoothed and multiplied with the image.
+// Draws ambient occlusion: darkens corners and the ground below bodies, which less ambient light
+// reaches. The method is "Scalable Ambient Obscurance" (McGuire, Mara, Luebke 2012): the depths of
+// the bodies are drawn once more at half the resolution, each pixel is compared with some pixels
+// around it, and the result is smoothed and multiplied with the image.
 import type { Matrix4, PerspectiveCamera, Scene, Texture, WebGLRenderer } from "three";
 import {
   CustomBlending,
@@ -20,10 +20,10 @@ import {
   ZeroFactor,
 } from "three";
 
-// Objects on this layer darken, and are darkened.
+// Objects on this layer take part in ambient occlusion.
 export const OCCLUDING_LAYER = 1;
 
-const RADIUS = 0.25; // m around a place, in which others take light from it
+const RADIUS = 0.25; // m: surfaces within this distance of a place darken it
 const STRENGTH = 0.06; // m
 const DARKEST = 0.45;
 const SAMPLES = 12;
@@ -35,7 +35,7 @@ void main() {
   gl_Position = vec4(position.xy, 0.0, 1.0);
 }`;
 
-// The place of a pixel in the camera's frame, from its depth.
+// Returns the position of a pixel in the camera's frame, from its depth.
 const PLACE = `
 uniform sampler2D depths;
 uniform mat4 viewFromClip;
@@ -56,7 +56,8 @@ void main() {
   }
   vec3 place = placeAt(at);
   vec2 pixel = 1.0 / size;
-  // The smaller one of the differences to both sides does not reach over an edge.
+  // Uses the smaller of the differences to both sides, because the larger one may reach across an
+  // edge.
   vec3 right = placeAt(at + vec2(pixel.x, 0.0)) - place;
   vec3 left = place - placeAt(at - vec2(pixel.x, 0.0));
   vec3 up = placeAt(at + vec2(0.0, pixel.y)) - place;
@@ -70,7 +71,8 @@ void main() {
     float angle = turn + 2.3999632 * float(i);
     vec3 other = placeAt(at + pixel * reach * part * vec2(cos(angle), sin(angle))) - place;
     float squared = dot(other, other);
-    float height = dot(other, normal) - 0.002 * -place.z; // rounding of the depths is no obstacle
+    // ignores differences that are due to the rounding of depths
+    float height = dot(other, normal) - 0.002 * -place.z;
     float near = max(0.0, ${(RADIUS * RADIUS).toFixed(4)} - squared);
     sum += near * near * near * max(0.0, height / (squared + 0.0001));
   }
@@ -78,7 +80,7 @@ void main() {
   gl_FragColor = vec4(vec3(max(${DARKEST.toFixed(2)}, 1.0 - taken)), 1.0);
 }`;
 
-// The mean of the pixels around that are about as far away.
+// Returns the mean of the surrounding pixels whose depth is similar.
 const SMOOTH = `
 varying vec2 at;
 uniform vec2 size;
@@ -115,7 +117,7 @@ export class AmbientOcclusion {
     Object.assign(this.smooth, { blending: CustomBlending, blendSrc: ZeroFactor, blendDst: SrcColorFactor, blendSrcAlpha: ZeroFactor });
   }
 
-  // Darkens the picture of the scene that was just drawn.
+  // Darkens the image of the scene that was just drawn.
   darken(scene: Scene, camera: PerspectiveCamera): void {
     const { renderer, size } = this;
     renderer.getDrawingBufferSize(size).multiplyScalar(0.5).ceil();

@@ -8,9 +8,10 @@ import { RobotPlaces } from "./RobotPlaces";
 import { SensorFrames } from "./SensorFrames";
 import { HERE, body, scene } from "./testScene";
 
-const SIZE = 400; // px: the picture; its middle looks straight down on the origin
-const HEIGHT = 10; // m: of the eye, which sees 20 m from side to side
-const PX = SIZE / 20; // a metre on the floor
+// px: width of the image; the camera looks straight down, and its centre shows the origin
+const SIZE = 400;
+const HEIGHT = 10; // m: height of the camera, whose image is 20 m wide
+const PX = SIZE / 20; // px: one metre on the floor
 
 function box(size: number, depth = 0.4): ModelTemplate {
   const half = new Vector3(size / 2, size / 2, depth / 2);
@@ -52,7 +53,7 @@ beforeEach(() => {
   bodies.addModel("floor", box(100));
   bodies.group.updateMatrixWorld(true);
   const camera = new PerspectiveCamera((2 * Math.atan(1) * 180) / Math.PI, 1, 0.1, 100);
-  camera.up.set(0, 1, 0); // north is up in the picture
+  camera.up.set(0, 1, 0); // north is up in the image
   camera.position.set(0, 0, HEIGHT);
   camera.lookAt(0, 0, 0);
   camera.updateMatrixWorld(true);
@@ -88,7 +89,7 @@ test("a body is dragged over the floor at the point where it was grabbed", async
   pointer("pointerup", 2.2, 1.1);
   expect(onPlace).toHaveBeenCalledWith("a", { x: expect.closeTo(2, 6), y: expect.closeTo(1, 6), yaw: 0 });
   await Promise.resolve();
-  expect(arranger.holds).toBe(true); // until the new scene is there
+  expect(arranger.holds).toBe(true); // until the new scene arrives
 });
 
 test("after a refusal, the next poses show the body at its former place", async () => {
@@ -138,7 +139,7 @@ test("an object is selected by a click, and keeps its tilt when it is rotated", 
   pointer("pointermove", 0, 7);
   const [x, y, z] = [new Vector3(), new Vector3(), new Vector3()];
   bodies.poseOf(3)!.extractBasis(x, y, z);
-  expect(y.z).toBeCloseTo(1, 6); // rolled by a quarter turn, as before
+  expect(y.z).toBeCloseTo(1, 6); // still rolled by a quarter turn
   expect(x.y).toBeCloseTo(1, 6);
   pointer("pointerup", 0, 7);
   expect(onPlace).toHaveBeenCalledWith("box", expect.objectContaining({ yaw: expect.closeTo(Math.PI / 2, 6) }));

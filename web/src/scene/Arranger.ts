@@ -10,7 +10,7 @@ import { rayThrough, screenPlaceOf } from "./picking";
 import type { RobotPlaces } from "./RobotPlaces";
 import { TurnHandle } from "./TurnHandle";
 
-const TIP_PX = 14; // so near to the tip one takes hold of it
+const TIP_PX = 14; // px: a press within this distance of the tip drags the arrow
 const DRAG_PX = 5;
 
 export interface ArrangerView {
@@ -19,13 +19,13 @@ export interface ArrangerView {
   bodies(): BodyLayer | null;
   robots(): RobotPlaces | null;
   selection(): string | null;
-  isTaken(event: PointerEvent): boolean; // a press that something else in the view takes
+  isTaken(event: PointerEvent): boolean; // whether another control of the view handles this press
   redraw(): void;
 }
 
 export interface ArrangerEvents {
   onPick(body: string): void;
-  // Resolves to whether the body is there now.
+  // Resolves to true if the body has been moved to this place.
   onPlace(body: string, place: Placed): Promise<boolean>;
 }
 
@@ -34,7 +34,7 @@ interface Drag {
   index: number;
   start: ScreenPlace;
   before: Matrix4; // world_from_body
-  grip: Vector3; // on the floor, where it was taken hold of
+  grip: Vector3; // the point on the floor at which the drag began
   turns: boolean;
   place: Placed;
   isMoved: boolean;
@@ -52,7 +52,7 @@ export class Arranger {
     private readonly events: ArrangerEvents,
   ) {
     const { host } = view;
-    // Registered before the view's own gestures.
+    // This listener is registered before the view's own gestures.
     host.addEventListener("pointerdown", (event) => this.grab(event), true);
     host.addEventListener("pointermove", (event) => this.pull(event), true);
     host.addEventListener("pointerup", (event) => this.drop(event), true);
@@ -74,7 +74,7 @@ export class Arranger {
     return tip && screenPlaceOf(tip, this.view.camera, this.view.host.getBoundingClientRect());
   }
 
-  // Puts the selected body there.
+  // Moves the selected body to this place.
   placeAt({ x, y }: { x: number; y: number }): void {
     const body = this.view.selection();
     const subject = body === null ? null : this.view.robots()?.subjectOf(body);
@@ -152,7 +152,7 @@ export class Arranger {
     return rayThrough(at, this.view.host.getBoundingClientRect(), this.view.camera);
   }
 
-  // The place on a fixed body, or on the floor.
+  // Returns the place on a fixed body under the pointer, or else on the floor.
   floorAt(at: ScreenPlace): Vector3 | null {
     return this.view.bodies()?.pointOf(this.ray(at)) ?? this.onPlane(at, 0);
   }
@@ -177,7 +177,7 @@ function turned(before: Matrix4, point: Vector3): Placed {
   return { x, y, yaw: Math.atan2(point.y - y, point.x - x) };
 }
 
-// world_from_body at that place, with the same height and tilt as before.
+// Returns world_from_body at that place, with the height and tilt of `before`.
 function atPlace(before: Matrix4, { x, y, yaw }: Placed): Matrix4 {
   const turn = new Matrix4().makeRotationZ(yaw - placeOf(before).yaw);
   return turn.multiply(before).setPosition(x, y, before.elements[14]!);

@@ -8,13 +8,14 @@ import { Segments } from "./Segments";
 
 const WIDTH_PX = 1.5;
 const OPACITY = 0.85;
-// Used if the marker has no colour for each beam: the marker's own colour has no meaning.
+// Used if the marker has no colour for each beam. The marker's single colour is not used.
 const BEAM_COLOUR = { r: 1, g: 0.012, b: 0.006 };
 const SMALLEST_CAPACITY = 64; // segments
 const NUMBERS_PER_POINT = 3;
 
 interface RobotBeams {
-  pointsInRobot: Float64Array; // x y z of each end, in the robot's frame at the instant of measuring
+  // x y z of each end, in the robot's frame at the time of the measurement
+  pointsInRobot: Float64Array;
   colours: Float32Array; // r g b of each end
 }
 

@@ -12,7 +12,7 @@ export const MATRIX_NUMBERS = 16;
 export class BodyFrames {
   readonly numbers: Float64Array;
   private readonly ofBodies: Int32Array; // the frame of each body
-  private readonly ofLinks: readonly ReadonlyMap<string, number>[]; // of each body
+  private readonly ofLinks: readonly ReadonlyMap<string, number>[]; // the moving links of each body
 
   constructor({ bodies, poses }: SceneDescription) {
     this.ofBodies = new Int32Array(bodies.length).fill(-1);

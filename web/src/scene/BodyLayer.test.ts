@@ -55,7 +55,7 @@ function poses(...xs: number[]): Float64Array {
   return Float64Array.from(xs.flatMap((x) => [x, ...HERE.slice(1)]));
 }
 
-// The centre of a drawn part in the world.
+// Returns the x coordinate of a drawn part's centre in the world.
 function centreX(mesh: Mesh, instance = 0): number {
   const matrix = new Matrix4();
   if (mesh instanceof InstancedMesh) mesh.getMatrixAt(instance, matrix);

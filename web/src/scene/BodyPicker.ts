@@ -28,7 +28,7 @@ export class BodyPicker {
     );
   }
 
-  // A body that can be moved.
+  // Returns the movable body at a place; null if there is none.
   movableAt(place: ScreenPlace): string | null {
     const hit = this.bodyAt(place);
     return hit && !hit.isFixed ? hit.name : null;
@@ -40,7 +40,7 @@ export class BodyPicker {
     return hit?.isStatic && !hit.isFixed ? hit.name : null;
   }
 
-  // The place on the page where a robot's centre is drawn; null if it is outside the view.
+  // Returns the place on the page where a robot's centre is drawn; null if it is outside the view.
   robotOnScreen(robot: string): ScreenPlace | null {
     const middle = this.view.robots()?.middleOf(robot);
     if (!middle) return null;

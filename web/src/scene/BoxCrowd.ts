@@ -4,16 +4,18 @@
 import type { Box3, Material, Matrix4 } from "three";
 import { BoxGeometry, BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, Vector3 } from "three";
 
-const CORNERS = 8; // bit k of a corner's number: whether it is at the far end of axis k
+const CORNERS = 8; // bit k of a corner's index is 1 if the corner is at the far end of axis k
 const FACES = trianglesOfABox();
 
 export class BoxCrowd {
   readonly mesh: Mesh;
   private readonly positions: Float32Array;
-  private readonly corner: Vector3; // the first corner, in the frame
-  private readonly edges: readonly [Vector3, Vector3, Vector3]; // from there
+  private readonly corner: Vector3; // the corner with index 0, in the frame
+  // the edges that start at the first corner
+  private readonly edges: readonly [Vector3, Vector3, Vector3];
 
-  // The number of boxes, and the box in its part's frame, which is fixed in the frame of each body.
+  // `count` is the number of boxes. The box is in its part's frame, which is fixed in the frame of
+  // each body.
   constructor(
     box: Box3,
     frameFromPart: Matrix4,
@@ -31,7 +33,7 @@ export class BoxCrowd {
     this.positions = new Float32Array(3 * CORNERS * count);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(this.positions, 3).setUsage(DynamicDrawUsage));
-    // Shadows are displaced along it.
+    // three.js displaces shadows along the normal.
     geometry.setAttribute("normal", new BufferAttribute(repeated([0, 0, 1], CORNERS * count, 0), 3));
     geometry.setAttribute("uv", new BufferAttribute(repeated([0, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 0, 1, 1, 1], count, 0), 2));
     geometry.setIndex(new BufferAttribute(Uint32Array.from(repeated(FACES, count, CORNERS)), 1));

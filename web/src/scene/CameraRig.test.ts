@@ -41,11 +41,11 @@ test("a chase is drawn from in front of a wall, and from the camera's place if t
   expectNear(rig.viewpoint.position, stand.x, stand.y, stand.z);
   const direction = (from: Vector3) => from.clone().sub(HERE.middle).normalize();
   expectNear(direction(rig.camera.position), ...direction(stand).toArray());
-  rig.follow(null); // one stands there from now on
+  rig.follow(null); // the camera stays there from now on
   rig.update(2500);
   expect(drawnFrom(rig)).toBeCloseTo(0.85);
   rig.follow(HERE, true);
-  free.m = 0.1; // the robot stands at the wall
+  free.m = 0.1; // the robot is close to the wall
   rig.update(3000);
   expect(drawnFrom(rig)).toBeCloseTo(0.4);
   free.m = Infinity;
@@ -58,12 +58,12 @@ test("a chase moves back gradually and requests frames until it is done", () => 
   const free = { m: 1 };
   const rig = rigBeforeWalls(free);
   rig.follow(HERE, true);
-  rig.update(performance.now() + 1000); // the flight is over
+  rig.update(performance.now() + 1000); // the flight has ended
   let now = performance.now() + 2000;
   rig.update(now);
   expect(drawnFrom(rig)).toBeCloseTo(0.85);
   free.m = Infinity;
-  rig.update(now + 20); // it has not looked yet
+  rig.update(now + 20); // the rig has not checked for walls yet
   expect(drawnFrom(rig)).toBeCloseTo(0.85);
   now += 110;
   expect(rig.update(now)).toBe(true);
@@ -146,10 +146,11 @@ test("a robot's view has the width of its camera in windows of any shape", () =>
   rig.resize(1600, 900);
   rig.lookFrom({ worldFromEye: new Matrix4(), view: { horizontalFov: Math.PI / 3, aspect: 4 / 3 } });
   expect(rig.camera.fov).toBeCloseTo(46.826, 3);
-  rig.resize(600, 600); // narrower than the picture: what it sees across fills the window
+  // the window is narrower than the camera's image, whose width fills the window
+  rig.resize(600, 600);
   expect(rig.camera.fov).toBeCloseTo(60, 9);
   rig.lookFrom({ worldFromEye: new Matrix4(), view: { horizontalFov: Math.PI, aspect: 1 } });
-  expect(rig.camera.fov).toBeCloseTo(120, 9); // the most that a flat picture shows
+  expect(rig.camera.fov).toBeCloseTo(120, 9); // the maximum of a perspective camera
   rig.lookFrom(null);
   expect(rig.camera.fov).toBe(before);
 });
@@ -164,11 +165,13 @@ test("a map looks straight down, north up and without perspective, and shows as 
   const at = (x: number, y: number, z: number) => new Vector3(x, y, z).project(rig.camera);
   expect(at(1, 0, 0).x).toBeGreaterThan(0); // east is to the right
   expect(at(0, 1, 0).y).toBeGreaterThan(0); // north is up
-  expect(Math.abs(at(3, 2, 1).x - at(3, 2, 0).x)).toBeLessThan(0.005); // what is higher is hardly elsewhere
+  // the height of a point hardly changes its place on the map
+  expect(Math.abs(at(3, 2, 1).x - at(3, 2, 0).x)).toBeLessThan(0.005);
   expect(Math.abs(at(3, 2, 1).y - at(3, 2, 0).y)).toBeLessThan(0.005);
   expect(at(3, 2, 0).z).toBeLessThan(1);
   expect(rig.controls.enableRotate).toBe(false);
-  expect(rig.viewNumbers.map((value) => Math.round(value))).toEqual([0, -8, 6, 0, 0, 0]); // what a link shows
+  // the numbers in a link
+  expect(rig.viewNumbers.map((value) => Math.round(value))).toEqual([0, -8, 6, 0, 0, 0]);
   rig.setMap(false);
   expectNear(rig.viewpoint.position, 0, -8, 6);
   expect(rig.controls.enableRotate).toBe(true);

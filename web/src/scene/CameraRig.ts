@@ -1,5 +1,5 @@
 // The camera of the view: orbits, flies to views, follows a robot, or shows a robot's view. The
-// world's z is up. In a chase, the image is drawn from nearer if a wall is in between.
+// world's z is up. When it follows a robot and a wall is in between, it moves nearer to the robot.
 import type { Box3 } from "three";
 import { MOUSE, MathUtils, Matrix4, PerspectiveCamera, TOUCH, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -15,22 +15,23 @@ const FIELD_OF_VIEW_DEG = 50;
 // The field of view of a map. It is so narrow that the map deviates from an orthographic one by
 // less than a hundredth. The server does not support a narrower one.
 const MAP_FIELD_OF_VIEW_DEG = 1;
-const MAP_DEPTH = 200; // m, that is drawn below and above where one looks
+const MAP_DEPTH = 200; // m: what is drawn below and above the camera's target
 const FLIGHT_MS = 450;
 const MARGIN = 1.04;
-// From the south-west, well above the walls of a room.
+// The view from the south-west, well above the walls of a room.
 const FIRST_DIRECTION = new Vector3(0.35, 0.72, -0.85).normalize();
 // Not exactly vertical, because the orbit would have no heading then. North is up in the image.
 const DOWN = new Vector3(0, 0.001, -1).normalize();
 const FOLLOWING_DISTANCE = 5; // m
-const FOLLOWING_STEEPNESS = Math.tan((68 * Math.PI) / 180); // over the walls beside a robot
-const BEHIND = 2.4; // m, of a chase
+// steep enough to see over the walls beside a robot
+const FOLLOWING_STEEPNESS = Math.tan((68 * Math.PI) / 180);
+const BEHIND = 2.4; // m: distance behind a followed robot
 const ABOVE = 1.5;
-const NEAREST = 0.4; // m, to what is chased
+const NEAREST = 0.4; // m: smallest distance to the followed robot
 const BEFORE_WALL = 0.15; // m
-const LOOK_MS = 100; // between looks for walls
-const BACK_OFF_MS = 250; // to draw back once there is room
-const AHEAD = 2; // m: where one looks who leaves a robot's eye
+const LOOK_MS = 100; // time between checks for walls
+const BACK_OFF_MS = 250; // duration of moving back when no wall is in between any more
+const AHEAD = 2; // m: distance of the target ahead of a robot's eye, when its view ends
 
 // A robot that is followed: its position, the centre of its shape (equal to the position until the
 // shape is known), and the direction of its x axis (radians about the world's z).
@@ -52,21 +53,23 @@ interface Flight {
 }
 
 export class CameraRig {
-  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.05, 500); // that draws
-  readonly controls: OrbitControls; // of `stand`
-  private readonly stand = this.camera.clone(); // where one stands
-  private free = Infinity; // m, from what is chased towards where one stands
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.05, 500); // the camera that draws
+  readonly controls: OrbitControls; // controls that move `stand`
+  private readonly stand = this.camera.clone(); // the camera before walls are avoided
+  private free = Infinity; // m: free distance from the followed robot towards the camera
   private looked = -Infinity; // ms
-  private drawn = Infinity; // m, from what is chased
+  private drawn = Infinity; // m: distance from the followed robot at which the image is drawn
   private drawnMs = 0;
   private flight: Flight | null = null;
   private subject: Subject | null = null;
-  private turning = false; // with the subject
-  private beforeEye: Viewpoint | null = null; // not null: it looks out of a robot
-  private eyeView: CameraView | null = null; // of that robot's camera
-  private beforeMap: Viewpoint | null = null; // not null: it is a map
+  private turning = false; // whether it rotates with the subject
+  // the view before that of a robot; null: no robot's view is shown
+  private beforeEye: Viewpoint | null = null;
+  private eyeView: CameraView | null = null; // field of view of the robot's camera
+  private beforeMap: Viewpoint | null = null; // the view before the map; null: no map is shown
   private height = 1; // px
-  private orbitDepth = { near: 0.05, far: 500 }; // m, that is drawn while it is no map
+  // m: the range of depths that is drawn in all views except the map
+  private orbitDepth = { near: 0.05, far: 500 };
   private readonly still: boolean;
 
   // `freeAlong`: the free distance in metres from a place in a direction (unit length), up to
@@ -82,7 +85,7 @@ export class CameraRig {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.18;
     this.controls.zoomToCursor = true;
-    this.controls.maxPolarAngle = Math.PI * 0.495; // not below the floor
+    this.controls.maxPolarAngle = Math.PI * 0.495; // the camera stays above the floor
     this.controls.minDistance = 0.3;
     this.controls.addEventListener("change", onChange);
     this.controls.addEventListener("start", () => (this.flight = null));
@@ -95,14 +98,14 @@ export class CameraRig {
     this.widen();
   }
 
-  // The position and target of the camera, or of the end of its flight.
+  // The position and target of the camera. During a flight, those of its end.
   get viewpoint(): Viewpoint {
     const { position, target } = this.flight?.to ??
       this.beforeEye ?? { position: this.stand.position, target: this.controls.target };
     return { position: position.clone(), target: target.clone() };
   }
 
-  // Moves there at once, or when the robot's view ends.
+  // Moves there at once. During a robot's view, moves there when that ends.
   set viewpoint({ position, target }: Viewpoint) {
     this.flight = null;
     if (this.beforeEye) {
@@ -116,7 +119,7 @@ export class CameraRig {
     this.controls.dispatchEvent({ type: "change" });
   }
 
-  // The camera as numbers for a link. For a map, that of the view before it.
+  // The camera as numbers for a link. While a map is shown, those of the view before it.
   get viewNumbers(): ViewNumbers {
     const { position, target } = this.beforeMap ?? this.viewpoint;
     return [...position.toArray(), ...target.toArray()];
@@ -167,8 +170,8 @@ export class CameraRig {
     return (2 * distance * Math.tan(radians(this.camera.fov) / 2)) / this.height;
   }
 
-  // Flies to the subject and follows it. `turning`: stays behind it and rotates with it. null ends
-  // this.
+  // Flies to the subject and follows it; null ends this. With `turning`, the camera stays behind
+  // the subject and rotates with it.
   follow(subject: Subject | null, turning = false): void {
     if (!subject) {
       if (this.subject && this.turning) this.stayBeforeWall();
@@ -198,7 +201,7 @@ export class CameraRig {
     for (const point of this.points()) point.applyMatrix4(motion);
   }
 
-  // Shows this robot's view until it is called with null.
+  // Shows this robot's view; null ends it.
   lookFrom(eye: Eye | null): void {
     if (!eye) return this.leaveEye();
     const { worldFromEye, view } = eye;
@@ -221,7 +224,8 @@ export class CameraRig {
     return moved || isBackingOff || this.flight !== null;
   }
 
-  // When a chase ends, the camera stays at the place from which the last image was drawn.
+  // When the camera stops following a robot, it stays at the place from which the last image was
+  // drawn.
   private stayBeforeWall(): void {
     if (!this.beforeEye) this.stand.position.copy(this.camera.position);
   }

@@ -10,21 +10,21 @@ import type { ModelInstances, Rig } from "./ModelInstances";
 import { boundsOf } from "./ModelTemplate";
 
 const SMALLEST_CROWD = 50;
-// The size in pixels of the nearest robot of a crowd. Between the two limits, the level of detail
+// Limits of the size in pixels of a crowd's nearest robot. Between the two, the level of detail
 // does not change.
 const COARSE_BELOW = 12;
 const FINE_ABOVE = 16;
-// The smallest fraction of the largest part. At the pixels above, such a part is two or three
-// pixels wide.
+// Parts below this fraction of the largest part are small. At the limits above, such a part is two
+// or three pixels wide.
 const SMALL_SHARE = 0.4;
 
 interface Crowd {
   meshes: readonly Mesh[];
-  boxes: { boxes: BoxCrowd; rig: Rig }[]; // of the large parts
-  radius: number; // of one of them, m
-  frames: Int32Array; // of the bodies
+  boxes: { boxes: BoxCrowd; rig: Rig }[]; // boxes that replace the large parts
+  radius: number; // radius of one body, m
+  frames: Int32Array; // the frames of the bodies
   isCoarse: boolean;
-  isStale: boolean; // the boxes stand where the bodies stood
+  isStale: boolean; // whether the bodies have moved since the boxes were placed
 }
 
 export class CrowdDetail {
@@ -33,7 +33,8 @@ export class CrowdDetail {
 
   constructor(private readonly frames: BodyFrames) {}
 
-  // Adds bodies of one model with this radius in metres. A small number of bodies is left unchanged.
+  // Adds bodies of one model with this radius in metres. A small number of bodies is left
+  // unchanged.
   add({ meshes, rigs, bodies }: ModelInstances, radius: number): void {
     if (bodies.length < SMALLEST_CROWD || !(radius > 0)) return;
     const parts = rigs.flatMap((rig) => rig.parts.map((framed) => ({ rig, framed, size: sizeOf(framed) })));
@@ -65,7 +66,7 @@ export class CrowdDetail {
     for (const { boxes } of this.crowds) for (const each of boxes) each.boxes.dispose();
   }
 
-  // The distance from the camera to the nearest body.
+  // Returns the distance from the camera to the nearest body.
   private nearest(camera: PerspectiveCamera, frames: Int32Array): number {
     const { numbers } = this.frames;
     const { x, y, z } = camera.position;
@@ -89,13 +90,13 @@ export class CrowdDetail {
   }
 }
 
-// From corner to corner, m.
+// Returns the length of the part's diagonal, m.
 function sizeOf({ part }: FramedPart): number {
   return boundsOf(part).getSize(new Vector3()).length();
 }
 
 function boxesFor({ part, frameFromPart }: FramedPart, count: number): BoxCrowd {
-  boundsOf(part); // computes those of the geometry
+  boundsOf(part); // this computes the bounds of the geometry
   const boxes = new BoxCrowd(part.geometry.boundingBox!, frameFromPart, part.material, count);
   boxes.mesh.castShadow = boxes.mesh.receiveShadow = !part.material.transparent;
   return boxes;

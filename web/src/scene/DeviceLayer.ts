@@ -1,5 +1,5 @@
 // Draws the state of actuators at their places: lamps glow and light their surroundings, speakers
-// emit rings, and grippers show their jaws.
+// emit rings, and grippers show their fingers.
 import type { Matrix4 } from "three";
 import {
   AdditiveBlending,
@@ -20,7 +20,8 @@ import { glowOf, jawsOf, soundOf } from "../live/devices";
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 
-const MOST_LIGHTS = 4; // of each kind; each costs every pixel
+// maximum number of lights of each kind, because each costs time for every pixel
+const MOST_LIGHTS = 4;
 const HALO = 10; // radii
 const SOUND_COLOUR = rgb(0x00a7b5);
 const EMPTY_COLOUR = rgb(0xf2b90f);
@@ -40,7 +41,7 @@ export class DeviceLayer {
   readonly sounds = new Map<string, Sound>(); // by topic
   private readonly jaws = new Map<string, Jaws>(); // by topic
   private readonly glows = new Map<string, Glow>(); // by topic
-  private readonly lamps: Lamp[] = []; // as many as were ever on at once
+  private readonly lamps: Lamp[] = []; // the largest number of lamps that were on at once
   private readonly points: PointLight[] = [];
   private readonly spots: SpotLight[] = [];
   private readonly ball = new SphereGeometry(1, 16, 12);
@@ -58,7 +59,7 @@ export class DeviceLayer {
     }
   }
 
-  // Moves lamps with the displayed sensors, and draws rings and jaws.
+  // Moves lamps with the displayed sensors, and draws rings and fingers.
   place(worldFromSensor: (topic: string) => Matrix4 | null, lines: LineLayer): void {
     const lit = [...this.glows].flatMap(([topic, glow]) => {
       const frame = worldFromSensor(topic);
@@ -182,7 +183,7 @@ function drawRings(lines: LineLayer, worldFromSensor: Matrix4, { elapsed, volume
   }
 }
 
-// The inner face of each jaw; green if it holds something.
+// Draws the inner face of each finger; green if the gripper holds a body.
 function drawJaws(lines: LineLayer, worldFromSensor: Matrix4, { opening, reach, height, held }: Jaws): void {
   const colour = held === "" ? EMPTY_COLOUR : HOLDING_COLOUR;
   const z = height / 2;

@@ -35,7 +35,8 @@ export interface EditToolsEvents {
   onChoose(bodies: readonly string[]): void;
   onPoint(point: Point): void;
   onPlacePoint(point: Point): void;
-  onDrag(pose: BodyPose): void; // of the first that is chosen, while it is held
+  // called with the pose of the first selected body while it is dragged
+  onDrag(pose: BodyPose): void;
   // Resolves to whether all bodies have their pose now.
   onPose(poses: readonly BodyPose[]): Promise<boolean>;
 }
@@ -48,10 +49,11 @@ export class EditTools {
   private readonly rings = new Group();
   private readonly ringsMade: SelectionRing[] = [];
   private readonly rectangle: RectangleChoice;
-  private tool: GizmoTool | null = null; // null: nothing is edited
+  private tool: GizmoTool | null = null; // null: edit mode is off
   private chosen: readonly string[] = [];
   private held: BodyLayer | null = null;
-  private before: { index: number; pose: Matrix4 }[] = []; // of what is held
+  // the poses of the dragged bodies before the drag
+  private before: { index: number; pose: Matrix4 }[] = [];
 
   constructor(
     private readonly view: EditToolsView,

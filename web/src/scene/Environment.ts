@@ -1,6 +1,7 @@
-// Light from all around, which smooth and metallic surfaces reflect: a sky with bright windows over
-// a darker ground. It is computed, and filtered once by the graphics (PMREM). On surfaces that
-// reflect diffusely it is as bright as the world's ambient light: above in its colour, below darker.
+// The environment map, which lights the scene from all directions and which smooth and metallic
+// surfaces reflect: a sky with bright windows over a darker ground. It is computed, and filtered
+// once by the graphics (PMREM). On diffuse surfaces it is as bright as the world's ambient light:
+// from above in its colour, from below darker.
 import type { Scene, WebGLRenderer, WebGLRenderTarget } from "three";
 import { BackSide, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, PMREMGenerator, Scene as EnvironmentScene, SphereGeometry, Vector3 } from "three";
 import type { SceneDescription } from "../api/scene";
@@ -9,13 +10,13 @@ import { shadesOfSky } from "./Sky";
 
 type Look = SceneDescription["look"];
 
-const SIZE_PX = 128; // of a side of the cube
-const TINT = 0.5; // of the sky's colours; the rest is white
-const WINDOWS = 5; // around the horizon
-const WINDOW_RADIANCE = 3; // of the sky's
-const LOWEST_WINDOW = 0.25; // z of a direction
+const SIZE_PX = 128; // side of a face of the cube map
+const TINT = 0.5; // fraction of the sky's colour in the light; the rest is white
+const WINDOWS = 5; // number of windows around the horizon
+const WINDOW_RADIANCE = 3; // as a multiple of the sky's radiance
+const LOWEST_WINDOW = 0.25; // z of the lowest direction in a window
 const HIGHEST_WINDOW = 0.75;
-const SAMPLES = 64; // around; half as many upwards
+const SAMPLES = 64; // samples around the horizon; half as many from bottom to top
 
 export class Environment {
   private target: WebGLRenderTarget | null = null;
@@ -33,7 +34,7 @@ export class Environment {
     if (!isSame || !this.target) this.renew();
   }
 
-  // Computes it again. Call this when the browser has given WebGL back.
+  // Computes the map again. Call this when the browser has restored WebGL.
   renew(): void {
     if (!this.look) return;
     this.target?.dispose();
@@ -44,7 +45,7 @@ export class Environment {
 
 type Radiance = (direction: Vector3, out: Color) => Color;
 
-// The light from each direction (unit length, z up).
+// Returns the light from each direction (unit length, z up).
 export function radianceOf(look: Look): Radiance {
   const above = ambientOf(look.ambient);
   const { zenith, horizon } = shadesOfSky(look.sky ? null : colourOf(look.background));
@@ -60,14 +61,14 @@ export function radianceOf(look: Look): Radiance {
   };
 }
 
-// The light that a white surface reflects diffusely to all sides when it faces `sign` times up.
+// Returns the light that a white diffuse surface reflects if it faces up (`sign` 1) or down (-1).
 export function meanOf(radiance: Radiance, sign = 1): Color {
   const sum = new Color(0, 0, 0);
   const one = new Color();
   const direction = new Vector3();
   const rings = SAMPLES / 2;
   for (let ring = 0; ring < rings; ring++) {
-    const z = Math.sqrt((ring + 0.5) / rings); // equal parts of the light that arrives
+    const z = Math.sqrt((ring + 0.5) / rings); // each ring receives an equal part of the light
     for (let i = 0; i < SAMPLES; i++) {
       direction.setFromCylindricalCoords(Math.sqrt(1 - z * z), (2 * Math.PI * (i + 0.5)) / SAMPLES, 0);
       direction.set(direction.x, direction.z, sign * z);
@@ -77,7 +78,7 @@ export function meanOf(radiance: Radiance, sign = 1): Color {
   return sum.multiplyScalar(1 / (rings * SAMPLES));
 }
 
-// 1 in a window, 0 beside it, with soft edges.
+// Returns 1 in a window and 0 beside it, with soft edges.
 function windowAt({ x, y, z }: Vector3): number {
   const across = smooth(0.1, 0.3, Math.sin(WINDOWS * Math.atan2(y, x)));
   return across * smooth(LOWEST_WINDOW - 0.05, LOWEST_WINDOW + 0.05, z) * smooth(HIGHEST_WINDOW + 0.05, HIGHEST_WINDOW - 0.05, z);

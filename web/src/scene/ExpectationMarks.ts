@@ -6,8 +6,8 @@ import type { Rgb } from "./LineLayer";
 import { LineLayer, rgb } from "./LineLayer";
 
 const ABOVE_FLOOR = 0.03; // m
-const FARTHEST = 500; // m; a box may be open to a side
-const CORNERS = 48; // of a circle
+const FARTHEST = 500; // m: extent of a box that is open to one side
+const CORNERS = 48; // number of corners of a circle
 const COLOURS: Record<Verdict, Rgb> = {
   pending: rgb(0x1f6feb),
   holds: rgb(0x2da44e),

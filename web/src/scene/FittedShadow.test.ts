@@ -25,7 +25,7 @@ test("near a robot, the shadows cover its surroundings with smaller texels, and 
   expect(sun.target.position.toArray()).toEqual([5, 0, 0]);
   const { position } = sun;
   expect([position.x, position.y]).toEqual([5, 0]);
-  expect(position.z).toBe(40); // above all that casts shadows
+  expect(position.z).toBe(40); // higher than all bodies that cast shadows
 });
 
 test("small motions of the camera leave the shadows as they are", () => {

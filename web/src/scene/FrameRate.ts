@@ -6,7 +6,7 @@ export class FrameRate {
 
   constructor(private readonly tell: (framesPerSecond: number) => void) {}
 
-  // `frames`: number of frames drawn so far.
+  // `frames` is the number of frames drawn so far.
   count(frames: number, nowMs: number): void {
     const { ms, frames: then } = this.since;
     if (nowMs - ms < WINDOW_MS) return;

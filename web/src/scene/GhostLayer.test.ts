@@ -44,8 +44,8 @@ test("a ghost stands where the second recording has its robot", () => {
   expect(layer.placeOf("a")).toEqual([1, 0, 0]);
   expect(layer.placeOf("b")).toEqual([3, 0, 0]);
   expect(layer.placeOf("crate")).toBeNull();
-  layer.setPoses(5, posesAt(9, 7, 7, 7)); // of another layout
-  layer.setPoses(4, posesAt(9, 7)); // too few
+  layer.setPoses(5, posesAt(9, 7, 7, 7)); // poses of another layout
+  layer.setPoses(4, posesAt(9, 7)); // too few poses
   expect(layer.placeOf("b")).toEqual([3, 0, 0]);
   layer.setScene(null, LIBRARY, () => {});
   expect(layer.placeOf("a")).toBeNull();

@@ -1,4 +1,4 @@
-// The robots of a second recording, seen through, over the scene of the first.
+// Draws the robots of a second recording as transparent ghosts over the scene of the first.
 import { Group, MeshBasicMaterial } from "three";
 import type { SceneDescription } from "../api/scene";
 import { BodyLayer } from "./BodyLayer";
@@ -9,7 +9,7 @@ const NUMBERS_A_POSE = 7;
 
 export class GhostLayer {
   readonly group = new Group();
-  // Of all ghosts: what matters is where they are, and that they are none of the robots.
+  // One material for all ghosts, which only need to be visible and distinguishable from the robots.
   private readonly material = new MeshBasicMaterial({
     color: 0x8b5cf6,
     transparent: true,
@@ -18,7 +18,7 @@ export class GhostLayer {
   });
   private shown: { bodies: BodyLayer; entries: readonly number[]; layoutVersion: number } | null = null;
 
-  // Shows the robots of a scene, or none. `onChange`: there is something new to draw.
+  // Shows the robots of a scene; null: none. Calls `onChange` when there is something new to draw.
   setScene(scene: SceneDescription | null, library: ModelLibrary, onChange: () => void): void {
     this.shown?.bodies.dispose();
     this.shown = null;
@@ -35,12 +35,12 @@ export class GhostLayer {
           bodies.addModel(model, this.ghostOf(template));
           onChange();
         },
-        () => {}, // a ghost without a shape: its curves are compared all the same
+        () => {}, // a ghost without a shape is not drawn, but its curves can be compared
       );
     }
   }
 
-  // Poses in the order of that scene's list. Those of another layout are left out.
+  // Takes poses in the order of that scene's list. Poses of another layout are ignored.
   setPoses(layoutVersion: number, poses: Float64Array): void {
     if (!this.shown || this.shown.layoutVersion !== layoutVersion) return;
     const { bodies, entries } = this.shown;
@@ -53,7 +53,7 @@ export class GhostLayer {
     bodies.setPoses(numbers);
   }
 
-  // world_from_robot of a ghost, as shown now: x, y, z; null when there is none.
+  // Returns the displayed position of a ghost, x, y, z in the world; null if there is no ghost.
   placeOf(robot: string): [number, number, number] | null {
     const pose = this.shown?.bodies.poseOf(this.shown.bodies.indexOf(robot));
     return pose ? (pose.elements.slice(12, 15) as [number, number, number]) : null;
@@ -64,7 +64,8 @@ export class GhostLayer {
   }
 }
 
-// The robots alone, and where their poses are in the list of the whole scene.
+// Returns the scene with its robots only, and the indices of their poses in the list of the whole
+// scene.
 export function ghostsOf(scene: SceneDescription): { ghosts: SceneDescription; entries: number[] } {
   const robots = scene.bodies.flatMap(({ isRobot, isAvatar }, index) => (isRobot || isAvatar ? [index] : []));
   const places = new Map(robots.map((body, place) => [body, place]));

@@ -8,12 +8,12 @@ import type { GizmoTool } from "../state/editing";
 import type { ScreenPlace } from "./picking";
 import { screenPlaceOf } from "./picking";
 
-const SIZE = 0.85; // of three's own
-const HANDLE_SHARE = 0.5; // of the length of an arrow, where it is taken hold of in tests
+const SIZE = 0.85; // as a fraction of three's default
+const HANDLE_SHARE = 0.5; // fraction of an arrow's length at which tests drag it
 
 export interface GizmoEvents {
   onGrab(): void;
-  // The motion of the frame in the world since the user took hold of a handle.
+  // Called with the motion of the frame in the world since the drag began.
   onMove(motion: Matrix4): void;
   onDrop(): void;
 }
@@ -22,7 +22,7 @@ export class Gizmo {
   readonly root = new Group();
   private readonly controls: TransformControls;
   private readonly frame = new Object3D();
-  private readonly before = new Matrix4(); // world_from_frame when it was taken hold of
+  private readonly before = new Matrix4(); // world_from_frame when the drag began
   private tool: GizmoTool | null = null;
   private isUpright = false;
 
@@ -48,7 +48,7 @@ export class Gizmo {
       events.onMove(this.frame.matrixWorld.clone().multiply(this.before.clone().invert()));
     });
     this.controls.addEventListener("mouseUp", () => events.onDrop());
-    // The gestures of the camera are off while the user holds a handle.
+    // The gestures of the camera are off while the user drags a handle.
     let wasEnabled = true;
     this.controls.addEventListener("dragging-changed", ({ value }) => {
       if (value) wasEnabled = orbit.enabled;

@@ -6,7 +6,7 @@ const HIGHEST_FLOOR = 0.004; // m above the world's floor, so that the grid is n
 const MOST_CELLS = 200;
 const RING_COLOUR = new Color(0x2f81f7);
 
-// Lines at a distance of one metre (ten in a large world) over the floor of the box.
+// Makes lines at a distance of one metre (ten in a large world) over the floor of the box.
 export function makeGrid(box: Box3): LineSegments {
   const size = box.getSize(new Vector3());
   const cell = Math.max(size.x, size.y) > MOST_CELLS ? 10 : 1;

@@ -69,8 +69,8 @@ test("while robots move, their labels follow them, and other robots get labels a
     layer.place(camera, 800, 400, { names, tops, badness: () => 0, isShown: () => true, selection, isMoving: true });
     return [...layer.element.children].map((label) => `${label.textContent} ${/translate\((\S+)px/.exec((label as HTMLElement).style.transform)![1]}`);
   };
-  expect(show(0, -2)).toEqual(["a 400.0"]); // in front of b
-  expect(show(0.04, -4)).toEqual(["a 402.0"]); // behind it
+  expect(show(0, -2)).toEqual(["a 400.0"]); // a is in front of b
+  expect(show(0.04, -4)).toEqual(["a 402.0"]); // a is behind b
   expect(show(0.04, -4, "b")).toEqual(["b 400.0"]); // a new selection counts at once
   show(0.04, -4);
   expect(show(0.04, -2)).toEqual(["b 400.0"]);

@@ -5,18 +5,18 @@ import type { Camera } from "three";
 import { Matrix4, Vector3 } from "three";
 
 const MOST_LABELS = 40;
-const TEXT_PX = 11.5; // as style/panels.css has it
+const TEXT_PX = 11.5; // as in style/panels.css
 const HEIGHT_PX = 20;
-const PADDING_PX = 14; // of both sides, with what keeps two names apart
-// While robots move and the camera stands, the labelled robots are chosen anew after this time.
-// Choosing in every frame would exchange labels all the time, which is restless and slow.
+const PADDING_PX = 14; // padding on both sides, with the gap between two names
+// While robots move and the camera is at rest, the labelled robots are chosen again after this
+// time. A choice in every frame would exchange labels all the time.
 const CHOICE_MS = 200;
-const CHARACTER_PX = 7; // where the browser does not tell a text's width
+const CHARACTER_PX = 7; // used if the browser does not return the width of a text
 
 export interface LabelledRobots {
   names: readonly string[];
-  tops: Float64Array; // x y z of each, in the world
-  badness(robot: number): number; // 0: all is well
+  tops: Float64Array; // x y z of each label's anchor, in the world
+  badness(robot: number): number; // 0: no problem
   isShown(robot: number): boolean;
   selection: string | null;
   isMoving: boolean; // more frames follow
@@ -36,7 +36,7 @@ interface ShownLabel {
 
 type Candidate = Box & ShownLabel;
 
-// What the present choice was made for, apart from the places of the robots.
+// The inputs of the present choice, except the positions of the robots.
 interface Choice {
   madeMs: number;
   names: readonly string[];
@@ -45,20 +45,20 @@ interface Choice {
   robots: number[];
 }
 
-// A label of the page, with what was last written to it: a write costs more than a comparison.
+// A label of the page, with its current content: a comparison costs less than a write.
 interface Label {
   element: HTMLElement;
-  frame: number; // in which it was last shown
+  frame: number; // the frame in which it was last shown
   x: number; // tenths of a pixel
   bottom: number;
-  kind: string; // its classes
+  kind: string; // its CSS classes
 }
 
-// A priority is one number, so that thousands are sorted fast: the rank (the lowest comes first), the
-// distance in centimetres, and the number of the robot.
+// A priority is one number, so that thousands are sorted fast. It combines the rank (the lowest
+// first), the distance in centimetres, and the robot's number.
 const ROBOTS_IN_KEY = 2 ** 20;
 const DISTANCES_IN_KEY = 2 ** 24;
-const BEST_RANK = 100; // of a selected robot; the worst robots follow
+const BEST_RANK = 100; // rank of a selected robot; the robots with the worst state follow
 const CENTIMETRES = 100;
 
 export class LabelLayer {
@@ -70,7 +70,7 @@ export class LabelLayer {
   private readonly measure = measureText();
   private readonly clipFromWorld = new Matrix4();
   private readonly eye = new Vector3();
-  private keys: Float64Array = new Float64Array(0); // of the robots in the image, by priority
+  private keys: Float64Array = new Float64Array(0); // priorities of the robots in the image
   private across: Float64Array = new Float64Array(0); // the place of each robot in the image, in CSS pixels
   private down: Float64Array = new Float64Array(0);
 
@@ -118,12 +118,12 @@ export class LabelLayer {
     context.restore();
   }
 
-  // Call this when the answers of `badness` or `isShown` may have changed.
+  // Call this when the results of `badness` or `isShown` may have changed.
   renew(): void {
     this.choice = null;
   }
 
-  // The labels to show. A present choice remains for a short time, if only the robots have moved.
+  // Returns the labels to show. A choice stays for a short time, if only the robots have moved.
   private shown(camera: Camera, width: number, height: number, robots: LabelledRobots): ShownLabel[] {
     this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     const now = performance.now();
@@ -139,12 +139,12 @@ export class LabelLayer {
     return isSame && now - madeMs < CHOICE_MS;
   }
 
-  // The chosen robots that are still in the image, at their present places.
+  // Returns the chosen robots that are still in the image, at their present places.
   private moved({ robots }: Choice, width: number, height: number, tops: Float64Array): ShownLabel[] {
     return robots.flatMap((robot) => (this.project(tops, robot, width, height) ? [{ robot, x: this.across[robot]!, bottom: this.down[robot]! }] : []));
   }
 
-  // The labels that have room, at most MOST_LABELS.
+  // Returns the labels that do not overlap, at most MOST_LABELS.
   private chosen(camera: Camera, width: number, height: number, robots: LabelledRobots): Candidate[] {
     const taken: Candidate[] = [];
     const found = this.findInImage(camera, width, height, robots);
@@ -158,8 +158,8 @@ export class LabelLayer {
     return taken;
   }
 
-  // Finds the robots in front of the camera and inside the image. Returns their number, and leaves their
-  // places in `across` and `down` and their order in `keys`.
+  // Finds the robots in front of the camera and inside the image. Returns their number, and leaves
+  // their places in `across` and `down` and their order in `keys`.
   private findInImage(camera: Camera, width: number, height: number, robots: LabelledRobots): number {
     const { names, tops, selection } = robots;
     if (this.keys.length < names.length) {
@@ -180,7 +180,8 @@ export class LabelLayer {
     return found;
   }
 
-  // Finds the place of a robot in the image. Returns whether it is in front of the camera and inside.
+  // Finds the place of a robot in the image. Returns whether it is in front of the camera and
+  // inside.
   private project(tops: Float64Array, robot: number, width: number, height: number): boolean {
     const m = this.clipFromWorld.elements;
     const x = tops[3 * robot]!;
@@ -216,7 +217,7 @@ export class LabelLayer {
   }
 }
 
-// Places in tenths of a pixel.
+// Moves a label to a place in tenths of a pixel.
 function move(label: Label, x: number, bottom: number): void {
   if (x === label.x && bottom === label.bottom) return;
   label.x = x;
@@ -228,7 +229,8 @@ function overlap(a: Box, b: Box): boolean {
   return a.left < b.right && b.left < a.right && Math.abs(a.bottom - b.bottom) < HEIGHT_PX;
 }
 
-// Measuring the labels on the page would cause a layout for each.
+// Returns a function that measures texts. Measuring the labels on the page would cause a layout for
+// each.
 function measureText(): (text: string) => number {
   let context: CanvasRenderingContext2D | null = null;
   return (text) => {

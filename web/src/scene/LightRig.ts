@@ -1,6 +1,6 @@
 // The lights of a scene, as in the robots' cameras (gsv/rendering). An intensity of 1 lights a
-// white surface that faces the light to full white, as in the world file. Therefore the factor pi,
-// which cancels the one in three's reflectance. Light colours are linear, not sRGB.
+// white surface that faces the light to full white, as in the world file. The factor pi cancels the
+// one in three's reflectance. Light colours are linear, not sRGB.
 import type { Box3, Light } from "three";
 import {
   Color,
@@ -16,9 +16,9 @@ import {
 import type { SceneDescription, SceneLight, Triple } from "../api/scene";
 import { FittedShadow } from "./FittedShadow";
 
-const MOST_LOCAL_LIGHTS = 6; // each costs every pixel
+const MOST_LOCAL_LIGHTS = 6; // limit, because each light costs time for every pixel
 const AMBIENT_FLOOR = 0.3;
-export const AMBIENT_FROM_BELOW = 0.55; // of the light from above
+export const AMBIENT_FROM_BELOW = 0.55; // fraction of the ambient light from above
 const WITHOUT_LIGHTS: SceneLight = {
   name: "",
   kind: "directional",
@@ -32,7 +32,7 @@ const WITHOUT_LIGHTS: SceneLight = {
   castShadows: true,
 };
 
-// The colour of a surface or of the background.
+// Returns the colour of a surface or of the background.
 export function colourOf([r, g, b]: Triple): Color {
   return new Color().setRGB(r, g, b, SRGBColorSpace);
 }
@@ -43,10 +43,11 @@ function lightOf([r, g, b]: Triple): Color {
 
 export class LightRig {
   readonly group = new Group();
-  private readonly shadow: FittedShadow | null = null; // of the first sun that requests it
+  // the shadow of the first sun that casts shadows
+  private readonly shadow: FittedShadow | null = null;
 
-  // `focus`: the part of the world that shadows must cover. `hasEnvironment`: the ambient light is
-  // the scene's environment.
+  // `focus` is the part of the world that shadows must cover. With `hasEnvironment`, the ambient
+  // light is the scene's environment map.
   constructor(scene: SceneDescription, focus: Box3, hasEnvironment = false) {
     if (!hasEnvironment) this.group.add(ambient(scene.look.ambient));
     const lights = scene.lights.length > 0 ? scene.lights : [WITHOUT_LIGHTS];
@@ -68,8 +69,8 @@ export class LightRig {
     }
   }
 
-  // Fits the shadows to what a camera at `eye` sees around `target`. Returns whether they must be
-  // drawn again.
+  // Fits the shadows to the view of a camera at `eye` with this target. Returns whether they must
+  // be drawn again.
   fitShadow(eye: Vector3, target: Vector3): boolean {
     return this.shadow?.fit(eye, target) ?? false;
   }
@@ -80,7 +81,7 @@ export class LightRig {
   }
 }
 
-// Ambient light has a minimum, because many worlds define almost none: their authors' tools add
+// Ambient light has a minimum, because many worlds define almost none, and other simulators add
 // their own.
 export function ambientOf(asked: Triple): Color {
   const above = lightOf(asked);
@@ -91,7 +92,7 @@ export function ambientOf(asked: Triple): Color {
   return above;
 }
 
-// Weaker from below, so that shapes are visible.
+// Returns ambient light that is weaker from below, so that shapes are visible.
 function ambient(asked: Triple): HemisphereLight {
   const above = ambientOf(asked);
   const light = new HemisphereLight(above, above, Math.PI);

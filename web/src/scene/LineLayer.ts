@@ -37,7 +37,7 @@ export class LineLayer {
     this.used = 0;
   }
 
-  // A line between two points of a frame, x y z each.
+  // Adds a line between two points of a frame, x y z each.
   add(worldFromFrame: Matrix4, from: readonly number[], to: readonly number[], colour: Rgb): void {
     this.makeRoom();
     for (const end of [from, to]) {
@@ -47,7 +47,8 @@ export class LineLayer {
     }
   }
 
-  // A line in the world between the points that begin at `from` and `to` in a list of numbers.
+  // Adds a line between two points in the world, which begin at the indices `from` and `to` of a
+  // list of numbers.
   addInWorld(points: Float32Array, from: number, to: number, colour: Rgb): void {
     this.makeRoom();
     for (const at of [from, to]) {

@@ -13,14 +13,14 @@ import type { ModelPart, ModelTemplate } from "./ModelTemplate";
 
 // Parts that move with one frame of each body.
 export interface Rig {
-  frames: Int32Array; // of each body
+  frames: Int32Array; // the frame of each body
   parts: FramedPart[];
   matrices: InstancedBufferAttribute; // world_from_frame of each body
   isMoving: boolean;
 }
 
 export interface ModelBodies {
-  bodies: readonly number[]; // all with the same moving links
+  bodies: readonly number[]; // bodies with the same moving links
   isFixed(body: number): boolean;
 }
 
@@ -47,7 +47,7 @@ export class ModelInstances {
     return this.of.bodies;
   }
 
-  // Brings the meshes to the present poses of the frames. `all`: those of fixed bodies, too.
+  // Moves the meshes to the present poses of the frames. With `all`, also those of fixed bodies.
   place(all = false): void {
     for (const { frames, matrices, isMoving } of this.rigs) {
       if (!isMoving && !all) continue;
@@ -118,7 +118,7 @@ export class ModelInstances {
   }
 }
 
-// The bodies, grouped by the links that move.
+// Returns the bodies, grouped by the links that move.
 export function alikeBodies(bodies: readonly number[], frames: BodyFrames): number[][] {
   const groups = new Map<string, number[]>();
   for (const body of bodies) {

@@ -13,7 +13,7 @@ export class ModelLibrary {
     private readonly headers: () => Record<string, string> = () => ({}),
   ) {}
 
-  // Fails with a sentence. A later call tries again.
+  // Returns a model. Fails with a sentence; a later call tries again.
   get(id: string, links: readonly string[]): Promise<ModelTemplate> {
     let template = this.templates.get(id);
     if (!template) {

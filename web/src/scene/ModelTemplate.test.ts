@@ -2,7 +2,8 @@ import { BoxGeometry, Mesh, MeshBasicMaterial, Object3D, Vector3 } from "three";
 import { expect, test } from "vitest";
 import { makeTemplate } from "./ModelTemplate";
 
-// A cart: its body lifted by 0.5 m, a wheel link at y = 0.3 whose mesh is shifted by 0.1 in x.
+// Returns a cart: its body is lifted by 0.5 m, and the mesh of its wheel, at y = 0.3, is shifted by
+// 0.1 in x.
 function cart(): Object3D {
   const root = new Object3D();
   const chassis = new Object3D();

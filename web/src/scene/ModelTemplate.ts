@@ -5,7 +5,7 @@ import { Box3, Matrix4 } from "three";
 export interface ModelPart {
   geometry: BufferGeometry;
   material: Material;
-  link: string | null; // null: hangs directly under the model
+  link: string | null; // null: the part belongs to the model itself
   linkFromPart: Matrix4;
   modelFromPart: Matrix4;
 }
@@ -62,7 +62,7 @@ function linkAbove(node: Object3D, root: Object3D, links: Set<string>): Object3D
   return null;
 }
 
-// In the model's frame.
+// Returns the bounds of a part in the model's frame.
 export function boundsOf(part: ModelPart): Box3 {
   if (!part.geometry.boundingBox) part.geometry.computeBoundingBox();
   return (part.geometry.boundingBox ?? new Box3()).clone().applyMatrix4(part.modelFromPart);

@@ -166,7 +166,7 @@ test("the masses of a link that moves and of one that does not are at their plac
   overlays.place(new Vector3());
   expect(segments(lines)).toBe(2 * (3 + 12));
   const starts = lines.geometry.getAttribute("instanceStart") as InterleavedBufferAttribute;
-  // The base at its place in the model; the arm at its own place, which is turned to the left.
+  // The base is at its place in the model. The arm is at its own place, rotated to the left.
   [19.06, 0, 0].forEach((value, i) => expect(starts.getComponent(0, i)).toBeCloseTo(value, 5));
   [10, 0.56, 1].forEach((value, i) => expect(starts.getComponent(15, i)).toBeCloseTo(value, 5));
 });

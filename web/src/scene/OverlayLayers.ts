@@ -49,7 +49,7 @@ export class OverlayLayers {
   private readonly player = new SoundPlayer();
   private readonly radio = new RadioLinks();
   readonly expectations: ExpectationMarks;
-  private trailsOf = ""; // the scene's name
+  private trailsOf = ""; // name of the scene of the trails
   private readonly contacts = new Map<string, TouchPoint[]>(); // by topic, in the sensor's frame
   private bodies: BodyLayer | null = null;
   private sensors = new Map<string, MountedSensor>(); // by topic
@@ -173,7 +173,7 @@ export class OverlayLayers {
     }
   }
 
-  // The selected robot's overlays first, then those of the nearest robots.
+  // The beams of the selected robot have priority, then those of the nearest robots.
   private placeBeams(bodies: BodyLayer, eye: Vector3): void {
     const place = new Vector3();
     this.beams.place(
@@ -210,8 +210,8 @@ export class OverlayLayers {
 
   private drawViews(bodies: BodyLayer): void {
     const cameras = [...this.sensors.values()].filter(
-      // Selects cameras by what a sensor reads, whatever its type is called: images, or the objects
-      // in its view.
+      // Selects cameras by what a sensor reads, whatever its type is: images, or the objects in its
+      // view.
       ({ robot, overlay, view }) =>
         (overlay === "picture" || view !== null) && (this.selection ?? robot) === robot,
     );
@@ -221,7 +221,7 @@ export class OverlayLayers {
     }
   }
 
-  // All axes of the selected robot, else only the robots' own axes.
+  // Draws all axes of the selected robot, or else only the robots' own axes.
   private drawFrames(bodies: BodyLayer): void {
     const robots = this.robots.filter(({ name }) => (this.selection ?? name) === name);
     for (const { name } of robots.slice(0, MOST_AXES)) {
@@ -236,7 +236,7 @@ export class OverlayLayers {
     }
   }
 
-  // The selected robot, else all bodies.
+  // Draws the joints of the selected robot, or else of all bodies.
   private drawJoints(bodies: BodyLayer): void {
     let left = MOST_AXES;
     bodies.scene.bodies.forEach(({ name, joints }, body) => {
@@ -250,7 +250,7 @@ export class OverlayLayers {
     });
   }
 
-  // The links of the selected robot, else of all bodies that can move.
+  // Draws the masses of the selected robot's links, or else of all bodies that can move.
   private drawMasses(bodies: BodyLayer): void {
     let left = MOST_AXES;
     bodies.scene.bodies.forEach(({ name, model, isStatic }, body) => {

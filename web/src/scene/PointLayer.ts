@@ -8,9 +8,11 @@ import type { PointColour } from "../state/overlays";
 
 const SIZE_PX = 3;
 const SMALLEST_CAPACITY = 1024; // points
-const DARKEST = 0.25; // of the colour scale: what is darker does not stand out from the floor
-const BRIGHTEST = 0.85; // what is brighter does not stand out from a light floor
-const LEVELS = 65; // colours of the scale
+// the lower end of the colour scale, because darker points do not stand out from the floor
+const DARKEST = 0.25;
+// the upper end, because brighter points do not stand out from a light floor
+const BRIGHTEST = 0.85;
+const LEVELS = 65; // number of colours in the scale
 
 export class PointLayer {
   readonly points: Points<BufferGeometry, PointsMaterial>;
@@ -18,7 +20,7 @@ export class PointLayer {
   private readonly clouds = new Map<string, Cloud>(); // by topic, in the sensor's frame
   private positions = new Float32Array(0);
   private colours = new Float32Array(0);
-  private values = new Float32Array(0); // what the colours mean
+  private values = new Float32Array(0); // the values that the colours represent
 
   constructor() {
     const material = new PointsMaterial({ size: SIZE_PX, sizeAttenuation: false, vertexColors: true, toneMapped: false });
@@ -61,7 +63,7 @@ export class PointLayer {
     for (const name of ["position", "color"]) this.points.geometry.getAttribute(name).needsUpdate = true;
   }
 
-  // From the least value (dark) to the largest (bright).
+  // Colours the points, from the smallest value (dark) to the largest (bright).
   private paint(count: number): void {
     const [least, largest] = spanOf(this.values.subarray(0, count));
     const scale = largest > least ? (LEVELS - 1) / (largest - least) : 0;
@@ -88,7 +90,7 @@ export class PointLayer {
 // The colours of the scale, as three.js draws with them.
 const SCALE = Array.from({ length: LEVELS }, (_, i) => scaleColour(i / (LEVELS - 1)));
 
-// The colour of a value from 0 to 1.
+// Returns the colour of a value from 0 to 1.
 export function scaleColour(part: number): [number, number, number] {
   const [r, g, b] = colourAt(DARKEST + (BRIGHTEST - DARKEST) * Math.min(1, Math.max(0, part)));
   return new Color().setRGB(r / 255, g / 255, b / 255, SRGBColorSpace).toArray() as [number, number, number];

@@ -17,7 +17,7 @@ function xAt(interpolator: PoseInterpolator, nowMs: number): number {
   return out[0]!;
 }
 
-// A robot that moves at 1 m/s, reported every 40 ms.
+// Returns the poses of a robot that moves at 1 m/s, reported every 40 ms.
 function moving(updates: number, jitterMs: (i: number) => number = () => 0): PoseInterpolator {
   const interpolator = new PoseInterpolator();
   for (let i = 0; i < updates; i++) {

@@ -21,7 +21,7 @@ export interface PoseSample {
 }
 
 interface TimedSample extends PoseSample {
-  shownAtMs: number; // on the smoothed time line of arrivals
+  shownAtMs: number; // time on the smoothed time line of arrivals
 }
 
 export class PoseInterpolator {
@@ -34,8 +34,8 @@ export class PoseInterpolator {
     this.lastArrivalMs = -Infinity;
   }
 
-  // A step earlier than the last one (after a reset), or another number of poses, starts a new
-  // history.
+  // Adds a sample. A sample with an earlier time (after a reset), or with another number of poses,
+  // starts a new history.
   push(sample: PoseSample, nowMs: number): void {
     const last = this.samples.at(-1);
     if (last && (sample.step < last.step || sample.poses.length !== last.poses.length)) this.clear();
@@ -49,7 +49,7 @@ export class PoseInterpolator {
     return this.samples.at(-1) ?? null;
   }
 
-  // The poses at this simulated instant, if it is recent.
+  // Returns the poses at this simulated instant, if it is recent.
   at(stamp: number): Float64Array | null {
     return this.samples.findLast((sample) => sample.stamp === stamp)?.poses ?? null;
   }
@@ -77,8 +77,8 @@ export class PoseInterpolator {
     return true;
   }
 
-  // Writes the poses at a simulated time, or the nearest known ones. Returns false if there are none
-  // yet.
+  // Writes the poses at a simulated time, or the nearest known ones. Returns false if there are
+  // none yet.
   readAt(stamp: number, out: Float64Array): boolean {
     const last = this.samples.at(-1);
     if (!last || last.poses.length !== out.length) return false;

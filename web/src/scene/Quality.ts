@@ -2,9 +2,9 @@
 // occlusion, then reduces the number of pixels, and increases it again when there is time.
 
 const SLOW_MS = 55;
-const VERY_SLOW_MS = 200; // such a frame counts as several slow frames
+const VERY_SLOW_MS = 200; // a frame of this length counts as several slow frames
 const FAST_MS = 20;
-const PATIENCE = 12; // frames in a row
+const PATIENCE = 12; // number of slow frames in a row
 const LOWEST = 0.6;
 const HIGHEST_DEVICE_RATIO = 2;
 
@@ -13,7 +13,7 @@ export class Quality {
   private slow = 0;
   private fast = 0;
 
-  // `isRich`: begins with ambient occlusion.
+  // `isRich` means that ambient occlusion is on at first.
   constructor(
     private readonly deviceRatio: number,
     private readonly fixed: boolean,
@@ -25,7 +25,7 @@ export class Quality {
     return this.isRich;
   }
 
-  // Device pixels per CSS pixel.
+  // The number of device pixels per CSS pixel.
   get pixelRatio(): number {
     return Math.min(HIGHEST_DEVICE_RATIO, this.deviceRatio) * this.scale;
   }

@@ -13,7 +13,7 @@ const WORLD = new Place();
 
 interface Link {
   from: string;
-  to: string | null; // null: nobody heard
+  to: string | null; // null: no robot received it
   until: number; // ms
 }
 
@@ -49,7 +49,7 @@ export class RadioLinks {
 
 const point = new Vector3();
 
-// x y z, slightly above the floor.
+// Returns x y z, slightly above the floor.
 function placeOf(worldFromRobot: Matrix4 | null): [number, number, number] | null {
   if (!worldFromRobot) return null;
   const { x, y, z } = point.setFromMatrixPosition(worldFromRobot);

@@ -10,7 +10,7 @@ function choice() {
   const events = { onAdd: vi.fn(), onChoose: vi.fn() };
   const rectangle = new RectangleChoice(host, events);
   rectangle.isOn = true;
-  const beyond = vi.fn(); // what the view's own gestures hear
+  const beyond = vi.fn(); // the listener of the view's own gestures
   canvas.addEventListener("pointerdown", beyond);
   const send = (type: string, x: number, y: number, shiftKey = true) => {
     const event = new MouseEvent(type, { clientX: x, clientY: y, button: 0, shiftKey, bubbles: true });

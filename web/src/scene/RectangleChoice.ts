@@ -22,7 +22,7 @@ export class RectangleChoice {
     this.mark.className = "choice-rectangle";
     this.mark.hidden = true;
     host.append(this.mark);
-    // Registered before the camera's own gestures.
+    // This listener is registered before the camera's own gestures.
     host.addEventListener("pointerdown", (event) => this.begin(event), true);
     host.addEventListener("pointermove", (event) => this.draw(event), true);
     host.addEventListener("pointerup", (event) => this.end(event), true);

@@ -2,14 +2,15 @@
 // when the last one is drawn, and not when it is submitted; otherwise a click would wait for all
 // pending frames.
 
-// A longer absence (another tab was shown) does not count as slow drawing.
+// A longer pause (the user has shown another tab) does not count as slow drawing.
 const LONGEST_FRAME_MS = 10_000;
-// Without a graphics card, a frame may use the whole machine. Then the loop rests between frames,
-// so that buttons and the simulation respond.
+// If a frame takes longer than this, as without a graphics card, the loop rests between frames, so
+// that buttons and the simulation respond.
 const EXHAUSTING_MS = 120;
 const SHORTEST_REST_MS = 80;
 const LONGEST_REST_MS = 400;
-// The page reacts to the user's clicks before the next slow frame begins.
+// If a frame takes longer than this, the page reacts to the user's clicks before the next frame
+// begins.
 const SLOW_MS = 50;
 const ANSWER_MS = 120;
 
@@ -25,15 +26,15 @@ export class RenderLoop {
   frames = 0;
   private scheduled = false;
   private resting: ReturnType<typeof setTimeout> | undefined;
-  private beganMs: number | null = null; // the frame that is being drawn
-  private isWanted = false; // another one
-  private isSlow = false; // the last one was
+  private beganMs: number | null = null; // start of the frame that is being drawn
+  private isWanted = false; // whether another frame is requested
+  private isSlow = false; // whether the last frame was slow
   private heldUntilMs = -Infinity;
   private awaitedUntilMs = -Infinity;
-  private isUrgent = false; // the next frame follows without a rest
+  private isUrgent = false; // whether the next frame follows without a rest
 
-  // `draw` returns whether the next frame will differ, so that it is drawn as well. `onFrameTook`
-  // gets the time until a frame was drawn.
+  // `draw` returns whether the next frame will differ; then the next frame is drawn as well.
+  // `onFrameTook` gets the time until a frame was drawn.
   constructor(
     private readonly draw: (nowMs: number) => boolean,
     private readonly onFrameTook: (milliseconds: number) => void,
@@ -55,7 +56,7 @@ export class RenderLoop {
     if (this.isSlow || this.beganMs !== null) this.heldUntilMs = performance.now() + ANSWER_MS;
   }
 
-  // Draws nothing for this time, or until hurry(): what would be drawn is about to be replaced.
+  // Draws nothing for this time, or until hurry(), because the content is about to be replaced.
   await(milliseconds: number): void {
     this.awaitedUntilMs = performance.now() + milliseconds;
   }
@@ -93,7 +94,7 @@ export class RenderLoop {
     this.frames += 1;
     this.beganMs = now;
     this.isUrgent = false;
-    this.isWanted = false; // drawing may ask for another
+    this.isWanted = false; // because drawing may request another frame
     this.isWanted = this.draw(performance.now()) || this.isWanted;
     this.fence.mark();
     this.schedule();

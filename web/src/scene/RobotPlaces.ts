@@ -9,14 +9,14 @@ import type { Eye } from "./eye";
 import { eyeAt } from "./eye";
 import type { SensorFrames } from "./SensorFrames";
 
-const LOWEST_LABEL = 0.15; // m above the robot's origin
+const LOWEST_LABEL = 0.15; // m: minimum height of a label above the robot's origin
 const SMALLEST_RING = 0.16; // m
 
 export class RobotPlaces {
   readonly names: readonly string[];
   private readonly robots: { name: string; body: number; frame: number }[];
   private readonly places: Float64Array;
-  private readonly heights: Float64Array; // of the labels above the robots' origins, m
+  private readonly heights: Float64Array; // heights of the labels above the robots' origins, m
 
   constructor(
     private readonly bodies: BodyLayer,
@@ -31,7 +31,7 @@ export class RobotPlaces {
     this.measure();
   }
 
-  // The centre of its shape, in the world.
+  // Returns the centre of the robot's shape in the world.
   middleOf(robot: string): Vector3 | null {
     const body = this.bodies.indexOf(robot);
     const pose = this.bodies.poseOf(body);
@@ -45,11 +45,11 @@ export class RobotPlaces {
     const middle = this.middleOf(robot);
     const pose = this.bodies.poseOf(this.bodies.indexOf(robot));
     if (!middle || !pose) return null;
-    const [x, y] = pose.elements; // its x axis
+    const [x, y] = pose.elements; // the robot's x axis
     return { position: new Vector3().setFromMatrixPosition(pose), middle, yaw: Math.atan2(y!, x!) };
   }
 
-  // The pose of its first camera, else at the front of its top.
+  // Returns the pose of the robot's first camera, or else of a point at the front of its top.
   eyeOf(robot: string): Eye | null {
     const body = this.bodies.indexOf(robot);
     const pose = this.bodies.poseOf(body);
@@ -67,7 +67,7 @@ export class RobotPlaces {
     });
   }
 
-  // x y z above each robot, in the order of the names. Each call rewrites it.
+  // Returns x y z above each robot, in the order of the names. Each call overwrites the result.
   tops(): Float64Array {
     const { places, heights, robots } = this;
     const { numbers } = this.bodies.frames;
@@ -80,7 +80,8 @@ export class RobotPlaces {
     return places;
   }
 
-  // Half of each robot's diagonal in metres. If the shape is not loaded yet, that of a small robot.
+  // Returns half of each robot's diagonal in metres. If the shape is not loaded yet, that of a
+  // small robot.
   radii(): Float64Array {
     return Float64Array.from(this.robots, ({ body }) => {
       const bounds = this.bodies.templateOf(body)?.bounds;
@@ -88,7 +89,7 @@ export class RobotPlaces {
     });
   }
 
-  // The circle around it on the floor.
+  // Returns the circle around the robot on the floor.
   ringOf(robot: string): { position: Vector3; radius: number } | null {
     const body = this.bodies.indexOf(robot);
     const pose = this.bodies.poseOf(body);

@@ -8,7 +8,7 @@ import { StateMarks } from "./StateMarks";
 
 // The state of each robot by name, and the robots that a filter selects (null: there is no filter).
 export interface RobotStates {
-  states: ReadonlyMap<string, ShownState> | null; // null: nobody reports them
+  states: ReadonlyMap<string, ShownState> | null; // null: no states are reported
   chosen: ReadonlySet<string> | null;
 }
 
@@ -22,9 +22,10 @@ export class RobotSigns {
   readonly marks = new StateMarks();
   private robots: RobotPlaces | null = null;
   private known: RobotStates = { states: null, chosen: null };
-  private states: Uint8Array = new Uint8Array(0); // of each robot, by SHOWN_STATES
+  // state of each robot, as an index of SHOWN_STATES
+  private states: Uint8Array = new Uint8Array(0);
   private radii: Float64Array = new Float64Array(0);
-  private tops: Float64Array = new Float64Array(0); // in the present frame
+  private tops: Float64Array = new Float64Array(0); // places above the robots in the present frame
 
   constructor(onPick: (name: string) => void) {
     this.labels = new LabelLayer(onPick);
@@ -63,7 +64,7 @@ export class RobotSigns {
     this.marks.place(this.tops, { states: this.states, radii: this.radii, isChosen }, camera, height, ratio);
   }
 
-  // Call this when a frame is drawn, after placeMarks. `isMoving`: more frames follow.
+  // Call this when a frame is drawn, after placeMarks. `isMoving` means that more frames follow.
   placeLabels(camera: PerspectiveCamera, width: number, height: number, selection: string | null, shown: SignsShown, isMoving: boolean): void {
     if (!shown.labels || !this.robots) return;
     const { names } = this.robots;

@@ -1,4 +1,4 @@
-// The robot that is watched, and the camera mode: moves the camera with the displayed robot.
+// The selected robot, and the camera mode: moves the camera with the displayed robot.
 import type { ViewMode } from "../state/State";
 import type { CameraRig } from "./CameraRig";
 import { SelectionRing } from "./Ground";
@@ -6,14 +6,14 @@ import type { RobotPlaces } from "./RobotPlaces";
 
 export class RobotWatch {
   readonly ring = new SelectionRing();
-  robots: RobotPlaces | null = null; // of the present scene
+  robots: RobotPlaces | null = null; // the robots of the present scene
   private robot: string | null = null;
-  private object: string | null = null; // that is chosen to be moved
+  private object: string | null = null; // the object that the user moves
   private mode: ViewMode = "orbit";
 
   constructor(private readonly rig: CameraRig) {}
 
-  // Sets the object that can be moved by the user.
+  // The object that the user can move.
   get selection(): string | null {
     return this.object ?? this.robot;
   }
@@ -31,7 +31,7 @@ export class RobotWatch {
   }
 
   select(robot: string | null): void {
-    if (robot !== this.robot) this.rig.follow(null); // the next one is flown to
+    if (robot !== this.robot) this.rig.follow(null); // the camera flies to the next robot
     this.robot = robot;
     this.update();
   }
@@ -52,7 +52,7 @@ export class RobotWatch {
     this.rig.follow((!this.isEye && robot && robots?.subjectOf(robot)) || null, mode === "chase");
   }
 
-  // The robot has moved.
+  // Call this when the robot has moved.
   move(): void {
     if (this.robot === null || this.mode === "orbit" || !this.robots) return;
     const subject = this.robots.subjectOf(this.robot);

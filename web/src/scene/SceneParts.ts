@@ -9,19 +9,19 @@ import type { ModelLibrary } from "./ModelLibrary";
 import { Sky } from "./Sky";
 
 export interface ModelEvents {
-  onMissing(count: number): void; // that are still being fetched
+  onMissing(count: number): void; // called with the number of models that are still being fetched
   onProblem(sentence: string): void;
 }
 
 export class SceneParts {
   readonly bodies: BodyLayer;
-  readonly focus: Box3; // what one looks at first
+  readonly focus: Box3; // the part of the world that the first view shows
   readonly grid: LineSegments;
   readonly lights: LightRig;
   private readonly sky: Sky;
   private isGone = false;
 
-  // `hasEnvironment`: the ambient light is the environment of `root`.
+  // `hasEnvironment` means that the environment map of `root` is the ambient light.
   constructor(description: SceneDescription, root: Scene, hasEnvironment: boolean) {
     this.bodies = new BodyLayer(description);
     this.focus = focusOf(description);

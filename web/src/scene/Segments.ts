@@ -15,8 +15,8 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 
 export interface SegmentsLook {
   widthPx: number;
-  // Lines of one device pixel instead. Wide lines are instances, each of which costs a draw call of
-  // about 40 µs without a graphics card.
+  // Draws lines of one device pixel instead. Wide lines are instances, each of which costs a draw
+  // call of about 40 µs without a graphics card.
   thin: boolean;
   opacity?: number;
   depthTest?: boolean;
@@ -29,7 +29,7 @@ export class Segments {
   // x y z and r g b of both ends of each segment.
   positions = new Float32Array(0);
   colours = new Float32Array(0);
-  count = 0; // segments that are drawn
+  count = 0; // number of segments to draw
 
   constructor({ widthPx, thin, opacity = 1, depthTest = true }: SegmentsLook) {
     // Transparent lines hide no other lines behind them.
@@ -49,7 +49,7 @@ export class Segments {
     this.lines.raycast = () => {};
   }
 
-  // Makes room for this number of segments. The content of the arrays is lost.
+  // Makes the arrays large enough for this number of segments. Their content is lost.
   allot(segments: number): void {
     this.positions = new Float32Array(NUMBERS_PER_SEGMENT * segments);
     this.colours = new Float32Array(NUMBERS_PER_SEGMENT * segments);

@@ -4,7 +4,7 @@ import type { TransformsMessage } from "../protocol/messages";
 import type { BodyLayer } from "./BodyLayer";
 
 interface Mount {
-  parent: string; // "ROBOT/base_link", "STATION" or, of a link that moves, "ROBOT/LINK"
+  parent: string; // "ROBOT/base_link", "STATION", or "ROBOT/LINK" for a moving link
   parentFromSensor: Matrix4;
 }
 

@@ -15,12 +15,13 @@ export class ShadowPace {
     this.isSlow = milliseconds > SLOW_MS;
   }
 
-  // Call this when something has moved since the last frame.
+  // Call this when a body has moved since the last frame.
   moved(): void {
     this.isStale = true;
   }
 
-  // Called once per frame. When motion has stopped, shadows are redrawn at once.
+  // Returns whether shadows are due; called once per frame. When motion has stopped, shadows are
+  // redrawn at once.
   areDue(isMoving: boolean): boolean {
     this.since += 1;
     if (!this.isStale || (this.isSlow && isMoving && this.since < FRAMES_APART)) return false;

@@ -17,7 +17,7 @@ export class ShownPoses {
   // `onSample` receives the poses of the scene.
   constructor(private readonly onSample: (sample: PoseSample) => void) {}
 
-  // Sets another scene or none, and forgets the last poses. Poses may arrive before their scene.
+  // Sets another scene or none, and clears the last poses. Poses may arrive before their scene.
   setScene(bodies: BodyLayer | null): void {
     this.interpolator.clear();
     this.bodies = bodies;
@@ -42,7 +42,7 @@ export class ShownPoses {
     return true;
   }
 
-  // The same for the poses at a simulated time in seconds, as in an image of the server.
+  // Like show(), with the poses at a simulated time in seconds, such as that of a server's image.
   showAt(stamp: number): boolean {
     if (!this.bodies || !this.interpolator.readAt(stamp, this.shown)) return false;
     this.bodies.setPoses(this.shown);
@@ -53,7 +53,7 @@ export class ShownPoses {
     return this.interpolator.isSettled(nowMs);
   }
 
-  // The poses at this simulated instant, or else the newest ones.
+  // Returns the poses at this simulated instant, or else the newest ones.
   at(stamp: number): Float64Array | null {
     return this.interpolator.at(stamp) ?? this.interpolator.latest?.poses ?? null;
   }

@@ -1,5 +1,5 @@
 // The background: darker above and below than at the horizon, as in the robots' cameras
-// (gsv/rendering), but hazy below, because a viewer looks down over the edge of the ground. It
+// (gsv/rendering), but hazy below, because the camera looks down over the edge of the ground. It
 // moves with the camera, so that it is always far away.
 import type { Camera } from "three";
 import { BackSide, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
@@ -64,7 +64,7 @@ export class Sky {
   }
 }
 
-// `background`: the colour of a world without a sky.
+// Returns the colours of the sky. `background` is the colour of a world without a sky.
 export function shadesOfSky(background: Color | null): typeof SKY {
   if (!background) return SKY;
   return {

@@ -4,7 +4,7 @@ import { SoundPlayer } from "./SoundPlayer";
 
 const TONE: Sound = { name: "tone", frequency: 440, volume: 0.5, elapsed: 0 };
 
-// The part of Web Audio that is used: Node has none.
+// A fake of the part of Web Audio that is used, because Node has none.
 function audio() {
   const started: { type: string; frequency: number; stop: ReturnType<typeof vi.fn> }[] = [];
   const parameter = () => ({

@@ -1,10 +1,10 @@
 // Plays the sounds of the robots' speakers, at the same volume for all distances.
 import type { Sound } from "../live/devices";
 
-const LOUDNESS = 0.08; // of full scale, at full volume
+const LOUDNESS = 0.08; // amplitude at full volume, as a fraction of full scale
 const MOST_SOUNDS = 8;
-const FADE = 0.01; // s: without it a tone begins and ends with a click
-const CHIRP_SPAN = 2; // octaves a second
+const FADE = 0.01; // s: fade of a tone's start and end, which avoids clicks
+const CHIRP_SPAN = 2; // octaves per second
 const WAVES: Record<string, OscillatorType> = { tone: "sine", chirp: "sine", buzz: "square" };
 
 interface Voice {
@@ -23,7 +23,7 @@ export class SoundPlayer {
     return this.voices.size;
   }
 
-  // Sets the sounds to play, by topic. None while it is muted.
+  // Sets the sounds to play, by topic. Plays none while it is muted.
   play(sounds: ReadonlyMap<string, Sound>): void {
     if (sounds.size === 0 && this.voices.size === 0) return;
     for (const [topic, { sound }] of [...this.voices]) {
@@ -39,7 +39,7 @@ export class SoundPlayer {
 
   private begin(topic: string, sound: Sound): void {
     this.context ??= this.makeContext();
-    // Browsers allow sound only after the user has touched the page.
+    // Browsers allow sound only after the user has interacted with the page.
     if (this.context.state === "suspended") void this.context.resume();
     const source = sourceOf(this.context, sound);
     const gain = this.context.createGain();
@@ -60,7 +60,7 @@ export class SoundPlayer {
   }
 }
 
-// Whether it is the same sound, continued: a sound that was started again has played for less time.
+// Returns whether a sound continues. A sound that was started again has played for less time.
 function isSame(now: Sound, before: Sound): boolean {
   const { name, frequency, volume, elapsed } = before;
   return (

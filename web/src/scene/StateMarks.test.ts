@@ -8,7 +8,7 @@ import { StateMarks } from "./StateMarks";
 const HEIGHT = 800;
 const camera = new PerspectiveCamera(50, 1.6, 0.1, 1000);
 
-// Robots of 0.4 m at these distances along x.
+// Returns marks for robots of 0.4 m at these distances along x.
 function marks(robots: [distance: number, state: ShownState][], isChosen: ((robot: number) => boolean) | null = null) {
   const layer = new StateMarks();
   const tops = Float64Array.from(robots.flatMap(([distance]) => [distance, 0, 0]));

@@ -31,9 +31,10 @@ export const STATE_COLOURS: Record<ShownState, string> = {
 };
 
 export interface MarkedRobots {
-  states: ArrayLike<number>; // of each robot, by SHOWN_STATES
+  states: ArrayLike<number>; // state of each robot, as an index of SHOWN_STATES
   radii: ArrayLike<number>; // m
-  isChosen: ((robot: number) => boolean) | null; // by a filter; null: there is none
+  // whether a filter selects the robot; null: there is no filter
+  isChosen: ((robot: number) => boolean) | null;
 }
 
 const VERTEX = `
@@ -76,7 +77,7 @@ export class StateMarks {
     this.points.visible = false;
   }
 
-  // `tops`: x y z above each robot, in the world. `height` is that of the view in CSS pixels.
+  // `tops` has x y z above each robot, in the world. `height` is that of the view in CSS pixels.
   place(tops: Float64Array, robots: MarkedRobots, camera: PerspectiveCamera, height: number, ratio: number): void {
     const total = tops.length / 3;
     if (total === 0) return this.hide();
@@ -113,7 +114,7 @@ export class StateMarks {
     this.points.visible = false;
   }
 
-  // The number of drawn marks.
+  // The number of marks that were drawn.
   get count(): number {
     return this.points.visible ? this.points.geometry.drawRange.count : 0;
   }
@@ -131,7 +132,7 @@ export class StateMarks {
   }
 }
 
-// All shapes side by side.
+// Draws all shapes side by side on one texture.
 function glyphTexture(): CanvasTexture {
   const canvas = document.createElement("canvas");
   canvas.width = GLYPH_PX * SHOWN_STATES.length;

@@ -1,6 +1,6 @@
-// What the view is drawn on: the canvas of the browser's renderer, or the images of the server. It
-// changes the size of the canvas just before a frame is drawn, because a canvas that gets another
-// size is empty until then.
+// The surface that shows the view: the canvas of the browser's renderer, or the images of the
+// server. It resizes the canvas just before a frame is drawn, because a resized canvas is empty
+// until then.
 import type { Object3D, PerspectiveCamera, Scene } from "three";
 import type { DrawnView } from "../view/DrawnView";
 import type { AmbientOcclusion } from "./AmbientOcclusion";
@@ -9,11 +9,11 @@ import { Quality } from "./Quality";
 import type { ViewRenderer } from "./renderer";
 
 export class Surface {
-  width = 1; // CSS pixels
+  width = 1; // width in CSS pixels
   height = 1;
-  private drawn: DrawnView | null = null; // not null: the server draws
+  private drawn: DrawnView | null = null; // not null: the server draws the images
   private readonly quality: Quality;
-  private isResized = false; // since the last frame
+  private isResized = false; // whether the size has changed since the last frame
 
   constructor(
     private readonly renderer: ViewRenderer,
@@ -32,12 +32,12 @@ export class Surface {
     return this.drawn !== null;
   }
 
-  // The number of images of the server so far; null while the browser draws.
+  // The number of images from the server so far; null while the browser draws.
   get images(): number | null {
     return this.drawn?.images ?? null;
   }
 
-  // The image of the server that is shown; null: there is none, or the browser draws.
+  // The server's image that is shown; null: there is none, or the browser draws.
   get drawnImage(): DrawnView["shown"] {
     return this.drawn?.shown ?? null;
   }
@@ -50,8 +50,8 @@ export class Surface {
     return this.renderer.getPixelRatio();
   }
 
-  // Shows images of the server from now on; null: the browser draws. `onImage`: there is another
-  // image to paint.
+  // Shows images from the server from now on; null: the browser draws. Calls `onImage` when there
+  // is a new image.
   drawBy(drawn: DrawnView | null, onImage: () => void): void {
     this.drawn?.dispose();
     this.drawn = drawn;
@@ -66,7 +66,7 @@ export class Surface {
     this.isResized = true;
   }
 
-  // The shadows are drawn again with the next frame.
+  // Makes the next frame draw the shadows again.
   renewShadows(): void {
     this.renderer.shadowMap.needsUpdate = true;
   }
@@ -80,12 +80,13 @@ export class Surface {
     return hasChanged;
   }
 
-  // Goes to the newest image of the server, if it draws. Call this at the beginning of a frame.
+  // Selects the newest image from the server, if the server draws. Call this at the beginning of a
+  // frame.
   advance(): void {
     this.drawn?.advance();
   }
 
-  // Brings the canvas to its size. Call this before `render`.
+  // Resizes the canvas if necessary. Call this before `render`.
   prepare(): void {
     if (!this.isResized) return;
     this.isResized = false;
@@ -93,7 +94,8 @@ export class Surface {
     this.renderer.setSize(this.width, this.height);
   }
 
-  // Draws the scene, or on the present image of the server only what is in `painted`.
+  // Draws the scene. If the server draws, draws only the objects in `painted` over its present
+  // image.
   render(scene: Scene, camera: PerspectiveCamera, painted: () => Object3D[]): void {
     if (this.drawn) {
       this.drawn.show(camera, this.width, this.height);
@@ -103,7 +105,7 @@ export class Surface {
     if (this.quality.hasOcclusion) this.occlusion?.darken(scene, camera);
   }
 
-  // The present image as PNG, with what `paint` adds.
+  // Returns the present image as PNG, with what `paint` draws on it.
   picture(paint: (context: CanvasRenderingContext2D) => void): Promise<Blob> {
     return pngOf(this.shown, paint);
   }

@@ -1,20 +1,22 @@
-// The paths of the robots: for each, its last places at small distances.
+// The paths of the robots: the last places of each at small distances.
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 import { scaleColour } from "./PointLayer";
 import type { TrailColour } from "../state/overlays";
 
-const MOST_PLACES = 400; // of one robot
+const MOST_PLACES = 400; // number of places of one robot
 const MOST_ROBOTS = 200;
 const APART_M = 0.05;
-const JUMP_M = 2; // between two updates: it was put there, or the recording was moved
+// m: a longer step between two updates means that the robot was placed, or the replay has jumped
+const JUMP_M = 2;
 const COLOURS = [0x2f81e0, 0xe0701a, 0x2a9d4a, 0xc2399b, 0xd0453e, 0x12938f].map(rgb);
 const ABOVE_FLOOR_M = 0.02;
-const LEAST_TOP_SPEED = 0.1; // m/s: noise of a standing robot does not fill the colour scale
+// m/s: minimum of the scale's end, so that the noise of a robot at rest does not fill the scale
+const LEAST_TOP_SPEED = 0.1;
 
 interface Trail {
   places: Float32Array; // x y z, a ring
-  stamps: Float64Array; // s, of each place
+  stamps: Float64Array; // s, one for each place
   first: number;
   count: number;
 }
@@ -48,7 +50,8 @@ export class Trails {
     for (const name of [...this.trails.keys()]) if (!robots.has(name)) this.trails.delete(name);
   }
 
-  // In a colour for each robot, or by speed, from 0 (dark) to the largest speed of all trails.
+  // Draws the trails in a colour for each robot, or by speed, from 0 (dark) to the largest speed of
+  // all trails.
   draw(lines: LineLayer, by: TrailColour = "robot"): void {
     const topSpeed = by === "speed" ? this.topSpeed() : 1;
     let index = 0;
@@ -88,7 +91,7 @@ function extend(trail: Trail, stamp: number, x: number, y: number, z: number): v
   else trail.first = (trail.first + 1) % MOST_PLACES;
 }
 
-// The mean speed between two places, in m/s; 0 if no time passed between them.
+// Returns the mean speed between two places, in m/s; 0 if no time passed between them.
 function speedOf({ places, stamps }: Trail, from: number, to: number): number {
   const time = stamps[to]! - stamps[from]!;
   const [a, b] = [3 * from, 3 * to];

@@ -3,7 +3,7 @@ import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineS
 import { Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from "three";
 
 const COLOUR = 0x2f81f7;
-const SHAFT = 0.45; // m, beyond the ring
+const SHAFT = 0.45; // m: length beyond the ring
 const TIP_RADIUS = 0.07; // m
 const ABOVE_FLOOR = 0.03; // m
 
@@ -24,7 +24,7 @@ export class TurnHandle {
     this.group.visible = false;
   }
 
-  // Moves to a robot's place on the floor. `radius` is that of the ring around it.
+  // Moves the arrow to a robot's place on the floor. `radius` is that of the ring around the robot.
   show(position: Vector3, yaw: number, radius: number): void {
     this.group.visible = true;
     this.group.position.set(position.x, position.y, position.z + ABOVE_FLOOR);

@@ -40,13 +40,13 @@ import { ShownPoses } from "./ShownPoses";
 import { Surface } from "./Surface";
 import type { DrawnView } from "../view/DrawnView";
 
-// Settings with and without a graphics card: without one, the beams of a crowd would take longer
-// than everything else.
+// The limits on beams with and without a graphics card: without one, the beams of a crowd would
+// take longer than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
-// A scene is first drawn with its shapes, unless they take longer than this.
+// A scene is first drawn together with its shapes, unless they take longer than this.
 const LONGEST_WAIT_FOR_SHAPES_MS = 400;
-// Poses without an image of the server are shown after this time.
+// Poses for which no image comes from the server are shown after this time.
 const LATE_POSES_MS = 150;
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditToolsEvents, "onPlacePoint"> {
@@ -54,19 +54,21 @@ export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditT
   onModelsMissing(count: number): void;
   onProblem(sentence: string): void;
   onFrameRate(framesPerSecond: number): void;
-  onScale(metresPerPixel: number): void; // at what one looks at; with each picture
-  onGraphics(isThere: boolean): void; // the browser has taken WebGL away, or given it back
+  // called with each frame; the scale is that at the camera's target
+  onScale(metresPerPixel: number): void;
+  onGraphics(isThere: boolean): void; // the browser has removed WebGL, or restored it
 }
 
 export interface WorldOptions {
   library: ModelLibrary;
-  inSoftware: boolean; // no graphics card draws
+  inSoftware: boolean; // whether images are drawn without a graphics card
   fixedQuality: boolean;
-  hasFineLight: boolean; // light from around, ambient occlusion and shadows fitted to the view
+  // whether there are an environment map, ambient occlusion and fitted shadows
+  hasFineLight: boolean;
 }
 
 export class World3D {
-  readonly canDraw: boolean; // the browser has WebGL 2
+  readonly canDraw: boolean; // whether the browser has WebGL 2
   private readonly surface: Surface;
   private readonly scene = new Scene();
   private readonly rig: CameraRig;
@@ -88,7 +90,7 @@ export class World3D {
   private hasGraphics = true;
   private latePoses: ReturnType<typeof setTimeout> | undefined;
   private readonly frameRate: FrameRate;
-  private readonly environment: Environment | null; // null: no fine light
+  private readonly environment: Environment | null; // null: there is no environment map
   private readonly shadows = new ShadowPace();
 
   constructor(
@@ -126,7 +128,8 @@ export class World3D {
     this.arranger = new Arranger(this.arrangerView(), events);
     this.tools = new EditTools(this.toolsView(), { ...events, onPlacePoint: (point) => this.arranger.placeAt(point) });
     this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
-    host.prepend(canvas, this.signs.labels.element); // below what lies over the picture
+    // the canvas is below the elements that lie over the image
+    host.prepend(canvas, this.signs.labels.element);
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
     }
@@ -160,8 +163,8 @@ export class World3D {
   setPoses(message: PosesMessage): void {
     this.poses.take(message);
     if (!this.surface.isDrawnByServer) return this.loop.request();
-    // The server draws these poses too, and its image requests a frame. While paused, the poses may
-    // come after their image.
+    // The server draws these poses too, and its image requests a frame. While the simulation is
+    // paused, the poses may come after their image.
     clearTimeout(this.latePoses);
     this.latePoses = setTimeout(() => this.loop.request(), LATE_POSES_MS);
   }
@@ -241,7 +244,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // Sets the expectations, which are drawn at their places.
+  // Sets the expectations, which are drawn at their places in the world.
   setExpectations(expectations: readonly Expectation[]): void {
     this.overlays.expectations.set(expectations);
     this.loop.request();
@@ -300,13 +303,13 @@ export class World3D {
     this.refresh();
   }
 
-  // The times from a state of the world to its image on the screen, in ms, of the last images of the
-  // server.
+  // The times from a state of the world to its image on the screen, in ms, of the last images of
+  // the server.
   get imageDelaysMs(): readonly number[] {
     return this.surface.imageDelaysMs;
   }
 
-  // The present view with the names, as PNG.
+  // Returns the present view with the names, as PNG.
   picture(): Promise<Blob> {
     this.draw(performance.now());
     return this.surface.picture((context) => {
@@ -314,7 +317,7 @@ export class World3D {
     });
   }
 
-  // A stream of the view, without the names.
+  // Returns a stream of the view, without the names.
   video(): MediaStream {
     return this.surface.video();
   }

@@ -4,7 +4,7 @@ import { Matrix4, Quaternion, Vector3 } from "three";
 import type { CameraView } from "../api/scene";
 
 const DEFAULT_HEIGHT = 0.3; // m
-const WIDEST = (120 * Math.PI) / 180; // a flat picture of more is all rim
+const WIDEST = (120 * Math.PI) / 180; // wider perspective images are distorted at the edges
 
 // The pose of a robot's camera, and its field of view; null: that of the page's view.
 export interface Eye {

@@ -4,7 +4,7 @@ import type { SceneDescription } from "../api/scene";
 import { robotsOf } from "../api/scene";
 
 const UP = new Vector3(0, 0, 1);
-const AROUND_ROBOTS = 4; // m of the world around the robots that belong into the first picture
+const AROUND_ROBOTS = 4; // m: margin around the robots in the first view
 const SMALL_WORLD = 13; // m: a world of at most this half-width is shown whole
 const TALLEST_SHOWN = 3; // m: what rises higher does not push the camera away
 

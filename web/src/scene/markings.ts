@@ -20,7 +20,7 @@ const LONGEST_FORCE = 1.2; // m
 const ARROW_HEAD = 0.25; // of the arrow's length
 const CROSS = 0.06; // m
 const JOINT_COLOUR = rgb(0x00b8d4);
-const JOINT_LENGTH = 0.12; // m, to each side
+const JOINT_LENGTH = 0.12; // m: length to each side
 const CIRCLE_SEGMENTS = 12;
 const MASS_COLOUR = rgb(0xd946c0);
 const BOX_COLOUR = rgb(0x8b5cf6);
@@ -108,8 +108,8 @@ export function forceLength(newtons: number): number {
   return Math.min(LONGEST_FORCE, FORCE_LENGTH * Math.sqrt(newtons / FORCE_UNIT));
 }
 
-// A cross at the point, and an arrow along the force on the robot. If the force is not known, a line
-// along the normal towards the touched body.
+// A cross at the point, and an arrow along the force on the robot. If the force is not known, a
+// line along the normal towards the touched body.
 export function drawContact(lines: LineLayer, worldFromSensor: Matrix4, { point, normal, force }: TouchPoint): void {
   const [x, y, z] = point;
   if (force) {

@@ -81,7 +81,8 @@ export class RobotRow {
     this.yaw.show(robot.place ? robot.place.yaw * DEGREES : null);
   }
 
-  // `input` is the name of the field. If it is empty, or has no input of its own, the whole robot is meant.
+  // `input` is the name of the field. If it is empty, or has no input of its own, the whole robot
+  // is meant.
   refuse(input: string, sentence: string): void {
     for (const field of this.fields.values()) field.refuse("");
     const field = this.fields.get(input);

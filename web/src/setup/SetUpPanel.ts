@@ -162,7 +162,8 @@ function uploads(app: App): HTMLElement {
   );
 }
 
-// Handle drops on the whole page, because the browser would otherwise show the file instead of the page.
+// Handle drops on the whole page, because the browser would otherwise show the file instead of the
+// page.
 function takeDrops(app: App): void {
   const isTaken = ({ dataTransfer }: DragEvent) => {
     const { setUp, abilities } = app.store.get();

@@ -1,5 +1,5 @@
-// The state of the page: its data and what it shows. Only Session, the commands of App and the panels' own controls
-// change it.
+// The state of the page: its data and what it shows. Only Session, the commands of App and the
+// panels' own controls change it.
 import type { Action } from "../api/SimulationApi";
 import type { Recording } from "../api/recording";
 import type { Kept, RecordingNote } from "../api/history";

@@ -4,8 +4,8 @@ import type { HealthMessage, RobotHealthMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import { formatNumber } from "../ui/format";
 
-// The server's states, the worst first, and two of the page. A `told` robot does not move although it was commanded
-// to; the state of an `unknown` robot is not reported.
+// The states that the server reports, the worst first, and two states of the page. A `told` robot
+// does not move although it was commanded to. The state of an `unknown` robot is not reported.
 export const SHOWN_STATES = ["dead", "stuck", "contact", "late", "told", "standing", "unknown", "moving"] as const;
 export type ShownState = (typeof SHOWN_STATES)[number];
 
@@ -80,7 +80,8 @@ export function stateOf(health: Health | null, robot: Pick<RobotStatus, "name" |
   return health.robots.get(robot.name)?.state ?? "moving";
 }
 
-// Returns a number for sorting; higher is worse. It is called for thousands of robots several times per second.
+// A number for sorting; higher is worse. It is a table, because it is used for thousands of robots
+// several times per second.
 const BADNESS = Object.fromEntries(
   SHOWN_STATES.map((state, i) => [state, SHOWN_STATES.length - i]),
 ) as Record<ShownState, number>;
@@ -89,7 +90,7 @@ export function badness(state: ShownState): number {
   return BADNESS[state];
 }
 
-// Whether a person should look at the robot.
+// Returns whether the robot needs the user's attention.
 export function isTrouble(state: ShownState): boolean {
   return BADNESS[state] >= BADNESS.told;
 }

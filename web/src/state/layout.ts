@@ -1,8 +1,8 @@
 // A layout: how the area beside the robot list is divided, and which panels are tabs of which part.
 //
-// Written as text it is short enough for a link, and people can read it: r( ) is a row, c( ) a column, parts
-// are separated by commas, tabs of one part by points, the tab in front has a *, and ~ is followed by the
-// share of the row or column in thousandths:
+// Written as text it is short enough for a link, and people can read it: r( ) is a row, c( ) a
+// column, parts are separated by commas, tabs of one part by points, the tab in front has a *, and
+// ~ is followed by the share of the row or column in thousandths:
 //
 //   r(view~740,c(inspector.topics*~600,camera~400)~260)
 export interface Tabs {
@@ -134,7 +134,8 @@ class Reader {
   }
 }
 
-// Removes unknown panels, and parts that are then empty. Returns null if nothing is left.
+// Returns the part without unknown panels, and without parts that are then empty; null if nothing
+// is left.
 function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   if ("tabs" in part) {
     const tabs = part.tabs.filter((id) => known.has(id));

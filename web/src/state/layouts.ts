@@ -20,7 +20,7 @@ export function loadLayouts(storage: Reading): SavedLayout[] {
     const kept: unknown = JSON.parse(storage?.getItem(SAVED_KEY) ?? "[]");
     return Array.isArray(kept) ? kept.filter(isSaved).slice(0, MAX_SAVED) : [];
   } catch {
-    return []; // the stored text is of another program
+    return []; // the stored text was written by another program
   }
 }
 

@@ -83,7 +83,7 @@ export function loadColours(storage: Pick<Storage, "getItem"> | null): OverlayCo
       trails: isKeyOf(TRAIL_COLOURS, trails) ? trails : FIRST_COLOURS.trails,
     };
   } catch {
-    return FIRST_COLOURS; // the stored text is of another program
+    return FIRST_COLOURS; // the stored text was written by another program
   }
 }
 
@@ -107,7 +107,7 @@ export function loadShown(storage: Pick<Storage, "getItem"> | null): Shown {
   try {
     kept = JSON.parse(storage?.getItem(KEY) ?? "null");
   } catch {
-    // The stored text comes from another program.
+    // The stored text was written by another program.
   }
   const flags = (typeof kept === "object" && kept !== null ? kept : {}) as Record<string, unknown>;
   const shown = { ...FIRST_SHOWN };

@@ -23,8 +23,8 @@ export function mayAct(people: People): boolean {
   return holder === null || holder.number === people.you;
 }
 
-// Returns why this viewer must take control before it drives a body: another viewer has control, or could drive the
-// body too. Empty if control is not needed.
+// Returns why this viewer must take control before it drives a body: another viewer has control, or
+// could drive the body too. Empty if control is not needed.
 export function needsControl(people: People): string {
   const holder = holderOf(people);
   if (holder !== null) return holder.number === people.you ? "" : `${holder.name} has control.`;

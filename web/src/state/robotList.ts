@@ -94,8 +94,8 @@ export function filtered(robots: readonly ListedRobot[], { text, state }: RobotF
 
 const COLLATOR = new Intl.Collator("en", { numeric: true });
 
-// Sorts names in natural order: "a2" before "a10". Cached while the names do not change, because comparing thousands
-// of texts for each update would take too long.
+// Sorts names in natural order: "a2" before "a10". Cached while the names do not change, because
+// comparing thousands of texts for each update would take too long.
 export class NameOrder {
   private names: readonly string[] = [];
   private ranks = new Map<string, number>();

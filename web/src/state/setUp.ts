@@ -33,8 +33,8 @@ export interface SetUp extends Choices {
   isHeld: boolean; // whether nothing can be created now: data is being loaded, or the simulation is being created
 }
 
-// Returns the server's sentence, with the names of uploaded files as the user knows them, without the server's
-// folder.
+// Returns the server's sentence, with the names of uploaded files as the user knows them, without
+// the server's folder.
 export function inTheirWords(sentence: string, uploaded: readonly UploadedWorld[]): string {
   const folders = uploaded.filter(({ name, path }) => path.endsWith(name)).map(({ name, path }) => path.slice(0, -name.length));
   return folders.reduce((said, folder) => (folder === "" ? said : said.replaceAll(folder, "")), sentence);

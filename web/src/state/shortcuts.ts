@@ -26,7 +26,7 @@ export function loadChangedKeys(storage: Pick<Storage, "getItem"> | null): Chang
   try {
     kept = JSON.parse(storage?.getItem(CHANGED) ?? "null");
   } catch {
-    // The stored text comes from another program.
+    // The stored text was written by another program.
   }
   if (typeof kept !== "object" || kept === null) return {};
   const isKey = (key: unknown): key is string => typeof key === "string" && [...key].length === 1;
@@ -47,7 +47,8 @@ export function keyOf(original: string, changed: ChangedKeys): string {
   return Object.hasOwn(changed, key) ? changed[key]! : key;
 }
 
-// Returns the default key of the command to which the pressed key is assigned; empty if there is none.
+// Returns the default key of the command to which the pressed key is assigned; empty if there is
+// none.
 export function originalKey(pressed: string, changed: ChangedKeys): string {
   const key = pressed.toLowerCase();
   const found = Object.keys(changed).find((original) => changed[original] === key);

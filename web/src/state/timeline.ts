@@ -28,8 +28,8 @@ export function spanOf(replay: Replay | null, kept: Kept | null, time: number): 
   return { start: kept.start, end: Math.max(kept.end, time) };
 }
 
-// Returns `known` and the events of `found` that it does not contain, ordered by time. If there are none, returns
-// `known` itself.
+// Returns `known` and the events of `found` that it does not contain, ordered by time. If there are
+// none, returns `known` itself.
 export function withNewEvents(known: RecordedEvent[], found: readonly RecordedEvent[]): RecordedEvent[] {
   const keys = new Set(known.map(keyOf));
   const added = found.filter((event) => !keys.has(keyOf(event)));
@@ -94,7 +94,8 @@ function lineOf({ time, event, robot, detail }: RecordedEvent): string {
 
 type Marked = Pick<State, "replay" | "kept" | "time" | "events" | "notes" | "comparison">;
 
-// Returns all marks of the timeline: events, notes, and the first difference from a second recording.
+// Returns all marks of the timeline: events, notes, and the first difference from a second
+// recording.
 export function allMarks({ replay, kept, time, events, notes, comparison }: Marked): Mark[] {
   const span = spanOf(replay, kept, time);
   if (!span) return [];
@@ -103,7 +104,8 @@ export function allMarks({ replay, kept, time, events, notes, comparison }: Mark
   return marksOf(all, span);
 }
 
-// Returns the time of the next mark after `time`, or of the last mark before it; null if there is none.
+// Returns the time of the next mark after `time`, or of the last mark before it; null if there is
+// none.
 export function markBeside(marks: Mark[], time: number, direction: 1 | -1): number | null {
   const CLOSE = 1e-6;
   const found =

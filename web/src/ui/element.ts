@@ -1,4 +1,5 @@
-// Builds elements of the page. Text is always set as text, so markup in a name is shown literally.
+// Builds elements of the page. Text is never read as markup, so that a name with markup is shown
+// literally.
 
 type Child = Node | string | null | false;
 type Attributes = Record<string, string | boolean | ((event: never) => void)>;

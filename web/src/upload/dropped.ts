@@ -1,5 +1,5 @@
-// Handles files that the user dropped onto the page or chose: a world, or a folder or zip archive that contains
-// one.
+// Handles files that the user dropped onto the page or chose: a world, or a folder or zip archive
+// that contains one.
 import type { DroppedFile } from "../api/DroppedFile";
 import { droppedFile, isHidden, LARGEST_FILE, MOST_FILES } from "../api/DroppedFile";
 import { filesInZip, isZip } from "./zip";
@@ -7,7 +7,7 @@ import { filesInZip, isZip } from "./zip";
 // The files to send: worlds first, beginning with the most likely one.
 export interface Delivery {
   files: DroppedFile[];
-  worlds: number; // how many of the files, at least one
+  worlds: number; // number of worlds among the files, at least one
 }
 
 // Finds the files to send. Throws a sentence for the user.

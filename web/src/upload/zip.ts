@@ -12,7 +12,8 @@ import { isHidden, LARGEST_FILE, MOST_FILES } from "../api/DroppedFile";
 const LARGEST_TOTAL = 512 * 2 ** 20; // bytes, unpacked
 const MOST_ENTRIES = 4 * MOST_FILES; // includes folders and hidden files
 
-const FIRST_FILE = 0x04034b50; // what an archive begins with; with no file in it:
+// first bytes of a zip archive with files; the other number is that of an empty archive
+const FIRST_FILE = 0x04034b50;
 const NO_FILE = 0x06054b50;
 const STORED = 0;
 const DEFLATED = 8;
@@ -27,8 +28,8 @@ export async function isZip(file: Blob): Promise<boolean> {
   return signature === FIRST_FILE || signature === NO_FILE;
 }
 
-// Returns the files of an archive, each unpacked when its content is requested. Folders and hidden files are left
-// out. Throws a sentence for the user.
+// Returns the files of an archive, each unpacked when its content is requested. Folders and hidden
+// files are left out. Throws a sentence for the user.
 export async function filesInZip(name: string, archive: Blob): Promise<DroppedFile[]> {
   const refuse = (reason: string): never => {
     throw new Error(`${name} cannot be used: ${reason}.`);
@@ -45,8 +46,8 @@ export async function filesInZip(name: string, archive: Blob): Promise<DroppedFi
   }));
 }
 
-// Whether the entry is a normal file: not a folder, and not a hidden file of an operating system. A name with ".." is
-// not a hidden file.
+// Whether the entry is a normal file: not a folder, and not a hidden file of an operating system. A
+// name with ".." is not a hidden file.
 function isWanted({ filename, directory }: Entry): boolean {
   return !directory && !filename.startsWith("__MACOSX/") && (leadsOut(filename) || !isHidden(filename));
 }

@@ -10,7 +10,7 @@ import { PushedFeed } from "./PushedFeed";
 
 export interface ImageSources {
   live: LiveViewSource; // pushes images
-  fetchImage: FetchImage; // for servers that push none
+  fetchImage: FetchImage; // requests an image from a server that does not push images
 }
 
 export interface DrawnViewEvents {
@@ -21,9 +21,9 @@ export interface DrawnViewEvents {
 }
 
 const LARGEST_SIDE_PX = 4096;
-const MOST_PX = 3840 * 2160; // the server's limits
+const MOST_PX = 3840 * 2160; // the server's limit
 const SMALLEST_SIDE_PX = 16;
-const MAX_CAMERAS = 200; // while no image comes
+const MAX_CAMERAS = 200; // maximum number of stored cameras while no image arrives
 const KEPT_DELAYS = 1000;
 
 interface DecodedImage {
@@ -34,20 +34,21 @@ interface DecodedImage {
 
 export class DrawnView {
   readonly canvas = document.createElement("canvas");
-  images = 0; // so far
+  images = 0; // number of images so far
   // The times from a state of the world to its image on the screen, in ms, of the last images.
   // Correct only if the server has the same clock.
   readonly delaysMs: number[] = [];
   // Called when there is another image for advance().
   onNewImage = () => {};
   private feed: Feed;
-  private readonly cameras = new Map<string, PerspectiveCamera>(); // of images under way
+  // cameras of the images that have been requested
+  private readonly cameras = new Map<string, PerspectiveCamera>();
   private wanted: ServerCamera | null = null;
-  private waiting: ArrivedImage | null = null; // the newest that is not decoded yet
+  private waiting: ArrivedImage | null = null; // the newest image that is not decoded yet
   private isDecoding = false;
   private isDisposed = false;
   private next: DecodedImage | null = null;
-  private present: DecodedImage | null = null; // that is shown
+  private present: DecodedImage | null = null; // the image that is shown
 
   constructor(
     sources: ImageSources,
@@ -75,8 +76,8 @@ export class DrawnView {
     return this.present && { camera: this.present.camera, stamp: this.present.arrived.stamp };
   }
 
-  // Goes to the newest image. Call this at the beginning of a frame, so that all that belongs to the
-  // image is placed by the same camera.
+  // Shows the newest image. Call this at the beginning of a frame, so that the same camera is used
+  // for everything that belongs to the image.
   advance(): void {
     if (!this.next) return;
     this.present?.bitmap.close();
@@ -118,7 +119,7 @@ export class DrawnView {
   }
 
   private take(image: ArrivedImage): void {
-    this.waiting?.shown(); // it is left out
+    this.waiting?.shown(); // the older image is skipped
     this.waiting = image;
     if (!this.isDecoding) void this.decode();
   }
@@ -137,7 +138,7 @@ export class DrawnView {
         continue;
       }
       if (this.next) {
-        this.next.bitmap.close(); // it is left out
+        this.next.bitmap.close(); // the older image is skipped
         this.next.arrived.shown();
       }
       this.next = { bitmap, camera, arrived };

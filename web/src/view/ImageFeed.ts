@@ -1,6 +1,6 @@
 // Fetches images that the server draws, one after another, from servers that push none. The next
-// image is requested when the last one has arrived, so that a slow connection gets fewer images, but
-// never old ones.
+// image is requested when the last one has arrived, so that a slow connection gets fewer images,
+// but never old ones.
 
 // The camera in the server's form; lengths in metres, the size in pixels.
 export interface ServerCamera {
@@ -13,10 +13,10 @@ export interface ServerCamera {
 
 export interface ArrivedImage {
   jpeg: Blob;
-  camera: ServerCamera; // for which it was drawn
+  camera: ServerCamera; // the camera with which the image was drawn
   stamp: number | null; // s, simulated; null: unknown
   seenMs: number | null; // when the server first saw this state, in ms since 1970; null: unknown
-  // Call this when the image is on the screen, or is left out.
+  // Call this when the image is on the screen, or was skipped.
   shown(): void;
 }
 
@@ -35,7 +35,8 @@ export interface Feed {
 export type FetchImage = (query: string, signal: AbortSignal) => Promise<Response>;
 
 export const RETRY_MS = 1000;
-export const TRIES = 3; // in a row that may fail, as while the server restarts
+// number of consecutive failures that are allowed, as while the server restarts
+export const TRIES = 3;
 
 export class ImageFeed implements Feed {
   private wanted: ServerCamera | null = null;
@@ -51,7 +52,7 @@ export class ImageFeed implements Feed {
     private readonly events: FeedEvents,
   ) {}
 
-  // Shows this camera's images from now on.
+  // Requests this camera's images from now on.
   show(camera: ServerCamera): void {
     const isOther = this.wanted === null || queryOf(this.wanted) !== queryOf(camera);
     this.wanted = camera;
@@ -86,7 +87,7 @@ export class ImageFeed implements Feed {
     this.asking = null;
   }
 
-  // The sentence of the problem; null if there is none.
+  // Returns the sentence of a problem; null if there is none.
   private async take(camera: ServerCamera, query: string, signal: AbortSignal): Promise<string | null> {
     try {
       const response = await this.fetchImage(query, signal);

@@ -8,7 +8,7 @@ type Attribute = BufferAttribute | InterleavedBufferAttribute;
 type Corner = readonly [x: number, y: number, w: number];
 
 const NEAR_W = 1e-3;
-const MOST = 20_000; // segments, points or triangles of one object
+const MOST = 20_000; // maximum number of segments, points or triangles of one object
 const LINE_PX = 1.5;
 const POINT_PX = 3;
 
@@ -92,7 +92,7 @@ export class OverlayPainter {
     this.context.globalAlpha = 1;
   }
 
-  // In pixels, multiplied by w, which is positive in front of the camera.
+  // Returns a corner in pixels, multiplied by w, which is positive in front of the camera.
   private corner(attribute: Attribute, index: number): Corner {
     const { x, y, w } = new Vector4(attribute.getX(index), attribute.getY(index), attribute.getZ(index), 1).applyMatrix4(
       this.clipFromObject,
@@ -112,7 +112,7 @@ export class OverlayPainter {
   }
 }
 
-// The point of the line just in front of the camera.
+// Returns the point of the line just in front of the camera.
 function cut(behind: Corner, ahead: Corner): Corner {
   const share = (NEAR_W - behind[2]) / (ahead[2] - behind[2]);
   return [behind[0] + share * (ahead[0] - behind[0]), behind[1] + share * (ahead[1] - behind[1]), NEAR_W];
@@ -137,7 +137,7 @@ function plainColour(material: unknown): string {
   return its instanceof Color ? its.getStyle() : "white";
 }
 
-// What only takes the pointer.
+// Returns whether a material is invisible, like that of an object that only receives the pointer.
 function isInvisible(material: unknown): boolean {
   return (material as { visible?: boolean }).visible === false;
 }

@@ -4,8 +4,8 @@ import type { LiveView, LiveViewSource, PushedImage } from "../protocol/LiveView
 import type { Feed, FeedEvents, ServerCamera } from "./ImageFeed";
 import { RETRY_MS, TRIES, queryOf } from "./ImageFeed";
 
-const FRAMES_PER_SECOND = 30; // at most
-const MAX_CAMERAS = 200; // while no image comes
+const FRAMES_PER_SECOND = 30; // maximum rate
+const MAX_CAMERAS = 200; // maximum number of stored cameras while no image arrives
 
 export interface PushedEvents extends FeedEvents {
   // The server pushes no images. The feed has ended.
@@ -19,7 +19,7 @@ export class PushedFeed implements Feed {
   private sequence = 0;
   private isReady = false;
   private isEnded = false;
-  private failures = 0; // in a row
+  private failures = 0; // number of failures in a row
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
@@ -58,7 +58,7 @@ export class PushedFeed implements Feed {
   }
 
   private request(): void {
-    if (this.timer !== undefined) return; // it is tried again soon
+    if (this.timer !== undefined) return; // the next attempt is already scheduled
     this.sequence += 1;
     this.cameras.set(this.sequence, this.wanted!);
     if (this.cameras.size > MAX_CAMERAS) this.cameras.delete(this.cameras.keys().next().value!);

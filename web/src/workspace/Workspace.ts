@@ -127,7 +127,8 @@ export class Workspace {
     for (const id of ids) if (!this.api.getPanel(id)) this.add(id);
   }
 
-  // Opens a panel beside panels of its kind, or else in a new part at the side of the view or below it.
+  // Opens a panel beside panels of its kind, or else in a new part at the side of the view or below
+  // it.
   private add(id: string): void {
     const panel = this.of.panels.find((each) => each.id === id);
     if (!panel) return;

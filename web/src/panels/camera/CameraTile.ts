@@ -73,8 +73,8 @@ export class CameraTile {
     setText(this.value, "");
     this.waiting.hidden = false;
     const { view, replay } = this.ports.state.get();
-    // A recording contains only images that were requested during recording. If it has one for the present instant,
-    // the replay sends it at once.
+    // A recording contains only images that were requested during recording. If it has one for the
+    // present instant, the replay sends it at once.
     setText(this.waiting, replay ? "The recording has no image of this camera up to this time." : "Waiting for an image…");
     if (view === "starting") return;
     this.end = this.ports.topics.subscribe<CameraMessage>(this.camera.topic, (image) => this.painter.take(image), { newestOnly: true });

@@ -1,5 +1,5 @@
-// Paints the images of one camera. One image is decoded at a time. Of the images that arrive meanwhile, only the
-// newest is decoded next.
+// Paints the images of one camera. One image is decoded at a time. Of the images that arrive
+// meanwhile, only the newest is decoded next.
 import type { PointCloud } from "../../live/clouds";
 import { valuesOfGreyPng } from "../../live/greyPng";
 import type { ValueImage } from "../../live/valueImage";
@@ -20,8 +20,8 @@ export class ImagePainter {
   private busy = false;
   private isPainted = false;
   private generation = 0;
-  // The processor draws it. Without a graphics card, the page would otherwise wait for the 3D view, which is being
-  // drawn.
+  // The processor draws it. Without a graphics card, the page would otherwise wait for the 3D view,
+  // which is being drawn.
   private readonly context: CanvasRenderingContext2D | null;
 
   // `onProblem` gets a sentence if an image cannot be shown.

@@ -17,8 +17,8 @@ export interface Panel {
   picture: IconName;
   group: PanelGroup;
   key?: string; // the single key that opens and closes it, in upper case
-  // Whether server and simulation provide the panel's data, and the viewer has permission. If not, the panel is not
-  // offered; if it is already open, it shows `absence`.
+  // Whether server and simulation provide the panel's data, and the viewer has permission. If not,
+  // the panel is not offered; if it is already open, it shows `absence`.
   isAvailable(state: State): boolean;
   absence?: string; // the reason why there is nothing to show
   // Where the panel opens: beside the view, below it (default), or above the panels beside the
@@ -35,8 +35,8 @@ export interface PanelModule {
 export interface MountedPanel {
   body: HTMLElement;
   tools?: HTMLElement[]; // controls above the body
-  // Called whenever the panel becomes visible. The returned function is called when the panel is closed or
-  // hidden behind another tab. Read data (topics, the store) only in between, so that a hidden panel costs
-  // nothing.
+  // Called whenever the panel becomes visible. The returned function is called when the panel is
+  // closed or hidden behind another tab. Read data (topics, the store) only in between, so that a
+  // hidden panel costs nothing.
   whileOpen?(): () => void;
 }

@@ -1,8 +1,8 @@
 // The interfaces by which a panel accesses the page.
 //
-// A panel's mount function names the ports that it uses; the panel uses no other part of the page. So
-// tests or other pages can mount it with their own ports. app/panelPorts.ts implements the ports for the
-// viewer.
+// A panel's mount function names the ports that it uses; the panel uses no other part of the page.
+// So tests or other pages can mount it with their own ports. app/panelPorts.ts implements the ports
+// for the viewer.
 import type { ServerFigures } from "../../api/MetricsApi";
 import type { CommandArguments, CommandDescription } from "../../api/commands";
 import type { CurveOf, WholeCurve } from "../../api/curve";
@@ -40,8 +40,8 @@ export interface TrafficPort {
   open(topic: string): void; // shows the messages of a topic, and opens their panel
 }
 
-// Requests to the server for data that is not in the live stream. If the server refuses, promises reject with its
-// sentence.
+// Requests to the server for data that is not in the live stream. If the server refuses, promises
+// reject with its sentence.
 export interface ServerPort {
   // The metrics of /metrics (docs/monitoring.md).
   figures(): Promise<ServerFigures>;

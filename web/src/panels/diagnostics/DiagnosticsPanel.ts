@@ -1,5 +1,5 @@
-// The panel Diagnostics: the simulation, failed robots, warnings of the server, this page, and the metrics of the
-// server.
+// The panel Diagnostics: the simulation, failed robots, warnings of the server, this page, and the
+// metrics of the server.
 import type { ServerFigures } from "../../api/MetricsApi";
 import { Store, shallowEqual } from "../../state/Store";
 import { element } from "../../ui/element";
@@ -26,8 +26,8 @@ export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "top
   return panelOf(store, state, () => feed.start());
 }
 
-// Makes the panel for the data in the store. `start` starts collecting the data, and returns a function that ends
-// it.
+// Makes the panel for the data in the store. `start` starts collecting the data, and returns a
+// function that ends it.
 export function panelOf(store: Store<Diagnostics>, state: PanelPorts["state"], start: () => () => void): MountedPanel {
   const simulation = createFacts("Simulation", NOTHING_YET);
   const robots = createFacts("Robots", NOTHING_YET);

@@ -1,5 +1,5 @@
-// The output of the selected robot's behaviour: its standard output and errors. The output is read only while the
-// list is open.
+// The output of the selected robot's behaviour: its standard output and errors. The output is read
+// only while the list is open.
 import type { OutputLine } from "../../api/health";
 import type { LogMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";

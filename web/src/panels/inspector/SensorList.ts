@@ -39,7 +39,8 @@ export function createSensorList(ports: Ports): HTMLElement {
   return details;
 }
 
-// Whether the list may subscribe without a request by the user. Images and point clouds are too large for that.
+// Whether the list may subscribe without a request by the user. Images and point clouds are too
+// large for that.
 export function isLight({ overlay, type }: SceneSensor): boolean {
   return overlay !== "picture" && !LARGE_TYPES.includes(type);
 }
@@ -137,7 +138,8 @@ class SensorRow {
   }
 }
 
-// Returns a label, such as "position x" for "pose.pose.position.x", or "ranges min" for "ranges.min".
+// Returns a label, such as "position x" for "pose.pose.position.x", or "ranges min" for
+// "ranges.min".
 export function labelOf(key: string): string {
   const parts = key.split(/\.(?![^[]*\])/);
   return parts.slice(-2).join(" ").replaceAll("_", " ");

@@ -1,5 +1,5 @@
-// Explains the state of the selected robot: a sentence, the last command, the motion, and the nearest
-// obstacle.
+// Explains the state of the selected robot: a sentence, the last command, the motion, and the
+// nearest obstacle.
 import type { RobotHealth, ShownState } from "../../state/health";
 import { STATE_WORDS, motionText, sentenceOf, stateOf } from "../../state/health";
 import type { State } from "../../state/State";

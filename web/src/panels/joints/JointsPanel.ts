@@ -105,8 +105,8 @@ export function mount({ state, control }: Ports): MountedPanel {
   return { body: element("div", { class: "joints-body" }, line, note, list), tools: [choice, inDegrees], whileOpen };
 }
 
-// Returns robots first, then arms and other objects. Static bodies are left out, because their joints do not
-// move.
+// Returns robots first, then arms and other objects. Static bodies are left out, because their
+// joints do not move.
 function jointedBodies({ scene }: State): string[] {
   const jointed = (scene?.bodies ?? []).filter(({ joints }) => joints.length > 0);
   return [...jointed.filter(({ isRobot }) => isRobot), ...jointed.filter(({ isRobot }) => !isRobot)].map(({ name }) => name);

@@ -1,5 +1,5 @@
-// The panel Physics: gravity, step and speed, the time that each part of the steps takes, and the behaviours that
-// delay the steps.
+// The panel Physics: gravity, step and speed, the time that each part of the steps takes, and the
+// behaviours that delay the steps.
 import type { SimulationStatus } from "../../api/status";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";

@@ -1,5 +1,5 @@
-// Collects the events that plots mark: all events of a recording; for a running simulation, the new ones and the
-// hundred before them.
+// Collects the events that plots mark: all events of a recording; for a running simulation, the new
+// ones and the hundred before them.
 import type { RecordedEvent } from "../../api/replay";
 import type { LifecycleEventMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";

@@ -40,13 +40,17 @@ interface PlacedAt {
 
 export class PlotFeed {
   private readonly series = new Map<string, Series>(); // by curve
-  private readonly whole = new Map<string, WholeCurve>(); // that the server has told
-  private readonly compared = new Map<string, Series>(); // of the recording that is compared with
+  // whole curves that the server has computed
+  private readonly whole = new Map<string, WholeCurve>();
+  // curves of the recording that is compared with
+  private readonly compared = new Map<string, Series>();
   private readonly ends = new Map<string, () => void>(); // by topic
   private readonly last = new Map<string, PlacedAt>(); // by robot
-  private inputs: readonly Input[] = []; // what is collected: curves, and the fields of expressions
+  // the collected values: curves, and the fields of expressions
+  private inputs: readonly Input[] = [];
   private formulas: readonly Formula[] = [];
-  private readonly newestValues = new Map<string, number>(); // by input, of those in formulas
+  // the newest value of each input that expressions use
+  private readonly newestValues = new Map<string, number>();
   private simulation: string | null = null;
   private newest = -Infinity; // s, simulated
 
@@ -211,7 +215,7 @@ export class PlotFeed {
     if (!this.whole.has(id)) this.series.get(id)?.push(time, value);
   }
 
-  // Simulated time of a run goes back only after a reset; then the values are dropped. The time of
+  // Simulated time of a run goes back only after a reset; then the values are removed. The time of
   // a recording may go back, and its values remain valid.
   private goOn(time: number): void {
     const wasReset = time < this.newest - LONGEST_GAP_S && this.state.get().replay === null;
@@ -289,7 +293,7 @@ function formulaOf({ id, source, key }: Curve): Formula[] {
   return [{ id, inputs: references.map((each) => idOf(referredTo(each))), evaluate }];
 }
 
-// The topics of the existing sensors, and the poses of robots.
+// Returns the topics of the existing sensors, and the topic of robots' poses.
 function topicsOf(curves: readonly Input[], scene: SceneDescription | null): string[] {
   const plotted = new Set(curves.flatMap(({ source }) => (source.kind === "sensor" ? [source.topic] : [])));
   const present = robotsOf(scene).flatMap(({ sensors }) => sensors.map(({ topic }) => topic));

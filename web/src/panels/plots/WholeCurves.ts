@@ -19,14 +19,14 @@ export type WholeCurvePorts = Pick<PanelPorts, "state" | "notices"> & {
 
 // Called with the part of a curve that was read so far.
 export interface CurveEvents {
-  onWhole(id: string, curve: WholeCurve): void; // of a recording
-  onPast(id: string, curve: WholeCurve): void; // of a run, up to when it was asked for
-  onCompared(id: string, curve: WholeCurve): void; // of the second recording
+  onWhole(id: string, curve: WholeCurve): void; // a whole curve of a recording has arrived
+  onPast(id: string, curve: WholeCurve): void; // a curve of a run's stored past has arrived
+  onCompared(id: string, curve: WholeCurve): void; // a curve of the second recording has arrived
 }
 
 export class WholeCurves {
-  private readonly known = new Set<string>(); // curves that are read, or were
-  private readonly compared = new Set<string>(); // likewise, of the second recording
+  private readonly known = new Set<string>(); // curves that are being read, or were read
+  private readonly compared = new Set<string>(); // likewise for the second recording
   private simulation: string | null = null;
   private isReplay = false;
   private other = ""; // the second recording
@@ -98,7 +98,8 @@ export class WholeCurves {
     }
   }
 
-  // Requests the value until all of it is read. If it cannot be read, reports this if `isMissed`.
+  // Requests the value until all of it is read. If it cannot be read, and `isMissed` is true,
+  // reports this.
   private async read(
     plotted: Curve,
     get: (of: CurveOf) => Promise<WholeCurve | null>,

@@ -14,7 +14,7 @@ export function combined(curves: readonly WholeCurve[], evaluate: Expression["ev
     instants.forEach((instant, i) => {
       if (instant === time) newest[i] = curves[i]!.values[next[i]!++]!;
     });
-    if (next.some((each) => each === 0)) continue; // one of them has no value yet
+    if (next.some((each) => each === 0)) continue; // one of the inputs has no value yet
     times.push(time);
     values.push(evaluate(newest));
   }

@@ -4,7 +4,8 @@ import { element } from "../../ui/element";
 import type { Wish } from "./driving";
 import { STILL, isDrivingKey, isStill, wishOfKeys, wishOfPoint } from "./driving";
 
-const REACH_PERCENT = 35; // of the knob, of the pad's size
+// the knob's maximum distance from the centre, as a percentage of the pad's size
+const REACH_PERCENT = 35;
 
 export class DrivingPad {
   private readonly knob = element("div", { class: "pad-knob" });

@@ -1,5 +1,5 @@
-// Reads the first connected gamepad while the panel is in sight. It must poll, because browsers
-// send no events for sticks.
+// Reads the first connected gamepad while the panel is visible. It must poll, because browsers send
+// no events for sticks.
 import type { Wish } from "./driving";
 import { STILL, wishOfGamepad } from "./driving";
 
@@ -12,7 +12,7 @@ interface Listener {
 }
 
 export class GamepadReader {
-  private index: number | null = null; // of the one that is read
+  private index: number | null = null; // index of the gamepad that is read
 
   constructor(
     private readonly listener: Listener,

@@ -115,8 +115,8 @@ export function mount({ state, control }: Ports): MountedPanel {
   return { body, tools: [choice], whileOpen };
 }
 
-// Calls `letGo` when the window loses the focus, or is hidden or closed. Returns the function that
-// ends this.
+// Calls `letGo` when the window loses the focus, or is hidden or closed. Returns a function that
+// removes the listeners.
 function whenPageIsLeft(letGo: () => void): () => void {
   const hide = () => document.visibilityState === "hidden" && letGo();
   document.addEventListener("visibilitychange", hide);
@@ -127,7 +127,7 @@ function whenPageIsLeft(letGo: () => void): () => void {
   };
 }
 
-// The robots without a running behaviour, then the avatars.
+// Returns the robots without a running behaviour, then the avatars.
 function drivable({ scene, status }: State): readonly string[] {
   const free = new Set(
     (status?.robots ?? []).filter(({ behaviour, agentPhase }) => behaviour === "" || agentPhase === "finished").map(({ name }) => name),

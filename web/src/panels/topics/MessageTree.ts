@@ -5,8 +5,8 @@ import type { Step } from "../../live/fieldPath";
 import { element, setText } from "../../ui/element";
 import { icon } from "../../ui/icons";
 
-const MAX_SHOWN = 100; // elements of one list
-const MAX_TEXT = 2000; // characters of one value
+const MAX_SHOWN = 100; // maximum number of shown elements of one list
+const MAX_TEXT = 2000; // maximum number of shown characters of one value
 
 export interface TreeActions {
   plot(path: string): void;

@@ -27,7 +27,7 @@ export class TopicList {
   private readonly body = element("tbody");
   private readonly note = element("p", { class: "dim" });
   private topics: readonly TopicInfo[] = [];
-  onShown: (topics: string[]) => void = () => {}; // those that have a row
+  onShown: (topics: string[]) => void = () => {}; // called with the topics that have a row
 
   constructor(private readonly choose: (topic: string) => void) {
     const head = ["Topic", "Type", "Hz", "kB/s"].map((title) => element("th", { scope: "col" }, title));

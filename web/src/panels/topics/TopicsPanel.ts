@@ -85,7 +85,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
   };
 
   const rates = new Rates();
-  const measured = new Map<string, () => void>(); // subscriptions that only count
+  const measured = new Map<string, () => void>(); // subscriptions whose messages are only counted
   const measure = element("input", { type: "checkbox" });
   let listed: string[] = [];
   const count = () => {

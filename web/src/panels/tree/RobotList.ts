@@ -23,7 +23,8 @@ export class RobotList {
   private entries: readonly Entry[] = [];
   private isPointed = false;
   private hasFocus = false;
-  private held: { filter: RobotFilter } | null = null; // what the order of the rows was made for
+  // the inputs with which the present order of the rows was made
+  private held: { filter: RobotFilter } | null = null;
 
   constructor(private readonly ports: Ports) {
     this.rows = new VirtualRows<Entry>(
@@ -40,8 +41,8 @@ export class RobotList {
     this.followAttention();
   }
 
-  // While the pointer or the keyboard focus is in the list, its rows stay where they are: nobody
-  // can click a row that moves away.
+  // While the pointer or the keyboard focus is in the list, its rows stay where they are, so that
+  // the user can click them.
   private followAttention(): void {
     const { scroller } = this.rows;
     const release = () => {

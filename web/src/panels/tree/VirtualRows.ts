@@ -2,7 +2,7 @@
 // reused for other entries.
 import { element, setAttribute } from "../../ui/element";
 
-const BEYOND_PX = 200; // above and below what is in sight
+const BEYOND_PX = 200; // rows exist this far above and below the visible part
 const HEIGHT_WITHOUT_LAYOUT_PX = 800;
 
 export interface Row<Entry> {
@@ -11,8 +11,8 @@ export interface Row<Entry> {
 }
 
 export interface RowKinds<Entry> {
-  keyOf(entry: Entry): string; // of one entry, kept when it moves
-  kindOf(entry: Entry): string; // entries of one kind share rows
+  keyOf(entry: Entry): string; // the key of an entry, which stays when the entry moves
+  kindOf(entry: Entry): string; // the kind of an entry; entries of one kind share rows
   heightOf(entry: Entry): number; // px
   make(kind: string): Row<Entry>;
 }
@@ -26,11 +26,11 @@ export class VirtualRows<Entry> {
   readonly list: HTMLElement;
   readonly scroller: HTMLElement;
   private entries: readonly Entry[] = [];
-  private tops: number[] = [0]; // of each entry, and the end of the last one
+  private tops: number[] = [0]; // the top of each entry, and the end of the last one
   private rows = new Map<string, PlacedRow<Entry>>(); // by key
   private readonly spare: PlacedRow<Entry>[] = [];
-  private total = 0; // px, of all entries
-  private scrollTop = 0; // as last asked for
+  private total = 0; // px: height of all entries
+  private scrollTop = 0; // the scroll position that was last read
   private height = HEIGHT_WITHOUT_LAYOUT_PX;
 
   constructor(
@@ -112,7 +112,7 @@ export class VirtualRows<Entry> {
     return { element: row.element, write: (entry) => row.write(entry), kind, top: -1 };
   }
 
-  // The last entry that begins at or before that height.
+  // Returns the last entry that begins at or above that height.
   private indexAt(height: number): number {
     let [low, high] = [0, Math.max(0, this.entries.length - 1)];
     while (low < high) {

@@ -1,4 +1,4 @@
-// Shows what is known about the selected part of the world, and updates it.
+// Shows the data of the selected part of the world, and updates it.
 import type { SceneBody, SceneDescription, SceneSensor } from "../../api/scene";
 import { anglesOf, stampOf, valuesOf } from "../../live/values";
 import type { PosesMessage } from "../../protocol/messages";

@@ -8,7 +8,7 @@ export interface Frame {
   child: string;
   parent: string;
   time: number; // s, simulated
-  isStatic: boolean; // it does not change, so it has no age
+  isStatic: boolean; // a static transform never changes, so it has no age
   position: [number, number, number]; // m
   angles: { roll: number; pitch: number; yaw: number }; // rad
 }
