@@ -118,6 +118,8 @@ base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
   const auto range = RangeOf(environment);
   if (!range) return base::Fail(range.error());
   participant.range = range->value_or(dds::Range::kLocalhost);
+  // As in rcl, this variable rules out the peers too.
+  if (environment("ROS_LOCALHOST_ONLY") == "1") participant.peers.clear();
   std::erase_if(participant.peers, IsThisMachine);
   if (participant.range == dds::Range::kLocalhost && !participant.peers.empty()) {
     participant.range = dds::Range::kPeers;

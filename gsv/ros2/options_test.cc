@@ -34,6 +34,15 @@ TEST(Ros2Options, ReadDomainRangeAndPeersFromTheEnvironment) {
   EXPECT_EQ(peers->peers, std::vector<std::string>{"10.0.0.2"});
 }
 
+TEST(Ros2Options, StayOnThisMachineWithLocalhostOnly) {
+  const auto participant = ParticipantFor({}, Of({{"ROS_LOCALHOST_ONLY", "1"},
+                                                  {"ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET"},
+                                                  {"ROS_STATIC_PEERS", "10.0.0.2"}}));
+  ASSERT_TRUE(participant);
+  EXPECT_FALSE(IsExposed(*participant));
+  EXPECT_TRUE(participant->peers.empty());
+}
+
 TEST(Ros2Options, OverrideTheEnvironment) {
   const auto participant = ParticipantFor(
       {.range = dds::Range::kLocalhost},

@@ -15,6 +15,7 @@
 #include "apps/gsv/process/option_values.h"
 #include "apps/gsv/serving/ros2_access.h"
 #include "gsv/base/mutex.h"
+#include "gsv/base/spelling.h"
 #include "gsv/messages/all.h"
 #include "gsv/messages/definition.h"
 #include "gsv/ros2/graph.h"
@@ -60,6 +61,12 @@ bool Look(const Ros2CommandArguments& arguments, Signals& signals) {
   return signals.WaitFor(static_cast<int>(arguments.seconds * 1000)) == 0;
 }
 
+void PrintNothingFound(const char* what, const Ros2CommandArguments& arguments) {
+  const auto reach = Reach(arguments);
+  std::printf("no ROS 2 %s was found in %g s (%s)\n", what, arguments.seconds,
+              reach ? DescribeReach(*reach).c_str() : "");
+}
+
 int Topics(const Ros2CommandArguments& arguments, Signals& signals) {
   const auto participant = Join(arguments);
   if (!participant) return PrintError(participant.error());
@@ -78,7 +85,7 @@ int Topics(const Ros2CommandArguments& arguments, Signals& signals) {
     std::printf("%s [%s] publishers: %d, subscriptions: %d\n", topic.first.c_str(),
                 topic.second.c_str(), ends.writers, ends.readers);
   }
-  if (topics.empty()) std::printf("no ROS 2 topic was found in %g s\n", arguments.seconds);
+  if (topics.empty()) PrintNothingFound("topic", arguments);
   return kOk;
 }
 
@@ -107,7 +114,7 @@ int Nodes(const Ros2CommandArguments& arguments, Signals& signals) {
   for (const auto& [name, ends] : nodes) {
     std::printf("%s publishers: %zu, subscriptions: %zu\n", name.c_str(), ends.first, ends.second);
   }
-  if (nodes.empty()) std::printf("no ROS 2 node was found in %g s\n", arguments.seconds);
+  if (nodes.empty()) PrintNothingFound("node", arguments);
   return kOk;
 }
 
@@ -133,8 +140,13 @@ base::Result<ros2::dds::Topic> Find(const Participant& participant,
       return base::Fail(base::ErrorCode::kEnded, "interrupted", arguments.topic);
     }
   } while (SteadyClock::now() < give_up);
+  std::vector<std::string> published;
+  for (const Endpoint& endpoint : participant.endpoints()) {
+    if (endpoint.is_writer) published.push_back(ros2::RosTopicName(endpoint.topic.name));
+  }
   return base::Fail(base::ErrorCode::kNotFound,
-                    "nobody publishes this topic. `gsv ros2 topics` lists the topics",
+                    "nobody publishes this topic; `gsv ros2 topics` lists the topics" +
+                        base::DidYouMean(arguments.topic, published),
                     arguments.topic);
 }
 

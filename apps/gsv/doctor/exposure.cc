@@ -121,6 +121,7 @@ std::string Reach(const Listener& listener) {
 
 std::string Takes(const Exposure& exposure) {
   if (exposure.takes_certificate) return "certificate of its authority";
+  if (exposure.takes_keys) return "keys of its keystore";
   if (exposure.speaks != Speaks::kHttp && exposure.speaks != Speaks::kHttps) return "no token";
   if (exposure.watching_takes_token) return "token required";
   return exposure.acting_takes_token ? "token required for control, watching without token"
@@ -154,8 +155,9 @@ Exposure Probe(const Listener& listener) {
     exposure.speaks = Speaks::kCorba;
     return exposure;
   }
-  if (listener.is_dds) {  // DDS does not authenticate
+  if (listener.is_dds) {  // without keys, DDS does not authenticate
     exposure.speaks = Speaks::kRos2;
+    exposure.takes_keys = listener.takes_keys;
     return exposure;
   }
   const std::string look = Asking(listener, "GET", "/api/server", "");
@@ -207,8 +209,11 @@ std::string ExposureWarning(const Listener& listener, const Exposure& exposure) 
     case Speaks::kCorbaTls:
       return exposure.takes_certificate ? "" : "everyone who can reach it can call it";
     case Speaks::kRos2:
-      return "everyone who can reach it can read all topics, command robots without a behaviour, "
-             "and control the simulation; start it with --ros2-range localhost, or use a firewall";
+      return exposure.takes_keys
+                 ? ""
+                 : "everyone who can reach it can read all topics, command robots without a "
+                   "behaviour, and control the simulation; start it with --ros2-range localhost, "
+                   "with keys (SROS2), or use a firewall";
     case Speaks::kUnknown:
       return "it does not respond, so the addresses it listens on are unknown; check whether it is "
              "suspended";
@@ -243,6 +248,7 @@ int PrintExposure(bool json) {
            {"local", listener.IsLocal()},
            {"tls", exposure.speaks == Speaks::kHttps || exposure.speaks == Speaks::kCorbaTls},
            {"takes_certificate", exposure.takes_certificate},
+           {"takes_keys", exposure.takes_keys},
            {"watching_takes_token", exposure.watching_takes_token},
            {"acting_takes_token", exposure.acting_takes_token},
            {"complaint", warning}});

@@ -18,6 +18,7 @@ struct Exposure {
   bool watching_takes_token = false;  // for HTTP and HTTPS
   bool acting_takes_token = false;
   bool takes_certificate = false;  // for CORBA by TLS
+  bool takes_keys = false;         // for ROS 2 with DDS Security
 };
 
 Exposure Probe(const Listener& listener);

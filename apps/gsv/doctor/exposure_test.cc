@@ -37,6 +37,14 @@ TEST(Exposure, CorbaBeyondThisMachineNeedsCertificates) {
   EXPECT_EQ(ExposureWarning(kOpen, exposure), "");
 }
 
+TEST(Exposure, Ros2BeyondThisMachineNeedsKeys) {
+  Listener listener{"0.0.0.0", 7410, true};
+  EXPECT_THAT(ExposureWarning(listener, Probe(listener)), HasSubstr("--ros2-range localhost"));
+  listener.takes_keys = true;
+  EXPECT_EQ(ExposureWarning(listener, Probe(listener)), "");
+  EXPECT_EQ(ExposureWarning({"127.0.0.1", 7410, true}, {Speaks::kRos2}), "");
+}
+
 TEST(Exposure, AListenerThatDoesNotAnswerGivesAWarning) {
   EXPECT_THAT(ExposureWarning(kOpen, {Speaks::kUnknown}), HasSubstr("it does not respond"));
 }

@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using SocketsByInode = std::map<std::uint64_t, Listener>;
 
-constexpr std::uint16_t kFirstDdsPort = 7400, kLastDdsPort = 32767;
+// The ports of a domain (RTPS 2.3, 9.6.1.1).
+constexpr std::uint32_t kFirstDdsPort = 7400, kPortsOfDomain = 250;
 
 std::string ReadWhole(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -59,6 +60,26 @@ void AddUnixSockets(std::string_view table, SocketsByInode& sockets) {
   }
 }
 
+// Returns the value of a variable at the start of a process, or an empty text.
+std::string VariableOf(const fs::path& process, const std::string& name) {
+  std::istringstream environment(ReadWhole(process / "environ"));
+  for (std::string entry; std::getline(environment, entry, '\0');) {
+    if (entry.starts_with(name + "=")) return entry.substr(name.size() + 1);
+  }
+  return {};
+}
+
+std::vector<std::pair<std::uint64_t, Listener>> DdsSocketsOf(const fs::path& process) {
+  const std::string text = VariableOf(process, "ROS_DOMAIN_ID");
+  std::uint32_t domain = 0;
+  std::from_chars(text.data(), text.data() + text.size(), domain);
+  auto sockets = ParseDdsSockets(ReadWhole(process / "net" / "udp"), domain);
+  const bool takes_keys = VariableOf(process, "ROS_SECURITY_ENABLE") == "true" &&
+                          VariableOf(process, "ROS_SECURITY_STRATEGY") == "Enforce";
+  for (auto& [inode, listener] : sockets) listener.takes_keys = takes_keys;
+  return sockets;
+}
+
 SocketsByInode SocketsOf(const fs::path& process) {
   SocketsByInode sockets;
   for (const char* table : {"tcp", "tcp6"}) {
@@ -66,7 +87,7 @@ SocketsByInode SocketsOf(const fs::path& process) {
       sockets[inode] = std::move(listener);
     }
   }
-  for (auto& [inode, listener] : ParseDdsSockets(ReadWhole(process / "net" / "udp"))) {
+  for (auto& [inode, listener] : DdsSocketsOf(process)) {
     sockets[inode] = std::move(listener);
   }
   AddUnixSockets(ReadWhole(process / "net" / "unix"), sockets);
@@ -129,11 +150,13 @@ std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_vie
   return ParseInternetTable(table, "0A");  // 0A is the state of a listening socket
 }
 
-std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table) {
+std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table,
+                                                                std::uint32_t domain) {
   // 07 is the state of a socket that is not connected
   auto sockets = ParseInternetTable(table, "07");
-  std::erase_if(sockets, [](const auto& socket) {
-    return socket.second.port < kFirstDdsPort || socket.second.port > kLastDdsPort;
+  const std::uint32_t first = kFirstDdsPort + kPortsOfDomain * domain;
+  std::erase_if(sockets, [first](const auto& socket) {
+    return socket.second.port < first || socket.second.port >= first + kPortsOfDomain;
   });
   for (auto& [inode, listener] : sockets) listener.is_dds = true;
   return sockets;

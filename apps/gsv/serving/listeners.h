@@ -14,8 +14,9 @@ namespace gsv::app {
 struct Listener {
   // such as "127.0.0.1", "0.0.0.0" or "::"; or the path of a Unix domain socket
   std::string address;
-  std::uint16_t port = 0;  // 0 for a Unix domain socket
-  bool is_dds = false;     // whether it is a UDP socket of ROS 2
+  std::uint16_t port = 0;   // 0 for a Unix domain socket
+  bool is_dds = false;      // whether it is a UDP socket of ROS 2
+  bool takes_keys = false;  // whether it is one of a process that DDS Security protects
 
   bool IsLocal() const;  // Whether only this machine can reach it.
 };
@@ -33,8 +34,8 @@ std::vector<ListeningProcess> FindListeningProcesses();
 
 // Returns the listening sockets in a table of the form of /proc/net/tcp and tcp6, by inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_view table);
-// Returns the sockets at ports of DDS in a table of the form of /proc/net/udp, by inode. Ports of
-// domains above 101 are ignored, because they are among the kernel's ephemeral ports.
-std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table);
+// Returns the sockets at the ports of a DDS domain in a table of the form of /proc/net/udp, by inode.
+std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table,
+                                                                std::uint32_t domain);
 
 }  // namespace gsv::app

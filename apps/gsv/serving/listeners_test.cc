@@ -38,7 +38,7 @@ TEST(SocketTable, ReadsIpv6Addresses) {
   ASSERT_EQ(sockets.size(), 1u);
   EXPECT_EQ(sockets[0].second.address, "::1");
   EXPECT_TRUE(ParseSocketTable("").empty());
-  EXPECT_TRUE(ParseDdsSockets("").empty());
+  EXPECT_TRUE(ParseDdsSockets("", 0).empty());
 }
 
 TEST(Listener, IsLocalOnLoopbackAndInTheFileSystem) {
@@ -49,8 +49,8 @@ TEST(Listener, IsLocalOnLoopbackAndInTheFileSystem) {
   EXPECT_TRUE((Listener{"/run/socket", 0}.IsLocal()));
 }
 
-TEST(Listeners, OfDdsAreUdpSocketsAtItsPorts) {
-  const auto sockets = ParseDdsSockets(
+TEST(Listeners, OfDdsAreUdpSocketsAtThePortsOfTheDomain) {
+  const std::string table =
       "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout "
       "inode\n"
       "  10: 0100007F:1CF2 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
@@ -59,14 +59,19 @@ TEST(Listeners, OfDdsAreUdpSocketsAtItsPorts) {
       "72\n"
       "  12: 00000000:0035 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
       "73\n"
-      "  13: 0100007F:D431 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
-      "74\n");
+      "  13: 00000000:FF82 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
+      "74\n";
+  const auto sockets = ParseDdsSockets(table, 0);
   ASSERT_EQ(sockets.size(), 2u);
   EXPECT_EQ(sockets[0].second.port, 7410);
   EXPECT_TRUE(sockets[0].second.IsLocal());
   EXPECT_EQ(sockets[1].second.port, 7400);
   EXPECT_FALSE(sockets[1].second.IsLocal());
   EXPECT_TRUE(sockets[1].second.is_dds);
+  EXPECT_TRUE(ParseDdsSockets(table, 1).empty());
+  const auto last = ParseDdsSockets(table, 232);  // the highest domain
+  ASSERT_EQ(last.size(), 1u);
+  EXPECT_EQ(last[0].second.port, 65410);
 }
 
 }  // namespace

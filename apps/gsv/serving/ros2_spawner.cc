@@ -75,8 +75,8 @@ base::Result<std::string> Ros2Spawner::WorldOf(const std::string& uri) {
   }
   if (IsFile(uri)) return FileOf(uri);
   return base::Fail(base::ErrorCode::kNotFound,
-                    "there is no world of this name" + base::DidYouMean(uri, names) +
-                        ". GetAvailableWorlds lists them",
+                    "there is no world of this name; GetAvailableWorlds lists the names" +
+                        base::DidYouMean(uri, names),
                     uri);
 }
 
@@ -118,8 +118,8 @@ base::Result<std::string> Ros2Spawner::ModelOf(const std::string& uri) {
   for (const auto& model : factory_.Models()) known.push_back(model.name);
   if (std::find(known.begin(), known.end(), name) != known.end()) return name;
   return base::Fail(base::ErrorCode::kNotFound,
-                    "there is no model of this name" + base::DidYouMean(name, known) +
-                        ". GetSpawnables lists them",
+                    "there is no model of this name; GetSpawnables lists the names" +
+                        base::DidYouMean(name, known),
                     uri);
 }
 
