@@ -288,7 +288,7 @@ TEST(CommandLine, DrawWritesAnImageOfAWorldAndPrintsItsContent) {
   EXPECT_EQ(file.get(), 0xff);  // a JPEG file begins so
   EXPECT_EQ(file.get(), 0xd8);
   const std::string png = folder.path() / "office.png";
-  ASSERT_EQ(RunProgram("gsv", {"world", "draw", "office", png}).ending, "exit code 0");
+  ASSERT_EQ(RunProgram("gsv", {"world", "draw", "office", "-o", png}).ending, "exit code 0");
   std::string signature(4, '\0');
   std::ifstream(png, std::ios::binary).read(signature.data(), 4);
   EXPECT_EQ(signature, "\x89PNG");

@@ -121,9 +121,14 @@ void AddDrawCommand(const CommandLine& line) {
   auto arguments = std::make_shared<DrawArguments>();
   command->add_option("file", arguments->file, "file, folder or name of the world or model")
       ->required();
-  command->add_option("picture", arguments->image, "image to write, .jpg or .png")
-      ->required()
-      ->check(CheckImageName);
+  auto* output =
+      command
+          ->add_option("-o,--output", arguments->image, "image to write, .jpg or .png (required)")
+          ->type_name("FILE")
+          ->check(CheckImageName);
+  command->add_option("image", arguments->image, "the same as --output")
+      ->check(CheckImageName)
+      ->excludes(output);
   command->add_option("--model-path", arguments->model_path, "folder to search for models")
       ->type_name("FOLDER");
   AddLimitOption(*command, arguments->limits);
@@ -136,7 +141,10 @@ void AddDrawCommand(const CommandLine& line) {
       ->capture_default_str()
       ->check(Between(16, rendering::kMaxImageSide));
   command->add_flag("--json", arguments->json, "print what was read as one JSON object");
-  command->callback([arguments, line] { line.exit_code = Run(*arguments); });
+  command->callback([arguments, line] {
+    if (arguments->image.empty()) throw CLI::RequiredError("--output");
+    line.exit_code = Run(*arguments);
+  });
 }
 
 }  // namespace gsv::app
