@@ -90,7 +90,7 @@ class Benches:
         return float(subprocess.run([program, operation], check=True, stdout=subprocess.PIPE, text=True).stdout)
 
     def lockstep(self, index, calls):
-        """Beside the real-time factor: that of a futex for each call, 20 cycles a second of 5 robots."""
+        """Returns the real-time factor, and beside it that of a bare futex per call (5 robots, 20 Hz)."""
         row = self.bench("lockstep", "--robots", "5", "--duration", self.seconds(60))[-1]["rows"][index]
         handover = self.compiled("handover")
         bare = float(subprocess.run([handover], check=True, stdout=subprocess.PIPE, text=True).stdout)
@@ -102,7 +102,7 @@ class Benches:
         return Measured(row["real_time_factor"])
 
     def images(self, size, pixels):
-        """Beside: images of that size that two threads fill with one colour and one depth."""
+        """Measures beside it: two threads fill images of that size with one colour and one depth."""
         images = self.bench("camera", "--cameras", "64", "--size", size, "--duration", self.seconds(10))
         return Measured(images[-1]["pictures_per_s"], self.bare("fill") * 320 * 240 / pixels)
 
@@ -128,7 +128,7 @@ class Benches:
         return Measured(median_of(9, [self.gsv, *arguments], 0), median_of(9, ["/bin/true"], 0))
 
     def broker(self, figure):
-        """Each figure over TCP once of each run, which takes a minute."""
+        """Measures each value over TCP once per run, which takes a minute."""
         if figure not in self.broker_figures:
             offers = "5000" if self.is_quick else "100000"
             self.broker_figures = self.bench("broker", "--offers", offers)[-1]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of check_circles.py on small trees made for the purpose."""
+"""Tests check_circles.py with small source trees."""
 
 import contextlib
 import io

@@ -15,7 +15,7 @@ LINE_COMMENT = re.compile(r"//.*")
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 TEST_SOURCE = re.compile(r"_(test|testing|benchmark|fuzz)\.(h|cc)$|(^|/)testing/")
 
-# What the core must not use: what it is called in docs/layers.txt, and how to recognise it in the
+# Code that the core must not use: its name in docs/layers.txt, and a pattern that recognises it in the
 # path of an include or in a line of code.
 FORBIDDEN_INCLUDES = {
     "corba": re.compile(r"^(omniORB4|omnithread|omniconfig|COS|idl)(/|\.|$)"),
@@ -45,7 +45,7 @@ class Table:
     def __init__(self, text):
         self.folders = []
         self.core = set()
-        self.exceptions = []  # (path or folder, what it may use although it is forbidden)
+        self.exceptions = []  # (path or folder, name of the forbidden code that it may use)
         self.allowed = {}
         for line in text.splitlines():
             words = line.split("#")[0].split()

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Checks that docs/requirements.md is kept: every use case names tests, and they ran and passed.
+"""Checks docs/requirements.md: every use case must name tests, and these must have run and passed.
 
 usage: check_requirements.py REQUIREMENTS.md JUNIT.xml [PAGE.md ...]
 
-The requirements are sections ("## RQ1 …") of table rows
-    | RQ1.1 | what somebody does | `Suite.Name`, `a-ctest-name` |
+The requirements are sections ("## RQ1 …") with table rows
+    | RQ1.1 | use case | `Suite.Name`, `a-ctest-name` |
 In the other pages, every test named in the last column of a table headed "Shown by" must have
-passed as well.
-The JUnit file is what `ctest --output-junit` writes. Prints one sentence for each thing that is
-wrong and exits 1 when there is any. A test that was skipped did not run.
+passed as well. JUNIT.xml is the file that `ctest --output-junit` writes. Prints one sentence for
+each problem, and exits with 1 if there are any. A skipped test counts as not run.
 """
 
 import re
@@ -85,7 +84,7 @@ def unkept(sections, outcomes, source):
 
 
 def read_promises(text, source):
-    """The tests that a page's tables name as what shows a thing, as use cases by line."""
+    """Returns the tests in the last column of a page's tables, as use cases by line."""
     promises, shows = [], False
     for number, line in enumerate(text.splitlines(), start=1):
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]

@@ -13,7 +13,7 @@ import check_requirements
 
 
 def page(overrides=None):
-    """A page with one use case a requirement, each shown by the test Good.Test."""
+    """Returns a page with one use case per requirement, each with the test Good.Test."""
     rows = {f"RQ{n}": f"| RQ{n}.1 | somebody does something | `Good.Test` |" for n in range(1, 13)}
     rows.update(overrides or {})
     return "".join(
@@ -22,7 +22,7 @@ def page(overrides=None):
     )
 
 
-# The three outcomes as ctest 3.25 writes them.
+# The three possible results in the format of ctest 3.25.
 JUNIT = """<?xml version="1.0" encoding="UTF-8"?>
 <testsuite name="(empty)" tests="3" failures="1" disabled="0" skipped="1">
   <testcase name="Good.Test" classname="Good.Test" time="0.1" status="run"/>

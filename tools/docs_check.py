@@ -1,4 +1,4 @@
-"""Checks a site that tools/make_docs built: no dead links, and nothing loaded from the network."""
+"""Checks a site of tools/make_docs: it has no dead links, and loads nothing from the network."""
 
 import posixpath
 import re

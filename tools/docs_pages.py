@@ -150,7 +150,7 @@ class Site:
         return navigation
 
     def inputs(self):
-        """The files that the site is made of, and the folders whose lists of files it shows."""
+        """Returns the source files of the site, and the folders whose lists of files it shows."""
         files = [self.root / path for path in self.places]
         return files + sorted({file.parent for file in files if file.is_relative_to(self.root / "docs")})
 
@@ -162,7 +162,7 @@ class Site:
 
 
 def begins_list(line, before):
-    """Whether a list begins here without the empty line that Python-Markdown asks for."""
+    """Returns whether a list begins here without the empty line that Python-Markdown requires."""
     item = re.compile(r"\s*([-*+]|\d+\.)\s")
     return bool(item.match(line) and before and before[-1].strip() and not item.match(before[-1])
                 and not before[-1].startswith((" ", "|", "#")))

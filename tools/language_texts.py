@@ -145,7 +145,7 @@ def texts_of_typescript(source):
             continue
         for found in UI_STRING.finditer(line):
             words = re.sub(r"\$\{[^}]*\}+", CODE, found.group(1) or found.group(2) or "")
-            if WORDS_OF_UI.match(words) and re.search(r"[A-Za-z]{3}", words):  # no drawing of an icon
+            if WORDS_OF_UI.match(words) and re.search(r"[A-Za-z]{3}", words):  # excludes the drawings of icons
                 yield Text(number, "ui", words)
 
 
@@ -179,7 +179,7 @@ def texts_of_comments(source):
             continue
         here, words = len(found.group(1)), found.group(2)
         follows = not found.group(1).strip() and here == column
-        indented = re.match(r"\s{2,}|[-*] ", words)  # a list, a formula or a drawing
+        indented = re.match(r"\s{2,}|[-*] ", words)  # the line belongs to a list, a formula or a drawing
         if not follows or not words.strip() or indented:
             yield from ended()
         column = here
@@ -198,7 +198,7 @@ def parts_of_name(name):
 
 
 def names_in(source):
-    """The identifiers of C++ code, each once, at its first line, outside of comments and strings.
+    """Returns the identifiers of C++ code outside of comments and strings, each once, with its first line.
 
     Lines with [[deprecated]] are left out: they keep old names for users of the library."""
     seen = set()
@@ -221,7 +221,7 @@ TEST_CASE = re.compile(r"^TEST(?:_F|_P)?\(\s*\w+,\s*(\w+)\s*\)", re.MULTILINE)
 
 
 def test_names_in(source):
-    """The names of GoogleTest's test cases, without their suites."""
+    """Returns the names of GoogleTest's test cases, without their suites."""
     for found in TEST_CASE.finditer(source):
         yield Text(source.count("\n", 0, found.start()) + 1, "test", found.group(1))
 
@@ -237,7 +237,7 @@ def texts_of_program(source):
 
 
 def texts_of_openapi(source):
-    """Summaries and descriptions of an OpenAPI document in YAML."""
+    """Returns the summaries and descriptions of an OpenAPI document in YAML."""
     lines = source.splitlines()
     for number, line in enumerate(lines, start=1):
         found = re.search(r"\b(?:summary|description): *(.*)", line)
@@ -260,7 +260,7 @@ def texts_of_openapi(source):
             yield Text(number, "docs", without_code(words))
 
 
-# Which files hold texts for readers, and how to find the texts: a pattern below the root each.
+# The files that contain texts for readers, as patterns below the root, and the function that finds the texts.
 SOURCES = (
     ("*.md", texts_of_markdown),
     ("docs/**/*.md", texts_of_markdown),

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Prints the last lines of what each failed test said, so that they stand where a log ends.
+"""Prints the last lines of the output of each failed test, so that they are at the end of a log.
 
 usage: show_failures.py JUNIT.xml
 
-The JUnit file is what `ctest --output-junit` writes; of a test's output at most LINES are printed.
+JUNIT.xml is the file that `ctest --output-junit` writes. At most LINES lines of each test's output
+are printed.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""What tools/show_failures.py prints of a JUnit file."""
+"""Tests the output of tools/show_failures.py for a JUnit file."""
 
 import subprocess
 import sys

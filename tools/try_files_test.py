@@ -19,7 +19,7 @@ REAL = None
 
 
 def tried(folder, *options):
-    """({file: row}, exit code, what was printed)"""
+    """Returns ({file: row}, exit code, printed text)."""
     with tempfile.TemporaryDirectory() as out:
         done = subprocess.run([sys.executable, TOOL, "--gsv", GSV, "--out", out, *options, folder],
                               capture_output=True, text=True, timeout=600)

@@ -55,12 +55,12 @@ class Message:
 
     @property
     def text_name(self):
-        """Its name in the definitions of others."""
+        """Returns the name by which other definitions refer to this type."""
         return self.ros_name if "/action/" in self.ros_name else self.key
 
 
 def parse(root, key):
-    """The message of a key, or request and response of a service, or all types of an action."""
+    """Returns the types of a key: the message, a service's request and response, or all types of an action."""
     package, name = key.split("/")
     if name.endswith(".action"):
         return parse_action(root, package, name)
@@ -74,7 +74,7 @@ def parse(root, key):
         sys.exit(f"{path}: expected one line '---' between request and response")
     messages = []
     for half, text in zip(("Request", "Response"), halves):
-        # As rosidl does: a struct of IDL cannot be empty.
+        # A struct of IDL cannot be empty, so this adds the member that rosidl adds.
         text = text or "uint8 structure_needs_at_least_one_member\n"
         message = Message(package, name + half, text, f"{package}/srv/{name}_{half}")
         messages.append(parse_text(path, message))
@@ -102,7 +102,7 @@ def parse_action(root, package, name):
 
 
 def key_of_type(type_, package):
-    """The key of a field's message type: of Name, package/Name, or package/action/Name_Part."""
+    """Returns the key of a field's message type, from Name, package/Name or package/action/Name_Part."""
     parts = type_.split("/")
     if len(parts) == 1:
         return f"{package}/{type_}"
@@ -135,10 +135,10 @@ class MessageSet:
         parsed = [message for key in keys for message in parse(root, key)]
         self.messages = {message.key: message for message in parsed}
         for message in self.messages.values():
-            self.dependencies(message)  # checks that all are there, and that none is cyclic
+            self.dependencies(message)  # checks that all types exist, and that none contains itself
 
     def dependencies(self, message, above=()):
-        """The keys of all types used, directly or not, each once, in order of first use."""
+        """Returns the keys of all types that a type contains, directly or not, each once, in order of first use."""
         found = []
         for f in message.fields:
             if "/" not in f.type:
@@ -152,7 +152,7 @@ class MessageSet:
         return found
 
     def in_order(self, package):
-        """A package's messages, those that are used before those that use them."""
+        """Returns a package's messages, in an order in which each comes after the messages that it contains."""
         ordered = []
         for message in self.messages.values():
             for key in (*reversed(self.dependencies(message)), message.key):
@@ -173,7 +173,7 @@ class MessageSet:
         return f"\n{SEPARATOR}\n".join(part.rstrip("\n") for part in parts) + "\n"
 
     def least_size(self, type_):
-        """A lower bound of the bytes that one value takes, paddings left out."""
+        """Returns a lower bound of the size of one value in bytes, without padding."""
         if type_ in PRIMITIVES:
             return PRIMITIVES[type_][1]
         if type_ == "string":
@@ -199,7 +199,7 @@ def cpp_type(type_):
 
 
 def element_type(f):
-    """A bool in an array is a byte: a vector of bool is packed."""
+    """Returns the C++ type of an element. A bool becomes a byte, because std::vector<bool> is packed."""
     return "std::uint8_t" if f.type == "bool" else cpp_type(f.type)
 
 
@@ -276,7 +276,7 @@ def decode_statements(messages, f):
 
 
 def memory_check(messages, message):
-    """Asserts what WriteBlock relies on, for a type that is copied as one block."""
+    """Returns assertions of the properties that WriteBlock requires of a type that is copied as one block."""
     if messages.scalar_of(message.key) is None:
         return []
     return [f"static_assert(sizeof({message.name}) == {messages.least_size(message.key)} && "
@@ -321,7 +321,7 @@ def all_source(messages):
 
 
 def samples(messages):
-    """A Fill() for each type that gives every field a value by a rule (see the test's Filler)."""
+    """Returns a function Fill() for each type, which sets every field by a rule (see the test's Filler)."""
     lines = ["// Generated for tests.", "#pragma once", "", '#include "gsv/messages/all.h"', "",
              "namespace gsv::messages {", ""]
     ordered = []
@@ -351,7 +351,7 @@ def samples(messages):
 
 
 def write(path, lines):
-    """Leaves an unchanged file alone, so that nothing is compiled again for it."""
+    """Writes the file only if its content differs, so that nothing is compiled again for an unchanged file."""
     text = "\n".join(lines) + "\n"
     if not path.exists() or path.read_text() != text:
         path.parent.mkdir(parents=True, exist_ok=True)

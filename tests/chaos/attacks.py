@@ -1,8 +1,8 @@
-"""What may happen in a laboratory, one class each.
+"""The disturbances that chaos.py causes, one class each.
 
-An attack has `refusal`, why it is not possible here (None: it is), strike(), which takes a second or two
-at most, and end(), after which nothing of it is left. What the server refuses with a sentence is no
-broken promise; what it does not respond at all is.
+An attack has `refusal`, the reason why it is not possible on this machine (None: it is possible),
+strike(), which takes at most two seconds, and end(), which removes all of its effects. A request
+that the server refuses with a sentence is no broken promise; a request without a response is one.
 """
 
 import base64
@@ -53,7 +53,7 @@ class KillBehaviour(Attack):
 
 
 class StopBehaviour(Attack):
-    """Stopped for up to a second: nobody knows whether it will ever go on."""
+    """Stops a behaviour for up to a second. The server cannot know whether it will continue."""
 
     def strike(self):
         if living := self.living():
@@ -80,7 +80,7 @@ class CreateSimulation(Attack):
                                     "duration": self.chance.choice([0, 5])})
             self.laboratory.press(name, "start")
         except Refused:
-            pass  # a behaviour that has just died
+            pass  # the behaviour has just died
 
 
 class PressButtons(Attack):
@@ -114,7 +114,7 @@ class Record(Attack):
 
 
 class StalledViewers(Attack):
-    """Open a live stream, ask for all there is, and never read; later they vanish without a word."""
+    """Viewers subscribe to all topics and never read. Later they disappear without closing the connection."""
 
     def __init__(self, laboratory, chance):
         super().__init__(laboratory, chance)
@@ -140,7 +140,7 @@ class StalledViewers(Attack):
 
 
 class Noise(Attack):
-    """Bytes that mean nothing, at every port that the server and the broker listen on."""
+    """Sends random bytes to every port on which the server and the broker listen."""
 
     def strike(self):
         ports = [self.laboratory.viewer_port, self.laboratory.broker_port,
@@ -153,11 +153,11 @@ class Noise(Attack):
                 with socket.create_connection(("127.0.0.1", self.chance.choice(ports)), timeout=5) as victim:
                     victim.sendall(noise)
             except OSError:
-                pass  # hung up on, as it should be
+                pass  # the server has closed the connection, as it should
 
 
 class Flood(Attack):
-    """Many ask at once."""
+    """Sends many requests at the same time."""
 
     def strike(self):
         def ask():
@@ -165,7 +165,7 @@ class Flood(Attack):
                 try:
                     self.laboratory.get("/api/simulations")
                 except (Refused, OSError):
-                    pass  # refused is answered
+                    pass  # a refusal is a response
 
         threads = [threading.Thread(target=ask) for _ in range(10)]
         for thread in threads:
@@ -175,7 +175,7 @@ class Flood(Attack):
 
 
 class KillApplication(Attack):
-    """A program that uses the services dies in the midst of it."""
+    """A program that uses the services dies while it uses them."""
 
     def strike(self):
         command = self.chance.choice([["ps"], ["offers"], ["run", "playground", "--robot", "pebble@0,-1.5", "--headless",
@@ -195,7 +195,7 @@ class KillBroker(Attack):
 
 
 class BadDisk(Attack):
-    """The disk of the recordings is full, may not be written to, or answers nobody for a while."""
+    """The disk of the recordings is full, is read-only, or does not respond for some time."""
 
     SIZE = 8 << 20  # bytes
 
@@ -206,7 +206,8 @@ class BadDisk(Attack):
         image = laboratory.folder / "disk"
         with open(image, "wb") as file:
             file.truncate(self.SIZE)
-        # A disk of its own can be frozen; where that cannot be had, memory is full or read-only as well.
+        # A separate disk can be frozen. If it cannot be mounted, the recordings are in a file system
+        # in memory, which can also be full or read-only.
         self.may_freeze = (run(["mkfs.ext4", "-q", str(image)]) is None
                            and run(["mount", "-o", "loop", str(image), self.folder]) is None)
         if not self.may_freeze:
@@ -214,7 +215,7 @@ class BadDisk(Attack):
 
     def strike(self):
         self.chance.choice([self.fill, self.forbid, self.freeze] if self.may_freeze else [self.fill, self.forbid])()
-        # What users do with a disk that fills up.
+        # Removes old recordings, as users do when a disk becomes full.
         for recording in sorted(self.laboratory.recordings.glob("*.mcap"))[:-2]:
             recording.unlink()
 
@@ -229,12 +230,12 @@ class BadDisk(Attack):
         self.filler.unlink()
 
     def forbid(self):
-        run(["mount", "-o", "remount,ro", self.folder])  # refused while a recording is being written
+        run(["mount", "-o", "remount,ro", self.folder])  # fails while a recording is being written
         time.sleep(self.chance.uniform(0.1, 1))
         run(["mount", "-o", "remount,rw", self.folder])
 
     def freeze(self):
-        # By a shell, which thaws it whatever becomes of this program.
+        # A shell freezes the disk, because it also thaws the disk if this program dies.
         seconds = self.chance.uniform(0.1, 1.5)
         run(["sh", "-c", f'fsfreeze -f "$0"; sleep {seconds}; fsfreeze -u "$0"', self.folder])
 
@@ -270,7 +271,7 @@ class BadNetwork(Attack):
         self.end()
 
     def shape(self, how):
-        """What the kernel says against it; None: nothing."""
+        """Returns the kernel's reason for a refusal, or None."""
         return run(["tc", "qdisc", "replace", "dev", "lo", "root", *how])
 
     def narrow_line(self, megabits):
@@ -290,7 +291,7 @@ class BadNetwork(Attack):
 
 
 def run(command):
-    """None, or what the command says against it."""
+    """Returns the error output of a command that fails, or None."""
     environment = {**os.environ, "PATH": os.environ.get("PATH", "") + ":/usr/sbin:/sbin"}
     try:
         ended = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
@@ -300,7 +301,7 @@ def run(command):
 
 
 def listening_ports(pid):
-    """The TCP ports of 127.0.0.1 on which the process listens."""
+    """Returns the TCP ports of 127.0.0.1 on which the process listens."""
     inodes = set()
     for descriptor in os.listdir(f"/proc/{pid}/fd"):
         try:

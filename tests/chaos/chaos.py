@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
-"""Does to a real server, its broker, behaviours, viewers and disk all that laboratories do to them.
+"""Disturbs a real server and its broker, behaviours, viewers and disk, as in a laboratory.
 
 usage: tests/chaos/chaos.py BUILD [--seconds 60] [--seed 1] [--report FILE.json]
 
-A `gsv serve` runs simulations while, in an order that the seed decides, behaviours are killed and
-stopped, viewers stall, ports are flooded with noise, the broker is killed and started again, the disk
-of the recordings fills up and turns read-only, and the network is cut, slow and lossy.
-What may not suffer:
+A `gsv serve` runs simulations. Meanwhile, in an order that the seed determines, behaviours are
+killed and stopped, viewers stall, random bytes are sent to ports, the broker is killed and
+restarted, the disk of the recordings becomes full and read-only, and the network is interrupted,
+slow and lossy. The program checks these promises:
 
-- a witness, a lockstep simulation whose outcome must be the same to the last digit each time;
-- the server: it answers, and in the end has the memory, threads and descriptors of the beginning;
-- every simulation: one that has lost a behaviour says so, and none hangs in the end;
-- every recording: what is there can be read or recovered.
+- A witness, which is a lockstep simulation, has exactly the same result each time.
+- The server responds, and at the end has as much memory, threads and descriptors as at the start.
+- A simulation that has lost a behaviour reports it, and no simulation hangs at the end.
+- Every recording can be read or recovered.
 
-Afterwards a new behaviour still moves a new robot; and after a SIGKILL of the server a new one lists the
-recording that was being made, which holds all but its last second. Exit code 1 and a sentence for each
-promise that was broken.
+Afterwards, a new behaviour must be able to move a new robot. After SIGKILL of the server, a new
+server must list the recording that was in progress, of which at most the last second may be
+missing. For each broken promise, the program prints a sentence, and it exits with 1.
 """
 
 import argparse
@@ -32,7 +32,7 @@ from laboratory import Laboratory, Patience, enter_own_network
 from witness import Witness, differences
 
 def settle(laboratory, before):
-    """Sentences for what has not come back to what it was."""
+    """Returns sentences about values of the server that have not returned to their initial values."""
     patience = Patience("the server's return to what it was")
     while True:
         over = differences("the server", before, laboratory.footprint())
@@ -45,7 +45,7 @@ def check_recordings(laboratory):
     broken = []
     for recording in sorted(laboratory.recordings.glob("*.mcap")):
         if recording.stat().st_size == 0:
-            continue  # the disk was full before its first byte
+            continue  # the disk was full before the first byte was written
         mended = laboratory.folder / "mended.mcap"
         mended.unlink(missing_ok=True)
         recovery = laboratory.gsv("rec", "recover", str(recording), "-o", str(mended))
@@ -55,7 +55,7 @@ def check_recordings(laboratory):
 
 
 def check_new_work(laboratory):
-    """A new behaviour moves a new robot."""
+    """Checks that a new behaviour moves a new robot."""
     laboratory.start_behaviour("fresh", is_victim=False)
     laboratory.create({"name": "fresh", "world": "playground", "mode": "lockstep", "seed": 1, "duration": 2,
                        "robots": [{"name": "r", "model": "pebble", "x": 0, "y": -1.5, "behaviour": "fresh"}]})
@@ -102,7 +102,7 @@ def lose_recording(laboratory):
 
 
 def check_restart(laboratory):
-    """A second at most is lost. On a machine that stands still for a second more may be: best of three."""
+    """Checks that at most one second is lost. A busy machine may lose more, so the best of three tries counts."""
     losses = []
     for _ in range(3):
         broken, loss = lose_recording(laboratory)

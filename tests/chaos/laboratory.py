@@ -1,4 +1,4 @@
-"""The programs that chaos.py disturbs: a broker, a server, behaviours, and the simulations of one of them."""
+"""The programs that chaos.py disturbs: a broker, a server with its simulations, and behaviours."""
 
 import http.client
 import json
@@ -11,13 +11,13 @@ import sys
 import time
 from pathlib import Path
 
-TIMEOUT_S = 60  # of anything: who takes longer has hung
-MEMORY_SLACK_MIB = 64  # malloc's arenas and the renderer's copies stay
-SLACK = 4  # threads and descriptors: of omniORB's, which it keeps for a while for the next caller
+TIMEOUT_S = 60  # time limit of each operation; an operation that takes longer hangs
+MEMORY_SLACK_MIB = 64  # arenas of malloc and copies in the renderer remain
+SLACK = 4  # threads and descriptors that omniORB keeps for some time for the next caller
 
 
 class Patience:
-    """Waits in small steps for something that must come."""
+    """Waits in small steps for an event that must occur."""
 
     def __init__(self, what, seconds=TIMEOUT_S):
         self.what = what
@@ -35,17 +35,17 @@ class Patience:
 
 
 class Refused(Exception):
-    """The server's own sentence."""
+    """A refusal by the server, with its sentence."""
 
 
 class Laboratory:
     def __init__(self, build, folder, serve=()):
-        self.serve = serve  # more arguments of the server
+        self.serve = serve  # further arguments of the server
         self.build = build
         self.folder = folder
         self.recordings = folder / "recordings"
         self.recordings.mkdir()
-        self.behaviours = []  # those that attacks may kill
+        self.behaviours = []  # the behaviours that attacks may kill
         self.others = []
         self.stopped = set()
         self.slowest = 0.0
@@ -104,7 +104,7 @@ class Laboratory:
     # The server, by its HTTP API
 
     def request(self, method, path, body=None, timeout=TIMEOUT_S):
-        """The answer, read as JSON; Refused, with the server's words."""
+        """Returns the JSON of the response. Raises Refused with the server's sentence."""
         status, text = self.answer(method, path, body, timeout)
         answer = json.loads(text) if text else {}
         if status >= 400:
@@ -156,7 +156,7 @@ class Laboratory:
     # The end
 
     def end_victims(self):
-        """Sentences for simulations that hang though their behaviours are dead."""
+        """Returns a sentence for each simulation that hangs after the death of its behaviours."""
         for process in self.behaviours:
             process.kill()
             process.wait()
@@ -183,7 +183,7 @@ class Laboratory:
         for process in [*self.behaviours, *self.others, self.server, self.broker]:
             process.kill()
             process.wait()
-        subprocess.run(["umount", str(self.recordings)], capture_output=True, check=False)  # if it was a disk of its own
+        subprocess.run(["umount", str(self.recordings)], capture_output=True, check=False)  # if the recordings had a separate disk
 
 
 def free_port():
@@ -193,7 +193,7 @@ def free_port():
 
 
 def proceed(process):
-    """Lets a stopped process go on, if it is still there."""
+    """Continues a stopped process, if it still exists."""
     try:
         process.send_signal(signal.SIGCONT)
     except ProcessLookupError:
@@ -201,7 +201,7 @@ def proceed(process):
 
 
 def footprint_of(pid):
-    """What a process holds; memory in MiB."""
+    """Returns the number of threads and descriptors of a process, and its memory in MiB."""
     process = Path("/proc") / str(pid)
     status = dict(line.split(":", 1) for line in (process / "status").read_text().splitlines())
     return {"threads": int(status["Threads"]), "descriptors": len(list((process / "fd").iterdir())),
@@ -209,7 +209,7 @@ def footprint_of(pid):
 
 
 def enter_own_network():
-    """Starts this program again where it may cut the network and mount disks, if it may."""
+    """Restarts this program in its own network and mount namespace, if the system permits it."""
     own = ["unshare", "--net", "--mount", "sh", "-c", 'ip link set lo up && exec "$@"', "sh"]
     if "GSV_CHAOS_NETWORK" in os.environ or subprocess.run([*own, "true"], capture_output=True, check=False).returncode:
         return

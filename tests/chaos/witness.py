@@ -1,4 +1,4 @@
-"""What must not suffer, whatever is done to a server: an outcome, and what the server holds."""
+"""Checks what no attack may change: the result of a simulation, and the resources of the server."""
 
 import json
 
@@ -10,7 +10,7 @@ WITNESS = {"name": "witness", "world": "playground", "mode": "lockstep", "seed":
 
 
 class Witness:
-    """Runs its simulation again and again, and compares."""
+    """Repeats one simulation, and compares its results."""
 
     def __init__(self, laboratory):
         self.laboratory = laboratory
@@ -21,7 +21,7 @@ class Witness:
         self.is_running = False
 
     def look(self):
-        """A sentence if the outcome is another; takes no longer than two requests."""
+        """Returns a sentence if the result differs, else None. Sends at most two requests."""
         if not self.is_running:
             self.laboratory.press("witness", "start")
             self.is_running = True
@@ -51,7 +51,7 @@ class Witness:
 
 
 def differences(name, before, now, may_grow=False):
-    """Sentences for what a process holds more than it did; `may_grow`: its memory is not looked at."""
+    """Returns sentences about resources of which a process has more than before. With `may_grow`, memory is ignored."""
     over = [f"{name}: {now[kind]} {kind} instead of {before[kind]}" for kind in ("threads", "descriptors")
             if now[kind] > before[kind] + SLACK]
     if not may_grow and now["memory_mib"] > before["memory_mib"] + MEMORY_SLACK_MIB:

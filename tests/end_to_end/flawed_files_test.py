@@ -17,7 +17,7 @@ GSV = None
 PYTHON_FOLDER = None
 BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
 CONFIG = '<model><name>m</name><sdf version="1.9">model.sdf</sdf></model>'
-# It blocks its only thread, and does not end by SIGTERM.
+# A behaviour that blocks its only thread and ignores SIGTERM.
 BUSY = """#!/usr/bin/env python3
 import signal
 import gsv

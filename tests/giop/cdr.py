@@ -8,7 +8,7 @@ A TypeCode is the name of a simple type or a tuple: ("string", BOUND), ("sequenc
 import struct
 from dataclasses import dataclass, field
 
-# Format and size, which is the alignment as well.
+# The format for `struct`, and the size in bytes, which is also the alignment.
 NUMBERS = {"short": ("h", 2), "long": ("i", 4), "ushort": ("H", 2), "ulong": ("I", 4), "float": ("f", 4),
            "double": ("d", 8), "longlong": ("q", 8), "ulonglong": ("Q", 8), "octet": ("B", 1), "boolean": ("B", 1),
            "char": ("B", 1)}
@@ -20,7 +20,7 @@ INDIRECTION = 0xFFFFFFFF
 
 @dataclass(frozen=True)
 class Reference:
-    """An object: where it is, and which. Nil without a key."""
+    """A reference to an object: its host, port and key. Without a key, it is nil."""
     type_id: str = ""
     host: str = ""
     port: int = 0
@@ -31,7 +31,7 @@ class Reference:
 class Writer:
     little: bool = True
     bytes: bytearray = field(default_factory=bytearray)
-    lengths: list = field(default_factory=list)  # where each length or count stands
+    lengths: list = field(default_factory=list)  # positions of lengths and counts
 
     def align(self, size):
         self.bytes += bytes(-len(self.bytes) % size)
@@ -54,7 +54,7 @@ class Writer:
         self.octets((value if isinstance(value, bytes) else value.encode()) + b"\0")
 
     def encapsulation(self, write):
-        """What `write` gives to a Writer; its lengths are this one's."""
+        """Writes an encapsulation that `write` fills. Its lengths count as lengths of this Writer."""
         inner = Writer(self.little, bytearray([self.little]))
         write(inner)
         self.length(len(inner.bytes))
@@ -111,7 +111,7 @@ class Writer:
         return self.encapsulation(parameters)
 
     def plain(self, code, value):
-        """A value of what a TypeCode describes."""
+        """Writes a value of the type that a TypeCode describes."""
         kind = code if isinstance(code, str) else code[0]
         if kind in NUMBERS:
             self.number(kind, value)
@@ -146,7 +146,7 @@ class Writer:
         self.plain(value[0], value[1])
 
     def value(self, kind, value):
-        """Of a type of signatures.py: structs are dictionaries, enumerators and cases names."""
+        """Writes a value of a type of signatures.py. Structs are dictionaries; enumerators and union cases are names."""
         if isinstance(kind, str):
             self.plain(kind, value)
         elif kind[0] == "sequence":

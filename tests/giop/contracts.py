@@ -1,4 +1,4 @@
-"""All that GSV's servants can be asked, from the IDL itself."""
+"""The operations of GSV's servants, from the IDL itself."""
 
 import importlib.util
 import json
@@ -10,12 +10,12 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 IDL = ROOT / "idl"
 
-OF_ALL = {"_is_a": (("in", "id", "string"),), "_non_existent": ()}  # what the ORB answers for every object
+OF_ALL = {"_is_a": (("in", "id", "string"),), "_non_existent": ()}  # operations that the ORB implements for every object
 
 
 @dataclass(frozen=True)
 class Operation:
-    interface: str  # of which it is asked: "sba::Sonar"
+    interface: str  # the interface of the operation: "sba::Sonar"
     name: str       # as it stands in messages
     parameters: tuple
     result: object
@@ -35,14 +35,14 @@ class Contracts:
         self.interfaces = sorted(self.ids)
 
     def ancestors(self, interface):
-        """Itself first."""
+        """Returns the interface and its bases; the interface itself is first."""
         found = [interface]
         for base in self.by_id[self.ids[interface]]["bases"]:
             found += [each for each in self.ancestors(self.by_id[base]["name"]) if each not in found]
         return found
 
     def operations(self, interface):
-        """What an object of that interface can be asked, what it inherits among it."""
+        """Returns the operations of an interface, including inherited ones."""
         return [Operation(interface, told["name"], tuple(tuple(each) for each in told["parameters"]),
                           freeze(told["result"]))
                 for each in self.ancestors(interface) for told in self.by_id[self.ids[each]]["operations"]
@@ -57,7 +57,7 @@ def freeze(kind):
 
 
 def standard_trading_operations():
-    """Interface -> its operations' names, as tools/check_conformance.py has them from the standard."""
+    """Returns the names of operations by interface, as tools/check_conformance.py reads them from the standard."""
     where = ROOT / "tools/check_conformance.py"
     spec = importlib.util.spec_from_file_location("check_conformance", where)
     standard = importlib.util.module_from_spec(spec)

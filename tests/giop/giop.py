@@ -6,12 +6,12 @@ import struct
 from cdr import Reader, Reference, Writer
 
 REQUEST, REPLY, CANCEL, LOCATE, LOCATE_REPLY, CLOSE, ERROR, FRAGMENT = range(8)
-TIMEOUT_S = 60  # of a right call: who takes longer has hung
+TIMEOUT_S = 60  # time limit of a valid call; a program that takes longer hangs
 STATUS = ["result", "user exception", "system exception", "forward"]
 
 
 def finished(writer, kind, minor=2, more=False):
-    """The header of the message that begins with twelve bytes of room."""
+    """Writes the header into the twelve free bytes at the start of a message."""
     flags = (1 if writer.little else 0) | (2 if more else 0)
     writer.bytes[:12] = b"GIOP\x01" + bytes([minor, flags, kind]) + struct.pack(
         "<I" if writer.little else ">I", len(writer.bytes) - 12)
@@ -19,7 +19,7 @@ def finished(writer, kind, minor=2, more=False):
 
 
 def request(key, operation, write, number=1, little=True, minor=2, contexts=()):
-    """`write` gives the arguments to a Writer. Contexts are (id, bytes)."""
+    """Returns a request. `write` writes the arguments to a Writer. Contexts are (id, bytes)."""
     out = Writer(little, bytearray(12))
 
     def write_contexts():
@@ -52,7 +52,7 @@ def request(key, operation, write, number=1, little=True, minor=2, contexts=()):
 
 
 def fragments(message, places, number=1):
-    """A message of GIOP 1.2 in pieces that begin at these multiples of eight."""
+    """Splits a message of GIOP 1.2 into fragments that begin at these multiples of eight."""
     little = bool(message[6] & 1)
     ends = [*places, len(message)]
     first = Writer(little, bytearray(message[:ends[0]]))
@@ -66,7 +66,7 @@ def fragments(message, places, number=1):
 
 
 class Refused(Exception):
-    """The answer was an exception, or there was none."""
+    """The response was an exception, or there was no response."""
 
 
 class Connection:
@@ -89,7 +89,7 @@ class Connection:
         return data
 
     def message(self):
-        """A whole one, of fragments or not."""
+        """Returns the next complete message, and joins fragments."""
         whole = b""
         while True:
             header = self.receive(12)
@@ -103,7 +103,7 @@ class Connection:
 
 
 def read_reply(message):
-    """(what it is, a Reader of what follows)"""
+    """Returns the kind of a reply, and a Reader for the rest."""
     if message[7] != REPLY:
         return ("MessageError" if message[7] == ERROR else f"type {message[7]}", None)
     reader = Reader(message, bool(message[6] & 1), 12)
@@ -125,7 +125,7 @@ def skip_contexts(reader):
 
 
 def call(target, operation, values, timeout=TIMEOUT_S):
-    """Calls an operation of contracts.py: a dictionary of what comes back, its result as "" among it."""
+    """Calls an operation of contracts.py. Returns a dictionary of its results; the return value has the key ""."""
     arguments = [(kind, name) for direction, name, kind in operation.parameters if direction != "out"]
 
     def write(out):

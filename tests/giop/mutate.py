@@ -3,14 +3,19 @@
 
 usage: tests/giop/mutate.py BUILD [--seconds 60] [--seed 1] [--found FOLDER] [--prove]
 
-Right requests are made for each operation of each interface in idl/ and of the Trading Service, and proven: each is
-answered as it should be (--prove does no more). Then, round by round, they are sent with values, lengths, counts,
-TypeCodes, object keys, service contexts, fragments, byte orders and versions that the seed changes. What may not
-suffer: the programs live, each answers a right call after each round, in the end every operation is answered as it
-was, memory, threads and descriptors have come back, and a lockstep simulation in the same server has ended the same
-each time, and all end in order when they are told to (a build with AddressSanitizer tells then what they have lost). A
-program that dies leaves the last messages before it in FOLDER. Exit code 1 and a sentence for each promise
-that was broken.
+First, a valid request of each operation of each interface in idl/ and of the Trading Service is
+sent, and its response is checked (--prove does only this). Then, in rounds, requests are sent whose
+values, lengths, counts, TypeCodes, object keys, service contexts, fragments, byte orders and
+versions are modified, as the seed determines. The program checks these promises:
+
+- The programs continue to run, and each responds to a valid request after each round.
+- At the end, every operation gives the same response as at the start, and memory, threads and
+  descriptors have returned to their initial values.
+- A lockstep simulation in the same server has the same result each time.
+- All programs end normally on request. A build with AddressSanitizer then reports leaks.
+
+If a program dies, the last messages before that are stored in FOLDER. For each broken promise, the
+program prints a sentence, and it exits with 1.
 """
 
 import argparse
@@ -66,7 +71,7 @@ class Attack:
     def work(self, number, worker):
         try:
             self.send_all(number, worker)
-        except Exception as failure:  # of this program
+        except Exception as failure:  # a bug in this program
             self.failure = failure
 
     def send_all(self, number, worker):
@@ -77,14 +82,14 @@ class Attack:
             target = self.world.targets[interface]
             pieces = mutant(chance, self.world, target, operation)
             if any(b"start_recording" in piece and (b"/" in piece or b".." in piece) for piece in pieces):
-                continue  # it would be written anywhere
+                continue  # this operation would write a file to any path
             self.last.append((str(operation), target.port, [piece.hex() for piece in pieces]))
             self.sent[str(operation)] += 1
             self.answers[send(target, pieces, chance.random() < 0.8)] += 1
 
 
 def send(target, pieces, is_last):
-    """What comes back. `is_last`: nothing else will come, and the other side is told so."""
+    """Sends a message. Returns the kind of response. `is_last` closes the sending side afterwards."""
     try:
         with socket.create_connection((target.host, target.port), timeout=5) as connection:
             for piece in pieces:
@@ -100,7 +105,7 @@ def send(target, pieces, is_last):
         return "nothing"
     except OSError:
         return "hung up"
-    except Exception:  # cut off by this reader
+    except Exception:  # the reply is longer than what was read
         return "long reply"
 
 
@@ -114,7 +119,7 @@ def the_dead(laboratory):
 
 
 def unanswered(world):
-    """Sentences for programs that do not answer a right call."""
+    """Returns sentences about programs that do not answer a valid call."""
     broken = []
     for interface, operation in (("sba::SimulationService", "list"), ("sba::AgentBehaviourFactory", "create"),
                                  ("CosTrading::Lookup", "_get_max_list")):
@@ -126,7 +131,7 @@ def unanswered(world):
 
 
 def after_round(laboratory, world, witness):
-    """Sentences for what a round has broken; then all is made ready for the next."""
+    """Returns sentences about promises that a round has broken, and prepares the next round."""
     try:
         broken = [*filter(None, [witness.look()])] + unanswered(world)
         if not broken:
@@ -134,7 +139,7 @@ def after_round(laboratory, world, witness):
     except (Refused, OSError, EOFError, ValueError, http.client.HTTPException) as failure:
         broken = [f"the round's end: {type(failure).__name__} {failure}"]
     if broken:
-        time.sleep(1)  # for a dump
+        time.sleep(1)  # time for a core dump
     return the_dead(laboratory) + broken
 
 
@@ -161,7 +166,7 @@ def attack(laboratory, options, report):
     if options.prove:
         return []
     attack = Attack(world, options.seed)
-    attack.round(0)  # what is taken once and kept
+    attack.round(0)  # memory that is allocated once and kept
     before = {name: footprint_of(process.pid) for name, process in processes_of(laboratory).items()}
     start = time.monotonic()
     number = 0
@@ -184,7 +189,7 @@ def attack(laboratory, options, report):
 
 
 def end_in_order(laboratory):
-    """Sentences for programs that do not end well when told to: under AddressSanitizer because of what they lost."""
+    """Returns sentences about programs that do not end normally. With AddressSanitizer, leaks are a reason."""
     broken = []
     for name, process in reversed(processes_of(laboratory).items()):
         process.terminate()

@@ -1,6 +1,6 @@
-"""What is done to right requests: to their values before they are written, to their bytes afterwards.
+"""Mutates valid requests: their values before they are written, and their bytes afterwards.
 
-Everything follows from the random.Random that is given.
+The random.Random that each function receives determines everything.
 """
 
 import math
@@ -32,7 +32,7 @@ def number(chance, kind):
 
 
 def type_code(chance, depth=0):
-    """One that is written rightly, most often, whatever it means."""
+    """Returns a random TypeCode. It is usually well-formed, but need not have a meaning."""
     simple = [name for name in KINDS if name in NUMBERS] + ["any", "TypeCode", "null", "void"]
     choice = chance.randrange(12) if depth < chance.choice([2, 4, 60]) else 0
     text = chance.choice(["", "a", "IDL:a:1.0"])
@@ -57,7 +57,7 @@ def type_code(chance, depth=0):
 
 
 def any_value(chance, code, depth=0):
-    """Something that fits the TypeCode, as far as there is such a thing."""
+    """Returns a random value of the type that the TypeCode describes, if such a value exists."""
     kind = code if isinstance(code, str) else code[0]
     if kind in NUMBERS:
         return number(chance, kind)
@@ -74,7 +74,7 @@ def any_value(chance, code, depth=0):
         return chance.choice(LENGTHS[:5])
     if kind == "union":
         label = chance.choice(code[4])[0] if code[4] else 0
-        # Of members with one label the first counts, as where the value is written.
+        # If several members have the label, the first one is used, as when the value is written.
         member = next((each for each in code[4] if each[0] == label), (label, "", "void"))
         return (label, any_value(chance, member[2], depth + 1))
     if kind == "any":
@@ -98,7 +98,7 @@ def reference(chance, value):
 
 
 def spoilt(chance, kind, value):
-    """The value with one of its parts replaced by what nobody expects."""
+    """Returns the value with one of its parts replaced by an unusual value."""
     if isinstance(kind, str):
         if kind in NUMBERS:
             return number(chance, kind)
@@ -173,7 +173,7 @@ BYTES = [change_bytes, change_bytes, change_length, change_length, change_word, 
 
 
 def mutant(chance, world, target, operation):
-    """The bytes of one bad request, in the pieces in which they are sent."""
+    """Returns the bytes of one malformed request, in the pieces in which they are sent."""
     values = world.values(operation)
     parameters = [(kind, name) for direction, name, kind in operation.parameters if direction != "out"]
     if parameters and chance.random() < 0.5:
@@ -198,7 +198,7 @@ def mutant(chance, world, target, operation):
     for _ in range(chance.choice([0, 1, 1, 1, 2, 4])):
         if len(message) > 12:
             chance.choice(BYTES)(chance, message, written.lengths)
-    if len(message) >= 12 and chance.random() < 0.8:  # else it lies about its length
+    if len(message) >= 12 and chance.random() < 0.8:  # otherwise its length field is wrong
         struct.pack_into("<I" if message[6] & 1 else ">I", message, 8, len(message) - 12)
     return [bytes(message)]
 

@@ -1,4 +1,6 @@
-"""A behaviour that does nothing but keep the hardware that it is given: an object without an ORB."""
+"""A behaviour, as an object without an ORB, that only stores the hardware reference that it
+receives.
+"""
 
 import queue
 import socket
@@ -19,7 +21,7 @@ class RobotSide:
         threading.Thread(target=self.accept, daemon=True).start()
 
     def hardware_of(self, robot):
-        """Of the robot of that name, which was or will be given."""
+        """Returns the hardware reference of a robot. Waits until it is received."""
         while True:
             name, hardware = self.hardware.get(timeout=20)
             if name == robot:

@@ -1,4 +1,4 @@
-"""How each of GSV's servants is reached, and with what each of its operations is rightly called."""
+"""Finds each of GSV's servants, and has the arguments of a valid call for each of their operations."""
 
 import itertools
 import shutil
@@ -11,7 +11,7 @@ from robot_side import RobotSide
 TRADER_KEYS = {"Lookup": b"TradingService", "Register": b"TradingRegister", "Admin": b"TradingAdmin",
                "Link": b"TradingLink", "Proxy": b"TradingProxy"}
 REPOSITORY = "CosTradingRepos::ServiceTypeRepository"
-# The sensor that has each interface.
+# The type of sensor for each interface.
 SENSORS = {"Sonar": "sonar", "Lidar": "lidar", "IntensityLidar": "lidar", "Camera": "camera", "PositioningSystem": "positioning", "Imu": "imu",
            "Odometer": "odometry", "SatelliteReceiver": "navsat", "Magnetometer": "magnetometer",
            "Altimeter": "altimeter", "Bumper": "contact", "Ranging": "ranging", "JointEncoders": "joint_encoders", "Battery": "battery",
@@ -47,7 +47,7 @@ KEPT_ATTRIBUTES = ["def_search_card", "max_search_card", "def_match_card", "max_
                    "max_return_card", "max_list", "supports_modifiable_properties", "supports_dynamic_properties",
                    "supports_proxy_offers", "def_hop_count", "max_hop_count", "def_follow_policy",
                    "max_follow_policy", "max_link_follow_policy"]
-# Right calls that a trader or a simulation refuses nevertheless, by what it raises.
+# Valid calls that a trader or a simulation refuses, by the exception that it raises.
 REFUSED = {
     "CosTrading::Register::resolve": "UnknownTraderName", "CosTrading::Admin::set_type_repos": "system exception",
     "sba::SensorFactory::open": "Refused", "sba::JointActuator::apply": "Refused",
@@ -94,7 +94,7 @@ class World:
         return found[0]
 
     def evaluator(self):
-        """Who is asked for the dynamic properties of the server's offer."""
+        """Returns the object that evaluates the dynamic properties of the server's offer."""
         for offer in self.offers:
             described = self.call("CosTrading::Register", "describe", id=offer)[""]
             for each in described["properties"]:
@@ -102,7 +102,7 @@ class World:
                     return each["value"][1]["eval_if"]
         raise RuntimeError("the server's offer has no dynamic property")
 
-    # What mutations may have done away with, or left
+    # Restores what mutations may have removed or added
 
     def restore_trader(self):
         for name, value in self.attributes.items():
@@ -119,13 +119,13 @@ class World:
         self.remove_types([name for name in types if name not in self.types])
 
     def remove_types(self, names):
-        """Each before its super types, whatever mutations have called it."""
+        """Removes service types, each before its super types, also if mutations have renamed it."""
         while names:
             left, refused = [], None
             for name in names:
                 try:
                     self.call(REPOSITORY, "remove_type", name=name)
-                except Refused as refusal:  # it has sub types yet
+                except Refused as refusal:  # it still has sub types
                     left.append(name)
                     refused = refusal
             if left == names:
@@ -133,7 +133,7 @@ class World:
             names = left
 
     def renew(self):
-        """A new simulation with a robot that has all sensors, offers, iterators, a run, a behaviour's instance."""
+        """Makes a new simulation with a robot that has all sensors, and new offers, iterators, a run and a behaviour."""
         for name in self.laboratory.simulations():
             if name not in self.simulations:
                 self.laboratory.destroy(name)
@@ -175,7 +175,7 @@ class World:
         self.call("sba::ForceTorque", "close")
         self.targets["sba::AgentBehaviour"] = self.call("sba::AgentBehaviourFactory", "create")[""]
         run = self.call("sba::ScenarioService", "run", **self.values_of("sba::ScenarioService", "run"))[""]
-        if run.key:  # else the server has as many as it takes
+        if run.key:  # otherwise the server has reached its limit of runs
             self.targets["sba::ScenarioRun"] = run
 
     # Values
@@ -200,7 +200,7 @@ class World:
         return self.values(self.contracts.operation(interface, name))
 
     def values(self, operation):
-        """Of all that goes in, by name."""
+        """Returns the arguments of a call, by name."""
         own = ACTS.get(operation.interface) if operation.name == "act" else self.known_values().get(operation.name, {})
         if operation.interface == "CosTrading::Proxy" and operation.name.endswith("_proxy"):
             own = {**own, "id": self.proxy if hasattr(self, "proxy") else ""}
@@ -270,7 +270,7 @@ class World:
 
 
 def missing(world):
-    """Sentences for interfaces that no object stands for: neither their own nor one that inherits them."""
+    """Returns sentences about interfaces without an object, of the interface itself or of a derived one."""
     for interface, names in contracts.standard_trading_operations().items():
         found = [each.name for each in world.contracts.operations(interface)]
         for name in names:
@@ -282,18 +282,18 @@ def missing(world):
 
 
 def prove(world):
-    """Calls each operation of each servant rightly: sentences for those that are not answered as they should be."""
+    """Makes a valid call of each operation of each servant. Returns sentences about wrong responses."""
     broken = []
     last = ("give_up", "close", "destroy", "withdraw", "withdraw_proxy", "withdraw_using_constraint", "remove_link", "remove_type",
             "mask_type", "unmask_type", "stop", "reset")
     for interface in sorted(world.targets):
         if interface in ("sba::Simulation", "sba::AgentBehaviour"):
-            continue  # below, in an order that makes sense
+            continue  # called below, in a valid order
         operations = world.contracts.operations(interface)
         for operation in sorted(operations, key=lambda each: last.index(each.name) if each.name in last else -1):
             broken += prove_one(world, operation)
             if operation.name == "give_up":
-                world.renew()  # the agent is dead, and its clock closed
+                world.renew()  # the agent is dead, and its clock is closed
     world.renew()
     for operation in sorted(world.contracts.operations("sba::AgentBehaviour"), key=lambda each: each.name == "destroy"):
         broken += prove_one(world, operation)

@@ -1,4 +1,4 @@
-"""GSV as installed: `cmake --install` of the build folder into a temporary prefix."""
+"""Installs GSV by `cmake --install` of the build folder into a temporary prefix."""
 import os
 import subprocess
 
@@ -14,7 +14,7 @@ def run(*command, **environment):
 
 @pytest.fixture(scope="session")
 def prefix(tmp_path_factory):
-    """Installed in one place, then moved to another: nothing may hang on where it was."""
+    """Installs GSV into one folder and moves it to another, because nothing may depend on its original path."""
     first = tmp_path_factory.mktemp("installed") / "first"
     run("cmake", "--install", os.environ["GSV_BUILD_DIR"], "--prefix", first)
     return first.rename(first.parent / "moved")

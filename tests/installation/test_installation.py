@@ -1,4 +1,4 @@
-"""An installed GSV runs, and behaviours and applications are built with it outside of its tree."""
+"""Tests an installed GSV: it runs, and behaviours and applications can be built outside its tree."""
 import json
 import os
 import re
@@ -13,7 +13,7 @@ BUILD = Path(os.environ["GSV_BUILD_DIR"])
 
 
 def hash_of(gsv, *options, **environment):
-    """Of ten seconds of the first behaviour."""
+    """Returns the distance driven in ten seconds by the first behaviour."""
     out = run(gsv, "run", "playground", "--robot", "pebble@0,0", "--behaviour", "first",
               "--lockstep", "--duration", "10", "--seed", "1", "--headless", "--json", *options,
               **environment)
@@ -29,7 +29,7 @@ def ours():
 
 @pytest.fixture(scope="session")
 def mine(prefix, tmp_path_factory):
-    """examples/out_of_tree, built by find_package."""
+    """Builds examples/out_of_tree by find_package."""
     folder = tmp_path_factory.mktemp("mine")
     run("cmake", "-S", SOURCE / "examples/out_of_tree", "-B", folder,
         f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Debug")
@@ -78,7 +78,7 @@ def test_nothing_installed_names_the_folders_it_was_made_in(prefix):
     made_in = [str(BUILD).encode(), str(SOURCE).encode()]
     for file in prefix.rglob("*"):
         if file.is_file() and file.suffix in ("", ".cmake", ".pc", ".py", ".so", ".0"):
-            # A program may hold the place of a source in what an assertion says.
+            # Messages of assertions in a program may contain paths of source files.
             paths = run("readelf", "-d", file).encode() if file.read_bytes()[:4] == b"\x7fELF" \
                 else file.read_bytes()
             assert not any(place in paths for place in made_in), file

@@ -39,7 +39,7 @@ def peer(*words, timeout=40):
 
 @contextlib.contextmanager
 def running_gsv(*options):
-    """gsv with ROS 2 in real time, until the block ends."""
+    """Runs gsv with ROS 2 in real time until the block ends."""
     environment = {**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)}
     gsv = subprocess.Popen([GSV, "run", "office", "--robot", "pebble", "--ros2", "--headless", *options],
                            env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -52,7 +52,7 @@ def running_gsv(*options):
 
 @contextlib.contextmanager
 def listening(topic):
-    """A subscription, until the block ends."""
+    """Keeps a subscription until the block ends."""
     reader = subprocess.Popen([PEER, "listen", topic, "--domain", str(DOMAIN)],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
@@ -217,7 +217,7 @@ class ForeignPeer(unittest.TestCase):
         with contextlib.ExitStack() as stack:
             for port in range(7400 + 250 * domain + 10, 7400 + 250 * (domain + 1)):
                 taken = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
-                with contextlib.suppress(OSError):  # somebody else has it
+                with contextlib.suppress(OSError):  # another process uses the port
                     taken.bind(("127.0.0.1", port))
             done = subprocess.run([GSV, "run", "office", "--robot", "pebble", "--ros2", "--headless"],
                                   env={**os.environ, "ROS_DOMAIN_ID": str(domain)},

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""A network namespace behind a slow link, for tests; needs root and /dev/net/tun.
+"""Makes a network namespace behind a slow link, for tests. Needs root and /dev/net/tun.
 
 usage: slow_link.py MILLISECONDS
 
-Makes a namespace whose only way to this host takes that much longer for every round trip, says
+The namespace's only connection to this host delays every round trip by MILLISECONDS. Prints
     ready NAMESPACE ADDRESS_HERE ADDRESS_THERE
-on stdout, and carries packets until it is told to end (SIGTERM, or the end of stdin's owner). All
-addresses of this host are reached from there. The link is two TUN devices whose packets pass
-through this program, half the time each way. Where that is not permitted it says why on stderr and
-exits with 77.
+on stdout, and forwards packets until SIGTERM or until stdin ends. All addresses of this host can be
+reached from the namespace. The link consists of two TUN devices. Their packets pass through this
+program, which applies half of the delay in each direction. If the system does not permit this, the
+program prints the reason on stderr and exits with 77.
 """
 
 import collections
@@ -51,7 +51,7 @@ def set_up(namespace, here, there, address_here, address_there):
 
 
 def carry(ends, delay):
-    """Packets leave by the other end once `delay` seconds have passed, in their order."""
+    """Forwards packets to the other end after `delay` seconds, in their order."""
     waiting = collections.deque()  # (due, end, packet)
     while True:
         timeout = max(0.0, waiting[0][0] - time.monotonic()) if waiting else None

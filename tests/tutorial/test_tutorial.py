@@ -1,5 +1,6 @@
-"""Each page of docs/tutorial runs: listings are what stands in the files that they name, commands end
-well, and what they say is what the page says they say."""
+"""Tests each page of docs/tutorial: its listings equal the files that they name, its commands
+succeed, and their output equals the output in the page.
+"""
 import os
 import re
 import subprocess
@@ -20,7 +21,7 @@ def blocks(page):
 
 
 def expected(text):
-    """The lines of a page's output, in their order; … stands for anything in a line."""
+    """Returns a pattern for the lines of a page's output, in their order. A … matches any text in a line."""
     lines = [".*".join(map(re.escape, line.split("…"))) for line in text.splitlines()]
     return re.compile(r"(?:.*\n)*?.*".join(lines))
 
@@ -56,7 +57,7 @@ def test_the_page_runs(page, tmp_path):
 
 
 def judge_map(path):
-    """The playground: walls 5 m from the middle, a box of a metre at (2, 2), nothing at (3.5, 0)."""
+    """Checks the playground's map: walls 5 m from the middle, a box of 1 m at (2, 2), nothing at (3.5, 0)."""
     header, pixels = path.read_bytes().split(b"\n", 1)
     assert header == b"P5 120 120 255"
     at = lambda x, y: pixels[(119 - int((y + 6) * 10)) * 120 + int((x + 6) * 10)]

@@ -18,13 +18,13 @@ class Opening:
     end: float
     bottom: float = 0.0
     top: float = DOOR
-    filling: str = "nothing"  # or "glass", "leaf"
+    filling: str = "nothing"  # "nothing" (an opening), "glass" or "leaf" (a door)
 
 
 @dataclass
 class Wall:
     along: str  # "x" or "y"
-    across: float  # coordinate of its middle on the other axis
+    across: float  # coordinate of the wall's middle on the other axis
     begin: float
     end: float
     thickness: float
@@ -111,7 +111,7 @@ def parts_of(wall):
 
 
 def trim_of(wall):
-    """Frames of doors and windows and the skirting, 1 cm proud of the wall; nothing collides with it."""
+    """Returns door frames, window frames and skirting, which protrude by 1 cm and have no collisions."""
     proud, width, lap = wall.thickness + 0.02, 0.06, 0.01
     at = wall.begin
     for opening in sorted(wall.openings, key=lambda o: o.begin):

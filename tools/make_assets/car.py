@@ -78,7 +78,7 @@ def chassis():
 
 
 def wheels():
-    """Each turns about its own axle; those in front hang from knuckles that turn about z."""
+    """Returns the wheels, each on its own axle. The front wheels are on knuckles that turn about z."""
     parts = []
     for end, x in (("rear", 0.0), ("front", BASE)):
         for side, y in (("left", TRACK / 2), ("right", -TRACK / 2)):

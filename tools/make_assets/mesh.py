@@ -23,7 +23,7 @@ class Mesh:
         self.add_face(corners, [normal] * 4, coordinates)
 
     def add_box(self, low, high):
-        """Between two corners; textured by world coordinates, so that boxes in a row match."""
+        """Adds a box between two corners. World coordinates determine the texture, so that adjacent boxes match."""
         (x0, y0, z0), (x1, y1, z1) = low, high
         for x, ya, yb in ((x1, y0, y1), (x0, y1, y0)):
             self._add_side([(x, ya, z0), (x, yb, z0), (x, yb, z1), (x, ya, z1)], 1, 2)
@@ -59,7 +59,7 @@ class Mesh:
                 )
 
     def add(self, other, transform):
-        """All of another mesh, each point and normal taken through `transform(point, is_normal)`."""
+        """Adds another mesh. `transform(point, is_normal)` converts each point and normal."""
         first = len(self.vertices)
         self.vertices += [(transform(p, False), transform(n, True), t) for p, n, t in other.vertices]
         self.faces += [tuple(first + i for i in face) for face in other.faces]
@@ -118,7 +118,7 @@ def unit(v):
 
 
 def moved(x, y, z, yaw=0.0):
-    """A transform for Mesh.add: turn about z, then move."""
+    """Returns a transform for Mesh.add: a rotation about z, then a translation."""
 
     def transform(point, is_normal):
         px, py, pz = turned(point, yaw)
@@ -128,7 +128,7 @@ def moved(x, y, z, yaw=0.0):
 
 
 def facing(radius, angle, z):
-    """A transform for Mesh.add: what points along +z points outwards at an angle about z."""
+    """Returns a transform for Mesh.add that turns +z to the outward direction at an angle about z."""
 
     def transform(point, is_normal):
         px, py, pz = turned((point[2], point[0], point[1]), angle)

@@ -1,4 +1,4 @@
-"""Meshes of our robots. Each is centred as its <visual> places it."""
+"""Meshes of the built-in robots. The origin of each mesh is where its <visual> places it."""
 
 import math
 
@@ -96,7 +96,7 @@ def write_wheel(folder, radius, width, spokes):
 
 
 def rolled(x, y, z):
-    """A transform for Mesh.add: what turns about +z turns about +y."""
+    """Returns a transform for Mesh.add that turns the axis +z to +y."""
 
     def transform(point, is_normal):
         px, py, pz = point[1], point[2], point[0]

@@ -1,4 +1,4 @@
-"""Small seamless textures, computed point by point and written as JPEG by ImageMagick."""
+"""Makes small seamless textures, computed pixel by pixel and written as JPEG by ImageMagick."""
 
 import math
 import random
@@ -38,7 +38,7 @@ def mixed(a, b, t):
 
 
 def edge(distance, width):
-    """0 on a line, 1 from `width` on."""
+    """Returns 0 on a line, and 1 at distances of `width` and more."""
     return min(abs(distance) / width, 1.0)
 
 
@@ -101,7 +101,7 @@ def bricks(base, joint, across, rows, seed):
 
 
 def concrete(base, seed):
-    """Poured in slabs, with stains and hair cracks."""
+    """Concrete slabs with stains and fine cracks."""
     stains, grain = Noise(seed, 6, 6), Noise(seed + 1, 160, 160)
 
     def colour(u, v):
@@ -147,7 +147,7 @@ def gravel(seed):
 
 
 def book_spines(seed):
-    """One board's width of books, standing."""
+    """A shelf full of upright books."""
     source = random.Random(seed)
     cloths = [(122, 38, 36), (38, 66, 104), (44, 92, 66), (176, 140, 62), (84, 60, 96),
               (200, 190, 168), (58, 58, 62), (160, 84, 44)]

@@ -1,4 +1,4 @@
-"""Meshes of furniture and plants that simple shapes cannot give."""
+"""Meshes of furniture and plants that cannot be built from simple shapes."""
 
 import math
 import random
@@ -12,11 +12,11 @@ def make(models):
 
 
 def make_plant(folder):
-    """Arching leaves out of a pot of 30 cm height."""
+    """A plant with arched leaves in a pot of 30 cm height."""
     source = random.Random(20)
     leaves = Mesh()
     for k in range(48):
-        yaw = 2.4 * k  # the golden angle, as plants do it
+        yaw = 2.4 * k  # the golden angle, at which leaves of plants grow
         length = source.uniform(0.3, 0.52) * (1.15 - 0.4 * k / 48)
         steepness = 0.35 + 1.05 * k / 48
         leaves.add(leaf(length, steepness, 0.05 + 0.02 * source.random()), moved(0, 0, 0.3, yaw))

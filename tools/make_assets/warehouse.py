@@ -31,7 +31,7 @@ def make_hall(folder):
     ]
     for low, high in solid[:3]:
         walls.add_box(low, high)
-    # The east wall is cut open for its gates, which are shut.
+    # The east wall has openings with closed gates.
     at = -y
     for gate in GATES:
         walls.add_box((x, at, 0), (x + WALL, gate - 1.5, HEIGHT))

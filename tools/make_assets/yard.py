@@ -75,7 +75,7 @@ def make_ramps(folder):
 
 
 def wedge(foot, head, top):
-    """From the ground at x = foot up to `top` at x = head."""
+    """Returns a ramp from the ground at x = foot to the height `top` at x = head."""
     half = RAMP_WIDTH / 2
     solid = Mesh()
     low = [(foot, -half, 0), (foot, half, 0)]
@@ -158,7 +158,7 @@ def make_hut(folder):
 
 
 def make_fence(folder):
-    """Eight metres of it along x."""
+    """Returns eight metres of fence along x."""
     boards = Mesh()
     for k in range(40):
         at = -3.9 + 0.2 * k

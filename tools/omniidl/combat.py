@@ -1,10 +1,10 @@
-"""A back end of omniidl that tells Combat, the ORB in Tcl, about IDL.
+"""A back end of omniidl that describes IDL to Combat, an ORB for Tcl.
 
     omniidl -ptools/omniidl -bcombat FILE.idl > FILE.tcl
 
-prints a script whose `combat::ir add` fills Combat's interface repository, as its own idl2tcl does,
-which needs an interface repository to ask. What is included is told as well, so that the script
-stands alone. Value types and local interfaces are refused.
+prints a script that fills Combat's interface repository with `combat::ir add`, like Combat's own
+idl2tcl, which needs a running interface repository. The script includes the content of included
+files, so it needs no other script. Value types and local interfaces are refused.
 """
 
 import sys
@@ -49,7 +49,7 @@ def identity(node):
 
 
 def type_of(kind, sizes=()):
-    """The type as Combat writes it: a name, a repository identifier, or a list."""
+    """Returns the type in Combat's notation: a name, a repository identifier, or a list."""
     result = plain_type(kind)
     for size in reversed(list(sizes)):
         result = ["array", result, str(size)]

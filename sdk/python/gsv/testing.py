@@ -79,7 +79,7 @@ class PrivateSimulator:
         self._run("offered at", *command, *options)
 
     def close(self) -> None:
-        for child in reversed(self._children):  # the server last
+        for child in reversed(self._children):  # ends the server last
             child.terminate()
             child.wait()
             assert child.stdout
@@ -95,7 +95,7 @@ class PrivateSimulator:
         self.close()
 
     def _run(self, awaited: str, *command: str) -> str:
-        """Starts a program that ends with this one, and gives its first line that holds `awaited`."""
+        """Starts a program that ends with this one. Returns its first line that contains `awaited`."""
         environment = dict(os.environ)
         if self._children:
             environment["GSV_BROKER"] = self.broker
@@ -116,19 +116,19 @@ class PrivateSimulator:
 
 @dataclass(frozen=True)
 class ScenarioResult:
-    """What `gsv test` says of a scenario."""
+    """The result of `gsv test` for one scenario."""
 
     scenario: str
     status: str  # "passed", "failed", "error", "interrupted"
-    message: str  # why it did not pass
-    folder: str  # with what a failure left; empty: nothing
-    state_hashes: list[str]  # at the end, by repetition
-    report: dict[str, Any]  # that of `gsv run --json`; empty: none came
+    message: str  # the reason, if it has not passed
+    folder: str  # the folder with the recording of a failure; empty: none
+    state_hashes: list[str]  # final state hash of each repetition
+    report: dict[str, Any]  # the report of `gsv run --json`; empty: there is none
 
 
 def run_scenarios(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
     """Runs `gsv test ARGUMENT…`: files, folders, and options such as "--repeat", "3". Raises
-    BadModel, with gsv's words, for what is no scenario or not there."""
+    BadModel with gsv's message if a file is missing or is no scenario."""
     command = [find_program("gsv"), "test", "--json", *(os.fspath(each) for each in arguments)]
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if done.stdout:
@@ -141,19 +141,19 @@ def run_scenarios(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResu
 
 try:
     import pytest
-except ImportError:  # PrivateSimulator serves without
+except ImportError:  # PrivateSimulator does not need pytest
     pass
 else:
 
     @pytest.fixture(scope="session")
     def simulator() -> Iterator[PrivateSimulator]:
-        """One for all tests of the session."""
+        """Provides one simulator for all tests of the session."""
         with PrivateSimulator() as private:
             yield private
 
     @pytest.fixture
     def simulate(simulator: PrivateSimulator) -> Iterator[Callable[..., Simulation]]:
-        """Creates simulations, as Application.create(), that are destroyed with the test."""
+        """Creates simulations, like Application.create(), and destroys them at the end of the test."""
         created: list[Simulation] = []
 
         def create(world: str = "", **request: Any) -> Simulation:
@@ -166,8 +166,8 @@ else:
 
     @pytest.fixture
     def expect_passes(tmp_path: Path) -> Callable[..., list[ScenarioResult]]:
-        """Runs scenarios as run_scenarios() does, and fails the test with their words where one
-        does not pass. What failures leave lies in the test's tmp_path."""
+        """Runs scenarios like run_scenarios(), and fails the test with the messages of those that do
+        not pass. Recordings of failures are in the test's tmp_path."""
 
         def expect(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
             results = run_scenarios("--failures", tmp_path / "gsv-failures", *arguments)

@@ -8,5 +8,5 @@ pytest_plugins = ["gsv.testing"]
 
 @pytest.fixture
 def examples():
-    """Where examples/python lies."""
+    """Returns the folder examples/python."""
     return Path(os.environ["GSV_SOURCE_DIR"]) / "examples" / "python"

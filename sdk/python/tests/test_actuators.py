@@ -1,4 +1,4 @@
-"""Lamps, grippers, speakers and microphones."""
+"""Tests lamps, grippers, speakers and microphones in Python."""
 import math
 
 import pytest
@@ -10,7 +10,7 @@ CAN_AHEAD = """<sdf version='1.9'><world name='w'><include><uri>model://ground_p
 
 
 def in_run(simulate, prepare, work, model="pebble", world="playground"):
-    """What `work` gives, as a behaviour's run."""
+    """Returns the result of `work`, which runs as a behaviour."""
     given, raised = [], []
 
     class Working(gsv.Behaviour):
@@ -88,7 +88,7 @@ def test_a_microphone_hears_another_robots_speaker(simulate):
     simulation.run_until(0.2)
     hearing = heard[0]
     assert (hearing.frequency, hearing.source) == (1000, "beeper/voice")
-    assert hearing.level == pytest.approx(90 - 20 * math.log10(2), abs=0.01)  # at 2 m
+    assert hearing.level == pytest.approx(90 - 20 * math.log10(2), abs=0.01)  # the microphone is 2 m away
 
 
 def test_a_gripper_closes_and_opens(simulate):
@@ -121,7 +121,7 @@ def test_a_porter_gives_the_same_hash_as_in_cpp(simulator, simulate, examples, t
         simulation.run_until(25)
         porter = simulation.state().robots["porter"]
         assert porter.agent == "finished"
-        # It went there with the can, and then 0.3 m back.
+        # The robot drove to the goal with the can, and then 0.3 m back.
         assert math.hypot(porter.place.x - 0.5, porter.place.y - 1.2) == pytest.approx(0.3, abs=0.08)
         hashes.add(simulation.state_hash())
     assert len(hashes) == 1

@@ -1,4 +1,4 @@
-"""Applications in Python find simulators, run simulations and judge."""
+"""Tests applications in Python: they find simulators, run simulations and check results."""
 import signal
 import subprocess
 import sys
@@ -53,7 +53,7 @@ def test_a_reset_goes_back_to_the_start(simulate):
 def test_how_fast_real_time_goes_can_be_set(simulator, simulate):
     with simulator.create("playground", lockstep=False, factor=1e-4) as simulation:
         simulation.set_factor(1e6)
-        simulation.run_until(5)  # at its first pace: fourteen hours
+        simulation.run_until(5)  # at its first real-time factor, this would take fourteen hours
         assert simulation.state().time == 5
         with pytest.raises(gsv.Refused, match="above 0"):
             simulation.set_factor(0)
@@ -152,7 +152,7 @@ with gsv.connect(sys.argv[1]).create("playground", lockstep=False) as simulation
     program.send_signal(signal.SIGINT)
     _, errors = program.communicate(timeout=60)
     assert errors.endswith("KeyboardInterrupt\n"), errors
-    assert program.returncode == -signal.SIGINT  # as Python itself ends
+    assert program.returncode == -signal.SIGINT  # the exit code with which Python itself ends
 
 
 def test_a_program_that_forgets_all_ends_cleanly(simulator):

@@ -1,4 +1,4 @@
-"""A behaviour in Python is as good a citizen as one in C++."""
+"""Tests behaviours in Python."""
 import json
 import os
 import signal
@@ -235,7 +235,7 @@ def test_a_signal_that_another_thread_takes_ends_the_program_too(simulator, tmp_
     script = tmp_path / "threads.py"
     script.write_text("""
 import signal, threading, gsv
-def take():  # the main thread blocks the signal, this one does not
+def take():  # the main thread blocks the signal; this thread does not
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
     threading.Event().wait()
 signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
@@ -269,7 +269,7 @@ import gsv
 class Chatter(gsv.Behaviour):
     def run(self, robot):
         while robot.sleep_for(0.01):
-            print("word " * 1000)  # altogether more than a pipe holds
+            print("word " * 1000)  # all lines together exceed the size of a pipe
 gsv.serve("chatter", Chatter)
 """)
     script.chmod(0o755)

@@ -1,4 +1,4 @@
-"""The view for notebooks, without a notebook."""
+"""Tests the view for notebooks, without a notebook."""
 from html.parser import HTMLParser
 
 import pytest
@@ -17,7 +17,7 @@ class Elements(HTMLParser):
 
 
 class Served:
-    """Stands for a simulation."""
+    """A fake simulation."""
 
     def __init__(self, url):
         self._url = url
@@ -34,7 +34,7 @@ def test_a_view_is_the_element_of_the_simulations_server():
     assert found["gsv-view"]["follow"] == "pebble"
     assert found["gsv-view"]["fov"] == "60"
     assert "height: 420px" in found["gsv-view"]["style"]
-    # Where no script runs a stream of images shows it.
+    # Where scripts do not run, a stream of images shows the view.
     assert found["img"]["src"] == ("http://127.0.0.1:8080/view.mjpeg?simulation=my+run"
                                    "&follow=pebble&fov=60")
 

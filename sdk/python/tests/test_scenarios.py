@@ -1,4 +1,4 @@
-"""Scenarios as pytest's tests."""
+"""Tests the fixtures with which pytest runs scenarios."""
 import pytest
 
 import gsv

@@ -1,4 +1,6 @@
-"""What sensors measure comes as numbers and NumPy arrays, which share the memory of the readings."""
+"""Tests sensors in Python: readings are numbers, and NumPy arrays that share memory with the
+readings.
+"""
 import math
 
 import numpy
@@ -6,7 +8,7 @@ import pytest
 
 import gsv
 
-# One box ahead of a robot at the origin: its face 2 m from the middle.
+# A box is ahead of a robot at the origin. Its near face is 2 m from the robot's centre.
 WORLD = """<sdf version='1.9'><world name='w'><gravity>0 0 -9.8</gravity>
   <model name='wall'><static>true</static><pose>2.5 0 0.5 0 0 0</pose><link name='l'>
     <collision name='c'><geometry><box><size>1 8 1</size></box></geometry></collision>
@@ -23,7 +25,7 @@ def world(tmp_path):
 
 
 def in_run(simulate, world, prepare, look, model="pebble"):
-    """What `look` says of what `prepare` made, once, after a tenth of a second."""
+    """Returns the result of `look` for the object that `prepare` made, after a tenth of a second."""
     seen, raised = [], []
 
     class Looking(gsv.Behaviour):
@@ -180,7 +182,7 @@ def test_a_reading_outlives_its_sensor(simulate, world):
     values = in_run(simulate, world, lambda robot: robot.open("sonar_00"),
                     lambda robot, sonar: sonar.measure().values)
     assert values.shape == (1,) and 1.5 < values[0] < 2
-    values[0] = 7  # it is the caller's
+    values[0] = 7  # the array belongs to the caller
     assert values[0] == 7
 
 

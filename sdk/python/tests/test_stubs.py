@@ -1,4 +1,4 @@
-"""The type stubs say what the module has, no more and no less."""
+"""Tests that the type stubs declare exactly the members of the module."""
 import ast
 import inspect
 from pathlib import Path
@@ -8,7 +8,7 @@ from gsv import _native
 
 
 def declared_in(body):
-    """Names to the names within, of what a stub's body declares; None for what holds no others."""
+    """Returns the names that a stub's body declares, each with the names inside it (None: there are none)."""
     names = {}
     for node in body:
         if isinstance(node, ast.ClassDef):
@@ -17,7 +17,7 @@ def declared_in(body):
             names[node.name] = None
         elif isinstance(node, ast.AnnAssign):
             annotation = ast.unparse(node.annotation)
-            # The old name of a class holds what the class does.
+            # The old name of a class has the same members as the class.
             old_name_of = annotation.startswith("type[") and annotation[5:-1].split(".")[-1]
             names[node.target.id] = names[old_name_of] if old_name_of else None
     return {name: within for name, within in names.items() if not name.startswith("_")}
