@@ -12,10 +12,10 @@ namespace {
 // Runs the behaviour on its own thread. An exception of the behaviour ends its run, not the
 // program.
 void RunOnClock(Behaviour& behaviour, RemoteRobot& robot) {
-  const std::string failure = RunToItsEnd(behaviour, robot);
+  const RunFailure failure = RunToItsEnd(behaviour, robot);
   if (failure.empty()) return robot.CloseClock();
-  spdlog::error("{}", failure);
-  robot.GiveUp(failure);
+  spdlog::error("{}", failure.LogText(robot.name()));
+  robot.GiveUp(failure.cause);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "gsv/health/health.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 #include <utility>
 
 namespace gsv::health {
@@ -78,22 +78,13 @@ const char* SummaryOf(State state) {
   return "";
 }
 
-// Removes from the detail of a death what the rest of the sentence says.
-std::string DeathCause(const simulation::RobotStatus& robot) {
-  std::string_view cause = robot.detail;
-  for (const std::string& prefix :
-       {std::string("its run ended with an error: "), robot.name + ": the behaviour threw: "}) {
-    if (cause.starts_with(prefix)) cause.remove_prefix(prefix.size());
-  }
-  return std::string(cause);
-}
-
 std::string ReasonOf(State state, const simulation::RobotStatus& robot,
                      const simulation::SimulationStatus& status) {
   const simulation::Motion& motion = robot.motion;
   const std::string behaviour = "its behaviour " + robot.behaviour;
   if (state == State::kDead) {
-    return behaviour + " died" + (robot.detail.empty() ? "" : ": " + DeathCause(robot));
+    const std::string& why = robot.cause.empty() ? robot.detail : robot.cause;
+    return behaviour + " died" + (why.empty() ? "" : ": " + why);
   }
   if (state == State::kLate) {
     if (robot.phase == AgentPhase::kUnresponsive) return behaviour + " " + robot.detail;
@@ -152,6 +143,20 @@ const char* ToString(State state) {
       return "dead";
   }
   return "";
+}
+
+std::optional<State> StateOf(std::string_view name) {
+  for (std::size_t i = 0; i < kStates; ++i) {
+    if (name == ToString(static_cast<State>(i))) return static_cast<State>(i);
+  }
+  return std::nullopt;
+}
+
+int Severity(State state, Level level) {
+  constexpr std::array kFromBest{State::kMoving,  State::kStanding, State::kLate,
+                                 State::kContact, State::kStuck,    State::kDead};
+  const auto place = std::find(kFromBest.begin(), kFromBest.end(), state) - kFromBest.begin();
+  return 3 * static_cast<int>(place) + static_cast<int>(level);
 }
 
 RobotHealth HealthOf(const simulation::RobotStatus& robot,

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gsv/simulation/types.h"
@@ -21,8 +22,14 @@ inline constexpr std::size_t kStates = 6;
 
 // "moving", "standing", "stuck", "contact", "late", "dead"
 const char* ToString(State state);
+// Returns the state of this name, or nothing.
+std::optional<State> StateOf(std::string_view name);
 
 enum class Level : std::uint8_t { kFine = 0, kWarning = 1, kError = 2 };
+
+// Returns a number for sorting, which is higher for a worse state: dead, stuck, contact, late,
+// standing, moving.
+int Severity(State state, Level level);
 
 // A short distance that a sensor measures, and that may limit the robot's motion.
 struct Limit {

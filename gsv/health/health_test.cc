@@ -106,8 +106,20 @@ TEST(Health, ADeadBehaviourIsAnError) {
 TEST(Health, TheReasonOfADeathIsTheException) {
   simulation::RobotStatus robot = Robot();
   robot.phase = AgentPhase::kDead;
-  robot.detail = "its run ended with an error: " + robot.name + ": the behaviour threw: too far";
+  robot.cause = "too far";
+  robot.detail = "its run ended with an error: too far";
   EXPECT_EQ(HealthOf(robot).reason, "its behaviour wander died: too far");
+}
+
+TEST(Health, SeverityOrdersStatesFromTheWorst) {
+  const std::vector<State> worst_first{State::kDead, State::kStuck,    State::kContact,
+                                       State::kLate, State::kStanding, State::kMoving};
+  for (std::size_t i = 1; i < worst_first.size(); ++i) {
+    EXPECT_GT(Severity(worst_first[i - 1], Level::kFine), Severity(worst_first[i], Level::kError));
+    EXPECT_EQ(StateOf(ToString(worst_first[i])), worst_first[i]);
+  }
+  EXPECT_GT(Severity(State::kStanding, Level::kWarning), Severity(State::kStanding, Level::kFine));
+  EXPECT_EQ(StateOf("asleep"), std::nullopt);
 }
 
 TEST(Health, ABehaviourThatDoesNotWaitIsLate) {

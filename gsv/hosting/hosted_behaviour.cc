@@ -1,9 +1,6 @@
 #include "gsv/hosting/hosted_behaviour.h"
 
-#include <exception>
-
 #include "gsv/base/log.h"
-#include "sdk/behaviour/run.h"
 
 namespace gsv::hosting {
 
@@ -50,7 +47,7 @@ base::Status HostedBehaviour::Start() {
   controller_ = dynamic_cast<Controller*>(behaviour_.get());
   if (!robot_->HasOnlyFastSensors()) controller_ = nullptr;
   next_.reset();
-  failure_.clear();
+  failure_ = {};
   if (controller_ != nullptr) return {};
   fibre_ = std::make_unique<Fibre>([this]() GSV_REQUIRES(mutex_) { Run(); });
   robot_->SetSuspend([this]() GSV_REQUIRES(mutex_) { fibre_->Suspend(); });
@@ -61,10 +58,10 @@ base::Status HostedBehaviour::Start() {
 void HostedBehaviour::Run() { failure_ = RunToItsEnd(*behaviour_, *robot_); }
 
 void HostedBehaviour::EndTurn(simulation::Turn& turn) {
-  if (failure_.empty() && robot_ != nullptr) failure_ = robot_->error();
+  if (failure_.empty() && robot_ != nullptr) failure_.cause = robot_->error();
   if (failure_.empty()) return turn.Finish();
-  spdlog::error("{}", failure_);
-  turn.Fail(failure_);
+  spdlog::error("{}", failure_.LogText(robot_ != nullptr ? robot_->name() : name_));
+  turn.Fail(failure_.cause);
 }
 
 void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
@@ -91,11 +88,12 @@ void HostedBehaviour::Control(simulation::Turn& turn) {
     next_ = turn.now() + controller_->period();
   } else {
     robot_->ReadOpenSensors(readings_, /*are_named=*/true);
-    const auto status = Guarded("Control", [&]() GSV_REQUIRES(mutex_) -> base::Status {
+    try {
       if (robot_->IsRunning()) command = controller_->Control(readings_);
-      return {};
-    });
-    if (!status) robot_->Note(status.error());
+    } catch (const std::exception& exception) {
+      failure_ = FailureOf(exception);
+      robot_->End();
+    }
     *next_ += controller_->period();
   }
   robot_->Command(command);

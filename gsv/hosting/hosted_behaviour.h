@@ -13,7 +13,7 @@
 #include "gsv/base/mutex.h"
 #include "gsv/hosting/fibre.h"
 #include "gsv/hosting/local_robot.h"
-#include "sdk/behaviour/behaviour.h"
+#include "sdk/behaviour/run.h"
 
 namespace gsv::hosting {
 
@@ -56,8 +56,7 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
   std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // the instant of a controller's next turn
   std::vector<Reading> readings_ GSV_GUARDED_BY(mutex_);
-  // the error that ended the behaviour; empty if there was none
-  std::string failure_ GSV_GUARDED_BY(mutex_);
+  RunFailure failure_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::hosting

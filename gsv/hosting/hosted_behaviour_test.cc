@@ -161,7 +161,7 @@ TEST(HostedBehaviour, AnExceptionEndsOneBehaviourAndTheOthersContinue) {
   EXPECT_NEAR(StatusOf(*simulation, "good").distance, 0.5, 1e-9);
   const auto bad = StatusOf(*simulation, "bad");
   EXPECT_EQ(bad.phase, simulation::AgentPhase::kDead);
-  EXPECT_THAT(bad.detail, ::testing::HasSubstr("the behaviour threw: out of ideas"));
+  EXPECT_EQ(bad.cause, "out of ideas");
 }
 
 TEST(HostedBehaviour, AFailureEndsTheRunIfThePolicyRequiresIt) {

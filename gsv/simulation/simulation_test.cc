@@ -279,6 +279,7 @@ TEST(Simulation, BehaviourThatGivesUpIsDeadAndItsReasonIsOneLine) {
   EXPECT_NEAR(StatusOf(*simulation, "other").distance, 0.5, 1e-9);
   EXPECT_THAT(status.detail, ::testing::HasSubstr("its run ended with an error: no\\nidea!!!"));
   EXPECT_LT(status.detail.size(), 1200u);
+  EXPECT_EQ(status.detail, "its run ended with an error: " + status.cause);
   std::vector<std::string> told;
   for (const Event& event : simulation->events(0)) {
     if (event.kind == "agent_dead") told.push_back(event.detail);

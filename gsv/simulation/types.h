@@ -93,6 +93,7 @@ struct RobotStatus {
   bool is_station = false;  // whether this is an object with sensors (world/station.h)
   AgentPhase phase = AgentPhase::kNone;
   std::string detail;  // why the agent is dead or unresponsive
+  std::string cause;   // the error that the behaviour reported; empty if there is none
   SimTime detail_since{0};
   geometry::Pose world_from_robot;
   double distance = 0;  // driven distance, m

@@ -225,7 +225,7 @@ TEST(BadInput, ThrowingBehaviourIsReportedWithItsException) {
   bad.AwaitLine("offered at");
   const Outcome outcome = Headless(
       kPlayground, {"--broker", broker.reference(), "--robot", "pebble@0,0", "--behaviour", "bad"});
-  ExpectOneSentence(outcome, 4, "the behaviour threw: out of ideas");
+  ExpectOneSentence(outcome, 4, "its run ended with an error: out of ideas");
   EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);
   const auto robot = outcome.LastLine()["robots"][0];
   EXPECT_EQ(robot["agent"], "dead");

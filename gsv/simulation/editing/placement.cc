@@ -63,8 +63,9 @@ std::vector<bool> StandFree(dynamics::Engine& engine, const world::Layout& layou
 }  // namespace
 
 std::string PlaceText(const geometry::Pose& pose) {
+  const auto rounded = [](double metres) { return std::round(metres * 1000) / 1000 + 0.0; };
   char text[64];
-  std::snprintf(text, sizeof text, "(%.3g, %.3g)", pose.position.x, pose.position.y);
+  std::snprintf(text, sizeof text, "(%g, %g)", rounded(pose.position.x), rounded(pose.position.y));
   return text;
 }
 

@@ -381,7 +381,8 @@ void RobotAgent::ReportDeath(std::string detail) {
 void RobotAgent::ReportFailure(std::string_view reason) {
   if (death_reported_) return;
   has_given_up_ = true;
-  ReportDeath("its run ended with an error: " + base::LogLine(reason, kLongestReason, {}));
+  cause_ = base::LogLine(reason, kLongestReason, {});
+  ReportDeath("its run ended with an error: " + cause_);
   shared_->given_up.emplace_back(robot_, DescribeInEvents() + ": " + detail_);
 }
 
@@ -465,6 +466,7 @@ void RobotAgent::ResetClocks() {
   has_given_up_ = false;
   fate_ = Fate::kAlive;
   detail_.clear();
+  cause_.clear();
   UpdateRunningCount();
 }
 
@@ -475,6 +477,7 @@ void RobotAgent::FillStatus(RobotStatus& status) const {
   status.behaviour_place = behaviour_ != nullptr ? behaviour_->place() : "";
   status.is_avatar = is_avatar_;
   status.detail = detail_;
+  status.cause = cause_;
   status.detail_since = detail_since_;
   status.readings = rack_.readings_by_type();
   if (behaviour_ == nullptr) {

@@ -179,6 +179,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
   Fate fate_ GSV_GUARDED_BY(simulation_mutex) = Fate::kAlive;
   std::string detail_ GSV_GUARDED_BY(simulation_mutex);
+  std::string cause_ GSV_GUARDED_BY(simulation_mutex);  // see RobotStatus
   SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};
   WallTime running_since_ GSV_GUARDED_BY(simulation_mutex){};
 
