@@ -1,19 +1,19 @@
 // The list of robots, filtered, sorted and grouped. Only the rows in sight exist.
 import { listedRobots } from "../../state/listedRobots";
-import type { Entry, RobotFilter } from "../../state/robotList";
+import type { Entry, ListedRobot, RobotFilter } from "../../state/robotList";
 import { NameOrder, entriesOf, inOrderOf, isFiltering, isTitle } from "../../state/robotList";
 import { element, setText } from "../../ui/element";
 import { count } from "../../ui/format";
 import type { PanelPorts } from "../contract/ports";
-import { RobotRow } from "./RobotRow";
+import { ROW_PX, RobotRow, rowHeight, troubleOf } from "./RobotRow";
 import type { Row } from "./VirtualRows";
 import { VirtualRows } from "./VirtualRows";
 
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
-// Must equal the height in style/robots.css.
-const ROW_PX = 50;
-const TITLE_PX = 30;
+const TITLE_PX = 30; // must equal the height in style/robots.css
+// In a larger crowd all rows have the same height, so that changes do not move the rows below them.
+const MAX_WRAPPED = 100;
 
 export class RobotList {
   readonly element: HTMLElement;
@@ -21,6 +21,7 @@ export class RobotList {
   private readonly nothing = element("p", { class: "robot-nothing dim" }, "No robot matches. Change the search, or show all states.");
   private readonly order = new NameOrder();
   private entries: readonly Entry[] = [];
+  private heights = new Map<string, number>(); // px, by robot
   private isPointed = false;
   private hasFocus = false;
   // the inputs with which the present order of the rows was made
@@ -31,8 +32,8 @@ export class RobotList {
       {
         keyOf: (entry) => (isTitle(entry) ? `group ${entry.title}` : entry.status.name),
         kindOf: (entry) => (isTitle(entry) ? "title" : "robot"),
-        heightOf: (entry) => (isTitle(entry) ? TITLE_PX : ROW_PX),
-        make: (kind) => (kind === "title" ? new TitleRow() : new RobotRow(ports)) as Row<Entry>,
+        heightOf: (entry) => (isTitle(entry) ? TITLE_PX : this.heightOf(entry)),
+        make: (kind) => (kind === "title" ? new TitleRow() : new RobotRow(ports, (listed) => this.heightOf(listed))) as Row<Entry>,
       },
       "Robots",
     );
@@ -67,9 +68,20 @@ export class RobotList {
     const entries = entriesOf(listedRobots(state), state.robotFilter, this.order);
     const isHeld = (this.isPointed || this.hasFocus) && this.held?.filter === state.robotFilter;
     this.entries = isHeld ? inOrderOf(this.entries, entries) : entries;
+    if (!isHeld) this.heights.clear();
     this.held = { filter: state.robotFilter };
     this.nothing.hidden = this.entries.length > 0 || !isFiltering(state.robotFilter);
     this.rows.show(this.entries);
+  }
+
+  // Once computed, a height is valid until the rows may move.
+  private heightOf(robot: ListedRobot): number {
+    if (this.entries.length > MAX_WRAPPED) return ROW_PX;
+    const known = this.heights.get(robot.status.name);
+    if (known !== undefined) return known;
+    const height = rowHeight(troubleOf(robot, this.ports.state.get().time));
+    this.heights.set(robot.status.name, height);
+    return height;
   }
 
   showSelection(selection: string | null): void {

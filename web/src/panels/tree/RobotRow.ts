@@ -7,7 +7,25 @@ import { element, setAttribute, setText } from "../../ui/element";
 import { count, formatDistance } from "../../ui/format";
 import type { PanelPorts } from "../contract/ports";
 
+export const ROW_PX = 50;
+const FIRST_LINE_PX = 33; // the name and the padding
+const LINE_PX = 17; // must equal the line height in style/robots.css
+const LINE_CHARACTERS = 31; // of a narrow list
+const MAX_LINES = 4;
+
+// Returns the sentence about what is wrong with the robot; empty if there is no problem.
+export function troubleOf({ health, state }: ListedRobot, now: number): string {
+  return health && (isTrouble(state) || health.level > 0) ? sentenceOf(health, now) : "";
+}
+
+// Returns the height of a row in px: a robot in trouble has lines for its whole sentence.
+export function rowHeight(trouble: string): number {
+  if (trouble === "") return ROW_PX;
+  return FIRST_LINE_PX + LINE_PX * Math.min(MAX_LINES, Math.ceil(trouble.length / LINE_CHARACTERS));
+}
+
 export class RobotRow {
+  private height = 0;
   readonly element: HTMLElement;
   private readonly button: HTMLButtonElement;
   private readonly dot = element("span", { class: "dot" });
@@ -16,7 +34,10 @@ export class RobotRow {
   private readonly distance = element("span", { class: "number" });
   private readonly collisions = element("span", { class: "number collisions" });
 
-  constructor(private readonly ports: Pick<PanelPorts, "state" | "robots">) {
+  constructor(
+    private readonly ports: Pick<PanelPorts, "state" | "robots">,
+    private readonly heightOf: (listed: ListedRobot) => number,
+  ) {
     this.button = element(
       "button",
       { class: "robot", type: "button", onclick: (event: MouseEvent) => this.choose(event) },
@@ -52,7 +73,8 @@ export class RobotRow {
     setAttribute(this.dot, "data-state", state);
     setAttribute(this.dot, "title", state === "unknown" ? agent : STATE_WORDS[state]);
     setText(this.name, status.name);
-    const why = this.why(listed);
+    const why = troubleOf(listed, this.ports.state.get().time);
+    this.setHeight(this.heightOf(listed));
     setText(this.behaviour, why || this.work(listed, agent));
     setAttribute(this.behaviour, "data-trouble", String(why !== ""));
     setText(this.distance, listed.kind === "station" ? "" : formatDistance(status.distance));
@@ -60,9 +82,11 @@ export class RobotRow {
     setAttribute(this.button, "title", [why, status.detail].filter((line) => line !== "").join("\n"));
   }
 
-  // Empty if there is no problem.
-  private why({ health, state }: ListedRobot): string {
-    return health && (isTrouble(state) || health.level > 0) ? sentenceOf(health, this.ports.state.get().time) : "";
+  private setHeight(height: number): void {
+    if (height === this.height) return;
+    this.height = height;
+    this.element.style.height = `${height}px`;
+    this.behaviour.style.setProperty("--lines", String(Math.floor((height - FIRST_LINE_PX) / LINE_PX)));
   }
 
   private work({ status, kind }: ListedRobot, agent: string): string {

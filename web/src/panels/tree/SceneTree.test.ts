@@ -46,6 +46,38 @@ test("robots in trouble come first with the reason", () => {
   expect(first.querySelector(".dot")!.getAttribute("data-state")).toBe("stuck");
 });
 
+test("the row of a robot in trouble has lines for its whole reason", () => {
+  const reason = "commanded 0.4 m/s, touches kiosk_counter, sonar_01 reads 0.04 m";
+  const { ports, store } = testPorts({ ...crowd(3), health: health({ robot: "r2", state: "stuck", reason }) });
+  const tree = createSceneTree(ports, document.createElement("div"));
+  const rows = () => [...tree.querySelectorAll<HTMLElement>(".robots > li")];
+  const text = tree.querySelector<HTMLElement>('[data-robot="r2"] .robot-behaviour')!;
+  expect(text.textContent).toBe(`is stuck for 7 s: ${reason}`);
+  expect(text.style.getPropertyValue("--lines")).toBe("3");
+  expect(text.closest("button")!.title).toBe(text.textContent);
+  expect(rows().map(({ style }) => [style.transform, style.height])).toEqual([
+    ["translateY(0px)", "84px"],
+    ["translateY(84px)", "50px"],
+    ["translateY(134px)", "50px"],
+  ]);
+  store.set({ health: health({ robot: "r2", state: "moving", level: 0 }) });
+  expect(rows().map(({ style }) => style.height)).toEqual(["50px", "50px", "50px"]);
+});
+
+test("rows of a large crowd have one height, and heights do not change under the pointer", () => {
+  const stuck = health({ robot: "r2", state: "stuck", reason: "a reason that is longer than one line of the list" });
+  const large = testPorts({ ...crowd(101), health: stuck }).ports;
+  const tree = createSceneTree(large, document.createElement("div"));
+  expect(tree.querySelector<HTMLElement>(".robots > li")!.style.height).toBe("50px");
+  const { ports, store } = testPorts(crowd(8));
+  const small = createSceneTree(ports, document.createElement("div"));
+  small.querySelector(".robot-scroll")!.dispatchEvent(new Event("pointerenter"));
+  store.set({ health: stuck });
+  expect([...small.querySelectorAll<HTMLElement>(".robots > li")].every(({ style }) => style.height === "50px")).toBe(true);
+  small.querySelector(".robot-scroll")!.dispatchEvent(new Event("pointerleave"));
+  expect(small.querySelector<HTMLElement>(".robots > li")!.style.height).not.toBe("50px");
+});
+
 test("a search shows the matching robots, and says if there are none", () => {
   const { ports } = testPorts(crowd(30));
   const tree = createSceneTree(ports, document.createElement("div"));
