@@ -1,5 +1,6 @@
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "apps/gsv/process/option_values.h"
 #include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/thread_team.h"
+#include "gsv/health/health_book.h"
 #include "gsv/hosting/hosted_behaviour.h"
 #include "gsv/sensing/devices/built_in.h"
 
@@ -29,7 +31,7 @@ struct CrowdArguments {
   double duration = 60;
   std::uint64_t seed = 1;
   int threads = 0;
-  bool verify = false, json = false;
+  bool verify = false, health = false, json = false;
 };
 
 struct CrowdRow {
@@ -42,6 +44,7 @@ struct CrowdRow {
   std::int64_t steps = 0;
   std::string state_hash;
   std::shared_ptr<CrowdCheck> check;  // null without --verify
+  std::uint64_t health_reports = 0;
 };
 
 // The current resident size, and not its maximum, because one process measures all rows.
@@ -110,6 +113,22 @@ base::Result<std::shared_ptr<simulation::Simulation>> LoadCrowd(const CrowdArgum
   return simulation;
 }
 
+// Waits until the run has ended. With --health, computes the health of all robots meanwhile, as
+// often as for a viewer that subscribes to it.
+void AwaitEnd(simulation::Simulation& simulation, const CrowdArguments& arguments, CrowdRow& row) {
+  const std::vector<Phase> ends{Phase::kFinished, Phase::kFailed};
+  if (arguments.health) {
+    health::HealthBook book;
+    for (Phase phase = Phase::kRunning; std::count(ends.begin(), ends.end(), phase) == 0;) {
+      phase = simulation.WaitForPhase(ends, std::chrono::milliseconds(500));
+      (void)book.Update(simulation.status(), simulation.specification().stuck_after,
+                        health::SensorsOf(simulation));
+      ++row.health_reports;
+    }
+  }
+  simulation.WaitForPhase(ends, std::chrono::hours(24));
+}
+
 base::Result<CrowdRow> RunCrowd(const CrowdArguments& arguments, int robots) {
   CrowdRow row;
   row.robots = robots;
@@ -119,8 +138,7 @@ base::Result<CrowdRow> RunCrowd(const CrowdArguments& arguments, int robots) {
   if (!simulation) return base::Fail(simulation.error());
   row.load = Seconds(WallClock::now() - start);
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
-  constexpr auto kMaxRunTime = std::chrono::hours(24);
-  (*simulation)->WaitForPhase({Phase::kFinished, Phase::kFailed}, kMaxRunTime);
+  AwaitEnd(**simulation, arguments, row);
   row.rss = ResidentMebibytes();
   const simulation::SimulationStatus status = (*simulation)->status();
   if (status.phase != Phase::kFinished) {
@@ -144,6 +162,7 @@ nlohmann::ordered_json ToJson(const CrowdRow& row) {
       {"steps", row.steps},           {"readings", row.readings},
       {"collisions", row.collisions}, {"threads", row.threads},
       {"state_hash", row.state_hash}};
+  if (row.health_reports > 0) json["health_reports"] = row.health_reports;
   if (row.check != nullptr) {
     json["verified"] = {{"readings", row.check->readings_checked()},
                         {"pairs", row.check->pairs_checked()},
@@ -229,6 +248,8 @@ void AddCrowdBench(const CommandLine& bench) {
   command->add_flag(
       "--verify", arguments->verify,
       "check overlaps and 1 % of the readings by brute force; exit with code 1 if they differ");
+  command->add_flag("--health", arguments->health,
+                    "compute the health of all robots twice a second, as for a viewer");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = Crowd(*arguments); });
 }
