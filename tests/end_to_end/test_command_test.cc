@@ -93,6 +93,23 @@ TEST_F(TestCommand, FailureKeepsItsFiles) {
   EXPECT_THAT(again.err, HasSubstr("moves.yaml:6:10: too far: violated at "));
 }
 
+TEST_F(TestCommand, TheClipSpansAllViolations) {
+  const std::string file =
+      folder_.Write("two.yaml",
+                    "world: playground\nduration: 8\nrobots: [{model: pebble, x: 0, y: 0}]\n"
+                    "expect: [{always: {time: {at_most: 6}}}, {always: {time: {at_most: 2}}}]\n");
+  const Outcome run = Test({file, "--json", "--keep", "1", "--keep-after", "0.5"});
+  EXPECT_EQ(run.ending, "exit code 1") << run.err;
+  const auto result = run.LastLine()["results"][0];
+  const double last = result["report"]["expectations"][0]["time_s"];
+  const double first = result["report"]["expectations"][1]["time_s"];
+  EXPECT_LT(first, last);
+  const fs::path clip = fs::path(result["folder"].get<std::string>()) / "run.mcap";
+  const auto info = RunProgram("gsv", {"rec", "info", clip, "--json"}).LastLine();
+  EXPECT_NEAR(info["start_s"].get<double>(), first - 1, 0.1) << info;
+  EXPECT_NEAR(info["start_s"].get<double>() + info["duration_s"].get<double>(), last + 0.5, 0.1);
+}
+
 TEST_F(TestCommand, RepetitionsHaveTheSameHash) {
   const std::string file =
       Scenario("still.yaml", "seed: 9\nexpect: [{always: {inside: {robot: pebble, x: [0, 0]}}}]\n");

@@ -10,10 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/robot_listing.h"
 #include "apps/gsv/commands/selection_options.h"
 #include "apps/gsv/lost/server_note.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/option_values.h"
+#include "gsv/base/spelling.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/orb/errors.h"
 #include "gsv/services/conversions.h"
@@ -55,17 +57,7 @@ std::string Json(const FoundSimulation& simulation) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-// Prints the robot's health if the server reports it, else the detail of the robot's state.
-void PrintRobot(const simulation::RobotStatus& robot,
-                const std::map<std::string, RemoteHealth>& healths) {
-  const std::string behaviour = robot.behaviour.empty() ? "-" : robot.behaviour;
-  const auto health = healths.find(robot.name);
-  const std::string& text = health == healths.end() ? robot.detail : health->second.sentence;
-  std::printf("  %-20s %-16s %s%s%s\n", robot.name.c_str(), behaviour.c_str(),
-              ToString(robot.phase), text.empty() ? "" : ": ", text.c_str());
-}
-
-void Print(const FoundSimulation& simulation) {
+void Print(const FoundSimulation& simulation, bool lists_all) {
   const simulation::SimulationStatus& status = simulation.status;
   const std::string target = status.mode == simulation::Mode::kLockstep
                                  ? std::string("as fast as possible")
@@ -74,15 +66,14 @@ void Print(const FoundSimulation& simulation) {
               status.name.c_str(), simulation.server.Describe().c_str(), ToString(status.phase),
               base::ToSeconds(status.time), ToString(status.mode), status.real_time_factor,
               target.c_str(), status.late_steps);
-  const auto healths = HealthOf(simulation);
-  for (const auto& robot : status.robots) PrintRobot(robot, healths);
+  std::fputs(RobotListing(status, HealthOf(simulation), lists_all).c_str(), stdout);
   if (!status.waiting_for.empty()) std::printf("  waiting for %s\n", status.waiting_for.c_str());
   if (!status.failure.empty()) std::printf("  failed: %s\n", status.failure.c_str());
 }
 
 struct Arguments {
   Selection selection;
-  bool json = false;
+  bool json = false, lists_all = false;
   std::uint64_t steps = 1;
   double factor = 1;
   std::map<std::string, std::string> texts;  // values of commands in the table, by parameter
@@ -117,21 +108,39 @@ int List(const Arguments& arguments) {
     if (arguments.json) {
       std::puts(Json(simulation).c_str());
     } else {
-      Print(simulation);
+      Print(simulation, arguments.lists_all);
     }
   }
   const int lost = arguments.selection.server.empty() ? ListLost(arguments) : 0;
-  if (simulations->empty() && lost == 0 && !arguments.json)
-    std::fprintf(stderr, "gsv: no simulation is running\n");
+  if (!simulations->empty() || lost > 0) return kOk;
+  if (!arguments.selection.simulation.empty()) {
+    return PrintError(NoSuchSimulation(arguments.selection));
+  }
+  if (!arguments.json) std::fprintf(stderr, "gsv: no simulation is running\n");
   return kOk;
+}
+
+// Returns an error if the simulation has no robot of this name. An empty name stands for all.
+base::Status CheckRobot(const simulation::SimulationStatus& status, const std::string& robot) {
+  std::vector<std::string> names;
+  for (const simulation::RobotStatus& each : status.robots) names.push_back(each.name);
+  if (robot.empty() || std::find(names.begin(), names.end(), robot) != names.end()) return {};
+  return base::Fail(
+      base::ErrorCode::kInvalidArgument,
+      "there is no robot of this name in " + status.name + base::DidYouMean(robot, names), robot);
 }
 
 // Prints the lines that behaviour programs have printed.
 int PrintOutput(const Arguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
   if (!simulation) return PrintError(simulation.error());
+  if (auto ok = CheckRobot(simulation->status, arguments.robot); !ok) return PrintError(ok.error());
   const auto printed = orb::Call(simulation->server.Describe(), [&] {
     sba::OutputLines_var lines = simulation->reference->output(arguments.robot.c_str());
+    if (lines->length() == 0 && !arguments.json) {
+      std::fprintf(stderr, "gsv: nothing was printed by %s\n",
+                   arguments.robot.empty() ? "any behaviour" : arguments.robot.c_str());
+    }
     for (CORBA::ULong i = 0; i < lines->length(); ++i) {
       const sba::OutputLine& line = lines[i];
       const double time = static_cast<double>(line.time_ns) * 1e-9;
@@ -188,7 +197,7 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
   if (arguments.json) {
     std::puts(Json(*simulation).c_str());
   } else {
-    Print(*simulation);
+    Print(*simulation, arguments.lists_all);
   }
   return kOk;
 }
@@ -272,6 +281,8 @@ void AddControlCommands(const CommandLine& line) {
   list->group(kControlGroup);
   auto arguments = AddSelection(*list);
   list->add_option("simulation", arguments->selection.simulation, "only simulations of this name");
+  list->add_flag("-a,--all", arguments->lists_all,
+                 "list all robots of a crowd, not only the 20 worst");
   list->callback([arguments, line] { line.exit_code = List(*arguments); });
 
   CLI::App* output =

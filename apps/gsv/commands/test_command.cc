@@ -253,14 +253,14 @@ void AddTestCommand(const CommandLine& line) {
       ->group(kResultGroup);
   command
       ->add_option("--keep", arguments->options.kept_seconds,
-                   "simulated time to keep before a failure")
+                   "simulated time to record before the first violation")
       ->check(Between(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS")
       ->group(kResultGroup);
   command
       ->add_option("--keep-after", arguments->options.kept_after,
-                   "simulated time to keep after a failure")
+                   "simulated time to record after the last violation")
       ->check(Between(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS")

@@ -49,8 +49,7 @@ std::string RobotLines(const simulation::SimulationStatus& status, const health:
     const simulation::RobotStatus* robot;
     const health::RobotHealth* health;  // null for a station
     int Trouble() const {
-      if (health == nullptr) return 0;
-      return 10 * static_cast<int>(health->level) + static_cast<int>(health->state);
+      return health == nullptr ? 0 : health::Severity(health->state, health->level);
     }
   };
   std::vector<Row> rows;

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "apps/gsv/machine/running_instances.h"
+#include "gsv/base/spelling.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/client/gsv_service_types.h"
@@ -115,6 +116,8 @@ std::string NamesOf(const std::vector<FoundSimulation>& simulations) {
   return names;
 }
 
+}  // namespace
+
 base::Error NoSuchSimulation(const Selection& selection) {
   const std::string where = selection.broker.empty() ? "" : selection.broker;
   Selection all;
@@ -122,8 +125,12 @@ base::Error NoSuchSimulation(const Selection& selection) {
   std::vector<std::string> silent;
   const auto there = FindSimulations(all, silent);
   if (there && !there->empty()) {
+    std::vector<std::string> names;
+    for (const FoundSimulation& each : *there) names.push_back(each.status.name);
     return {base::ErrorCode::kInvalidArgument,
-            "there is no simulation of this name; there are: " + NamesOf(*there), where};
+            "there is no simulation of this name; there are: " + NamesOf(*there) +
+                base::DidYouMean(selection.simulation, names),
+            selection.simulation.empty() ? where : selection.simulation};
   }
   if (!silent.empty()) return {base::ErrorCode::kUnavailable, silent.front(), where};
   return {base::ErrorCode::kUnavailable,
@@ -132,8 +139,6 @@ base::Error NoSuchSimulation(const Selection& selection) {
                                    : "the broker has no simulations",
           where};
 }
-
-}  // namespace
 
 base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker) {

@@ -61,6 +61,9 @@ struct RemoteInstance {
 base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker);
 
+// Returns the error of a selection that no simulation matches, with the names of those that run.
+base::Error NoSuchSimulation(const Selection& selection);
+
 base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simulation);
 
 struct RemoteHealth {

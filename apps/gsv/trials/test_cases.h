@@ -35,8 +35,8 @@ struct TestOptions {
   std::filesystem::path failures;   // folder for the files of failures; empty if none are kept
   int threads = 0;                  // number of threads per run; 0 if `gsv run` chooses it
   double timeout = 300;             // wall-clock time limit per run, s
-  double kept_seconds = 10;         // how many seconds of the recording before the failure are kept
-  double kept_after = 2;            // the same after the failure
+  double kept_seconds = 10;         // how many seconds of the recording before a violation are kept
+  double kept_after = 2;            // the same after a violation
   std::vector<std::string> drives;  // see the option --drive of `gsv run`
   int repeat = 1;
   bool record = true;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/trials/failure_clips.h"
 #include "apps/gsv/trials/prepared_runs.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "gsv/base/temporary_folder.h"
@@ -108,16 +109,6 @@ std::string HealthIn(const nlohmann::ordered_json& report) {
   return text;
 }
 
-// Returns the time of the first violation.
-double FailureTime(const nlohmann::ordered_json& report) {
-  double first = report.value("sim_time_s", 0.0);
-  for (const auto& expectation : report.value("expectations", nlohmann::ordered_json::array())) {
-    if (!expectation.value("holds", true))
-      first = std::min(first, expectation.value("time_s", first));
-  }
-  return first;
-}
-
 std::string Quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -137,8 +128,40 @@ std::string Message(const ChildOutcome& outcome) {
   return outcome.errors.empty() ? message : message + "\n" + outcome.errors;
 }
 
-// Keeps the files of a failure in options.failures: the last seconds of the recording, the image,
-// the output, and the command that repeats it.
+// Cuts the clips out of the recording of the run, and returns how to see them. The first clip is
+// run.mcap, which `gsv rec list` and the page list.
+std::string KeepClips(const fs::path& recording, const fs::path& kept, const TestOptions& options,
+                      const std::vector<double>& violations, const std::string& about) {
+  std::string text;
+  const std::vector<Clip> clips = ClipsOf(violations, options.kept_seconds, options.kept_after);
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    const Clip& clip = clips[i];
+    const fs::path file = kept / (i == 0 ? "run.mcap" : fmt::format("run_{}.mcap", i + 1));
+    const recording::Selection part{{}, base::FromSeconds(clip.from), base::FromSeconds(clip.to)};
+    shown += clip.violations.size();
+    if (const auto cut = recording::Recover(recording, file, part); !cut) {
+      text += "\nCannot keep the recording: " + cut.error().Sentence() + "\n";
+      continue;
+    }
+    const double at = clip.violations.front();
+    const std::string select = about.empty() ? "" : "&select=" + about;
+    text += i == 0 ? "\nSee it in the viewer:\n"
+                   : fmt::format("\nSee the violation at {:g} s in the viewer:\n", at);
+    text += fmt::format(
+        "  gsv replay --paused --at {1:g} --open {0}\n"
+        "or\n  gsv replay --paused --port 8080 {0}\n  http://127.0.0.1:8080/#t={1:g}{2}\n",
+        Quoted(file), at, select);
+  }
+  if (shown < violations.size()) {
+    text +=
+        fmt::format("\nNo recording is kept of violations after {:g} s.\n", violations[shown - 1]);
+  }
+  return text;
+}
+
+// Keeps the files of a failure in options.failures: the parts of the recording around the
+// violations, the image, the output, and the command that repeats it.
 void KeepFailure(const fs::path& folder, const TestOptions& options, const ChildOutcome& outcome,
                  TestResult& result) {
   std::string name = result.test.name;
@@ -152,8 +175,8 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
     fs::copy_file(folder / file, kept / file, ignored);
   }
   fs::copy_file(result.test.file, kept / "scenario.yaml", ignored);
-  const double failed = FailureTime(outcome.report);
-  result.failed_at = failed;
+  const std::vector<double> violations = ViolationTimes(outcome.report);
+  result.failed_at = violations.front();
   result.about = RobotIn(outcome.report, result.message);
   std::string text =
       result.message + "\n\nState hash: " + outcome.report.value("state_hash", "none") +
@@ -162,19 +185,7 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
     text += "\nAt the end:\n" + health;
   }
   if (fs::exists(folder / "run.mcap", ignored)) {
-    const recording::Selection last{{},
-                                    base::FromSeconds(std::max(0.0, failed - options.kept_seconds)),
-                                    base::FromSeconds(failed + options.kept_after)};
-    const fs::path file = kept / "run.mcap";
-    if (const auto cut = recording::Recover(folder / "run.mcap", file, last); !cut) {
-      text += "\nCannot keep the recording: " + cut.error().Sentence() + "\n";
-    } else {
-      const std::string select = result.about.empty() ? "" : "&select=" + result.about;
-      text += fmt::format(
-          "\nSee it in the viewer:\n  gsv replay --paused --at {1:g} --open {0}\n"
-          "or\n  gsv replay --paused --port 8080 {0}\n  http://127.0.0.1:8080/#t={1:g}{2}\n",
-          Quoted(file), failed, select);
-    }
+    text += KeepClips(folder / "run.mcap", kept, options, violations, result.about);
   }
   if (std::ofstream readme(kept / "README.txt"); !(readme << text << std::flush)) {
     result.message += "\nCannot save the files of the failure in " + kept.string() +

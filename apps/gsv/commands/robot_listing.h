@@ -1,0 +1,21 @@
+// The lines of `gsv ps` about the robots of one simulation.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "apps/gsv/serving/remote_simulations.h"
+
+namespace gsv::app {
+
+// The number of robots up to which all are listed, by name. Of a larger crowd, only so many are
+// listed, the worst first.
+inline constexpr std::size_t kMaxListed = 20;
+
+// Returns one line per robot, with its health if the server reports it, else the detail of its
+// state. If robots are left out, the last line counts them by state. `lists_all`: lists all robots
+// of a crowd, the worst first.
+std::string RobotListing(const simulation::SimulationStatus& status,
+                         const std::map<std::string, RemoteHealth>& healths, bool lists_all);
+
+}  // namespace gsv::app
