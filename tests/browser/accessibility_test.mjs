@@ -5,10 +5,10 @@ import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage, requireFromWeb, waitUntilDrawn } from "./browser.mjs";
+import { faultsOf } from "./axe.mjs";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { record, startReplay, startServer } from "./server.mjs";
 
-const AXE = fs.readFileSync(requireFromWeb.resolve("axe-core/axe.min.js"), "utf8");
 const WATCH = "watching-0123456789abcdef";
 const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
 
@@ -39,17 +39,6 @@ async function pauseAt(url) {
   const headers = { "content-type": "application/json" };
   const answer = await fetch(`${url}api/simulations/${name}/pause`, { method: "POST", headers, body: "{}" });
   assert.equal(answer.status, 200);
-}
-
-// Returns the problems that axe-core finds, one per line.
-async function faultsOf(page) {
-  await page.evaluate(AXE); // past the page's Content-Security-Policy
-  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-  return violations.flatMap(({ id, nodes }) =>
-    nodes.map(
-      ({ target, failureSummary }) => `${id} at ${target}: ${failureSummary.replaceAll(/\s+/g, " ")}`,
-    ),
-  );
 }
 
 async function judge(page) {

@@ -34,7 +34,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
     if (text.length > MAX_COPIED) notices.notify("error", `The value is too large to copy: ${text.length.toLocaleString("en")} characters.`);
     else void notices.copy(text, done);
   };
-  const title = element("h2", { class: "tree-title" });
+  const title = element("h2", { class: "tree-title", hidden: "" });
   const note = element("p", { class: "dim", role: "status" });
   const pause = button("pause", "Hold this message", () => {
     isPaused = !isPaused;
@@ -69,6 +69,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
     newest = undefined;
     tree.clear();
     setText(title, chosen ?? "");
+    title.hidden = chosen === null;
     message.classList.toggle("none", chosen === null);
     setText(note, chosen === null ? "Choose a topic to see its messages." : "Waiting for a message…");
     for (const each of [pause, copyAll, copyName]) each.hidden = chosen === null;

@@ -1,0 +1,16 @@
+// Runs axe-core on a page of the viewer.
+import fs from "node:fs";
+import { requireFromWeb } from "./browser.mjs";
+
+const AXE = fs.readFileSync(requireFromWeb.resolve("axe-core/axe.min.js"), "utf8");
+
+// Returns the problems that axe-core finds, one per line.
+export async function faultsOf(page) {
+  await page.evaluate(AXE); // past the page's Content-Security-Policy
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  return violations.flatMap(({ id, nodes }) =>
+    nodes.map(
+      ({ target, failureSummary }) => `${id} at ${target}: ${failureSummary.replaceAll(/\s+/g, " ")}`,
+    ),
+  );
+}
