@@ -107,11 +107,11 @@ function(gsv_library NAME)
   set_target_properties(gsv_${NAME} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
-# gsv_late_library(TARGET INSTEAD_OF IMPORTED LIBRARIES FILE … [WITHOUT FUNCTION]) makes the library TARGET, to link to in place of the
+# gsv_late_library(TARGET INSTEAD_OF IMPORTED LIBRARIES FILE … [WITHOUT FUNCTION …]) makes the library TARGET, to link to in place of the
 # target IMPORTED, whose functions are in the shared libraries FILE. These are then loaded at the first call of one
 # of their functions; see tools/make_late_library. On processors that it cannot write for, TARGET links to IMPORTED.
 function(gsv_late_library TARGET)
-  cmake_parse_arguments(ARG "" "INSTEAD_OF;WITHOUT" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "INSTEAD_OF" "LIBRARIES;WITHOUT" ${ARGN})
   if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
     add_library(${TARGET} INTERFACE)
     target_link_libraries(${TARGET} INTERFACE ${ARG_INSTEAD_OF})
@@ -121,7 +121,8 @@ function(gsv_late_library TARGET)
   set(SCRIPT ${CMAKE_SOURCE_DIR}/tools/make_late_library)
   set(SOURCE ${CMAKE_CURRENT_BINARY_DIR}/${TARGET}.s)
   if(ARG_WITHOUT)
-    set(WITHOUT --without ${ARG_WITHOUT})
+    list(JOIN ARG_WITHOUT "," WITHOUT)
+    set(WITHOUT --without ${WITHOUT})
   endif()
   add_custom_command(OUTPUT ${SOURCE}
     COMMAND Python3::Interpreter ${SCRIPT} ${WITHOUT} ${SOURCE} ${ARG_LIBRARIES}

@@ -266,10 +266,7 @@ void SilenceConsoles() {
   });
 }
 
-sdf::ElementPtr SdfSchema() {
-  static const sdf::ElementPtr schema = MakeSdfSchema();
-  return schema;
-}
+sdf::ElementPtr SdfSchema() { return DescriptionInFile("root.sdf"); }
 
 namespace {
 

@@ -106,4 +106,10 @@ sdf::ElementPtr MakeSdfSchema(const std::set<std::string>& without) {
   return SchemaBuilder(without).FromFile("root.sdf");
 }
 
+sdf::ElementPtr DescriptionInFile(const std::string& file) {
+  static const std::set<std::string> nothing;
+  static SchemaBuilder builder(nothing);
+  return builder.FromFile(file);
+}
+
 }  // namespace gsv::formats

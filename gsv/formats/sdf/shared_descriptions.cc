@@ -5,6 +5,9 @@
 
 #include <sdf/Element.hh>
 #include <sdf/Param.hh>
+#include <sdf/parser.hh>
+
+#include "gsv/formats/sdf/sdf_schema.h"
 
 // The linker option --undefined requests this symbol, so that the linker includes this file.
 extern "C" const char gsv_shared_descriptions = 0;
@@ -50,6 +53,15 @@ sdf::ElementPtr sdf::Element::Clone() const {
   if (from.value != nullptr) to.value = CloneFor(clone, *from.value);
   if (from.includeElement != nullptr) to.includeElement = from.includeElement->Clone();
   return clone;
+}
+
+// libsdformat calls this for each file of the schema, each <include> in these files, and each nested
+// model. It would parse the file and all files that it includes.
+bool sdf::initFile(const std::string& file, ElementPtr element) {
+  const ElementPtr description = gsv::formats::DescriptionInFile(file);
+  if (description == nullptr) return false;
+  element->Copy(description);
+  return true;
 }
 
 bool gsv::formats::SharesDescriptions() {

@@ -1,16 +1,17 @@
-// Copies elements of libsdformat without the descriptions below them.
+// Makes libsdformat share the descriptions of elements.
 //
 // For each element that libsdformat reads, it copies the element's description with all descriptions
-// below it: for a <model> some thousand objects, none of which it changes afterwards. This file defines
-// sdf::Element::Clone(), so that a copy refers to the same descriptions as its original. libsdformat
-// calls this definition if the program exports it.
+// below it: for a <model> some thousand objects, none of which it changes afterwards. For each nested
+// model, it parses the files of its schema. This file defines sdf::Element::Clone(), so that a copy
+// refers to the same descriptions as its original. It defines sdf::initFile(), which copies a
+// description that was made before. libsdformat calls these definitions if the program exports them.
 //
-// Threads  those of libsdformat: descriptions are only read, and their counts of owners are atomic.
+// Threads  one at a time, as for all of libsdformat. Documents may be deleted at any time.
 #pragma once
 
 namespace gsv::formats {
 
-// Whether libsdformat calls the definition here. Otherwise, reading takes longer. Call with
+// Whether libsdformat calls the definitions here. Otherwise, reading takes longer. Call with
 // SdformatMutex() locked.
 bool SharesDescriptions();
 

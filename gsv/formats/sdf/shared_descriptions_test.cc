@@ -43,6 +43,17 @@ TEST(SharedDescriptions, DoNotChangeAsDocumentsAreRead) {
   EXPECT_EQ(AllBelow(*SdfSchema()), AllBelow(*MakeSdfSchema()));
 }
 
+TEST(SharedDescriptions, AreSharedByNestedModels) {
+  base::Problems problems;
+  const auto document = ParseSdf({"nested.sdf", kNested}, {}, problems);
+  ASSERT_TRUE(document) << document.error().message;
+  const sdf::ElementPtr outer = document->root->Element()->GetElement("world")->GetElement("model");
+  const sdf::ElementPtr inner = outer->GetElement("model");
+  const base::MutexLock lock(SdformatMutex());
+  EXPECT_EQ(AllBelow(*inner->GetElementDescription("joint")),
+            AllBelow(*SdfSchema()->GetElementDescription("model")->GetElementDescription("joint")));
+}
+
 TEST(SharedDescriptions, LeaveCopiesOfElementsApart) {
   base::Problems problems;
   const auto document = ParseSdf({"nested.sdf", kNested}, {}, problems);
