@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Holds docs/broker.md's table of operations, exceptions and tests to the standard's IDL.
+"""Compares the table of operations, exceptions and tests in docs/broker.md with the standard's IDL.
 
-For each operation and attribute there must be a row with a test whose file, or whose fixture, calls
-it, and for each exception that it raises a row that names both, with a test in which the exception
-stands (unless the row says "never"). Each test named must exist.
+Each operation and attribute needs a row with a test that calls it, directly or in its fixture. Each
+exception that it raises needs a row with both names and a test that mentions the exception, unless
+the row says "never". Each named test must exist.
 """
 import pathlib
 import re

@@ -112,6 +112,19 @@ class Extraction(unittest.TestCase):
                          [(1, "One contract in two lines."), (4, "Another."), (6, "of a, and more"),
                           (8, "Of the next.")])
 
+    def test_comments_and_docstrings_of_a_script(self):
+        source = '#!/usr/bin/env python3\n"""Does one thing.\n\nusage: it FILE\n\n- An item\n"""\n# A comment\n# of two lines.\n'
+        self.assertEqual([(text.line, text.words) for text in texts.texts_of_script(source)],
+                         [(8, "A comment of two lines."), (2, "Does one thing."), (6, "- An item")])
+
+    def test_comments_of_the_page(self):
+        found = [text.words for text in texts.texts_of_web('show("Two words"); // the first frame\n')]
+        self.assertEqual(found, ["Two words", "the first frame"])
+
+    def test_flags_a_comment_that_names_nothing(self):
+        self.assertEqual(len(list(language.problems_in(texts.Text(1, "comment", "of each body")))), 1)
+        self.assertEqual(list(language.problems_in(texts.Text(1, "comment", "the mass of each body"))), [])
+
     def test_names_of_a_header(self):
         header = ('#include "picture.h"\n// Of TakePicture.\nint Take(int most_);  // told\n'
                   'const char* kText = "wish";\nint Take();\n'

@@ -27,7 +27,7 @@ FORBIDDEN_CODE = {
         r"\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday)\b"
     ),
 }
-# What only the folders that docs/layers.txt excepts may use, in the core or not.
+# Headers that only the folders excepted by docs/layers.txt may include.
 WALLED_INCLUDES = {
     "omniorb-internals": re.compile(
         r"^(omniORB4/((giop|tcp|unix)\w+|omniIOR|omniObjRef|omniURI)\.h|tcpSocket\.h"
@@ -35,7 +35,7 @@ WALLED_INCLUDES = {
     ),
 }
 
-# What no folder may use, for gsv/base has the same where clang can check it. Tests and examples are free.
+# Code that only tests and examples may use, because gsv/base has equivalents that clang can check.
 UNCHECKED_CODE = re.compile(r"\bstd::((timed_|shared_|recursive_)?mutex|condition_variable)\b")
 
 

@@ -96,7 +96,7 @@ class CheckRequirements(unittest.TestCase):
         code, printed = self.run_on(page(), other=f"{head}| x | `Bad.Test`, `Good.Test` |")
         self.assertEqual(code, 1)
         self.assertIn("other.md:3: this row: the test Bad.Test failed", printed)
-        # What stands in another column, or in a table of another kind, names no test.
+        # Text in another column, or in a table of another kind, names no test.
         code, printed = self.run_on(page(), other="| Name | At most |\n|---|---|\n| `Bad.Test` | 1 |")
         self.assertIn("no table here names a test", printed)
 

@@ -3,9 +3,9 @@
 
 usage: check_scenarios.py GSV SCHEMA FOLDER
 
-Each *.yaml of FOLDER must be valid by the schema, in the eyes of python3-jsonschema. Each text of
-CASES must be judged alike by the schema and by `gsv test`, which refuses a bad scenario with exit
-code 3 before it runs anything: it is given a scenario without a world behind it.
+python3-jsonschema must accept each *.yaml of FOLDER by the schema. For each text of CASES, the
+schema and `gsv test` must give the same verdict. `gsv test` refuses an invalid scenario with exit
+code 3 before it runs anything.
 """
 
 import json

@@ -1,8 +1,8 @@
 """Collects the pages of the documentation site from the source tree, for tools/make_docs.
 
-A page keeps its text. Its links change where the site has another place for what they lead to: pages
-of the root folder stand beside those of docs/, and a file of the source tree that is no page (an
-example, a script, a folder) becomes a page that shows it.
+The text of a page is unchanged. Links are changed if their target has another place in the site:
+pages of the root folder are beside those of docs/. A linked file of the source tree that is no page
+(an example, a script, a folder) becomes a page that shows it.
 """
 
 import posixpath

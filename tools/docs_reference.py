@@ -8,8 +8,8 @@ the file's.
 import re
 from pathlib import Path
 
-# What applications, behaviours and sensor plug-ins include; cmake/GsvInstall.cmake installs these and
-# what they need.
+# Folders of headers for applications, behaviours and sensor plug-ins. cmake/GsvInstall.cmake
+# installs these, and the headers that they include.
 CPP_FOLDERS = ("sdk", "sdk/behaviour", "sdk/testing", "gsv/base", "gsv/readings", "gsv/geometry", "gsv/broker/client",
                "gsv/sensing", "gsv/services")
 REFERENCES = {"cpp": "GSV C++ reference", "idl": "GSV IDL reference", "python": "GSV Python reference"}

@@ -4,6 +4,7 @@ A text is one paragraph, list item, table cell, heading, help line, string of th
 Code inside a text (`like_this`) becomes the word "CODE", so that names do not count as language.
 """
 
+import ast
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -191,6 +192,42 @@ def texts_of_comments(source):
     yield from ended()
 
 
+def texts_of_web(source):
+    """The strings and the comments of the viewer's sources."""
+    yield from texts_of_typescript(source)
+    yield from texts_of_comments(source)
+
+
+def texts_of_script(source):
+    """Paragraphs of the comments and docstrings of Python, and of the comments of shell scripts.
+    Usage lines and indented lines are no texts."""
+    first = source.partition("\n")[0]
+    if first.startswith("#!") and "python" not in first and not first.endswith("sh"):
+        return
+    found = []
+    for number, line in enumerate(source.splitlines(), start=1):
+        comment = re.match(r"\s*#\s(\s*)(.*)", line)
+        found.append((number, comment.group(2) if comment and not comment.group(1) else ""))
+    found.append((0, ""))
+    if not first.endswith("sh"):
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+                lines = ast.get_docstring(node).splitlines()
+                found += [(node.body[0].lineno + i, "" if line.startswith((" ", "usage:")) else line)
+                          for i, line in enumerate([*lines, ""])]
+    paragraph, start = [], 0
+    for number, words in [*found, (0, "")]:
+        if paragraph and words.startswith("- "):
+            yield Text(start, "comment", without_code(" ".join(paragraph)))
+            paragraph = []
+        if words.strip() and not looks_like_code(words):
+            start = start if paragraph else number
+            paragraph.append(words.strip())
+        elif paragraph:
+            yield Text(start, "comment", without_code(" ".join(paragraph)))
+            paragraph = []
+
+
 def parts_of_name(name):
     """Returns the words of an identifier in lower case: "max wait" for kMaxWait and max_wait_."""
     words = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+", re.sub(r"^k(?=[A-Z])", "", name))
@@ -274,10 +311,16 @@ SOURCES = (
     ("apps/**/*.h", texts_of_header),
     ("tests/**/*.h", texts_of_header),
     ("web/*.html", texts_of_html),
-    ("web/src/**/*.ts", texts_of_typescript),
+    ("web/src/**/*.ts", texts_of_web),
     ("gsv/**/*.h", texts_of_header),
     ("sdk/**/*.h", texts_of_header),
     ("idl/*.idl", texts_of_comments),
+    ("bench/*", texts_of_script),
+    ("tools/**/*", texts_of_script),
+    ("examples/**/*.py", texts_of_script),
+    ("gsv/**/*.py", texts_of_script),
+    ("sdk/**/*.py", texts_of_script),
+    ("tests/**/*.py", texts_of_script),
 )
 
 
@@ -287,7 +330,12 @@ def texts_below(root):
     for pattern, extract in SOURCES:
         for file in Path(root).glob(pattern):
             path = file.relative_to(root)
-            if SKIPPED_FOLDERS & set(path.parts) or file.name.endswith(".test.ts"):
+            if SKIPPED_FOLDERS & set(path.parts) or not file.is_file():
                 continue
-            texts[str(path)] = list(extract(file.read_text(encoding="utf-8")))
+            source = file.read_text(encoding="utf-8")
+            if extract is texts_of_script and not (file.suffix == ".py" or source.startswith("#!")):
+                continue
+            if file.name.endswith(".test.ts"):  # its strings are names of tests and data
+                extract = texts_of_comments
+            texts[str(path)] = list(extract(source))
     return dict(sorted(texts.items()))

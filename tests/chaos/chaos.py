@@ -3,10 +3,11 @@
 
 usage: tests/chaos/chaos.py BUILD [--seconds 60] [--seed 1] [--report FILE.json]
 
-A `gsv serve` runs simulations. Meanwhile, in an order that the seed determines, behaviours are
-killed and stopped, viewers stall, random bytes are sent to ports, the broker is killed and
-restarted, the disk of the recordings becomes full and read-only, and the network is interrupted,
-slow and lossy. The program checks these promises:
+A `gsv serve` runs simulations. Meanwhile, this program causes disturbances in an order
+that the seed determines. Behaviours are killed and stopped, viewers stall, and random bytes are sent
+to ports. The broker is killed and restarted. The disk of the recordings becomes full and read-only.
+The network is interrupted, slow and lossy.
+The program checks these promises:
 
 - A witness, which is a lockstep simulation, has exactly the same result each time.
 - The server responds, and at the end has as much memory, threads and descriptors as at the start.

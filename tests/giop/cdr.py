@@ -1,8 +1,10 @@
-"""CDR by the types of signatures.py, written and read without an ORB (CORBA 3.1 part 2, 7.3).
+"""Writes and reads CDR for the types of signatures.py, without an ORB (CORBA 3.1 part 2, 7.3).
 
-A TypeCode is the name of a simple type or a tuple: ("string", BOUND), ("sequence", TC, BOUND), ("array", TC, LENGTH),
-("alias", ID, NAME, TC), ("struct", ID, NAME, [(NAME, TC) …]), ("enum", ID, NAME, [NAME …]), ("objref", ID, NAME),
-("union", ID, NAME, TC, [(LABEL, NAME, TC) …]), ("indirection", OFFSET). An `any` is (TC, value).
+A TypeCode is the name of a simple type, or one of these tuples:
+  ("string", BOUND), ("sequence", TC, BOUND), ("array", TC, LENGTH), ("alias", ID, NAME, TC),
+  ("struct", ID, NAME, [(NAME, TC) …]), ("enum", ID, NAME, [NAME …]), ("objref", ID, NAME),
+  ("union", ID, NAME, TC, [(LABEL, NAME, TC) …]), ("indirection", OFFSET)
+An `any` is (TC, value).
 """
 
 import struct

@@ -5,9 +5,9 @@
     {REPOSITORY ID: {"name": "sba::Sonar", "bases": [REPOSITORY ID …],
                      "operations": [{"name", "parameters": [["in", NAME, TYPE] …], "result": TYPE}]}}
 
-An attribute is its operations `_get_…` and `_set_…`. A TYPE is the name of a simple one, or a list:
+An attribute is listed as its operations `_get_…` and `_set_…`. A TYPE is the name of a simple one, or a list:
 ["sequence", TYPE], ["struct", ID, [[NAME, TYPE] …]], ["enum", ID, [NAME …]], ["objref", ID],
-["union", ID, TYPE, {VALUE: [NAME, TYPE]}]. What is included is told as well.
+["union", ID, TYPE, {VALUE: [NAME, TYPE]}]. The output contains the content of included files.
 """
 
 import json

@@ -211,7 +211,7 @@ class Contents(unittest.TestCase):
             self.assertAlmostEqual(abs(contact["point"]["x"]), 0.2, 3)
 
     def check_wrench(self, message):
-        """What the mast exerts on the box, about the joint."""
+        """Checks the wrench that the mast exerts on the box, about the joint."""
         self.assertEqual(message["header"]["frame_id"], "probe/mast")
         self.assertAlmostEqual(message["force"]["z"], -0.5 * 9.8, 2)
         self.assertAlmostEqual(message["torque"]["y"], 0.1 * 0.5 * 9.8, 2)

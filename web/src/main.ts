@@ -51,9 +51,9 @@ import { connectTools, showChosenPose } from "./app/connectTools";
 import { chosenDrawer, keepDrawer, startDrawing } from "./app/startDrawing";
 import type { ViewChoice } from "./app/ViewChoice";
 
-// The page's address may contain: simulation=NAME (the simulation to join), recording=NAME (the
-// recording to replay), and quality=high (draws all pixels, however slow that is) or quality=best
-// (with the light of a machine with a graphics card, too).
+// The page's address may contain simulation=NAME (the simulation to join) and recording=NAME (the
+// recording to replay). It may also contain quality=high, which draws all pixels even if that is
+// slow, or quality=best, which also draws the light as with a graphics card.
 const storage = browserStorage();
 const store = new Store<State>({
   ...initialState,

@@ -55,7 +55,7 @@ export interface NewObject {
 export interface Preview {
   scene: SceneDescription;
   poses: Float64Array; // seven numbers for each entry of the scene's poses
-  warnings: string[]; // what could not be read from the files
+  warnings: string[]; // parts of the files that could not be read
 }
 
 // The texts of the world file and the scenario file, and a list of what these files leave out.

@@ -76,8 +76,8 @@ type LayoutMessage = Pick<PosesMessage, "layout_version">;
 
 export class Session implements TopicSource, LiveViewSource {
   private client: LiveClient | null = null;
-  private readonly topics = new SharedTopics(); // of the client
-  private readonly views = new SharedViews(); // of the client
+  private readonly topics = new SharedTopics(); // subscriptions of the client
+  private readonly views = new SharedViews(); // views of the client
   private timer: ReturnType<typeof setTimeout> | undefined;
   private attempt = 0;
   private sceneText = "";

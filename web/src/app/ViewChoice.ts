@@ -37,7 +37,7 @@ export class ViewChoice {
     if (this.slowSeconds >= SLOW_SECONDS) this.set("server");
   }
 
-  // What the user can choose instead of the present drawer; null if there is no choice.
+  // The other drawer that the user can choose; null if there is no choice.
   get other(): Drawer | null {
     if (this.store.get().drawnBy === "browser") return "server";
     return this.options.canDraw ? "browser" : null;

@@ -22,7 +22,7 @@ export function posesOf(message: PosesMessage | PackedPosesMessage): PosesMessag
   return { stamp, step, layout_version, poses };
 }
 
-// The largest component of a unit quaternion x y z w is omitted. Two bits tell which one it is.
+// The largest component of a unit quaternion x y z w is omitted. Two bits are its index.
 function unpackRotation(packed: Uint16Array, from: number, out: Float64Array, at: number): void {
   const missing = 2 * (packed[from]! >> 15) + (packed[from + 1]! >> 15);
   let squared = 0;

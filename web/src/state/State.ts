@@ -68,7 +68,7 @@ export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {
   connection: ConnectionState;
-  abilities: Abilities; // what the server supports
+  abilities: Abilities; // the capabilities of the server
   missing: string; // why the content of the page's address cannot be shown; empty if it can
   refusal: string; // why the server rejects this page's token; empty if it does not
   people: People; // the other viewers, and who has control

@@ -27,7 +27,7 @@ export interface SetUp extends Choices {
   past: Scenario[]; // the newest is last
   future: Scenario[];
   wrong: Wrong | null;
-  warnings: string[]; // what could not be read from the files
+  warnings: string[]; // parts of the files that could not be read
   poses: Float64Array | null; // poses of the scene that is shown; null if unknown
   isBusy: boolean; // whether a request is pending
   isHeld: boolean; // whether nothing can be created now: data is being loaded, or the simulation is being created

@@ -41,7 +41,7 @@ export const TRIES = 3;
 export class ImageFeed implements Feed {
   private wanted: ServerCamera | null = null;
   private shown = ""; // the camera of the last image, as a query
-  private number = ""; // of the last image
+  private number = ""; // number of the last image
   private asking: AbortController | null = null;
   private failures = 0;
   private isEnded = false;

@@ -70,7 +70,7 @@ export function mount({ state, control }: Ports): MountedPanel {
       update();
     },
     onConnected: (name) => setText(note, `Gamepad connected: ${name}. The left stick drives, the right stick goes sideways.`),
-    onPulledOut: () => setText(note, "The gamepad was pulled out. The robot stops."),
+    onPulledOut: () => setText(note, "The gamepad was disconnected. The robot stops."),
   });
 
   const choose = (name: string | null) => {

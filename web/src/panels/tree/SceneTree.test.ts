@@ -137,7 +137,7 @@ test("rows do not move while the pointer or the keyboard focus is in the list", 
   tree.querySelector<HTMLElement>("[data-robot]")!.focus();
   store.set({ health: health({ robot: "r3", state: "dead" }) });
   expect(names(tree)[0]).toBe("r7");
-  store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, sorting: "name" } })); // what one asks for is done
+  store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, sorting: "name" } })); // a change by the user applies at once
   expect(names(tree)[0]).toBe("r0");
   store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, sorting: "worst" } }));
   (document.activeElement as HTMLElement).blur();
