@@ -263,6 +263,21 @@ class ForeignPeer(unittest.TestCase):
         self.assertIn("problem: /pebble/odom: a publisher has type nav_msgs/msg/Odometry, a subscription "
                       "sensor_msgs/msg/Image", done.stdout)
 
+    def test_is_listed_with_its_sockets_in_the_highest_domain_too(self):
+        for domain in (DOMAIN, 232):
+            with subprocess.Popen([GSV, "run", "office", "--robot", "pebble", "--ros2", "--headless"],
+                                  env={**os.environ, "ROS_DOMAIN_ID": str(domain)}, stdout=subprocess.PIPE,
+                                  stderr=subprocess.DEVNULL, text=True) as gsv:
+                while not gsv.stdout.readline().startswith("ros2: "):
+                    self.assertIsNone(gsv.poll())
+                done = subprocess.run([GSV, "doctor", "--security", "--json"], capture_output=True, text=True,
+                                      check=False)
+                gsv.terminate()
+            programs = {program["pid"]: program for program in map(json.loads, done.stdout.splitlines())}
+            sockets = [each for each in programs[gsv.pid]["sockets"] if each["speaks"] == "ROS 2, UDP"]
+            self.assertEqual(len(sockets), 2, domain)
+            self.assertEqual([(each["local"], each["complaint"]) for each in sockets], [(True, "")] * 2)
+
     def test_describes_the_robot_as_urdf(self):
         with running_gsv():
             samples = peer("listen", "std_msgs/msg/String:/pebble/robot_description",
