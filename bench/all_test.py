@@ -48,6 +48,10 @@ class Table(unittest.TestCase):
         self.assertIn("| r | failed | 1 s |", bench.table([row], measured))
         self.assertEqual(list(bench.problems(measured)), ["r: failed: no such program"])
 
+    def test_a_row_that_did_not_run_says_why(self):
+        row = Row("r", "min", 4, False, lambda: Measured(1), why_not="takes ten minutes")
+        self.assertIn("| r | not run: takes ten minutes | 4 min |", bench.table([row], {}))
+
     def test_different_hashes_are_a_problem(self):
         hashes = iter(["a", "b", "a"])
         row = Row("r", "s", 1, False, lambda: Measured(1, hash=next(hashes)))

@@ -29,10 +29,10 @@ inline double Milliseconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-// The processor time of all threads of this process, in s.
-inline double ProcessorTime() {
+// The processor time of all threads of a process (default: this one), in s.
+inline double ProcessorTime(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <malloc.h>
+#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/option_values.h"
+#include "gsv/base/check.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/storage/offer_file.h"
@@ -112,27 +114,56 @@ base::Result<std::vector<Clock::duration>> Time(
   return durations;
 }
 
-// Exports offers and then queries them. `bytes_used` returns the broker's memory.
-base::Status Measure(const Target& target, std::uint32_t offers,
-                     const std::function<double()>& bytes_used, ordered_json& figures) {
-  const double before = bytes_used();
+// Measures the process that runs the broker.
+struct BrokerProcess {
+  std::function<double()> bytes_used;
+  std::function<double()> processor_time;  // of all its threads, s
+
+  // Returns the processor time of each of `count` calls since `start`, in ms.
+  double ForEachCall(double start, std::uint32_t count) const {
+    return 1e3 * (processor_time() - start) / count;
+  }
+};
+
+// Exports offers to a durable broker. Its answer follows when the offer is on the disk.
+base::Status MeasureDurable(const Target& target, std::uint32_t offers,
+                            const BrokerProcess& process, ordered_json& figures) {
+  const double start = process.processor_time();
   const auto exported = Spread(kClients, offers, target.export_one);
   if (!exported) return base::Fail(exported.error());
-  figures["bytes_per_offer"] = (bytes_used() - before) / offers;
+  figures["exports_durable_per_s"] = offers / Seconds(*exported);
+  figures["export_durable_cpu_ms"] = process.ForEachCall(start, offers);
+  return {};
+}
+
+// Exports offers and then queries them.
+base::Status Measure(const Target& target, std::uint32_t offers, const BrokerProcess& process,
+                     ordered_json& figures) {
+  const double before = process.bytes_used();
+  const double export_start = process.processor_time();
+  const auto exported = Spread(kClients, offers, target.export_one);
+  if (!exported) return base::Fail(exported.error());
+  figures["bytes_per_offer"] = (process.bytes_used() - before) / offers;
   figures["exports_per_s"] = offers / Seconds(*exported);
+  figures["export_cpu_ms"] = process.ForEachCall(export_start, offers);
 
   const auto equal = [&](int client, std::uint32_t n) {
     return target.query(client, Serial((n * 7919) % offers), "");
   };
   if (auto indexed = equal(0, 0); !indexed) return indexed;  // the first query makes the index
-  const auto alone = Time(1, 2000, equal);
+  constexpr std::uint32_t kIndexed = 2000, kScans = 40;
+  const double indexed_start = process.processor_time();
+  const auto alone = Time(1, kIndexed, equal);
   if (!alone) return base::Fail(alone.error());
   figures["query_indexed_p50_ms"] = Quantile(*alone, 0.50);
   figures["query_indexed_p99_ms"] = Quantile(*alone, 0.99);
-  const auto scanned =
-      Time(1, 40, [&](int client, std::uint32_t) { return target.query(client, kScan, "min x"); });
+  figures["query_indexed_cpu_ms"] = process.ForEachCall(indexed_start, kIndexed);
+  const double scan_start = process.processor_time();
+  const auto scanned = Time(
+      1, kScans, [&](int client, std::uint32_t) { return target.query(client, kScan, "min x"); });
   if (!scanned) return base::Fail(scanned.error());
   figures["query_scan_p50_ms"] = Quantile(*scanned, 0.50);
+  figures["query_scan_cpu_ms"] = process.ForEachCall(scan_start, kScans);
 
   const auto start = Clock::now();
   const auto together = Time(kClients, 20'000, equal);
@@ -169,11 +200,12 @@ std::string ReferenceText(CORBA::ORB_ptr orb) {
 base::Status MeasureInProcess(CORBA::ORB_ptr orb, std::uint32_t offers, const std::string& folder,
                               ordered_json& figures) {
   const std::string reference = ReferenceText(orb);
+  const BrokerProcess process{[] { return static_cast<double>(mallinfo2().uordblks); },
+                              [] { return ProcessorTime(); }};
   {
     broker::Trader trader(broker::TraderLimits{}, 1, 1);
     if (auto added = trader.AddType({.name = kType}); !added) return ToStatus(added.error());
-    const auto in_use = [] { return static_cast<double>(mallinfo2().uordblks); };
-    if (auto ok = Measure(TargetOf(trader, reference), offers, in_use, figures); !ok) return ok;
+    if (auto ok = Measure(TargetOf(trader, reference), offers, process, figures); !ok) return ok;
     figures["bytes_per_offer"] =
         figures["bytes_per_offer"].get<double>() - static_cast<double>(reference.size());
   }
@@ -184,11 +216,7 @@ base::Status MeasureInProcess(CORBA::ORB_ptr orb, std::uint32_t offers, const st
   if (!state) return base::Fail(state.error());
   if (auto ok = durable.Restore(std::move(*state), std::move(*file)); !ok) return ok;
   if (auto added = durable.AddType({.name = kType}); !added) return ToStatus(added.error());
-  const auto durable_offers = offers / 5;
-  const auto exported = Spread(kClients, durable_offers, TargetOf(durable, reference).export_one);
-  if (!exported) return base::Fail(exported.error());
-  figures["exports_durable_per_s"] = durable_offers / Seconds(*exported);
-  return {};
+  return MeasureDurable(TargetOf(durable, reference), offers / 5, process, figures);
 }
 
 double ResidentBytes(pid_t pid) {
@@ -197,6 +225,12 @@ double ResidentBytes(pid_t pid) {
   double resident = 0;
   statm >> size >> resident;
   return resident * 4096;
+}
+
+BrokerProcess ProcessOf(pid_t pid) {
+  clockid_t clock{};
+  GSV_CHECK(clock_getcpuclockid(pid, &clock) == 0);
+  return {[pid] { return ResidentBytes(pid); }, [clock] { return ProcessorTime(clock); }};
 }
 
 // A broker in its own process, with one client per thread.
@@ -247,19 +281,14 @@ base::Status MeasureOverTcp(CORBA::ORB_ptr orb, std::uint32_t offers, const std:
     auto remote = StartRemote(orb, {"--memory"});
     if (!remote) return base::Fail(remote.error());
     const pid_t pid = remote->process->pid();
-    const auto resident = [pid] { return ResidentBytes(pid); };
-    if (auto ok = Measure(remote->target(), offers, resident, figures); !ok) return ok;
+    if (auto ok = Measure(remote->target(), offers, ProcessOf(pid), figures); !ok) return ok;
     figures["bytes_per_offer"] =
         figures["bytes_per_offer"].get<double>() - static_cast<double>(ReferenceText(orb).size());
     figures["resident_mib"] = ResidentBytes(pid) / (1 << 20);
   }
   auto durable = StartRemote(orb, {"--data", folder + "/tcp.db"});
   if (!durable) return base::Fail(durable.error());
-  const auto durable_offers = offers / 5;
-  const auto exported = Spread(kClients, durable_offers, durable->target().export_one);
-  if (!exported) return base::Fail(exported.error());
-  figures["exports_durable_per_s"] = durable_offers / Seconds(*exported);
-  return {};
+  return MeasureDurable(durable->target(), offers / 5, ProcessOf(durable->process->pid()), figures);
 }
 
 base::Status RunBench(std::uint32_t offers, bool json) {
