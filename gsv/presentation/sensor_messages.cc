@@ -95,8 +95,12 @@ void BeamMarkers::Add(const world::Snapshot& snapshot, int body, const sensing::
   std::vector<geometry::Vector3>& points =
       points_[snapshot.layout->bodies[static_cast<std::size_t>(body)].name];
   if (!HasLines(type, description)) return;
-  const geometry::Pose world_from_sensor =
-      world::LinkPose(snapshot, body, description.link) * description.link_from_sensor;
+  if (body != body_ || description.link != link_) {
+    world_from_link_ = world::LinkPose(snapshot, body, description.link);
+    body_ = body;
+    link_ = description.link;
+  }
+  const geometry::Pose world_from_sensor = world_from_link_ * description.link_from_sensor;
   const bool as_points = type.overlay == sensing::Overlay::kPoints;
   for (const sensing::Segment& beam : sensor.Beams(reading)) {
     const geometry::Vector3 from = as_points ? beam.to + kDash * (beam.from - beam.to) : beam.from;
@@ -107,6 +111,7 @@ void BeamMarkers::Add(const world::Snapshot& snapshot, int body, const sensing::
 
 messages::visualization_msgs::MarkerArray BeamMarkers::Take(base::SimTime time) {
   messages::visualization_msgs::MarkerArray message;
+  body_ = -1;
   for (const std::string& robot : shown_) {
     if (!points_.contains(robot)) message.markers.push_back(NoLinesOf(robot, time));
   }

@@ -47,8 +47,13 @@ class BeamMarkers {
  private:
   std::map<std::string, std::vector<geometry::Vector3>> points_;  // points in the world frame, by
                                                                   // robot
-  std::set<std::string> shown_;                                   // robots with lines in the last
-                                                                  // message
+  // The pose of the body's link for which Add() was called last; most robots have all their sensors
+  // on one link.
+  int body_ = -1;
+  int link_ = -1;
+  geometry::Pose world_from_link_;
+  std::set<std::string> shown_;  // robots with lines in the last
+                                 // message
 };
 
 }  // namespace gsv::presentation

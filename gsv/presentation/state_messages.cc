@@ -16,6 +16,18 @@ std::uint64_t StepAt(base::SimTime instant, const world::State& state) {
   return StepNumber(std::llround(static_cast<double>(state.step) * part));
 }
 
+messages::geometry_msgs::Transform ToMessage(const geometry::Pose& pose) {
+  const geometry::Vector3& p = pose.position;
+  const geometry::Quaternion& q = pose.orientation;
+  messages::geometry_msgs::Transform message;
+  message.translation = {p.x, p.y, p.z};
+  message.rotation.x = q.x;
+  message.rotation.y = q.y;
+  message.rotation.z = q.z;
+  message.rotation.w = q.w;
+  return message;
+}
+
 }  // namespace
 
 messages::geometry_msgs::TransformStamped StampedTransform(
@@ -25,13 +37,7 @@ messages::geometry_msgs::TransformStamped StampedTransform(
   message.header.stamp = messages::ToMessage(time);
   message.header.frame_id = parent;
   message.child_frame_id = std::move(child);
-  const geometry::Vector3& p = parent_from_child.position;
-  const geometry::Quaternion& q = parent_from_child.orientation;
-  message.transform.translation = {p.x, p.y, p.z};
-  message.transform.rotation.x = q.x;
-  message.transform.rotation.y = q.y;
-  message.transform.rotation.z = q.z;
-  message.transform.rotation.w = q.w;
+  message.transform = ToMessage(parent_from_child);
   return message;
 }
 
@@ -45,13 +51,13 @@ std::string LinkFrame(const world::Body& body, const model::Link& link) {
 }
 
 messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
-                                       const std::vector<PoseEntry>& list) {
+                                       std::span<const geometry::Pose> poses) {
   messages::gsv_msgs::Poses message;
   message.stamp = messages::ToMessage(snapshot.state.time);
   message.step = StepNumber(snapshot.state.step);
   message.layout_version = snapshot.layout->version;
-  message.poses.reserve(7 * list.size());
-  for (const geometry::Pose& pose : PosesOf(snapshot, list)) {
+  message.poses.reserve(7 * poses.size());
+  for (const geometry::Pose& pose : poses) {
     const geometry::Vector3& p = pose.position;
     const geometry::Quaternion& q = pose.orientation;
     message.poses.insert(message.poses.end(), {p.x, p.y, p.z, q.x, q.y, q.z, q.w});
@@ -61,23 +67,29 @@ messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
 
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list) {
-  const base::SimTime time = snapshot.state.time;
-  const std::vector<geometry::Pose> poses = PosesOf(snapshot, list);
   messages::tf2_msgs::TFMessage message;
-  message.transforms.reserve(list.size());
+  message.transforms.resize(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const world::Body& body = snapshot.layout->bodies[list[i].body];
-    if (list[i].link < 0) {
-      message.transforms.push_back(
-          StampedTransform(sensing::kWorldFrame, BodyFrame(body), time, poses[i]));
-      continue;
-    }
-    const geometry::Pose& world_from_model = snapshot.state.bodies[list[i].body].world_from_model;
-    message.transforms.push_back(StampedTransform(BodyFrame(body),
-                                                  LinkFrame(body, body.model->links[list[i].link]),
-                                                  time, Inverse(world_from_model) * poses[i]));
+    const bool is_body = list[i].link < 0;
+    message.transforms[i].header.frame_id = is_body ? sensing::kWorldFrame : BodyFrame(body);
+    message.transforms[i].child_frame_id =
+        is_body ? BodyFrame(body) : LinkFrame(body, body.model->links[list[i].link]);
   }
+  UpdateTransforms(snapshot, list, PosesOf(snapshot, list), message);
   return message;
+}
+
+void UpdateTransforms(const world::Snapshot& snapshot, const std::vector<PoseEntry>& list,
+                      std::span<const geometry::Pose> poses,
+                      messages::tf2_msgs::TFMessage& message) {
+  const auto stamp = messages::ToMessage(snapshot.state.time);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const geometry::Pose& world_from_model = snapshot.state.bodies[list[i].body].world_from_model;
+    message.transforms[i].header.stamp = stamp;
+    message.transforms[i].transform =
+        ToMessage(list[i].link < 0 ? poses[i] : Inverse(world_from_model) * poses[i]);
+  }
 }
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,

@@ -19,8 +19,9 @@ namespace gsv::presentation {
 
 using sensing::FrameOf;
 
+// `poses` are those of PosesOf().
 messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
-                                       const std::vector<PoseEntry>& list);
+                                       std::span<const geometry::Pose> poses);
 
 messages::geometry_msgs::TransformStamped StampedTransform(std::string_view parent,
                                                            std::string child, base::SimTime time,
@@ -34,6 +35,11 @@ std::string LinkFrame(const world::Body& body, const model::Link& link);
 // Returns the transforms map → body for entries of bodies, and body → link for entries of links.
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list);
+// Sets the stamps and transforms of a message of TransformsMessage() for another snapshot of the
+// same layout, with the same list. `poses` are those of PosesOf().
+void UpdateTransforms(const world::Snapshot& snapshot, const std::vector<PoseEntry>& list,
+                      std::span<const geometry::Pose> poses,
+                      messages::tf2_msgs::TFMessage& message);
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
                                            const world::Contact& contact);

@@ -25,6 +25,7 @@ inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::st
 template <typename Message>
 std::vector<std::uint8_t> Encoded(const Message& message) {
   messages::Bytes bytes;
+  bytes.reserve(256);  // most messages are smaller
   messages::Encode(message, bytes);
   const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
   return {begin, begin + bytes.size()};

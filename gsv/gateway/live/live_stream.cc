@@ -117,7 +117,7 @@ SharedBytes LiveStream::EncodeClock(const world::Snapshot& snapshot) const {
 }
 
 SharedBytes LiveStream::EncodePoses(const world::Snapshot& snapshot) const {
-  return Encoded(presentation::PosesMessage(snapshot, pose_list_));
+  return Encoded(presentation::PosesMessage(snapshot, presentation::PosesOf(snapshot, pose_list_)));
 }
 
 SharedBytes LiveStream::EncodePackedPoses(const world::Snapshot& snapshot) const {

@@ -14,15 +14,20 @@ class Instants {
   // Returns whether an instant lies after the last call's time, up to `time`. The first call
   // returns whether `time` is an instant.
   bool Pass(base::SimTime time) {
+    if (time >= from_ && time < to_) return false;
     const std::int64_t index = time / period_;
     const bool has_come = index_ < 0 ? time % period_ == base::SimTime(0) : index != index_;
     index_ = index;
+    from_ = index * period_;
+    to_ = from_ + period_;
     return has_come;
   }
 
  private:
   base::SimTime period_;
   std::int64_t index_ = -1;  // index of the newest instant that has passed
+  // The times from that instant to the next one, for which Pass() need not divide.
+  base::SimTime from_{}, to_{};
 };
 
 }  // namespace gsv::recording

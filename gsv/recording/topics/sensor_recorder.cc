@@ -28,10 +28,12 @@ base::SimTime PeriodOf(const model::SensorDescription& description, double rate)
 
 struct SensorRecorder::Sensor {
   std::string robot;
+  std::string frame;
   const sensing::SensorType* type = nullptr;
   sensing::SensorMessages messages;
   std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
+  int body = -1;                               // index in layout_; -1 if the robot is not there
   bool is_wanted = true;                       // whether readings are recorded
   bool has_companion = false;                  // whether companion messages are recorded
   bool has_beams = false;                      // whether beams are recorded
@@ -41,7 +43,6 @@ struct SensorRecorder::Sensor {
   bool has_failed = false;
 
   const model::SensorDescription& description() const { return sensor->description(); }
-  std::string frame() const { return presentation::FrameOf(robot, description().name); }
 };
 
 SensorRecorder::SensorRecorder(McapWriter& writer,
@@ -73,6 +74,7 @@ void SensorRecorder::Mount(const SensorLists& lists, const world::Snapshot& snap
   }
   if (found == sensors_) return;
   sensors_ = std::move(found);
+  layout_ = nullptr;
   WriteTransforms(snapshot);
 }
 
@@ -97,6 +99,7 @@ std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
   if ((*sensor)->TakesLong() && !options_.slow_sensors) return nullptr;
   const double rate = (*sensor)->TakesLong() ? options_.rates.images : options_.rates.readings;
   return std::make_shared<Sensor>(Sensor{.robot = robot,
+                                         .frame = presentation::FrameOf(robot, description.name),
                                          .type = type,
                                          .messages = std::move(sent),
                                          .sensor = *std::move(sensor),
@@ -106,38 +109,88 @@ std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
                                          .has_beams = has_beams});
 }
 
+void SensorRecorder::FindBodies(const std::shared_ptr<const world::Layout>& layout) {
+  layout_ = layout;
+  robot_beams_.assign(layout->bodies.size(), {});
+  for (const auto& [topic, sensor] : sensors_) sensor->body = layout->Find(sensor->robot);
+}
+
 void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  if (layout_ != snapshot->layout) FindBodies(snapshot->layout);
+  sensing::Sampling sampling(snapshot, 0, seed_, rays_);
+  std::vector<Sample> of_robot;
   std::vector<Sample> slow;
+  const auto take_of_robot = [&] {
+    if (!of_robot.empty()) TakeOfRobot(sampling, of_robot);
+    of_robot.clear();
+  };
   const auto take_slow = [&] {
     if (team_ == nullptr) team_ = std::make_unique<base::ThreadTeam>(kSlowAtOnce);
     team_->ParallelFor(slow.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) Take(snapshot, slow[i]);
+      for (std::size_t i = begin; i < end; ++i) {
+        Take({snapshot, slow[i].sensor->body, seed_, rays_}, slow[i]);
+      }
     });
     for (Sample& sample : slow) Write(sample);
     slow.clear();
   };
   for (const auto& [topic, sensor] : sensors_) {
     if (!sensor->instants.Pass(snapshot->state.time) || sensor->has_failed) continue;
-    Sample sample{&topic, sensor.get(), snapshot->layout->Find(sensor->robot), {}, {}, {}};
-    if (sample.body < 0) continue;
+    if (sensor->body < 0) continue;
+    Sample sample{&topic, sensor.get(), {}, {}, {}};
     if (sensor->sensor->TakesLong()) {
       slow.push_back(std::move(sample));
-      if (slow.size() == kMaxSlowSensors) take_slow();
+      if (slow.size() < kMaxSlowSensors) continue;
+      take_of_robot();
+      take_slow();
     } else {
-      Take(snapshot, sample);
-      Write(sample);
+      if (!of_robot.empty() && of_robot.back().sensor->body != sensor->body) take_of_robot();
+      of_robot.push_back(std::move(sample));
     }
   }
+  take_of_robot();
   if (!slow.empty()) take_slow();
   if (beams_instants_.Pass(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
 }
 
-void SensorRecorder::Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample) {
+void SensorRecorder::TakeOfRobot(sensing::Sampling& sampling, std::span<Sample> samples) {
+  const int body = samples.front().sensor->body;
+  sampling.MoveTo(body);
+  due_beams_.clear();
+  for (const Sample& sample : samples) {
+    if (sample.sensor->sensor->beam() != nullptr) due_beams_.push_back(sample.sensor);
+  }
+  if (!due_beams_.empty()) {
+    RobotBeams& beams = robot_beams_[static_cast<std::size_t>(body)];
+    if (beams.sensors != due_beams_) {
+      beams = {due_beams_, {}};
+      for (const Sensor* sensor : due_beams_) beams.set.Add(*sensor->sensor);
+    }
+    beam_values_.resize(due_beams_.size());
+    beams.set.Sample(sampling, beam_values_);
+  }
+  auto value = beam_values_.begin();
+  for (Sample& sample : samples) {
+    if (sample.sensor->sensor->beam() != nullptr) {
+      sample.reading = sampling.Stamped();
+      sample.reading->values.push_back(*value++);
+      Encode(sample);
+    } else {
+      Take(sampling, sample);
+    }
+    Write(sample);
+  }
+}
+
+void SensorRecorder::Take(const sensing::Sampling& sampling, Sample& sample) const {
+  sample.reading = sample.sensor->sensor->Sample(sampling);
+  if (sample.reading) Encode(sample);
+}
+
+void SensorRecorder::Encode(Sample& sample) const {
   const Sensor& sensor = *sample.sensor;
-  sample.reading = sensor.sensor->Sample({snapshot, sample.body, seed_, rays_});
-  if (!sample.reading) return;
   if (sensor.has_companion) {
-    sample.companion = sensor.sensor->EncodeCompanionOf(*sample.reading, sensor.frame());
+    sample.companion = sensor.sensor->EncodeCompanionOf(*sample.reading, sensor.frame);
   }
   if (!sensor.is_wanted) return;
   auto message = Encode(sensor, *sample.reading);
@@ -192,13 +245,13 @@ base::Result<std::vector<std::uint8_t>> SensorRecorder::Encode(
   if (is_image) {
     if (auto png = options_.write_png(*reading.image)) {
       CompressedImage message;
-      message.header = sensing::HeaderOf(reading, sensor.frame());
+      message.header = sensing::HeaderOf(reading, sensor.frame);
       message.format = "png";
       message.data = *std::move(png);
       return sensing::Encoded(message);
     }
   }
-  return sensor.sensor->Encode(reading, sensor.frame());
+  return sensor.sensor->Encode(reading, sensor.frame);
 }
 
 void SensorRecorder::WriteTransforms(const world::Snapshot& snapshot) {
@@ -214,9 +267,8 @@ void SensorRecorder::WriteTransforms(const world::Snapshot& snapshot) {
 
 void SensorRecorder::WriteBeams(const world::Snapshot& snapshot) {
   for (const auto& [topic, sensor] : sensors_) {
-    const int body = sensor->newest ? snapshot.layout->Find(sensor->robot) : -1;
-    if (body < 0) continue;
-    beam_markers_.Add(snapshot, body, *sensor->type, *sensor->sensor, *sensor->newest);
+    if (!sensor->newest || sensor->body < 0) continue;
+    beam_markers_.Add(snapshot, sensor->body, *sensor->type, *sensor->sensor, *sensor->newest);
   }
   const auto message = beam_markers_.Take(snapshot.state.time);
   if (!message.markers.empty()) beams_.Write(snapshot.state.time, message);

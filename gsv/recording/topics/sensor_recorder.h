@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "gsv/recording/topics/instants.h"
 #include "gsv/recording/topics/simulation_feed.h"
 #include "gsv/recording/topics/topic_writer.h"
+#include "gsv/sensing/beam_set.h"
 #include "gsv/sensing/sensor_set.h"
 
 namespace gsv::recording {
@@ -58,16 +60,25 @@ class SensorRecorder {
   struct Sample {
     const std::string* topic = nullptr;  // key of the sensor in sensors_
     Sensor* sensor = nullptr;
-    int body = 0;
     base::Result<sensing::Reading> reading;
     std::vector<std::uint8_t> message;    // empty if only the sensor's beams are recorded
     std::vector<std::uint8_t> companion;  // empty if there is no companion message
+  };
+  // The beams of one robot that were due together last.
+  struct RobotBeams {
+    std::vector<const Sensor*> sensors;
+    sensing::BeamSet set;
   };
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // sensors by topic
 
   std::shared_ptr<Sensor> Make(const std::string& robot,
                                const model::SensorDescription& description);
-  void Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample);
+  // Takes the sample's reading, and encodes it.
+  void Take(const sensing::Sampling& sampling, Sample& sample) const;
+  void Encode(Sample& sample) const;
+  // Takes and writes the samples of one robot. Its beams are cast together.
+  void TakeOfRobot(sensing::Sampling& sampling, std::span<Sample> samples);
+  void FindBodies(const std::shared_ptr<const world::Layout>& layout);
   void Write(Sample& sample);
   // Adds a channel. On failure, logs a warning and returns nullopt.
   std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
@@ -87,6 +98,11 @@ class SensorRecorder {
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // for slow sensors; null while there is none
   Sensors sensors_;
+  // The layout of Sensor::body and robot_beams_; null after Mount().
+  std::shared_ptr<const world::Layout> layout_;
+  std::vector<RobotBeams> robot_beams_;  // by body
+  std::vector<const Sensor*> due_beams_;
+  std::vector<double> beam_values_;
   Instants beams_instants_;
   presentation::BeamMarkers beam_markers_;
   bool has_warned_ = false;

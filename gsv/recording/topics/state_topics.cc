@@ -53,6 +53,13 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
   if (is_new) {
     layout_ = snapshot->layout;
     pose_list_ = presentation::PoseListOf(*layout_);
+    if (transforms_.is_wanted()) {
+      transforms_message_ = presentation::TransformsMessage(*snapshot, pose_list_);
+    }
+    written_of_.clear();
+    for (const world::Body& body : layout_->bodies) {
+      written_of_.push_back(body.is_robot() ? &written_[body.name] : nullptr);
+    }
   }
   if (commands_.is_wanted()) WriteNewCommands(*snapshot);
   if (actuators_.is_wanted()) WriteNewDeviceCommands(*snapshot);
@@ -69,9 +76,13 @@ void StateTopics::RecordNow(const world::Snapshot& snapshot) {
 void StateTopics::WritePoses(const world::Snapshot& snapshot) {
   const base::SimTime time = snapshot.state.time;
   clock_.Write(time, {messages::ToMessage(time)});
-  if (poses_.is_wanted()) poses_.Write(time, presentation::PosesMessage(snapshot, pose_list_));
-  if (transforms_.is_wanted()) {
-    transforms_.Write(time, presentation::TransformsMessage(snapshot, pose_list_));
+  if (poses_.is_wanted() || transforms_.is_wanted()) {
+    const std::vector<geometry::Pose> poses = presentation::PosesOf(snapshot, pose_list_);
+    if (poses_.is_wanted()) poses_.Write(time, presentation::PosesMessage(snapshot, poses));
+    if (transforms_.is_wanted()) {
+      presentation::UpdateTransforms(snapshot, pose_list_, poses, transforms_message_);
+      transforms_.Write(time, transforms_message_);
+    }
   }
   poses_step_ = snapshot.state.step;
 }
@@ -90,14 +101,14 @@ void StateTopics::WriteHash(const world::Snapshot& snapshot) {
 void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
-    const world::Body& body = layout_->bodies[i];
-    if (!body.is_robot()) continue;
+    if (written_of_[i] == nullptr) continue;
     const world::DriveState& drive = state.bodies[i].drive;
-    if (IsSameOrder(drive, std::exchange(written_[body.name], drive))) continue;
+    if (IsSameOrder(drive, std::exchange(*written_of_[i], drive))) continue;
     if (IsSameOrder(drive, {}))
       continue;  // the robot was removed and added again, and has no
                  // command yet
-    commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
+    commands_.Write(state.time,
+                    presentation::CommandMessage(layout_->bodies[i].name, drive, state));
   }
 }
 

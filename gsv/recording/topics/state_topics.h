@@ -51,8 +51,12 @@ class StateTopics {
                                                                  // message
   std::optional<std::int64_t> poses_step_;  // number of the step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;    // list of poses for the bodies of layout_
+  std::vector<presentation::PoseEntry> pose_list_;  // list of poses for the bodies of layout_
+  messages::tf2_msgs::TFMessage
+      transforms_message_;  // the last one; its names are those of layout_
   std::map<std::string, world::DriveState> written_;  // last written command of each robot
+  // The element of written_ for each body of layout_; null for bodies that are no robots.
+  std::vector<world::DriveState*> written_of_;
 
   std::shared_ptr<const world::DeviceStates> devices_;  // device states in the last snapshot
 
