@@ -117,7 +117,7 @@ base::Result<std::vector<Clock::duration>> Time(
 // Measures the process that runs the broker.
 struct BrokerProcess {
   std::function<double()> bytes_used;
-  std::function<double()> processor_time;  // of all its threads, s
+  std::function<double()> processor_time;  // processor time of all its threads, s
 
   // Returns the processor time of each of `count` calls since `start`, in ms.
   double ForEachCall(double start, std::uint32_t count) const {
