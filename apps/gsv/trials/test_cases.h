@@ -47,6 +47,7 @@ struct TestResult {
   TestCase test;
   Status status = Status::kError;
   std::string message;        // the reason why it did not pass
+  std::string health;         // a line for each robot that stood, was stuck or dead at the end
   bool is_bad_input = false;  // whether a file that it names is missing or invalid
   std::string folder;         // the folder with the files of the failure; may be empty
   double failed_at = 0;       // simulated time of the first violation, else of the end, s

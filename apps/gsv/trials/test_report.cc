@@ -29,6 +29,16 @@ std::string Indented(const std::string& text) {
   return indented;
 }
 
+// Returns the first lines of a text, and the number of the others.
+std::string FirstLines(const std::string& text) {
+  constexpr int kMaxLines = 8;
+  std::size_t end = 0;
+  for (int i = 0; i < kMaxLines && end != std::string::npos; ++i) end = text.find('\n', end + 1);
+  if (end == std::string::npos) return text;
+  const auto others = std::count(text.begin() + static_cast<std::ptrdiff_t>(end), text.end(), '\n');
+  return text.substr(0, end) + fmt::format("\nand {} more, see README.txt", others);
+}
+
 // Omits characters that XML 1.0 does not allow.
 std::string Escaped(const std::string& text) {
   std::string escaped;
@@ -63,7 +73,9 @@ std::string JUnitCase(const TestResult& result) {
                               : result.status == Status::kInterrupted ? "skipped"
                                                                       : "error";
   const std::string first = result.message.substr(0, result.message.find('\n'));
-  std::string body = result.message + "\n\nAgain: " + result.command;
+  std::string body = result.message;
+  if (!result.health.empty()) body += "\n\nAt the end:\n" + result.health;
+  body += "\n\nAgain: " + result.command;
   if (!result.folder.empty()) body += "\nLeft: " + result.folder;
   return xml + fmt::format(">\n    <{0} message=\"{1}\">{2}</{0}>\n  </testcase>\n", element,
                            Escaped(first), Escaped(body));
@@ -90,6 +102,8 @@ std::string ToText(const TestResult& result) {
   text += "\n";
   if (result.status == Status::kPassed || result.message.empty()) return text;
   text += Indented(result.message) + "\n";
+  if (!result.health.empty())
+    text += "      at the end:\n" + Indented(FirstLines(result.health)) + "\n";
   if (!result.folder.empty()) text += "      see " + result.folder + "/README.txt\n";
   return text + "      again: " + result.command + "\n";
 }

@@ -32,6 +32,17 @@ TEST(TestReport, TextOfAPassedScenarioIsOneLine) {
   EXPECT_EQ(ToText(Passed()), "PASS  s/a  1.2 s (2.5 s simulated, 2 times)\n");
 }
 
+TEST(TestReport, TextOfAFailureHasTheHealthOfItsFirstRobots) {
+  TestResult result = Failed();
+  result.health = "scout was stuck from 7.4 s: touches wall";
+  EXPECT_THAT(ToText(result),
+              HasSubstr("      at the end:\n      scout was stuck from 7.4 s: touches wall\n"));
+  for (int i = 1; i <= 9; ++i) result.health += "\nr" + std::to_string(i) + " stood still";
+  EXPECT_THAT(ToText(result),
+              HasSubstr("      r7 stood still\n      and 2 more, see README.txt\n"));
+  EXPECT_THAT(ToJUnit({result}, 1), HasSubstr("r9 stood still"));
+}
+
 TEST(TestReport, TextOfAFailureContainsReasonAndCommand) {
   EXPECT_EQ(ToText(Failed()),
             "FAIL  b  0.5 s\n      \"x\" < 1 & <y>\n      second line\x01\n"

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -104,7 +105,8 @@ std::string HealthIn(const nlohmann::ordered_json& report) {
   for (const auto& robot : report.value("robots", nlohmann::ordered_json::array())) {
     const std::string sentence =
         robot.value("health", nlohmann::ordered_json::object()).value("sentence", "");
-    if (!sentence.empty()) text += "  " + robot.value("name", "") + " " + sentence + "\n";
+    if (sentence.empty()) continue;
+    text += (text.empty() ? "" : "\n") + robot.value("name", "") + " " + sentence;
   }
   return text;
 }
@@ -115,14 +117,18 @@ std::string Quoted(const std::string& text) {
   return quoted + "'";
 }
 
+// Returns the violations in the order of their times.
 std::string Message(const ChildOutcome& outcome) {
-  std::string message;
+  std::multimap<double, std::string> lines;
   for (const auto& expectation :
        outcome.report.value("expectations", nlohmann::ordered_json::array())) {
     if (expectation.value("holds", true)) continue;
-    message += (message.empty() ? "" : "\n") + expectation.value("where", "") + ": " +
-               expectation.value("name", "") + ": " + expectation.value("detail", "");
+    lines.emplace(expectation.value("time_s", 0.0), expectation.value("where", "") + ": " +
+                                                        expectation.value("name", "") + ": " +
+                                                        expectation.value("detail", ""));
   }
+  std::string message;
+  for (const auto& [time, line] : lines) message += (message.empty() ? "" : "\n") + line;
   if (!message.empty() && outcome.ending == "exit code 1") return message;
   message += (message.empty() ? "" : "\n") + ("it ended with " + outcome.ending);
   return outcome.errors.empty() ? message : message + "\n" + outcome.errors;
@@ -181,9 +187,7 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
   std::string text =
       result.message + "\n\nState hash: " + outcome.report.value("state_hash", "none") +
       "\nThe seed is in scenario.yaml, a copy.\n\nAgain:\n  " + result.command + "\n";
-  if (const std::string health = HealthIn(outcome.report); !health.empty()) {
-    text += "\nAt the end:\n" + health;
-  }
+  if (!result.health.empty()) text += "\nAt the end:\n" + result.health + "\n";
   if (fs::exists(folder / "run.mcap", ignored)) {
     text += KeepClips(folder / "run.mcap", kept, options, violations, result.about);
   }
@@ -225,6 +229,7 @@ TestResult RunTestCase(const TestCase& test, const TestOptions& options,
                                    i + 1, result.hashes.back(), result.hashes[0]);
     } else if (result.status != TestResult::Status::kPassed) {
       result.message = Message(*outcome);
+      result.health = HealthIn(outcome->report);
     }
     if (result.status == TestResult::Status::kPassed) continue;
     if (result.status != TestResult::Status::kInterrupted && !options.failures.empty())
