@@ -1,8 +1,10 @@
 // The contacts of a large island of bodies without joints, by projected Gauss-Seidel, contact by
 // contact.
 //
-// Order    from the contacts with what does not move outwards, then back, in turn: a heap is carried
-//          from below, so that its lowest contacts must carry the sum of all above.
+// Batches  of four contacts that have no body in common are solved at once, in the four values of a
+//          vector.
+// Order    level by level from the contacts with what does not move outwards, then back, in turn: a
+//          heap is carried from below, so that its lowest contacts must carry the sum of all above.
 // Start    from given impulses, as those of the step before.
 // Cone     friction of a contact is at most its coefficient times the normal impulse, and is opposite
 //          to the slip where it is that large.
@@ -13,6 +15,7 @@
 #include <array>
 #include <vector>
 
+#include "gsv/dynamics/rigid/four_doubles.h"
 #include "gsv/dynamics/rigid/matrix3.h"
 
 namespace gsv::dynamics {
@@ -55,22 +58,45 @@ class ContactSweeps {
     geometry::Vector3 arm_first, arm_second;
     std::array<geometry::Vector3, 3> axes;
     std::array<geometry::Vector3, 3> turn_first, turn_second;  // by a unit impulse along each axis
-    double inverse_normal;                                     // of J M⁻¹ Jᵀ along the normal
-    double a, b, c;  // J M⁻¹ Jᵀ of friction, with its softness: [[a, c], [c, b]]
-    double inverse_determinant, inverse_most;
+    // J M⁻¹ Jᵀ: along the normal; of friction, with its softness: [[a, c], [c, b]] and its largest
+    // eigenvalue; from the normal to each axis of friction.
+    double normal, a, b, c, max;
+    std::array<double, 2> coupling;
     std::array<double, 3> targets;
     double friction;
     std::array<double, 2> softness;
     std::array<double, 3> impulse;
   };
+  // Four contacts, one in each value. Unused ones are of bodies that nothing moves.
+  struct alignas(sizeof(FourDoubles)) Batch {
+    using Vectors = FourDoubles[3];
+    Vectors arm_first, arm_second;
+    Vectors axes[3], turn_first[3], turn_second[3];
+    FourDoubles normal, inverse_normal, a, b, c, inverse_determinant, max, inverse_max;
+    FourDoubles coupling[2];
+    Vectors targets;
+    FourDoubles friction;
+    FourDoubles softness[2];
+    Vectors impulse;
+    std::array<int, kFour> contacts, first, second;  // -1: none
+  };
 
-  geometry::Vector3 VelocityAt(const Contact& contact) const;
   void Apply(const Contact& contact, std::size_t axis, double impulse);
-  double SolveContact(Contact& contact);
   void Order();
+  // The number of bodies between a contact and what does not move; -1: none.
+  int LevelOf(int contact) const;
+  void MakeBatches();
+  void Fill(Batch& batch, std::size_t value, const Contact& contact) const;
+  static bool CanTake(const Batch& batch, int first, int second);
+  static double Solve(Batch& batch, double* motions);
+  static double Sweep(std::vector<Batch>& batches, bool is_forwards, double* motions);
 
   std::vector<Body> bodies_;
   std::vector<Contact> contacts_;
+  std::vector<Batch> batches_;
+  std::vector<int> open_;  // batches that take more contacts
+  // Of each body, and of one that nothing moves: velocity, inverse mass, angular velocity, 0.
+  std::vector<double> motions_;
   std::vector<int> order_, levels_, queue_, first_of_body_, contacts_of_body_;
 };
 

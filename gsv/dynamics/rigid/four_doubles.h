@@ -34,4 +34,16 @@ __attribute__((always_inline)) inline void AddTimes(double factor, const double*
   for (int i = 0; i < count; i += kFour) FourAt(changed + i) += FourAt(added + i) * factor;
 }
 
+// Makes the rows of four times four values its columns.
+__attribute__((always_inline)) inline void Transpose(FourDoubles (&rows)[kFour]) {
+  const FourDoubles even_low = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
+  const FourDoubles odd_low = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+  const FourDoubles even_high = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
+  const FourDoubles odd_high = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+  rows[0] = __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5);
+  rows[1] = __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5);
+  rows[2] = __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7);
+  rows[3] = __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7);
+}
+
 }  // namespace gsv::dynamics

@@ -284,7 +284,7 @@ bool IslandSolver::CanSweep(std::span<const std::unique_ptr<MovingBody>> bodies)
 void IslandSolver::SolveBySweeps(const ContactFinder& finder,
                                  std::span<const std::unique_ptr<MovingBody>> bodies,
                                  std::vector<Contact>& contacts, double substep) {
-  constexpr int kMaxSweeps = 60;
+  constexpr int kMaxSweeps = 30;
   constexpr double kTolerance = 1e-5;  // m/s
   sweeps_.Clear();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {

@@ -227,7 +227,7 @@ void RigidStep::SolveIslands(double substep) {
 void RigidStep::PushApart(const IslandSolver& island, double substep) {
   constexpr double kShare = 0.2;  // of the overlap in a substep
   constexpr int kMaxIterations = 50;
-  constexpr double kTolerance = 1e-7;  // m/s
+  constexpr double kTolerance = 1e-6;  // m/s
   struct Side {
     int moving;
     Vector3 linear, angular, linear_response, angular_response;
