@@ -1,9 +1,10 @@
+// @vitest-environment jsdom
 import { expect, test } from "vitest";
 import { scene } from "../scene/testScene";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";
-import { situationOf } from "./Overlay";
-import { simulationStatus } from "./testApp";
+import { createOverlay, situationOf } from "./Overlay";
+import { simulationStatus, testApp } from "./testApp";
 
 const open: State = { ...initialState, view: "open", connection: { phase: "open" } };
 const waiting: State = { ...open, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } };
@@ -44,4 +45,16 @@ test("a lost WebGL context is reported until it is restored", () => {
   const shown = { ...open, simulation: "house", scene: scene() };
   expect(situationOf({ ...shown, view: "interrupted" })).toBe("webgl-lost");
   expect(situationOf({ ...shown, view: "open" })).toBe("none");
+});
+
+test("without a simulation, the page offers the recordings of the server, if it has any", () => {
+  const { app, store } = testApp({ simulation: null, simulations: [] });
+  const overlay = createOverlay(app);
+  document.body.append(overlay);
+  const link = overlay.querySelector<HTMLElement>('a[href="recordings.html"]')!;
+  expect(link.textContent).toBe("Open a recording");
+  expect(link.hidden).toBe(true);
+  store.set(({ abilities }) => ({ abilities: { ...abilities, recordings: true } }));
+  expect(link.hidden).toBe(false);
+  overlay.remove();
 });

@@ -93,6 +93,7 @@ function content(app: App, situation: Situation): Node[] {
         message(
           "No simulation yet",
           createButton(app),
+          recordingsLink(app),
           "Create a simulation here, or start one in a terminal. It appears here automatically.",
           element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
         ),
@@ -116,6 +117,19 @@ function content(app: App, situation: Situation): Node[] {
         ),
       ];
   }
+}
+
+// The link is missing if the server has no recordings.
+function recordingsLink(app: App): HTMLElement {
+  const link = element("a", { class: "button", href: "recordings.html" }, "Open a recording");
+  const unwatch = app.store.watch(
+    ({ abilities }) => abilities.recordings,
+    (recordings) => {
+      if (link.parentElement && !link.isConnected) return unwatch();
+      link.hidden = !recordings;
+    },
+  );
+  return link;
 }
 
 // The button is missing if the server cannot create simulations.
