@@ -54,7 +54,7 @@ TEST(Health, StandingIsAWarningAfterTenSecondsIfItsBehaviourRuns) {
   robot.phase = AgentPhase::kNone;
   robot.behaviour.clear();
   EXPECT_EQ(level(25700ms), Level::kFine);
-  EXPECT_EQ(HealthOf(robot).reason, "it has no behaviour");
+  EXPECT_EQ(HealthOf(robot).reason, "it has no behaviour, and no command to move");
 }
 
 TEST(Health, ARobotThatMovesIsFine) {

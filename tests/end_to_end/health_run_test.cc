@@ -43,7 +43,7 @@ TEST_F(HealthRun, PsPrintsWhyARobotStandsAndOffersFindsTheBroker) {
   run.AwaitLine("broker: ");
   const Outcome ps = Gsv({"ps"});
   EXPECT_THAT(ps.out, HasSubstr("has not moved for "));
-  EXPECT_THAT(ps.out, HasSubstr("it has no behaviour"));
+  EXPECT_THAT(ps.out, HasSubstr("it has no behaviour, and no command to move"));
   const auto robot = Gsv({"ps", "--json"}).LastLine()["robots"][0];
   EXPECT_EQ(robot["health"]["state"], "standing") << robot;
   EXPECT_NEAR(robot["health"]["since_s"].get<double>(), 0, 0.02) << robot;
