@@ -97,8 +97,8 @@ std::string ReasonOf(State state, const simulation::RobotStatus& robot,
   std::string reason = "commanded " + CommandText(motion.command);
   if (!has_command && robot.is_avatar) reason += " (an avatar)";
   if (!has_command && !robot.is_avatar && robot.behaviour.empty()) {
-    reason =
-        "it has no behaviour, and no command to move";  // people and ROS 2 nodes may command it
+    // People and ROS 2 nodes may command it.
+    reason = "it has no behaviour, and no command to move";
   }
   if (!motion.contact.empty()) reason += ", touches " + motion.contact;
   // All behaviours end when the run ends, so an ended behaviour is no problem then.
