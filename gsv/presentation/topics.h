@@ -40,6 +40,7 @@ struct Topic {
   bool is_reproducible = true;  // whether the messages are equal in every run, and are therefore
                                 // hashed
   std::size_t history = 1;      // number of earlier messages that a new live subscriber gets
+  bool is_state = true;         // whether a message replaces the earlier ones of the topic
 };
 
 std::span<const Topic> Topics();

@@ -1,6 +1,8 @@
 #include "gsv/gateway/drawing/pushed_views.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,27 @@ using base::ErrorCode;
 constexpr std::chrono::milliseconds kPushTimeout{5000};
 // A client that reports an image within this time gets the next one drawn ahead.
 constexpr std::chrono::milliseconds kFast{100};
+
+struct Detail {
+  double scale = 1;   // factor of both sides of the image
+  int quality = 100;  // at most
+};
+constexpr std::array<Detail, 5> kDetails{{{1, 100}, {1, 55}, {0.75, 45}, {0.5, 40}, {0.35, 30}}};
+// The time that an image may take a slow connection, in seconds. A finer image follows one that
+// takes less than a quarter of it.
+constexpr double kImageTime = 0.4;
+constexpr std::chrono::seconds kFirstCoarse{5}, kLongestCoarse{300}, kBetweenSteps{1};
+
+ViewRequest Coarsened(ViewRequest view, std::size_t detail) {
+  const auto side = [&](int pixels) {
+    const int smallest = std::min(pixels, view::kMinSide);
+    return std::max(smallest, static_cast<int>(std::lround(kDetails[detail].scale * pixels)));
+  };
+  view.camera.width = side(view.camera.width);
+  view.camera.height = side(view.camera.height);
+  view.quality = std::min(view.quality, kDetails[detail].quality);
+  return view;
+}
 
 template <typename Number>
 void AppendNumber(Number value, std::string& bytes) {
@@ -139,7 +162,7 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   Clock::time_point earliest;
   {
     const base::MutexLock lock(mutex_);
-    view = watched->query.view;
+    view = Coarsened(watched->query.view, watched->detail);
     seat = watched->seat;
     sequence = watched->sequence;
     last = watched->last;
@@ -189,10 +212,33 @@ void PushedViews::OnImage(const WatchedPtr& watched, std::uint32_t sequence,
     if (client != nullptr) {
       ++watched->unshown;
       watched->sent = Clock::now();
+      ChooseDetail(*watched, client->slow_rate(), image->bytes.size());
     }
   }
   if (client != nullptr) client->SendBytes(MessageOf(*watched, sequence, *image));
   Continue(watched);
+}
+
+void PushedViews::ChooseDetail(Watched& watched, double slow_rate, std::size_t bytes) {
+  const Clock::time_point now = Clock::now();
+  const double aimed =
+      slow_rate > 0 ? kImageTime * slow_rate : 4.0 * static_cast<double>(bytes) + 1;
+  std::size_t detail = watched.detail;
+  if (static_cast<double>(bytes) > aimed) {
+    if (detail + 1 == kDetails.size()) return;
+    ++detail;
+    watched.coarse_for =
+        std::clamp<Clock::duration>(2 * watched.coarse_for, kFirstCoarse, kLongestCoarse);
+    watched.coarse_until = now + watched.coarse_for;
+  } else if (detail > 0 && 4.0 * static_cast<double>(bytes) < aimed &&
+             now >= watched.coarse_until) {
+    --detail;
+    watched.coarse_until = now + kBetweenSteps;
+  }
+  if (detail == watched.detail) return;
+  watched.detail = detail;
+  watched.seat = nullptr;  // the next image is of another size
+  watched.last = 0;
 }
 
 // The view has ended for the client, which may subscribe to it again.

@@ -3,6 +3,9 @@
 // An image is drawn when the world or the camera has changed, at most as often as the client wants.
 // The client reports each image that it has shown. The next image is drawn only after that, or one
 // image ahead if the last report came fast. So a slow client gets fewer images, and never old ones.
+// If an image takes its connection too long (Client::slow_rate), the next ones are coarser: a JPEG
+// of lower quality, then of fewer pixels than the client asked for. They become finer again when
+// the connection has been in time for a while, which doubles with each attempt that was too early.
 //
 // Format   docs/formats/live.md: a message on the client's subscription with the header
 //          `kImageHeaderSize`, then a JPEG.
@@ -57,6 +60,9 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
     Clock::time_point due{};                 // earliest time of the next image
     Clock::time_point sent{};
     Clock::duration reported_after{};  // time from the last image to its report
+    std::size_t detail = 0;            // index of kDetails in the .cc file; 0: as the client asked
+    Clock::time_point coarse_until{};  // earliest time of a finer image
+    Clock::duration coarse_for{};      // the time that the next coarser detail lasts; 0: the first
   };
   using WatchedPtr = std::shared_ptr<Watched>;
 
@@ -68,6 +74,8 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   // `earliest` is that of the request.
   void OnImage(const WatchedPtr& watched, std::uint32_t sequence, Clock::time_point earliest,
                const base::Result<DrawnImage>& image);
+  // Chooses the detail of the next image by the size in bytes of this one.
+  static void ChooseDetail(Watched& watched, double slow_rate, std::size_t bytes);
   void Fail(const WatchedPtr& watched, const base::Error& error);
   static SharedBytes MessageOf(const Watched& watched, std::uint32_t sequence,
                                const DrawnImage& image);

@@ -2,6 +2,7 @@
 #include "gsv/gateway/drawing/pushed_views.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <deque>
 
@@ -44,7 +45,7 @@ class ViewClient final : public Client {
     images_.push_back(Parsed(std::string(bytes.view())));
     changed_.notify_all();
   }
-  void SendData(const foxglove::BinaryHeader&, SharedBytes) override {}
+  void SendData(const foxglove::BinaryHeader&, SharedBytes, Delivery) override {}
   void Close(CloseCode, std::string) override {}
 
   PushedImage NextImage() {
@@ -65,6 +66,8 @@ class ViewClient final : public Client {
     failures_.pop_front();
     return failure;
   }
+  double slow_rate() const override { return slow_rate_; }
+  void set_slow_rate(double rate) { slow_rate_ = rate; }
   bool has_images() {
     const base::MutexLock lock(mutex_);
     return !images_.empty();
@@ -87,6 +90,7 @@ class ViewClient final : public Client {
     return image;
   }
 
+  std::atomic<double> slow_rate_{0};
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   std::deque<PushedImage> images_ GSV_GUARDED_BY(mutex_);
@@ -178,6 +182,21 @@ TEST_F(PushedViewsTest, AClientThatShowsNothingGetsFewImages) {
   for (; client_->has_images(); ++received) (void)client_->NextImage();
   EXPECT_GE(received, 1);
   EXPECT_LE(received, 2);
+}
+
+TEST_F(PushedViewsTest, ASlowConnectionGetsSmallerImages) {
+  client_->set_slow_rate(1);  // every image is too large
+  Send(Watch("size=100x100&fps=60&quality=100", 1));
+  const PushedImage first = client_->NextImage();
+  std::size_t last = first.jpeg.size();
+  for (int i = 0; i < 4; ++i) {
+    Send(Shown(i == 0 ? first : PushedImage{.number = 1}));
+    const PushedImage next = client_->NextImage();
+    EXPECT_EQ(next.sequence, 1u);
+    EXPECT_LE(next.jpeg.size(), last);
+    last = next.jpeg.size();
+  }
+  EXPECT_LT(last, first.jpeg.size());
 }
 
 TEST_F(PushedViewsTest, ViewsWithTheSameCameraShareAnImage) {

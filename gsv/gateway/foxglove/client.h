@@ -21,6 +21,9 @@ enum class CloseCode : std::uint16_t {
   kTryAgainLater = 1013,
 };
 
+// Whether a newer message of the same subscription replaces one that is not sent yet.
+enum class Delivery { kEach, kNewest };
+
 class Client {
  public:
   virtual ~Client() = default;
@@ -28,9 +31,12 @@ class Client {
   virtual void SendText(SharedBytes text) = 0;
   virtual void SendBytes(SharedBytes bytes) = 0;
   // Sends data; if the queue is full, the oldest data are dropped.
-  virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) = 0;
+  virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload,
+                        Delivery delivery) = 0;
   // The number of dropped data messages so far.
   virtual std::uint64_t dropped_updates() const { return 0; }
+  // Returns the rate of a slow connection in bytes per second; 0 if it is fast enough.
+  virtual double slow_rate() const { return 0; }
   // An error with the reason if this viewer has no control now.
   virtual base::Status CheckControl() { return {}; }
   virtual void Close(CloseCode code, std::string reason) = 0;

@@ -86,8 +86,14 @@ std::string UnadvertiseText(std::span<const ChannelId> channels) {
                {"channelIds", std::vector<ChannelId>(channels.begin(), channels.end())}});
 }
 
-std::string StatusText(StatusLevel level, std::string_view message) {
-  return Dump({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}});
+std::string StatusText(StatusLevel level, std::string_view message, std::string_view id) {
+  Json json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}};
+  if (!id.empty()) json["id"] = id;
+  return Dump(json);
+}
+
+std::string RemoveStatusText(std::string_view id) {
+  return Dump({{"op", "removeStatus"}, {"statusIds", Json::array({id})}});
 }
 
 BinaryHeader MessageDataHeader(SubscriptionId subscription, std::uint64_t time_ns) {

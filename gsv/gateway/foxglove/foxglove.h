@@ -56,7 +56,9 @@ enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 std::string ServerInfoText(const ServerInfo& info);
 std::string AdvertiseText(std::span<const Channel> channels);
 std::string UnadvertiseText(std::span<const ChannelId> channels);
-std::string StatusText(StatusLevel level, std::string_view message);
+// `id` (empty: none) is what RemoveStatusText() takes back.
+std::string StatusText(StatusLevel level, std::string_view message, std::string_view id = {});
+std::string RemoveStatusText(std::string_view id);
 
 // The header of a binary message: opcode (1 byte), subscription (4, little endian) and time (8,
 // nanoseconds, little endian), or fewer.

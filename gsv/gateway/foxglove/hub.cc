@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gsv/presentation/topics.h"
+
 namespace gsv::gateway {
 
 using foxglove::ChannelId;
@@ -15,6 +17,11 @@ constexpr std::size_t kStatusesKept = 20;
 std::string SimulationOf(const foxglove::ServerInfo& info) {
   const auto found = info.metadata.find("simulation");
   return found == info.metadata.end() ? std::string() : found->second;
+}
+
+Delivery DeliveryOf(const std::string& topic) {
+  const presentation::Topic* const row = presentation::FindTopic(topic);
+  return row == nullptr || row->is_state ? Delivery::kNewest : Delivery::kEach;
 }
 
 }  // namespace
@@ -183,7 +190,9 @@ std::vector<ChannelId> Hub::Advertise(std::vector<foxglove::Channel> channels) {
   }
   const SharedBytes text(foxglove::AdvertiseText(channels));
   for (foxglove::Channel& channel : channels) {
-    topics_[channel.id].channel = std::move(channel);
+    Topic& topic = topics_[channel.id];
+    topic.delivery = DeliveryOf(channel.topic);
+    topic.channel = std::move(channel);
   }
   has_graph_changed_ = true;
   for (auto& [key, member] : members_) member.client->SendText(text);
@@ -242,7 +251,7 @@ void Hub::Publish(ChannelId channel, const Message& message, Audience audience) 
     if (audience == Audience::kEstablished && listener.is_new) continue;
     listener.is_new = false;
     client->SendData(foxglove::MessageDataHeader(listener.subscription, message.time_ns),
-                     message.payload);
+                     message.payload, topic->second.delivery);
   }
 }
 
@@ -254,7 +263,7 @@ void Hub::Welcome(ChannelId channel, std::span<const Message> messages) {
     if (!std::exchange(listener.is_new, false)) continue;
     for (const Message& message : messages) {
       client->SendData(foxglove::MessageDataHeader(listener.subscription, message.time_ns),
-                       message.payload);
+                       message.payload, topic->second.delivery);
     }
   }
 }
@@ -262,7 +271,9 @@ void Hub::Welcome(ChannelId channel, std::span<const Message> messages) {
 void Hub::PublishTime(std::uint64_t time_ns) {
   const foxglove::BinaryHeader header = foxglove::TimeHeader(time_ns);
   const base::MutexLock lock(mutex_);
-  for (auto& [key, member] : members_) member.client->SendData(header, SharedBytes());
+  for (auto& [key, member] : members_) {
+    member.client->SendData(header, SharedBytes(), Delivery::kNewest);
+  }
 }
 
 void Hub::SendStatus(StatusLevel level, std::string_view message) {

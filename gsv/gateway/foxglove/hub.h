@@ -95,6 +95,7 @@ class Hub {
     foxglove::Channel channel;
     std::map<Client*, Listener> listeners;
     std::set<std::string> publishers{"gsv"};
+    Delivery delivery = Delivery::kNewest;
   };
 
   void Take(Client* client, const foxglove::ClientMessage& message);

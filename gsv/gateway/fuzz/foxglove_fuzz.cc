@@ -21,7 +21,7 @@ class CountingClient final : public Client {
  public:
   void SendText(SharedBytes text) override { bytes += text.size(); }
   void SendBytes(SharedBytes message) override { bytes += message.size(); }
-  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
+  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload, Delivery) override {
     GSV_CHECK(header.size == 13);
     bytes += payload.size();
   }

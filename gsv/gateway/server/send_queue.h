@@ -1,16 +1,20 @@
 // The queue of messages to one client.
 //
+// Newest   data that have waited for kMaxWait are left out if they are state and a newer message of
+//          their subscription waits. So a slow connection gets fewer messages, and no old ones.
 // Bounded  control messages (advertisements, answers) are never dropped; if they exceed the limit,
 //          the client is disconnected. If data exceed their limit, the oldest are dropped.
 // Threads  any.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
 
 #include "gsv/base/mutex.h"
+#include "gsv/gateway/foxglove/client.h"
 #include "gsv/gateway/foxglove/foxglove.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
 
@@ -23,30 +27,46 @@ struct SendLimits {
 };
 
 struct Outgoing {
+  using Time = std::chrono::steady_clock::time_point;
+
   bool is_text = false;
   bool is_data = false;           // false: control
   foxglove::BinaryHeader header;  // empty for control messages
   SharedBytes payload;
+  Delivery delivery = Delivery::kEach;
+  Time queued{};  // set for data
 
   std::size_t size() const { return header.size + payload.size(); }
 };
 
 class SendQueue {
  public:
+  using Time = Outgoing::Time;
+  static constexpr std::chrono::milliseconds kMaxWait{200};
+
   explicit SendQueue(const SendLimits& limits) : limits_(limits) {}
 
   // Returns false if the queue is full; the message was not queued.
   [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
   // Always keeps the newest message. Returns the number of dropped older ones.
-  std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload);
-  // Returns the next message: control messages before data, each kind in order.
-  std::optional<Outgoing> Pop();
+  std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload, Delivery delivery,
+                       Time now);
+  struct Popped {
+    std::optional<Outgoing> message;
+    std::size_t left_out = 0;  // older data that were dropped
+  };
+  // Returns the next message: control messages before data, each kind in order. If data are not
+  // allowed, only a control message.
+  Popped Pop(Time now, bool allows_data = true);
 
   bool empty() const;
+  bool has_data() const;
   std::uint64_t dropped() const;  // number of dropped data messages so far
 
  private:
   static Outgoing Take(std::deque<Outgoing>& queue, std::size_t& bytes);
+  // Whether a newer message replaces the oldest data.
+  bool IsOutdated(Time now) const GSV_REQUIRES(mutex_);
 
   const SendLimits limits_;
   mutable base::Mutex mutex_;

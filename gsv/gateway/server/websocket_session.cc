@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
+
+#include "gsv/gateway/server/send_window.h"
 
 namespace gsv::gateway {
 namespace {
@@ -22,6 +25,12 @@ using HttpRequest = beast::http::request<beast::http::string_body>;
 constexpr std::size_t kReadSize = 16u << 10;
 // Time limit for a client to receive pending messages before the connection is closed.
 constexpr std::chrono::seconds kFarewell{2};
+// Time between two looks at a slow connection, which may be fast again without messages.
+constexpr std::chrono::seconds kSlowLook{1};
+constexpr std::string_view kSlowId = "gsv-slow-connection";
+constexpr std::string_view kSlowSentence =
+    "The connection is slow: the server leaves out older updates, so that the newest ones arrive "
+    "in time.";
 
 // A close frame's payload is at most 125 bytes, including two for the code.
 websocket::close_reason Reason(CloseCode code, const std::string& text) {
@@ -39,6 +48,7 @@ class WebSocketSession final : public Client,
       : stream_(std::move(stream)),
         farewell_(stream_.get_executor()),
         expiry_(stream_.get_executor()),
+        slow_look_(stream_.get_executor()),
         request_(std::move(request)),
         hub_(std::move(hub)),
         context_(std::move(context)),
@@ -59,6 +69,9 @@ class WebSocketSession final : public Client,
           response.set(beast::http::field::sec_websocket_protocol, name);
         }));
     stream_.auto_fragment(false);
+    stream_.control_callback([this](websocket::frame_type type, beast::string_view content) {
+      if (type == websocket::frame_type::pong) OnPong({content.data(), content.size()});
+    });
     stream_.read_message_max(0);  // the stream itself has no limit, because OnRead() checks it and
                                   // sends a sentence
     stream_.async_accept(request_, [self = shared_from_this()](error_code error) {
@@ -69,12 +82,15 @@ class WebSocketSession final : public Client,
   void SendText(SharedBytes text) override { SendControl(std::move(text), true); }
   void SendBytes(SharedBytes bytes) override { SendControl(std::move(bytes), false); }
 
-  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
-    context_->traffic->dropped_updates += queue_.PushData(header, std::move(payload));
+  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload,
+                Delivery delivery) override {
+    context_->traffic->dropped_updates +=
+        queue_.PushData(header, std::move(payload), delivery, SendWindow::Clock::now());
     Wake();
   }
 
   std::uint64_t dropped_updates() const override { return queue_.dropped(); }
+  double slow_rate() const override { return slow_rate_; }
 
   base::Status CheckControl() override {
     if (owner_.is_private) return {};
@@ -171,15 +187,22 @@ class WebSocketSession final : public Client,
 
   void WriteNext() {
     if (!is_open_ || is_writing_) return;
-    std::optional<Outgoing> message = queue_.Pop();
+    const auto now = SendWindow::Clock::now();
     // A client that is leaving gets only control messages.
-    while (close_reason_ && message && message->is_data) message = queue_.Pop();
-    if (message) return Write(std::move(*message));
-    if (close_reason_) SendCloseFrame();
+    const bool allows_data = !close_reason_ && window_.is_open();
+    SendQueue::Popped popped = queue_.Pop(now, allows_data);
+    if (popped.left_out > 0) {
+      context_->traffic->dropped_updates += popped.left_out;
+      window_.LeftOut(now);
+    }
+    if (popped.message) return Write(std::move(*popped.message));
+    if (close_reason_) return SendCloseFrame();
+    if (!allows_data && queue_.has_data()) window_.HoldBack();
   }
 
   void Write(Outgoing message) {
     is_writing_ = true;
+    write_started_ = SendWindow::Clock::now();
     in_flight_ = std::move(message);
     stream_.text(in_flight_.is_text);
     const std::array<boost::asio::const_buffer, 2> parts{
@@ -188,9 +211,60 @@ class WebSocketSession final : public Client,
     stream_.async_write(parts, [self = shared_from_this()](error_code error, std::size_t length) {
       self->context_->traffic->sent_bytes += length;
       self->is_writing_ = false;
-      self->in_flight_ = {};
+      const bool is_data = std::exchange(self->in_flight_, {}).is_data;
       if (error) return self->Leave();
+      self->window_.Sent(length, is_data, self->write_started_);
+      self->PingIfWanted(self->write_started_);
       self->WriteNext();
+    });
+  }
+
+  // Called after everything that may close the window without a ping under way: else it stays closed.
+  void PingIfWanted(SendWindow::Time started) {
+    if (window_.WantsPing(SendWindow::Clock::now())) Ping(started);
+  }
+
+  void Ping(SendWindow::Time started) {
+    if (is_pinging_ || !is_open_ || close_reason_) return;
+    is_pinging_ = true;
+    const std::string number = std::to_string(window_.Ping(SendWindow::Clock::now(), started));
+    stream_.async_ping(websocket::ping_data(number.data(), number.size()),
+                       [self = shared_from_this()](error_code error) {
+                         self->is_pinging_ = false;
+                         // The pong may have come before this.
+                         if (!error) self->PingIfWanted(SendWindow::Clock::now());
+                       });
+  }
+
+  // Called while the stream reads. Pongs of other pings have other contents.
+  void OnPong(std::string_view content) {
+    std::uint64_t number = 0;
+    const auto parsed = std::from_chars(content.begin(), content.end(), number);
+    if (parsed.ec != std::errc() || parsed.ptr != content.end()) return;
+    window_.Pong(number, SendWindow::Clock::now());
+    PingIfWanted(SendWindow::Clock::now());
+    ReportSlowness();
+    Wake();
+  }
+
+  void ReportSlowness() {
+    const bool is_slow = window_.IsSlow(SendWindow::Clock::now());
+    slow_rate_ = is_slow ? window_.slow_rate().value_or(0) : 0;
+    if (std::exchange(is_slow_, is_slow) == is_slow) return;
+    if (!is_slow) return SendText(SharedBytes(foxglove::RemoveStatusText(kSlowId)));
+    SendText(
+        SharedBytes(foxglove::StatusText(foxglove::StatusLevel::kWarning, kSlowSentence, kSlowId)));
+    LookAgain();
+  }
+
+  void LookAgain() {
+    slow_look_.expires_after(kSlowLook);
+    slow_look_.async_wait([weak = weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (error || !self || self->has_left_) return;
+      if (!self->window_.is_pinging()) self->Ping(SendWindow::Clock::now());
+      self->ReportSlowness();
+      if (self->is_slow_) self->LookAgain();
     });
   }
 
@@ -214,6 +288,7 @@ class WebSocketSession final : public Client,
     is_open_ = false;
     farewell_.cancel();
     expiry_.cancel();
+    slow_look_.cancel();
     if (std::exchange(has_left_, true)) return;
     if (is_counted_) --context_->traffic->viewers;
     stream_.next_layer().tcp().close();  // also ends a blocked write
@@ -221,7 +296,7 @@ class WebSocketSession final : public Client,
   }
 
   websocket::stream<transport::ByteStream> stream_;
-  boost::asio::steady_timer farewell_, expiry_;
+  boost::asio::steady_timer farewell_, expiry_, slow_look_;
   HttpRequest request_;
   beast::flat_buffer buffer_;
   std::shared_ptr<Hub> hub_;
@@ -230,11 +305,16 @@ class WebSocketSession final : public Client,
   const SocketOwner owner_;
   std::string subprotocol_;
   SendQueue queue_;
+  SendWindow window_;
   Outgoing in_flight_;
+  SendWindow::Time write_started_{};
   std::optional<websocket::close_reason> close_reason_;
   std::atomic<bool> is_woken_{false};
   bool is_open_ = false;  // the connection was accepted, and no close frame was sent
   bool is_writing_ = false;
+  bool is_pinging_ = false;  // a ping is being written
+  bool is_slow_ = false;     // the client has the status message about its slow connection
+  std::atomic<double> slow_rate_{0};
   bool has_left_ = false;
   bool is_counted_ = false;  // the session counts as a viewer
 };

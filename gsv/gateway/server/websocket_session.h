@@ -1,4 +1,7 @@
 // A WebSocket connection with the Foxglove protocol: a client of a hub.
+//
+// A slow client gets fewer data messages, and no old ones (SendQueue, SendWindow). A status message
+// with an ID tells it so, until its connection is fast again.
 #pragma once
 
 #include <memory>

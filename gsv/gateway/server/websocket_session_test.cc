@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/gateway/server/send_window.h"
 #include "gsv/gateway/testing/server_fixture.h"
 #include "gsv/gateway/testing/web_client.h"
 
@@ -130,6 +131,35 @@ TEST_F(ServerTest, StalledReaderLosesTheOldestDataAndDelaysNoOther) {
   }
   EXPECT_EQ(seen.front(), 0u);
   EXPECT_LT(seen.size(), kMessages);
+}
+
+TEST_F(ServerTest, AReaderThatConfirmsNothingGetsOneWindowAndThenContinues) {
+  ServerOptions options;
+  options.traffic = std::make_shared<metrics::Traffic>();
+  Start(options);
+  Viewer stalled(port()), healthy(port());
+  for (Viewer* const viewer : {&stalled, &healthy}) {
+    viewer->Subscribe(1, "/numbers");
+    viewer->SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
+    viewer->ReceiveText("status");
+  }
+  constexpr std::uint64_t kMessages = 200, kSize = 1 << 10, kHeader = 13;
+  const SharedBytes ballast(std::string(kSize, 'x'));
+  const std::uint64_t earlier = options.traffic->sent_bytes;
+  for (std::uint64_t i = 0; i < kMessages; ++i) {
+    echo_.hub().Publish(echo_.channel(), {i, ballast});
+    ASSERT_EQ(healthy.ReceiveData(1).time_ns, i);
+  }
+  const std::uint64_t healthy_bytes = kMessages * (kSize + kHeader);
+  const std::uint64_t sent = options.traffic->sent_bytes - earlier;
+  EXPECT_LE(sent, healthy_bytes + SendWindow::kFirstBytes + kSize + kHeader);
+  std::uint64_t last = stalled.ReceiveData(1).time_ns;
+  EXPECT_EQ(last, 0u);
+  while (last != kMessages - 1) {
+    const std::uint64_t next = stalled.ReceiveData(1).time_ns;
+    ASSERT_GT(next, last);
+    last = next;
+  }
 }
 
 TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {

@@ -49,7 +49,7 @@ class RecordingClient final : public Client {
     answers_.emplace_back(bytes.view());
   }
 
-  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
+  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload, Delivery) override {
     const std::lock_guard lock(mutex_);
     std::string bytes(reinterpret_cast<const char*>(header.bytes.data()), header.size);
     bytes += payload.view();

@@ -290,6 +290,7 @@ export class Session implements TopicSource, LiveViewSource {
         else if (connection.phase === "waiting") void this.checkStillThere(name);
       },
       onTopics: (topics) => this.store.set({ topics }),
+      onLasting: (sentences) => this.store.set({ connectionProblem: sentences.join(" ") }),
       onProblem: (sentence) => {
         notify(this.store, "error", sentence);
         this.store.set(({ serverWarnings }) => ({ serverWarnings: withServerWarning(serverWarnings, sentence) }));

@@ -29,6 +29,7 @@ export function createStatusBar(app: App): HTMLElement {
   });
   const waiting = element("span", { class: "waiting", role: "status", "data-testid": "waiting" });
   const connection = element("span", { class: "connection", role: "status", "data-testid": "connection" });
+  const problem = element("span", { class: "waiting", role: "status", "data-testid": "connection-problem" });
   const frames = element("span", { class: "number dim frames", title: "Frames drawn in the last second" });
 
   app.store.watch(
@@ -70,10 +71,17 @@ export function createStatusBar(app: App): HTMLElement {
     shallowEqual,
   );
   app.store.watch(
+    ({ connectionProblem }) => connectionProblem,
+    (text) => {
+      setText(problem, text);
+      problem.title = text;
+    },
+  );
+  app.store.watch(
     ({ framesPerSecond }) => Math.round(framesPerSecond),
     (value) => setText(frames, value > 0 ? `${value} fps` : ""),
   );
-  return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, frames, connection);
+  return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, problem, frames, connection);
 }
 
 // Returns the text about the speed. In lockstep, there is no target factor, only an actual one. A

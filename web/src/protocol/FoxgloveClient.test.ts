@@ -91,14 +91,19 @@ async function serve(channels?: object[], port?: number): Promise<Server> {
 function connectTo(server: Server) {
   const states: ConnectionState[] = [];
   const problems: string[] = [];
+  const lasting: { now: string[] } = { now: [] };
   const client = new FoxgloveClient(
     `ws://127.0.0.1:${server.port}/ws`,
-    { onConnection: (state) => states.push(state), onProblem: (sentence) => problems.push(sentence) },
+    {
+      onConnection: (state) => states.push(state),
+      onProblem: (sentence) => problems.push(sentence),
+      onLasting: (sentences) => (lasting.now = sentences),
+    },
     WebSocketClient as unknown as typeof WebSocket,
   );
   opened.unshift(client);
   client.connect();
-  return { client, states, problems };
+  return { client, states, problems, lasting };
 }
 
 test("it offers both sub-protocols and subscribes to what is advertised", async () => {
@@ -286,4 +291,15 @@ test("warnings of the server are passed on", async () => {
   server.send(JSON.stringify({ op: "status", level: 0, message: "welcome" }));
   server.send(JSON.stringify({ op: "status", level: 2, message: "no such channel" }));
   await eventually(() => expect(problems).toEqual(["no such channel"]));
+});
+
+test("a warning with an ID lasts until the server takes it back", async () => {
+  const server = await serve();
+  const { problems, lasting } = connectTo(server);
+  await eventually(() => expect(server.protocols).toHaveLength(1));
+  server.send(JSON.stringify({ op: "status", level: 1, message: "The connection is slow.", id: "slow" }));
+  await eventually(() => expect(lasting.now).toEqual(["The connection is slow."]));
+  server.send(JSON.stringify({ op: "removeStatus", statusIds: ["other", "slow"] }));
+  await eventually(() => expect(lasting.now).toEqual([]));
+  expect(problems).toEqual([]);
 });

@@ -25,6 +25,8 @@ export interface ClientEvents {
   onConnection(state: ConnectionState): void;
   // A message of the server could not be understood, or the server reports a problem.
   onProblem(sentence: string): void;
+  // Problems that last until the server takes them back, such as a slow connection.
+  onLasting?(sentences: string[]): void;
   // The server's topics have changed.
   onTopics?(topics: TopicInfo[]): void;
 }
@@ -74,6 +76,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   private readonly reported = new Set<string>();
   private readonly counted = new Map<string, TopicCount>(); // by topic
   private readonly questions = new Map<string, (value: ParameterValue | null) => void>(); // by parameter
+  private readonly lasting = new Map<string, string>(); // problems by the ID of their status message
   private hasParameters = false;
   private readonly views = new ConnectedViews((message) => this.send(message), () => this.nextSubscription++);
 
@@ -203,6 +206,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     this.subscribed.clear();
     this.hasParameters = false;
     this.views.lost();
+    this.lasting.clear();
+    this.tellLasting();
     for (const name of [...this.questions.keys()]) this.answer(name, null);
     for (const subscription of this.subscriptions) Object.assign(subscription, { id: null, ended: false });
     if (!socket) return;
@@ -243,9 +248,20 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
         this.unadvertise((message.channelIds ?? []) as number[]);
         break;
       case "status":
-        if (Number(message.level) >= 1) this.problem(String(message.message));
+        if (message.id !== undefined) {
+          this.lasting.set(String(message.id), String(message.message));
+          this.tellLasting();
+        } else if (Number(message.level) >= 1) this.problem(String(message.message));
+        break;
+      case "removeStatus":
+        for (const id of (message.statusIds ?? []) as unknown[]) this.lasting.delete(String(id));
+        this.tellLasting();
         break;
     }
+  }
+
+  private tellLasting(): void {
+    this.events.onLasting?.([...this.lasting.values()]);
   }
 
   private answer(name: string, value: ParameterValue | null): void {

@@ -68,6 +68,7 @@ export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {
   connection: ConnectionState;
+  connectionProblem: string; // a problem that lasts, such as a slow connection; empty if there is none
   abilities: Abilities; // the capabilities of the server
   missing: string; // why the content of the page's address cannot be shown; empty if it can
   refusal: string; // why the server rejects this page's token; empty if it does not
@@ -125,6 +126,7 @@ export interface State {
 
 export const initialState: State = {
   connection: { phase: "connecting", attempt: 1 },
+  connectionProblem: "",
   abilities: { creates: false, records: false, recordings: false, recording: "" },
   missing: "",
   refusal: "",

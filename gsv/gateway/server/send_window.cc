@@ -1,0 +1,65 @@
+#include "gsv/gateway/server/send_window.h"
+
+namespace gsv::gateway {
+namespace {
+
+double Seconds(SendWindow::Clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+}  // namespace
+
+bool SendWindow::WantsPing(Time now) const {
+  if (mark_ || sent_ == last_position_) return false;
+  return !is_open() || 2 * unconfirmed() >= bytes_ || now - last_ping_ >= kPingPeriod;
+}
+
+std::uint64_t SendWindow::Ping(Time now, Time started) {
+  mark_ = Mark{++pings_, data_sent_, sent_ - last_position_, first_started_.value_or(now), started};
+  last_ping_ = now;
+  last_position_ = sent_;
+  first_started_.reset();
+  return mark_->number;
+}
+
+void SendWindow::Pong(std::uint64_t number, Time now) {
+  if (!mark_ || mark_->number != number) return;
+  const Mark mark = *mark_;
+  mark_.reset();
+  data_confirmed_ = mark.data_position;
+  const Clock::duration delay = now - mark.started;
+  min_delay_ = std::min(min_delay_.value_or(delay), delay);
+  const Clock::duration minimum = std::min<Clock::duration>(*min_delay_, kMaxMinDelay);
+  const Clock::duration excess = delay - minimum;
+  const bool is_late = excess > kMaxDelay;
+  // A short excess says something only about a good part of the window.
+  const bool is_telling = 4 * excess > kAimedDelay && 4 * mark.bytes >= bytes_;
+  const Clock::duration busy = now - std::max(last_pong_, mark.first_started + minimum);
+  last_pong_ = now;
+  if (mark.bytes > 0 && busy > Clock::duration::zero() && (is_late || is_telling)) {
+    rate_ = static_cast<double>(mark.bytes) / Seconds(busy);
+    if (static_cast<double>(bytes_) > *rate_ * Seconds(minimum + kMaxDelay)) {
+      bytes_ =
+          std::max(kMinBytes, static_cast<std::size_t>(*rate_ * Seconds(minimum + kAimedDelay)));
+    }
+  }
+  if (is_late) {
+    NoteLate(now);
+  } else if (holds_back_ && 2 * excess < kAimedDelay) {
+    bytes_ = std::min(kMaxBytes, 2 * bytes_);
+  }
+  holds_back_ = false;
+}
+
+void SendWindow::NoteLate(Time now) {
+  if (!last_late_ || now - *last_late_ > kInTimeAfter) first_late_ = now;
+  last_late_ = now;
+  if (now - *first_late_ >= kSlowAfter) is_slow_ = true;
+}
+
+bool SendWindow::IsSlow(Time now) {
+  if (is_slow_ && now - *last_late_ > kInTimeAfter) is_slow_ = false;
+  return is_slow_;
+}
+
+}  // namespace gsv::gateway
