@@ -23,7 +23,7 @@ struct Options {
   unsigned long seed = 1;
 };
 
-int Complain(const base::Error& error) {
+int PrintError(const base::Error& error) {
   std::fprintf(stderr, "%s\n", error.Sentence().c_str());
   return 5;
 }
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   const auto state = Run(options);
-  if (!state) return Complain(state.error());
+  if (!state) return PrintError(state.error());
   const bool good = Judge(*state, options);
   std::printf("verdict: %s\n", good ? "passed" : "failed");
   return good ? 0 : 1;

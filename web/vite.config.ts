@@ -26,7 +26,8 @@ function contentSecurityPolicy(): Plugin {
   };
 }
 
-// The page's first script loads the main one when it runs. The browser fetches both at the same time.
+// The page's first script loads the main one when it runs. The browser fetches both at the same
+// time.
 function preloadMain(): Plugin {
   return {
     name: "gsv-preload-main",
@@ -67,10 +68,12 @@ export default defineConfig({
   test: {
     environment: "node",
     include: ["src/**/*.test.ts"],
-    // Test files share their worker, which saves four fifths of the time: they leave nothing behind.
+    // Test files share their worker, which saves four fifths of the time: they leave nothing
+    // behind.
     pool: "threads",
     isolate: false,
-    // Beside browsers on a busy machine what takes a tenth of a second may take five; only what hangs is to end.
+    // Beside browsers on a busy machine what takes a tenth of a second may take five; only what
+    // hangs is to end.
     testTimeout: 60_000,
   },
 });

@@ -46,7 +46,7 @@ class FlawTest : public testing::Test {
     return Model("r.urdf", "<robot name='r'>\n" + content + "</robot>");
   }
   // All problems of the last reading, which must be warnings.
-  std::vector<std::string> Said() const {
+  std::vector<std::string> Messages() const {
     std::vector<std::string> said;
     for (const base::Problem& problem : problems_) {
       EXPECT_EQ(problem.severity, base::Problem::Severity::kWarning) << problem.Sentence();
@@ -95,7 +95,7 @@ TEST_F(FlawTest, AnInvalidValueIsReplaced) {
     const auto world =
         World("<model name='other'><link name='l'>" + std::string(link) + "</link></model>");
     EXPECT_THAT(world.models, SizeIs(2)) << link;
-    EXPECT_THAT(Said(), Contains(AllOf(HasSubstr("w.sdf:2"), HasSubstr(part)))) << link;
+    EXPECT_THAT(Messages(), Contains(AllOf(HasSubstr("w.sdf:2"), HasSubstr(part)))) << link;
   }
 }
 
@@ -107,7 +107,7 @@ TEST_F(FlawTest, AnErrorOfTheWorldItselfDoesNotAffectItsModels) {
         "<gui><camera name='c'><pose>1 2</pose></camera></gui>",
         "<state world_name='w'><model name='m'><pose>1 2</pose></model></state>"}) {
     EXPECT_THAT(World(content).models, SizeIs(1)) << content;
-    EXPECT_THAT(Said(), Not(IsEmpty())) << content;
+    EXPECT_THAT(Messages(), Not(IsEmpty())) << content;
   }
 }
 
@@ -117,7 +117,7 @@ TEST_F(FlawTest, InvalidLightIsRepaired) {
       "</inner_angle><outer_angle>nan</outer_angle></spot></light><light name='b' "
       "type='spot'><spot>"
       "<inner_angle>0.8</inner_angle><outer_angle>0.6</outer_angle></spot></light>");
-  EXPECT_THAT(Said(),
+  EXPECT_THAT(Messages(),
               UnorderedElementsAre(HasSubstr("<range> must be above 0; 10 m is used"),
                                    HasSubstr("<outer_angle> <= 2 pi; 1 and 1 rad are used"),
                                    HasSubstr("<outer_angle> <= 2 pi; 0.6 and 0.6 rad are used")));
@@ -134,7 +134,7 @@ TEST_F(FlawTest, AxisWithoutDirectionAndSwappedLimitsAreRepaired) {
       Robot("<link name='a'>" + link + "<link name='b'>" + link +
             "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis "
             "xyz='0 0 0'/><limit lower='2' upper='-1' effort='1' velocity='1'/></joint>");
-  EXPECT_THAT(Said(),
+  EXPECT_THAT(Messages(),
               UnorderedElementsAre(HasSubstr("has @lower 2 above @upper -1; they are swapped"),
                                    HasSubstr("has no direction; 1 0 0 is used")));
   ASSERT_EQ(robot->joints.size(), 1u);
@@ -144,8 +144,9 @@ TEST_F(FlawTest, AxisWithoutDirectionAndSwappedLimitsAreRepaired) {
   World(
       "<model name='m'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a"
       "</parent><child>b</child><axis><xyz>0 0 0</xyz></axis></joint></model>");
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr(
-                          "<xyz> holds \"0 0 0\": an axis needs a length above 0; 0 0 1 is used")));
+  EXPECT_THAT(Messages(),
+              ElementsAre(HasSubstr(
+                  "<xyz> holds \"0 0 0\": an axis needs a length above 0; 0 0 1 is used")));
 }
 
 TEST_F(FlawTest, DanglingReferenceIsIgnored) {
@@ -169,13 +170,13 @@ TEST_F(FlawTest, DanglingReferenceIsIgnored) {
     ASSERT_THAT(world.models, SizeIs(2)) << content;
     EXPECT_GE(Find(world, "other")->links.size(), 2u) << content;
     EXPECT_EQ(Find(world, "sound")->links[0].model_from_link.position.x, 7) << content;
-    EXPECT_THAT(Said(), Contains(AllOf(HasSubstr("w.sdf:2"), HasSubstr(part)))) << content;
+    EXPECT_THAT(Messages(), Contains(AllOf(HasSubstr("w.sdf:2"), HasSubstr(part)))) << content;
   }
 }
 
 TEST_F(FlawTest, ModelWithoutLinksIsSkipped) {
   EXPECT_THAT(World("<model name='empty'/>").models, SizeIs(1));
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"empty\" has no links; it is ignored")));
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("\"empty\" has no links; it is ignored")));
 }
 
 TEST_F(FlawTest, LinksThatGazeboClassicFlattenedAreRead) {
@@ -189,7 +190,7 @@ TEST_F(FlawTest, LinksThatGazeboClassicFlattenedAreRead) {
   ASSERT_THAT(row->links, SizeIs(1));
   EXPECT_EQ(row->links[0].model_from_link.position.x, 1);
   EXPECT_THAT(row->links[0].visuals, SizeIs(1));
-  Said();
+  Messages();
 }
 
 TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
@@ -197,16 +198,16 @@ TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
       "<link name='l'><inertial><mass>0</mass><inertia><ixx>0</ixx><iyy>0</iyy><izz>0</izz>"
       "</inertia></inertial></link></model>";
   EXPECT_THAT(World("<model name='m'><static>true</static>" + zero).models, SizeIs(2));
-  EXPECT_THAT(Said(), IsEmpty());
+  EXPECT_THAT(Messages(), IsEmpty());
   const auto world = World("<model name='m'>" + zero);
   EXPECT_EQ(Find(world, "m")->links[0].inertial.mass, 1);
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("1 kg is used")));
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("1 kg is used")));
   // This inertia only violates the triangle inequality, so it is used unchanged.
   const auto flat = World(
       "<model name='m'><link name='l'><inertial><mass>5</mass><inertia><ixx>0.1</ixx><iyy>0.1"
       "</iyy><izz>0.9</izz></inertia></inertial></link></model>");
   EXPECT_EQ(Find(flat, "m")->links[0].inertial.izz, 0.9);
-  EXPECT_THAT(Said(), IsEmpty());
+  EXPECT_THAT(Messages(), IsEmpty());
 }
 
 TEST_F(FlawTest, AStaticNestedModelDoesNotMove) {
@@ -227,7 +228,7 @@ TEST_F(FlawTest, AScriptWithoutUriNamesAMaterialOfGazebo) {
                            "</link></model>");
   ASSERT_THAT(Find(world, "m")->links[0].visuals, SizeIs(1));
   EXPECT_GT(Find(world, "m")->links[0].visuals[0].materials[0].base_colour.r, 0.9);
-  EXPECT_THAT(Said(), IsEmpty());
+  EXPECT_THAT(Messages(), IsEmpty());
 }
 
 std::string FlawModel(const std::string& name, const std::string& content,
@@ -247,7 +248,7 @@ TEST_F(FlawTest, IncludesAreFoundFromTheFileThatNamesThemAtAnyDepth) {
   const auto model = ModelLibrary().ReadModel(robot.string(), problems_);
   ASSERT_TRUE(model.has_value()) << model.error().Sentence();
   EXPECT_THAT(LinksOf(**model), ElementsAre("cart::base::l"));
-  EXPECT_THAT(Said(), IsEmpty());
+  EXPECT_THAT(Messages(), IsEmpty());
 }
 
 TEST_F(FlawTest, AFlawInAnIncludedFileIsNamedWithThatFile) {
@@ -257,7 +258,7 @@ TEST_F(FlawTest, AFlawInAnIncludedFileIsNamedWithThatFile) {
   const auto world = World(IncludeOf("model://cart"));
   ASSERT_THAT(world.models, SizeIs(2));
   EXPECT_THAT(LinksOf(*world.models[0].model), UnorderedElementsAre("c", "base::l"));
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("base/model.sdf:2: <pose> holds \"1 2 3\"")));
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("base/model.sdf:2: <pose> holds \"1 2 3\"")));
 }
 
 TEST_F(FlawTest, OnlyAnUnreadableIncludeIsOmitted) {
@@ -269,7 +270,8 @@ TEST_F(FlawTest, OnlyAnUnreadableIncludeIsOmitted) {
     const auto world = World(IncludeOf(uri) + "<model name='bed'>" + IncludeOf(uri) + "</model>");
     EXPECT_NE(Find(world, "sound"), nullptr) << uri;
     EXPECT_EQ(Find(world, "bed"), nullptr) << uri;
-    EXPECT_THAT(Said(), Contains(HasSubstr("the include of " + std::string(uri) + " is ignored")));
+    EXPECT_THAT(Messages(),
+                Contains(HasSubstr("the include of " + std::string(uri) + " is ignored")));
   }
   EXPECT_NE(Find(World(IncludeOf("model://walker")), "sound"), nullptr);
 }
@@ -280,7 +282,7 @@ TEST_F(FlawTest, AModelIsPlacedByItsOwnFrame) {
       "<include><uri>model://box</uri><pose>2 0 0 0 0 0</pose>"
       "<placement_frame>__model__</placement_frame></include>");
   ASSERT_NE(Find(world, "box"), nullptr);
-  EXPECT_THAT(Said(), IsEmpty());
+  EXPECT_THAT(Messages(), IsEmpty());
 }
 
 TEST_F(FlawTest, LastJointOfALoopClosesItWithoutLimits) {
@@ -295,7 +297,7 @@ TEST_F(FlawTest, LastJointOfALoopClosesItWithoutLimits) {
   EXPECT_THAT(JointsOf(*model), ElementsAre("ab", "bc"));
   ASSERT_EQ(model->loop_joints.size(), 1u);
   EXPECT_EQ(model->loop_joints[0].name, "ac");
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"ac\" closes a loop")));
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("\"ac\" closes a loop")));
 }
 
 constexpr char kMassive[] =
@@ -320,7 +322,7 @@ TEST_F(FlawTest, LinksWithoutInertiaKeepTheirJointsShapesAndChildren) {
             UrdfJoint("nod", "continuous", "turret", "head"));
   EXPECT_THAT(LinksOf(*robot), UnorderedElementsAre("base", "turret", "head"));
   EXPECT_THAT(JointsOf(*robot), UnorderedElementsAre("turn", "nod"));
-  EXPECT_THAT(Said(), ElementsAre(AllOf(HasSubstr("r.urdf:3"), HasSubstr("turret; 0.1 kg"))));
+  EXPECT_THAT(Messages(), ElementsAre(AllOf(HasSubstr("r.urdf:3"), HasSubstr("turret; 0.1 kg"))));
   for (const auto& link : robot->links) {
     if (link.name != "turret") continue;
     EXPECT_THAT(link.visuals, SizeIs(1));
@@ -332,7 +334,7 @@ TEST_F(FlawTest, ARobotWithoutMassIsRead) {
   const auto robot =
       Robot(UrdfLink("base") + UrdfLink("arm") + UrdfJoint("j", "continuous", "base", "arm"));
   EXPECT_THAT(LinksOf(*robot), UnorderedElementsAre("base", "arm"));
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("2 links have no mass")));
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("2 links have no mass")));
 }
 
 TEST_F(FlawTest, LinksFixedToALinkWithMassNeedNoMass) {
@@ -344,7 +346,7 @@ TEST_F(FlawTest, LinksFixedToALinkWithMassNeedNoMass) {
             UrdfJoint("a", "fixed", "base", "optical") + UrdfJoint("b", "fixed", "base", "trunk"));
   ASSERT_FALSE(robot->links.empty());
   EXPECT_NEAR(robot->links[0].inertial.mass, 5, 1e-12);
-  EXPECT_THAT(Said(), IsEmpty());
+  EXPECT_THAT(Messages(), IsEmpty());
 }
 
 TEST_F(FlawTest, AFloatingRobotIsFree) {
@@ -355,14 +357,14 @@ TEST_F(FlawTest, AFloatingRobotIsFree) {
   EXPECT_THAT(LinksOf(*robot), ElementsAre("base", "leg"));
   EXPECT_THAT(JointsOf(*robot), ElementsAre("hip"));
   EXPECT_NEAR(robot->links[1].model_from_link.position.y, 0.2, 1e-12);
-  EXPECT_THAT(Said(), IsEmpty());
+  EXPECT_THAT(Messages(), IsEmpty());
 }
 
 TEST_F(FlawTest, AFloatingJointBetweenLinksIsFixed) {
   const auto robot = Robot(UrdfLink("base", kMassive) + UrdfLink("ball", kMassive) +
                            UrdfJoint("float", "floating", "base", "ball"));
   EXPECT_FALSE(robot->links.empty());
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"float\" is fixed")));
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("\"float\" is fixed")));
 }
 
 TEST_F(FlawTest, NamesWithScopesAreReadWithDots) {
@@ -375,7 +377,7 @@ TEST_F(FlawTest, NamesWithScopesAreReadWithDots) {
     EXPECT_THAT(LinksOf(*model), Contains("a.b")) << version;
     ASSERT_FALSE(model->joints.empty()) << version;
     EXPECT_EQ(model->joints[0].name, "j.k") << version;
-    EXPECT_THAT(Said(), Contains(HasSubstr("the name \"a::b\" contains"))) << version;
+    EXPECT_THAT(Messages(), Contains(HasSubstr("the name \"a::b\" contains"))) << version;
   }
 }
 
@@ -420,7 +422,7 @@ TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
       {UrdfLink("base", "<inertial><inertia ixx='1'/></inertial>"), "it has no mass"}};
   for (const auto& [robot, part] : robots) {
     EXPECT_THAT(Robot(robot)->links, Not(IsEmpty())) << robot;
-    EXPECT_THAT(Said(), Contains(AllOf(HasSubstr("r.urdf:"), HasSubstr(part)))) << robot;
+    EXPECT_THAT(Messages(), Contains(AllOf(HasSubstr("r.urdf:"), HasSubstr(part)))) << robot;
   }
 }
 

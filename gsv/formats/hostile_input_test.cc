@@ -16,7 +16,7 @@ using testing::HasSubstr;
 class HostileInputTest : public testing::Test {
  protected:
   // The problems of a model's file, whether it can be read or not.
-  std::vector<std::string> SaidOf(const std::string& name, const std::string& text) {
+  std::vector<std::string> ProblemsOf(const std::string& name, const std::string& text) {
     base::Problems problems;
     const auto model = ModelLibrary().ReadModel(folder_.Write(name, text).string(), problems);
     std::vector<std::string> said;
@@ -25,8 +25,9 @@ class HostileInputTest : public testing::Test {
     model_ = model ? *model : nullptr;
     return said;
   }
-  std::vector<std::string> SaidOfModel(const std::string& content) {
-    return SaidOf("m.sdf", "<sdf version='1.9'>\n<model name='m'>\n" + content + "</model></sdf>");
+  std::vector<std::string> ProblemsOfModel(const std::string& content) {
+    return ProblemsOf("m.sdf",
+                      "<sdf version='1.9'>\n<model name='m'>\n" + content + "</model></sdf>");
   }
   base::Result<MeshFile> Mesh(const std::string& name, const std::string& content) {
     base::Problems problems;
@@ -49,7 +50,7 @@ TEST_F(HostileInputTest, EntitiesOfManyBytesAreRefused) {
     text += "'>";
   }
   text += "]><sdf version='1.9'><model name='&a9;'><link name='l'/></model></sdf>";
-  EXPECT_THAT(SaidOf("m.sdf", text),
+  EXPECT_THAT(ProblemsOf("m.sdf", text),
               Contains(HasSubstr("its entities expand to more than the limit")));
   EXPECT_EQ(model_, nullptr);
 }
@@ -93,7 +94,7 @@ TEST_F(HostileInputTest, NonFiniteValuesAreReportedWithTheirPlace) {
         "<child>b</child><axis><xyz>nan 0 0</xyz></axis></joint>",
         "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent>"
         "<child>b</child><axis><xyz>0 0 1</xyz><limit><lower>nan</lower></limit></axis></joint>"}) {
-    EXPECT_THAT(SaidOfModel(content), Contains(HasSubstr("m.sdf:"))) << content;
+    EXPECT_THAT(ProblemsOfModel(content), Contains(HasSubstr("m.sdf:"))) << content;
     if (model_ == nullptr) continue;
     for (const model::Link& link : model_->links) {
       EXPECT_TRUE(std::isfinite(link.inertial.mass)) << content;
@@ -106,7 +107,7 @@ TEST_F(HostileInputTest, TruncatedUrdfIsRejected) {
   const std::string urdf =
       "<robot name='r'>\n<link name='a'><inertial><mass value='1'/></inertial></link>\n</robot>";
   for (const std::size_t length : {std::size_t{20}, urdf.size() / 2, urdf.size() - 3}) {
-    EXPECT_THAT(SaidOf("r.urdf", urdf.substr(0, length)), Contains(HasSubstr("malformed")));
+    EXPECT_THAT(ProblemsOf("r.urdf", urdf.substr(0, length)), Contains(HasSubstr("malformed")));
   }
 }
 

@@ -46,8 +46,8 @@ class ModelLibrary {
   base::Result<std::vector<NamedPose>> ReadNamedPoses(const model::WorldDescription& world);
 
   // Reads a model by its file (SDFormat or URDF), its folder, or its name. A name is found as
-  // model://NAME from `named_in` (a file; default: the current folder). A name "shape:…" is a box, a
-  // wall, a cylinder or a sphere, see sdf/shape_model.h.
+  // model://NAME from `named_in` (a file; default: the current folder). A name "shape:…" is a box,
+  // a wall, a cylinder or a sphere, see sdf/shape_model.h.
   base::Result<std::shared_ptr<const model::Model>> ReadModel(
       const std::string& name_or_path, base::Problems& problems,
       const std::filesystem::path& named_in = {});

@@ -7,8 +7,8 @@
 // from an inline model. Names of files that are found only beside the world's file become absolute
 // paths, so that the text may be saved in any folder.
 //
-// Frames  ModelLibrary::ReadWorld() reads the poses back bit by bit if roll, pitch and yaw can express
-//         them, as they do for all poses that users set; else within rounding.
+// Frames  ModelLibrary::ReadWorld() reads the poses back bit by bit if roll, pitch and yaw can
+//         express them, as they do for all poses that users set; else within rounding.
 // Errors  kBadModel if the file of the world cannot be read any more. What cannot be written is
 //         left out, each with a problem.
 #pragma once

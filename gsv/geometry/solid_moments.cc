@@ -38,8 +38,8 @@ SolidMoments Of(const Cylinder& cylinder) {
   return Symmetric(pi * r * r * l, {}, r * r / 4, r * r / 4, l * l / 12);
 }
 
-// A capsule is a cylinder between two hemispheres. The centroid of each is 3/8 of the radius outside
-// the end face of the cylinder.
+// A capsule is a cylinder between two hemispheres. The centroid of each is 3/8 of the radius
+// outside the end face of the cylinder.
 SolidMoments Of(const Capsule& capsule) {
   const double r = capsule.radius, l = capsule.length;
   const SolidMoments middle = Of(Cylinder{r, l}), ball = Of(Sphere{r});

@@ -11,7 +11,7 @@ constexpr std::array<std::byte, 4> kEncapsulation{std::byte{0}, std::byte{1}, st
                                                   std::byte{0}};
 
 // Fast DDS rounds the size of a message up to a multiple of four, so up to three bytes may follow.
-constexpr std::size_t kMostTrailingBytes = 3;
+constexpr std::size_t kMaxTrailingBytes = 3;
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void CdrReader::Read(std::string& text) {
 
 base::Status CdrReader::Finish() const {
   const char* failure = failure_;
-  if (failure == nullptr && remaining() > kMostTrailingBytes) {
+  if (failure == nullptr && remaining() > kMaxTrailingBytes) {
     failure = "the message is longer than its type allows";
   }
   if (failure == nullptr) return {};

@@ -15,10 +15,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kDeepest = 16;                    // maximum nesting of structs
-constexpr std::size_t kMostTypes = 500;         // maximum number of types in a schema
-constexpr std::size_t kMostFields = 1000;       // maximum number of fields of a type
-constexpr std::size_t kMostValues = 4'000'000;  // maximum number of values in a message
+constexpr int kMaxNesting = 16;                // maximum nesting of structs
+constexpr std::size_t kMaxTypes = 500;         // maximum number of types in a schema
+constexpr std::size_t kMaxFields = 1000;       // maximum number of fields of a type
+constexpr std::size_t kMaxValues = 4'000'000;  // maximum number of values in a message
 
 tl::unexpected<base::Error> Bad(std::string message, std::string_view where) {
   return base::Fail(base::ErrorCode::kCorrupt, std::move(message), std::string(where));
@@ -84,7 +84,7 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
       {"uint32", {Kind::kUnsigned, 4}}, {"int64", {Kind::kInteger, 8}},
       {"uint64", {Kind::kUnsigned, 8}}, {"float32", {Kind::kFloat, 4}},
       {"float64", {Kind::kFloat, 8}}};
-  if (structs_.size() >= kMostTypes) return Bad("more types than can be", root_);
+  if (structs_.size() >= kMaxTypes) return Bad("more types than can be", root_);
   Struct& fields = structs_[type];
   fields.clear();
   std::istringstream lines{std::string(text)};
@@ -94,7 +94,7 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
     // NAME=value and NAME = value are constants; a default follows the name after a blank.
     if (words[1].find('=') != std::string::npos) continue;
     if (words.size() > 2 && words[2].front() == '=') continue;
-    if (fields.size() >= kMostFields) return Bad("more fields than can be", type);
+    if (fields.size() >= kMaxFields) return Bad("more fields than can be", type);
     Field field;
     field.name = words[1];
     std::string base = words[0];
@@ -133,7 +133,7 @@ base::Status Definition::Check() const {
     open.pop_back();
     const auto found = structs_.find(type);
     if (found == structs_.end()) return Bad("the schema lacks the type " + type, root_);
-    if (depth > kDeepest) return Bad("types are nested too deep", root_);
+    if (depth > kMaxNesting) return Bad("types are nested too deep", root_);
     const auto known = deepest.find(type);
     if (known != deepest.end() && known->second >= depth) continue;
     deepest[type] = depth;
@@ -169,7 +169,7 @@ class Decoder {
     if (field.shape == Shape::kSingle) return ReadOne(field, out);
     const std::size_t count = field.shape == Shape::kSequence ? in_.ULong() : field.length;
     // Empty structs also count as values.
-    if (!in_.ok() || count > kMostValues || values_ + count > kMostValues) return false;
+    if (!in_.ok() || count > kMaxValues || values_ + count > kMaxValues) return false;
     if (field.kind == Kind::kUnsigned && field.size == 1) {
       out = {{"bytes", count}};
       in_.Skip(count);
@@ -184,7 +184,7 @@ class Decoder {
   }
 
   bool ReadOne(const Definition::Field& field, ordered_json& out) {
-    if (++values_ > kMostValues) return false;
+    if (++values_ > kMaxValues) return false;
     switch (field.kind) {
       case Kind::kStruct:
         return Read(field.struct_type, out);

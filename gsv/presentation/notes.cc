@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kAt = "at ";
 constexpr std::string_view kEnd = " s: ";
-constexpr double kLatestNote = 9e9;  // s; the latest time that fits in 64 bits of nanoseconds
+constexpr double kMaxNoteTime = 9e9;  // s; the latest time that fits in 64 bits of nanoseconds
 
 struct ParsedNote {
   base::SimTime time{};
@@ -27,7 +27,7 @@ std::optional<ParsedNote> ParseNote(std::string_view detail) {
   double seconds = 0;
   const auto parsed = std::from_chars(detail.data() + kAt.size(), detail.data() + end, seconds);
   const bool is_number = parsed.ec == std::errc() && parsed.ptr == detail.data() + end;
-  if (!is_number || !(seconds >= 0 && seconds < kLatestNote)) return std::nullopt;
+  if (!is_number || !(seconds >= 0 && seconds < kMaxNoteTime)) return std::nullopt;
   return ParsedNote{base::FromSeconds(seconds), detail.substr(end + kEnd.size())};
 }
 

@@ -173,7 +173,7 @@ std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field)
 base::Result<std::vector<TimedPose>> Localize(const Log& log, const LikelihoodField& field,
                                               const std::optional<TimedPose>& start,
                                               std::size_t stride) {
-  constexpr double kLeastScore = 0.3;
+  constexpr double kMinScore = 0.3;
   if (log.scans.empty() || !log.scans.front().base) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the log has no scans with odometry");
   }
@@ -192,7 +192,7 @@ base::Result<std::vector<TimedPose>> Localize(const Log& log, const LikelihoodFi
     poses.push_back(*pose);
     scores += field.Score(log, scan, *pose, 3);
   }
-  if (poses.empty() || scores < kLeastScore * static_cast<double>(poses.size())) {
+  if (poses.empty() || scores < kMinScore * static_cast<double>(poses.size())) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "no path through the world explains the scans; give the first pose in the "
                       "world with --start, or another world");

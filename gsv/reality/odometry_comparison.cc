@@ -9,7 +9,7 @@
 namespace gsv::reality {
 namespace {
 
-constexpr double kLongestStep = 1;  // s; no odometry is computed across a longer gap
+constexpr double kMaxGap = 1;  // s; no odometry is computed across a longer gap
 constexpr double kTruthStep =
     0.5;  // s; long enough to average out the jitter of the reference system
 
@@ -74,7 +74,7 @@ std::vector<TimedPose> ReckonedPath(const Log& log, double wheel_distance, Timed
       continue;
     }
     const TimedTwist& command = log.commands[i - 1];
-    const double step = std::min(start.time - command.time, kLongestStep);
+    const double step = std::min(start.time - command.time, kMaxGap);
     path.push_back(
         Advanced(path.back(), start.time, command.linear * step, command.angular * step));
   }
@@ -156,8 +156,8 @@ std::vector<TimedPose> SimulatedOdometry(const std::vector<TimedPose>& truth,
 }
 
 sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows) {
-  // The errors are those of the estimate. The regression of the estimate on the truth therefore has no
-  // bias, unlike the inverse of MotionStatistics::way_ratio.
+  // The errors are those of the estimate. The regression of the estimate on the truth therefore has
+  // no bias, unlike the inverse of MotionStatistics::way_ratio.
   std::vector<double> ways, turns, true_ways, true_turns;
   for (const MotionWindow& window : windows) {
     ways.push_back(window.reckoned_way), true_ways.push_back(window.true_way);

@@ -15,7 +15,7 @@
 namespace gsv::reality {
 namespace {
 
-constexpr std::size_t kFewest = 20;
+constexpr std::size_t kMinCount = 20;
 
 std::string AnchorName(int anchor) { return fmt::format("anchor {}", anchor); }
 
@@ -117,7 +117,7 @@ std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors) {
   }
   std::vector<RadioGroup> groups;
   const auto take = [&](RadioGroup& group, std::string name) {
-    if (group.real.size() < kFewest) return;
+    if (group.real.size() < kMinCount) return;
     group.name = std::move(name);
     groups.push_back(std::move(group));
   };

@@ -35,8 +35,8 @@ constexpr double kDegree = kPi / 180;
 class Reality : public testing::Test {
  protected:
   // Adds a row to the table.
-  void Tell(const std::string& what, const std::string& unit, double real, double simulated,
-            double confidence, bool is_met) {
+  void AddResult(const std::string& what, const std::string& unit, double real, double simulated,
+                 double confidence, bool is_met) {
     RecordProperty("row " + std::to_string(rows_++),
                    fmt::format("{}|{}|{:.3g}|{:.3g}|{:.2g}|{}", what, unit, real, simulated,
                                confidence, is_met ? "met" : "not met"));
@@ -168,15 +168,15 @@ TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
   const BeamTest test(threshold, gain_range);
   const Summary fitted = Summarize(PanelErrors(test, 0, 0.5));
   const Summary judged = Summarize(PanelErrors(test, 1, 0.5));
-  Tell("judged: mean absolute error of the half angle at 8 distances (at most 3)", "°", 0,
-       judged.mean, 1.96 * judged.deviation / std::sqrt(8.0), judged.mean <= 3);
-  Tell("fitted: the same at the other 9 distances (at most 3)", "°", 0, fitted.mean,
-       1.96 * fitted.deviation / 3, fitted.mean <= 3);
+  AddResult("judged: mean absolute error of the half angle at 8 distances (at most 3)", "°", 0,
+            judged.mean, 1.96 * judged.deviation / std::sqrt(8.0), judged.mean <= 3);
+  AddResult("fitted: the same at the other 9 distances (at most 3)", "°", 0, fitted.mean,
+            1.96 * fitted.deviation / 3, fitted.mean <= 3);
   const double rule = test.FurthestHeard(0.025, 2), sheet = test.FurthestHeard(0.033, 0.038);
-  Tell("judged: furthest a rule of 25 mm is heard (within 20 %)", "m", kRule, rule, 0.02,
-       std::abs(rule / kRule - 1) < 0.2);
-  Tell("fitted: furthest a sheet of 33 by 38 mm is heard (within 20 %)", "m", kSheet, sheet, 0.02,
-       std::abs(sheet / kSheet - 1) < 0.2);
+  AddResult("judged: furthest a rule of 25 mm is heard (within 20 %)", "m", kRule, rule, 0.02,
+            std::abs(rule / kRule - 1) < 0.2);
+  AddResult("fitted: furthest a sheet of 33 by 38 mm is heard (within 20 %)", "m", kSheet, sheet,
+            0.02, std::abs(sheet / kSheet - 1) < 0.2);
   EXPECT_LE(judged.mean, 5);
   Comparison comparison;
   comparison.series.push_back({"half angle", "°", {}, {}});
@@ -217,7 +217,8 @@ TEST_F(RealLog, OdometryDriftsAsThatOfARobotItWasNotFittedTo) {
     const bool is_target = row.what.starts_with("true over") || row.what.starts_with("scatter");
     if (!is_target) continue;
     const bool is_met = std::abs(row.simulated / row.real - 1) <= 0.1;
-    Tell(row.what + " (within 10 %)", row.unit, row.real, row.simulated, row.confidence, is_met);
+    AddResult(row.what + " (within 10 %)", row.unit, row.real, row.simulated, row.confidence,
+              is_met);
     // Robots of the same type differ by about 10 %, so a value may deviate that much plus its
     // interval.
     EXPECT_NEAR(row.simulated, row.real, 0.1 * row.real + row.confidence) << row.what;
@@ -259,8 +260,8 @@ TEST_F(RealLog, ASonarRingHearsAsManyEchoes) {
   for (const Row& row : comparison->rows) {
     std::printf("%s: %.3f %.3f\n", row.what.c_str(), row.real, row.simulated);
     if (!row.what.starts_with("share of echoes")) continue;
-    Tell(row.what + " (within 0.1)", "", row.real, row.simulated, row.confidence,
-         std::abs(row.real - row.simulated) <= 0.1);
+    AddResult(row.what + " (within 0.1)", "", row.real, row.simulated, row.confidence,
+              std::abs(row.real - row.simulated) <= 0.1);
     EXPECT_NEAR(row.simulated, row.real, 0.3) << row.what;
   }
 }
@@ -296,18 +297,20 @@ TEST_F(RealLog, ALaserScattersAndMissesAsInAMappedBuilding) {
     std::printf("%s: %.4f %.4f\n", row.what.c_str(), row.real, row.simulated);
     if (row.what == "scatter of a beam at rest") {
       const bool is_met = row.simulated >= 0.005 && row.simulated <= 0.012;
-      Tell(row.what + " (0.005 to 0.012)", "m", row.real, row.simulated, row.confidence, is_met);
+      AddResult(row.what + " (0.005 to 0.012)", "m", row.real, row.simulated, row.confidence,
+                is_met);
       EXPECT_TRUE(is_met) << row.simulated;
     }
     if (row.what == "share of all beams at the maximum") {
       const bool is_met = row.simulated >= 0.005 && row.simulated <= 0.037;
-      Tell(row.what + " (0.005 to 0.037)", "", row.real, row.simulated, row.confidence, is_met);
+      AddResult(row.what + " (0.005 to 0.037)", "", row.real, row.simulated, row.confidence,
+                is_met);
       EXPECT_TRUE(is_met) << row.simulated;
     }
     if (row.what == "share of hits" || row.what == "share of shorter readings" ||
         row.what == "share without an echo") {
-      Tell(row.what + " (within 0.05)", "", row.real, row.simulated, row.confidence,
-           std::abs(row.real - row.simulated) <= 0.05);
+      AddResult(row.what + " (within 0.05)", "", row.real, row.simulated, row.confidence,
+                std::abs(row.real - row.simulated) <= 0.05);
     }
   }
 }
@@ -469,8 +472,8 @@ TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   std::printf("wheels %.3f rms %.4f max %.4f end %.4f apart %.4f\n", distance, errors.rms,
               errors.largest, errors.end, apart);
   const auto row = [&](const char* what, double real, double simulated) {
-    Tell(std::string(what) + " (within 20 %)", "m", real, simulated, 0,
-         std::abs(simulated / real - 1) <= 0.2);
+    AddResult(std::string(what) + " (within 20 %)", "m", real, simulated, 0,
+              std::abs(simulated / real - 1) <= 0.2);
     EXPECT_NEAR(simulated, real, 0.2 * real) << what;
   };
   row("rms distance of the driven path from the camera's", 0.059, errors.rms);
@@ -505,16 +508,17 @@ TEST_F(RealLog, ALaserScansTheArena) {
     std::printf("%s: %.4f %.4f\n", row.what.c_str(), row.real, row.simulated);
     if (row.what == "scatter of a beam at rest") {
       const bool is_met = row.simulated >= 0.002 && row.simulated <= 0.004;
-      Tell(row.what + " (0.002 to 0.004)", "m", row.real, row.simulated, row.confidence, is_met);
+      AddResult(row.what + " (0.002 to 0.004)", "m", row.real, row.simulated, row.confidence,
+                is_met);
       EXPECT_TRUE(is_met) << row.simulated;
     } else if (row.what == "median difference of a scan, middle") {
-      Tell(row.what + " (below 0.01)", "m", 0, row.real, 0, row.real < 0.01);
+      AddResult(row.what + " (below 0.01)", "m", 0, row.real, 0, row.real < 0.01);
       EXPECT_LT(row.real, 0.01);
     } else if (row.what == "median difference of a scan, largest") {
-      Tell(row.what + " (below 0.01)", "m", 0, row.real, 0, row.real < 0.01);
+      AddResult(row.what + " (below 0.01)", "m", 0, row.real, 0, row.real < 0.01);
       EXPECT_LT(row.real, 0.05);
     } else if (row.what.starts_with("share of scans with")) {
-      Tell(row.what + " (1)", "", 1, row.real, 0, row.real == 1);
+      AddResult(row.what + " (1)", "", 1, row.real, 0, row.real == 1);
     }
   }
 }
@@ -548,8 +552,8 @@ TEST_F(RealLog, RadioRangesHaveTheBiasAndScatterOfUwb) {
     if (!is_bias && !row.what.starts_with("scatter to")) continue;
     const double low = is_bias ? 0.07 : 0.06, high = is_bias ? 0.15 : 0.13;
     const bool is_met = row.simulated >= low && row.simulated <= high;
-    Tell(fmt::format("{} ({} to {})", row.what, low, high), "m", row.real, row.simulated,
-         row.confidence, is_met);
+    AddResult(fmt::format("{} ({} to {})", row.what, low, high), "m", row.real, row.simulated,
+              row.confidence, is_met);
     EXPECT_TRUE(is_met) << row.what << ' ' << row.simulated;
   }
 }

@@ -14,8 +14,8 @@ constexpr double kSonarHalfAngle = 0.13;  // half angle of the cone that returns
                                           // rad
 constexpr double kMargin = 6;             // margin around the path, for sonars and in rooms, m
 constexpr double kMaxFittedCells = 25e6;
-constexpr double kFurthest = 50;  // echoes from further away are ignored, m
-constexpr double kWidest = 1000;  // m
+constexpr double kFurthest = 50;    // echoes from further away are ignored, m
+constexpr double kMaxWidth = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
 constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // minimum log odds of a wall
 constexpr double kWall = 10;  // larger than the sum of the evidence of all long readings that pass
@@ -23,9 +23,9 @@ constexpr double kWall = 10;  // larger than the sum of the evidence of all long
 
 // The beam of a sideways sonar moves along walls. Two consecutive echoes of one wall are connected
 // by a line.
-constexpr double kSideways = 1.2;    // rad
-constexpr double kSameWall = 0.4;    // m: maximum change of the range
-constexpr double kLongestGap = 2.5;  // m
+constexpr double kSideways = 1.2;  // rad
+constexpr double kSameWall = 0.4;  // m: maximum change of the range
+constexpr double kMaxGap = 2.5;    // m
 
 class LogOdds {
  public:
@@ -91,9 +91,9 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
       const double next_y = scan.base->y + scan.ranges[i] * std::sin(angle);
       const double moved_x = scan.base->x - from.x, moved_y = scan.base->y - from.y;
       if (std::abs(scan.ranges[i] - range) < kSameWall &&
-          std::hypot(next_x - x, next_y - y) < kLongestGap) {
+          std::hypot(next_x - x, next_y - y) < kMaxGap) {
         odds.AddWall(x, y, next_x, next_y);
-      } else if (std::isfinite(range) && !is_lost && std::hypot(moved_x, moved_y) < kLongestGap) {
+      } else if (std::isfinite(range) && !is_lost && std::hypot(moved_x, moved_y) < kMaxGap) {
         // The echoes come from two different walls. Each wall is extended along the path, to the
         // middle between the echoes.
         odds.AddWall(x, y, x + moved_x / 2, y + moved_y / 2);
@@ -145,7 +145,7 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
     min_x = std::min(min_x, scan.base->x), max_x = std::max(max_x, scan.base->x);
     min_y = std::min(min_y, scan.base->y), max_y = std::max(max_y, scan.base->y);
   }
-  if (!(max_x >= min_x && max_x - min_x < kWidest && max_y - min_y < kWidest)) {
+  if (!(max_x >= min_x && max_x - min_x < kMaxWidth && max_y - min_y < kMaxWidth)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "no world can be fitted: the scans have no poses, or a path of more than a "
                       "kilometre. Give a world with --world");

@@ -32,11 +32,11 @@ std::vector<dds::Guid> ReadGuids(std::size_t size, messages::CdrReader& reader) 
 base::Result<std::vector<NodeInfo>> DecodeGraphWith(std::size_t size,
                                                     std::span<const std::byte> sample) {
   // The minimum size of an encoded node, in bytes: two empty strings and two counts.
-  constexpr std::size_t kSmallestNode = 16;
+  constexpr std::size_t kMinNodeBytes = 16;
   messages::CdrReader reader(sample);
   std::array<std::uint8_t, 24> participant{};
   reader.ReadBlock(participant.data(), size, 1);
-  std::vector<NodeInfo> nodes(reader.ReadCount(kSmallestNode));
+  std::vector<NodeInfo> nodes(reader.ReadCount(kMinNodeBytes));
   for (NodeInfo& node : nodes) {
     reader.Read(node.name_space);
     reader.Read(node.name);

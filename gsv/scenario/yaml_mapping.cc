@@ -9,10 +9,10 @@
 namespace gsv::scenario {
 namespace {
 
-constexpr std::size_t kLongestQuote = 80;
+constexpr std::size_t kMaxQuoteLength = 80;
 
 std::string Quoted(const std::string& text) {
-  return "\"" + text.substr(0, kLongestQuote) + (text.size() > kLongestQuote ? "…" : "") + "\"";
+  return "\"" + text.substr(0, kMaxQuoteLength) + (text.size() > kMaxQuoteLength ? "…" : "") + "\"";
 }
 
 std::string KindOf(const YAML::Node& node) {
@@ -75,7 +75,7 @@ YamlMapping::~YamlMapping() {
   std::string known;
   for (const std::string& key : known_) known += (known.empty() ? "" : ", ") + key;
   for (const auto& [key, entry] : unread_) {
-    place_.AddProblem(entry.mark, FieldOf(key.substr(0, kLongestQuote)),
+    place_.AddProblem(entry.mark, FieldOf(key.substr(0, kMaxQuoteLength)),
                       "there is no key " + Quoted(key) + " here; known are " + known +
                           base::DidYouMean(key, known_));
   }

@@ -1,5 +1,5 @@
-// A device is a sensor that keeps a state between steps (world::DeviceState). Radios and actuators are
-// devices.
+// A device is a sensor that keeps a state between steps (world::DeviceState). Radios and actuators
+// are devices.
 //
 // Threads  const members may run concurrently. The stepping thread calls Apply() and SwitchedOn().
 #pragma once

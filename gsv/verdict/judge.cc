@@ -26,7 +26,7 @@ std::string Bounds(const scenario::Formula& atom) {
   return text;
 }
 
-std::string Told(const MeasuredAtom& measured) {
+std::string MeasuredText(const MeasuredAtom& measured) {
   const scenario::Quantity& quantity = measured.atom.quantity;
   if (quantity.kind == scenario::Quantity::Kind::kStuck) {
     const std::string who = quantity.first.empty() ? measured.about : quantity.first;
@@ -99,7 +99,7 @@ std::string Finding::Sentence() const {
   std::string text =
       "violated at " + InWords(base::ToSeconds(time)) + " s (step " + std::to_string(step) + ")";
   for (std::size_t i = 0; i < std::min(atoms.size(), kMaxReportedAtoms); ++i) {
-    text += (i == 0 ? ": " : "; ") + Told(atoms[i]);
+    text += (i == 0 ? ": " : "; ") + MeasuredText(atoms[i]);
   }
   return text;
 }

@@ -68,8 +68,8 @@ base::Result<rendering::CameraView> OfSensor(const Camera& camera, const SceneLo
   const auto found = lookup.sensor(camera.sensor.substr(0, slash), camera.sensor.substr(slash + 1));
   if (!found) return Fail(found.error());
   rendering::CameraView view{found->world_from_sensor, ParametersOf(camera)};
-  constexpr double kWidest = 3;  // maximum angle of view of a pinhole camera, rad
-  view.parameters.horizontal_fov = std::min(found->horizontal_fov, kWidest);
+  constexpr double kMaxViewAngle = 3;  // maximum angle of view of a pinhole camera, rad
+  view.parameters.horizontal_fov = std::min(found->horizontal_fov, kMaxViewAngle);
   return view;
 }
 

@@ -21,11 +21,11 @@ class PythonBehaviour final : public Behaviour {
   void Run(Robot& robot) override {
     CallPython([&] { object_->attr("run")(ForPython(robot)); });
   }
-  void Paused() override { Tell("paused"); }
-  void Resumed() override { Tell("resumed"); }
+  void Paused() override { CallListener("paused"); }
+  void Resumed() override { CallListener("resumed"); }
 
  private:
-  void Tell(const char* event) {
+  void CallListener(const char* event) {
     CallPython([&] {
       if (py::hasattr(*object_, event)) object_->attr(event)();
     });

@@ -27,7 +27,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::chrono::seconds kTime{5};
-constexpr std::size_t kMostBytes = 16'384;
+constexpr std::size_t kMaxBytes = 16'384;
 
 // The files are ordered by name, so that a seed has the same meaning on every machine.
 std::map<std::string, Bytes> Corpus() {
@@ -48,7 +48,7 @@ class Mutator {
   Bytes Next() {
     Bytes bytes = Any();
     for (std::size_t changes = 1 + Below(4); changes > 0; --changes) Change(bytes);
-    if (bytes.size() > kMostBytes) bytes.resize(kMostBytes);
+    if (bytes.size() > kMaxBytes) bytes.resize(kMaxBytes);
     return bytes;
   }
 

@@ -307,7 +307,7 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
     return PrintError({base::ErrorCode::kInvalidArgument,
                        "has an effect only with --headless or --resimulate", "--json"});
   }
-  auto ros2 = Understand(arguments.ros2);
+  auto ros2 = ParseArguments(arguments.ros2);
   if (!ros2) return PrintError(ros2.error());
   if (*ros2 && (arguments.headless || arguments.resimulate)) {
     return PrintError({base::ErrorCode::kInvalidArgument,

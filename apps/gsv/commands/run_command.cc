@@ -250,7 +250,7 @@ void AddRunCommand(const CommandLine& line) {
   auto arguments = std::make_shared<RunArguments>();
   AddRunOptions(*command, *arguments);
   command->callback([arguments, line] {
-    const auto options = Understand(*arguments);
+    const auto options = ParseArguments(*arguments);
     if (!options) {
       line.exit_code = PrintError(options.error());
       return;

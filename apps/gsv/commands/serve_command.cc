@@ -37,7 +37,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.server_limits = arguments.server_limits;
   options.viewer = !arguments.headless;
   options.web = arguments.web;
-  auto ros2 = Understand(arguments.ros2);
+  auto ros2 = ParseArguments(arguments.ros2);
   if (!ros2) return PrintError(ros2.error());
   options.ros2 = *std::move(ros2);
   options.noted_as = arguments.name;

@@ -58,7 +58,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
   std::vector<fs::path> done = found.broken;
   std::vector<LostSimulation> lost;
   for (const NoteFound& each : found.notes) {
-    if (each.note.recordings != note_.recordings || IsOfTheLiving(each.note)) continue;
+    if (each.note.recordings != note_.recordings || IsProcessRunning(each.note)) continue;
     for (const auto* list : {&each.note.lost, &each.note.simulations}) {
       lost.insert(lost.end(), list->begin(), list->end());
     }

@@ -150,7 +150,7 @@ ServerNote NewNote() {
   return note;
 }
 
-bool IsOfTheLiving(const ServerNote& note) {
+bool IsProcessRunning(const ServerNote& note) {
   if (note.host != base::HostName()) return true;
   return note.boot == LineOf("/proc/sys/kernel/random/boot_id") &&
          ProcessStart(note.pid) == note.started;
@@ -223,7 +223,7 @@ std::vector<LostSimulation> LostSimulationsNoted(const std::string& broker) {
   for (NoteFound& found : ReadNotes(*folder).notes) {
     if (!broker.empty() && found.note.broker != broker) continue;
     std::move(found.note.lost.begin(), found.note.lost.end(), std::back_inserter(lost));
-    if (IsOfTheLiving(found.note)) continue;
+    if (IsProcessRunning(found.note)) continue;
     std::move(found.note.simulations.begin(), found.note.simulations.end(),
               std::back_inserter(lost));
   }

@@ -54,7 +54,7 @@ struct ServerNote {
 // Returns the note of this process.
 ServerNote NewNote();
 // Whether the process that wrote the note still runs. A process of another host counts as running.
-bool IsOfTheLiving(const ServerNote& note);
+bool IsProcessRunning(const ServerNote& note);
 
 // Returns the folder, and creates it if it does not exist.
 base::Result<std::filesystem::path> NotesFolder();

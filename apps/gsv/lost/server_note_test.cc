@@ -71,14 +71,14 @@ TEST_F(ServerNoteTest, IsReadUnchanged) {
 
 TEST_F(ServerNoteTest, AWriterIsAliveWhileItsProcessIs) {
   ServerNote note = NewNote();
-  EXPECT_TRUE(IsOfTheLiving(note));
+  EXPECT_TRUE(IsProcessRunning(note));
   ++note.started;  // another process had this number
-  EXPECT_FALSE(IsOfTheLiving(note));
+  EXPECT_FALSE(IsProcessRunning(note));
   note = NewNote();
   note.boot = "before";
-  EXPECT_FALSE(IsOfTheLiving(note));
+  EXPECT_FALSE(IsProcessRunning(note));
   note.host = "elsewhere";
-  EXPECT_TRUE(IsOfTheLiving(note)) << "nobody here can tell";
+  EXPECT_TRUE(IsProcessRunning(note)) << "nobody here can tell";
 }
 
 TEST_F(ServerNoteTest, AnInvalidFileIsReportedAndRenamedAsBroken) {

@@ -27,8 +27,8 @@ class ChildProcess {
   // process's stderr, or none if `quiet` is true.
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
                                                            bool quiet, Input input = Input::kEmpty);
-  // Starts a program as Start() does, but its stderr can be read here too. `environment` has further
-  // variables, as NAME=VALUE.
+  // Starts a program as Start() does, but its stderr can be read here too. `environment` has
+  // further variables, as NAME=VALUE.
   static base::Result<std::unique_ptr<ChildProcess>> StartCaptured(
       std::vector<std::string> arguments, std::vector<std::string> environment);
   // Sends SIGTERM, and SIGKILL if the child still runs two seconds later.

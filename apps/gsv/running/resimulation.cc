@@ -83,7 +83,7 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   arguments.headless = true;
   arguments.open = false;
   arguments.json = false;
-  return Understand(arguments);
+  return ParseArguments(arguments);
 }
 
 // The commands of a robot, and the state of its radios.
@@ -281,8 +281,8 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   auto run = OptionsOf(*call, options.file);
   if (!run) return base::Fail(run.error());
   run->runtime.broker = options.broker;
-  // The expectations were evaluated during the recorded run. If their verdicts are among its events,
-  // they must be evaluated again.
+  // The expectations were evaluated during the recorded run. If their verdicts are among its
+  // events, they must be evaluated again.
   if (!doings->has_verdicts) run->scenario.expect.clear();
   run->record = (folder->path() / "again.mcap").string();
   const bool had_people = doings->was_held_up || !doings->edits.empty();

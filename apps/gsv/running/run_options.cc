@@ -215,7 +215,7 @@ base::Result<base::SimTime> Time(double seconds, const char* option) {
   return base::FromSeconds(seconds);
 }
 
-base::Status UnderstandBehaviours(const std::vector<std::string>& texts, RunOptions& options) {
+base::Status ParseBehaviours(const std::vector<std::string>& texts, RunOptions& options) {
   for (const std::string& text : texts) {
     // The text after the first space has the behaviour's own options.
     const std::size_t equals = text.substr(0, text.find(' ')).find('=');
@@ -231,7 +231,7 @@ base::Status UnderstandBehaviours(const std::vector<std::string>& texts, RunOpti
   return {};
 }
 
-base::Status UnderstandMovements(const std::vector<std::string>& texts, RunOptions& options) {
+base::Status ParseMovements(const std::vector<std::string>& texts, RunOptions& options) {
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     const std::string how = equals == std::string::npos ? "" : text.substr(equals + 1);
@@ -245,7 +245,7 @@ base::Status UnderstandMovements(const std::vector<std::string>& texts, RunOptio
   return {};
 }
 
-base::Status UnderstandTopics(const std::vector<std::string>& topics) {
+base::Status CheckTopics(const std::vector<std::string>& topics) {
   for (const std::string& topic : topics) {
     if (topic.starts_with('/')) continue;
     return base::Fail(base::ErrorCode::kInvalidArgument,
@@ -294,8 +294,8 @@ base::Status ParsePlace(const std::string& text, std::vector<scenario::RobotEntr
   return {};
 }
 
-base::Status UnderstandRobots(const std::vector<std::string>& texts,
-                              std::vector<scenario::RobotEntry>& robots) {
+base::Status ParseRobots(const std::vector<std::string>& texts,
+                         std::vector<scenario::RobotEntry>& robots) {
   for (const std::string& text : texts) {
     auto robot = scenario::ParseRobot(text);
     if (!robot) return base::Fail(robot.error());
@@ -366,8 +366,8 @@ base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& sce
   return problems;
 }
 
-base::Status UnderstandTimes(const scenario::Scenario& scenario,
-                             simulation::Specification& specification) {
+base::Status SetTimes(const scenario::Scenario& scenario,
+                      simulation::Specification& specification) {
   const auto duration = Time(scenario.duration.value_or(0), "--duration");
   const auto step = Time(scenario.step.value_or(0), "--step");
   const auto deadline = Time(scenario.deadline.value_or(kDeadline), "--deadline");
@@ -381,9 +381,9 @@ base::Status UnderstandTimes(const scenario::Scenario& scenario,
   return {};
 }
 
-base::Status UnderstandRecording(const RunArguments& a, RunOptions& options) {
+base::Status SetRecording(const RunArguments& a, RunOptions& options) {
   const scenario::Scenario& scenario = options.scenario;
-  if (auto ok = UnderstandTopics(scenario.record_topics); !ok) return ok;
+  if (auto ok = CheckTopics(scenario.record_topics); !ok) return ok;
   options.record = scenario.record;
   options.recording.topics = scenario.record_topics;
   options.recording.png = scenario.record_png.value_or(false);
@@ -404,8 +404,8 @@ base::Status UnderstandRecording(const RunArguments& a, RunOptions& options) {
   return {};
 }
 
-void UnderstandSpecification(const RunArguments& a, const scenario::Scenario& scenario,
-                             simulation::Specification& specification) {
+void SetSpecification(const RunArguments& a, const scenario::Scenario& scenario,
+                      simulation::Specification& specification) {
   specification.name = scenario.name.empty() ? "simulation" : scenario.name;
   specification.mode =
       scenario.lockstep.value_or(false) ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
@@ -422,7 +422,7 @@ void UnderstandSpecification(const RunArguments& a, const scenario::Scenario& sc
 
 }  // namespace
 
-base::Result<RunOptions> Understand(const RunArguments& a) {
+base::Result<RunOptions> ParseArguments(const RunArguments& a) {
   RunOptions options;
   auto scenario = ScenarioToStartFrom(a, options.problems);
   if (!scenario) return base::Fail(scenario.error());
@@ -432,10 +432,10 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
     options.problems.push_back(std::move(problem));
   }
   std::vector<scenario::RobotEntry> robots;
-  if (auto ok = UnderstandRobots(a.robots, robots); !ok) return base::Fail(ok.error());
+  if (auto ok = ParseRobots(a.robots, robots); !ok) return base::Fail(ok.error());
   if (auto ok = ParsePlace(a.place, robots, options); !ok) return base::Fail(ok.error());
   std::move(robots.begin(), robots.end(), std::back_inserter(options.scenario.robots));
-  if (auto ok = UnderstandRobots(a.avatars, options.scenario.avatars); !ok)
+  if (auto ok = ParseRobots(a.avatars, options.scenario.avatars); !ok)
     return base::Fail(ok.error());
   for (const std::string& text : a.pedestrians) {
     auto group = scenario::ParsePedestrians(text);
@@ -446,15 +446,15 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
     }
     options.scenario.pedestrians.push_back(*std::move(group));
   }
-  if (auto ok = UnderstandBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());
-  if (auto ok = UnderstandMovements(a.movements, options); !ok) return base::Fail(ok.error());
+  if (auto ok = ParseBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());
+  if (auto ok = ParseMovements(a.movements, options); !ok) return base::Fail(ok.error());
   auto drives = ParseDrives(a.drives);
   if (!drives) return base::Fail(drives.error());
   options.drive_of = *std::move(drives);
-  UnderstandSpecification(a, options.scenario, options.specification);
-  if (auto ok = UnderstandTimes(options.scenario, options.specification); !ok)
+  SetSpecification(a, options.scenario, options.specification);
+  if (auto ok = SetTimes(options.scenario, options.specification); !ok)
     return base::Fail(ok.error());
-  if (auto ok = UnderstandRecording(a, options); !ok) return base::Fail(ok.error());
+  if (auto ok = SetRecording(a, options); !ok) return base::Fail(ok.error());
 
   options.in_process = options.scenario.in_process.value_or(false);
   options.runtime.broker = a.broker;
@@ -465,7 +465,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.runtime.server_limits = a.server_limits;
   options.runtime.viewer = !a.headless;
   options.runtime.web = a.web;
-  auto ros2 = Understand(WithSettings(a.ros2, options.scenario.ros2));
+  auto ros2 = ParseArguments(WithSettings(a.ros2, options.scenario.ros2));
   if (!ros2) return base::Fail(ros2.error());
   options.runtime.ros2 = *std::move(ros2);
   const bool is_stepped = options.runtime.ros2 && options.runtime.ros2->is_cmd_vel_stamped &&

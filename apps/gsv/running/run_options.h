@@ -75,6 +75,6 @@ struct RunArguments {
 };
 
 void AddRunOptions(CLI::App& command, RunArguments& arguments);
-base::Result<RunOptions> Understand(const RunArguments& arguments);
+base::Result<RunOptions> ParseArguments(const RunArguments& arguments);
 
 }  // namespace gsv::app

@@ -29,7 +29,7 @@ base::Result<RunOptions> Parse(Words words) {
   } catch (const CLI::ParseError& error) {
     return base::Fail(base::ErrorCode::kInvalidArgument, error.what(), "usage");
   }
-  return Understand(arguments);
+  return ParseArguments(arguments);
 }
 
 std::string Refusal(const Words& words) {

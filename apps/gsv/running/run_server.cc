@@ -70,7 +70,7 @@ Result<RunOptions> OptionsOf(const RunRequest& request) {
   } catch (const CLI::ParseError& error) {
     return base::Fail(ErrorCode::kInvalidArgument, error.what(), "gsv run");
   }
-  return Understand(arguments);
+  return ParseArguments(arguments);
 }
 
 // A broker is not needed for behaviours in this process and for robots without behaviours. Other

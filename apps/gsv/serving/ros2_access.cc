@@ -90,7 +90,7 @@ Ros2Arguments WithSettings(Ros2Arguments arguments,
   return arguments;
 }
 
-base::Result<std::optional<ros2::Options>> Understand(const Ros2Arguments& arguments) {
+base::Result<std::optional<ros2::Options>> ParseArguments(const Ros2Arguments& arguments) {
   ros2::Options options;
   const std::pair<const char*, bool> given[]{{"--ros2-range", !arguments.range.empty()},
                                              {"--ros2-namespace", !arguments.namespaces.empty()},
@@ -281,7 +281,7 @@ base::Result<ros2::Options> Ros2Access::OptionsOf(const scenario::Scenario& scen
   }
   Ros2Arguments arguments = WithSettings({}, scenario.ros2);
   arguments.range.clear();
-  auto options = Understand(arguments);
+  auto options = ParseArguments(arguments);
   if (!options) return base::Fail(options.error().code, options.error().message);
   const bool is_stepped = (*options)->is_cmd_vel_stamped && scenario.lockstep.value_or(false);
   if (is_stepped) (*options)->steps = std::make_shared<ros2::NodeSteps>();

@@ -44,7 +44,7 @@ void AddRos2ReplayOptions(CLI::App& command, Ros2Arguments& arguments);
 Ros2Arguments WithSettings(Ros2Arguments arguments,
                            const std::optional<scenario::Ros2Settings>& settings);
 // Returns nullopt without --ros2. Fails if another ROS 2 option is given without --ros2.
-base::Result<std::optional<ros2::Options>> Understand(const Ros2Arguments& arguments);
+base::Result<std::optional<ros2::Options>> ParseArguments(const Ros2Arguments& arguments);
 
 // Loads the plug-in that holds the DDS library.
 base::Result<std::unique_ptr<ros2::dds::Participant>> MakeParticipant(

@@ -145,7 +145,7 @@ base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path
 Recordings::Recordings(std::filesystem::path folder) : folder_(std::move(folder)) {}
 Recordings::~Recordings() = default;
 
-base::Status Recordings::FinishThatWhichIsOver(
+base::Status Recordings::FinishEndedRecording(
     const std::shared_ptr<simulation::Simulation>& simulation) {
   const std::string& name = simulation->specification().name;
   base::MutexLock lock(mutex_);
@@ -180,7 +180,7 @@ void Recordings::SetRos2(const std::shared_ptr<simulation::Simulation>& simulati
 base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
                                const std::string& path, const RecordingChoice& choice) {
   const base::MutexLock starting(starting_);
-  if (auto ok = FinishThatWhichIsOver(simulation); !ok) return ok;
+  if (auto ok = FinishEndedRecording(simulation); !ok) return ok;
   std::string bag;
   if (!NamesAFile(path)) {
     auto file = recording::MakeBagFolder(path);

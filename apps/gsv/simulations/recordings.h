@@ -63,7 +63,8 @@ class Recordings final : public gateway::RecordingSwitch {
   // process, with which the recording can be simulated again.
   void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
 
-  // Sets what the scenario of this simulation's recordings says about ROS 2, if the caller of Start() gives no scenario.
+  // Sets what the scenario of this simulation's recordings says about ROS 2, if the caller of
+  // Start() gives no scenario.
   void SetRos2(const std::shared_ptr<simulation::Simulation>& simulation,
                const scenario::Ros2Settings& settings);
 
@@ -94,7 +95,7 @@ class Recordings final : public gateway::RecordingSwitch {
   };
   // Finishes a recording that has ended, before a new one starts. Returns kInvalidArgument if the
   // simulation is being recorded.
-  base::Status FinishThatWhichIsOver(const std::shared_ptr<simulation::Simulation>& simulation);
+  base::Status FinishEndedRecording(const std::shared_ptr<simulation::Simulation>& simulation);
   static base::Status Finish(Recording& recording);
   static State StateOf(const Recording& recording);
   static void Add(const State& state, Totals& totals);

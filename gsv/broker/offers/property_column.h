@@ -35,8 +35,8 @@ class PropertyColumn {
   PropertyColumn(const Offers& offers, std::string_view property);
 
   std::span<const CellKind> kinds() const { return kinds_; }
-  // The kind of all cells that are neither kNone nor kOffer, or nullopt if their kinds differ. It is
-  // kNone if there are no such cells.
+  // The kind of all cells that are neither kNone nor kOffer, or nullopt if their kinds differ. It
+  // is kNone if there are no such cells.
   std::optional<CellKind> sole_kind() const { return sole_kind_; }
   // By the kind of the cell: 0 or 1, the integer, the representation of the real number, the index
   // of the text in texts(), or a sequence for ElementsOf(). 0 for all other kinds.
@@ -46,8 +46,8 @@ class PropertyColumn {
 
   // The value of the cell in the constraint language.
   Operand At(std::size_t index) const { return ToOperand(kinds_[index], bits_[index]); }
-  // Whether the sequence of the cell contains `element`, see Contains(). `element_text` is the index
-  // of `element` in texts() if it is a text; see IndexOf().
+  // Whether the sequence of the cell contains `element`, see Contains(). `element_text` is the
+  // index of `element` in texts() if it is a text; see IndexOf().
   Operand ContainsAt(std::size_t index, const Operand& element,
                      std::optional<std::size_t> element_text) const;
   // The index of the text in texts(), or texts().size() if no cell has it.

@@ -32,7 +32,7 @@ bool IsConnectionRefused(const addrinfo& address, int timeout_ms) {
 
 // omniORB reports all failures of a connection with the same exception, so this function connects
 // itself.
-bool NobodyListens(const std::string& reference, std::chrono::milliseconds timeout) {
+bool RefusesConnections(const std::string& reference, std::chrono::milliseconds timeout) {
   const auto service = ReadReference(reference);
   if (!service || service->host.empty()) return false;
   addrinfo hints{};
@@ -56,7 +56,7 @@ Liveness CheckLiveness(CORBA::ORB_ptr orb, const std::string& reference,
   } catch (const CORBA::OBJECT_NOT_EXIST&) {
     return Liveness::kGone;
   } catch (const CORBA::TRANSIENT&) {
-    return NobodyListens(reference, timeout) ? Liveness::kGone : Liveness::kSilent;
+    return RefusesConnections(reference, timeout) ? Liveness::kGone : Liveness::kSilent;
   } catch (const CORBA::COMM_FAILURE&) {
     return Liveness::kSilent;
   } catch (const CORBA::TIMEOUT&) {

@@ -23,8 +23,8 @@ class BallAngles {
   geometry::Quaternion Turn(const std::array<double, 3>& angles) const;
   std::array<double, 3> AnglesOf(const geometry::Quaternion& turn) const;
 
-  // Converts the rates (rad/s) about the joint's three axes to the child's angular velocity relative
-  // to its parent, in the child's part frame; and back.
+  // Converts the rates (rad/s) about the joint's three axes to the child's angular velocity
+  // relative to its parent, in the child's part frame; and back.
   geometry::Vector3 AngularVelocity(const std::array<double, 3>& rates) const;
   std::array<double, 3> RatesOf(const geometry::Vector3& angular_velocity) const;
 

@@ -1,8 +1,8 @@
 // The slip of wheels: the velocity at which a wheel's contact slides under a friction force.
 //
 // Model   slip velocity = friction force * compliance * |rate| * radius / normal force, along the
-//         rolling direction and along the axle. It is proportional to the force, as the normal force
-//         is a constant of the wheel.
+//         rolling direction and along the axle. It is proportional to the force, as the normal
+//         force is a constant of the wheel.
 // Source  gz-sim's system WheelSlip. The force is limited by Coulomb friction as well.
 #pragma once
 

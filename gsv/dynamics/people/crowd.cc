@@ -11,7 +11,7 @@ namespace gsv::dynamics {
 namespace {
 
 constexpr double kTurningTime = 0.3;   // s
-constexpr double kFastestTurn = 4;     // rad/s
+constexpr double kMaxTurnRate = 4;     // rad/s
 constexpr double kStandsStill = 0.05;  // a pedestrian that is slower than this keeps its heading,
                                        // m/s
 constexpr double kSameSide = 0.5;      // cosine of 60 degrees: obstacles within this angle count as
@@ -227,7 +227,7 @@ void Crowd::Command(const Walker& walker, Vector2 direction, Vector2 force, doub
   double turn = 0;
   if (Dot(velocity, velocity) > kStandsStill * kStandsStill) {
     const double error = geometry::WrapAngle(std::atan2(velocity.y, velocity.x) - yaw);
-    turn = std::clamp(error / std::max(kTurningTime, seconds), -kFastestTurn, kFastestTurn);
+    turn = std::clamp(error / std::max(kTurningTime, seconds), -kMaxTurnRate, kMaxTurnRate);
   }
   // The command is in the body's frame, which rotates during the step. At the end of the step, the
   // command equals the desired velocity.

@@ -33,8 +33,8 @@ inline constexpr double kOthersReach = 3, kWallsReach = 1.2;
 // The vector from another pedestrian to this one. `between` is the vector from centre to centre. It
 // is shortened because these pedestrians are wider than those of the paper, but never to less than
 // 5 cm. The paper's pedestrians are points. The driving force balances the repulsion at a
-// distance of 0.29 m. So each has a radius of about 0.14 m. kPaperRadius is smaller, so that people of
-// any size keep about 10 cm between them.
+// distance of 0.29 m. So each has a radius of about 0.14 m. kPaperRadius is smaller, so that people
+// of any size keep about 10 cm between them.
 geometry::Vector2 Apart(geometry::Vector2 between, double radius, double other_radius);
 
 // The acceleration due to one other pedestrian, without the weight w. `apart` is not zero.

@@ -50,7 +50,7 @@ class TeamMover final : public PlanarMover {
 
   void Slice(const world::State& state);
   // Slices the dynamic bodies that a mover may meet in a step of `seconds`.
-  void LookForLoose(const world::State& state, double seconds);
+  void SliceVisibleObstacles(const world::State& state, double seconds);
   void AddSight(std::uint32_t mover);
   void Begin(const world::State& state, double seconds);
   void BeginChunk(std::size_t index, const world::State& state, double seconds);
@@ -104,7 +104,7 @@ void TeamMover::AddSight(std::uint32_t mover) {
       {{at.x, at.y}, scene_.footprint(mover).radius + motions_.reaches[mover] + kLookAround});
 }
 
-void TeamMover::LookForLoose(const world::State& state, double seconds) {
+void TeamMover::SliceVisibleObstacles(const world::State& state, double seconds) {
   if (!scene_.has_loose()) return;
   sights_.clear();
   for (std::uint32_t m = 0; m < count(); ++m) {
@@ -112,13 +112,13 @@ void TeamMover::LookForLoose(const world::State& state, double seconds) {
     motions_.FollowCommand(m, state, seconds);
     AddSight(m);
   }
-  scene_.SliceLoose(state, sights_);
+  scene_.SliceDynamicObstacles(state, sights_);
 }
 
 // Nothing moves in a step of 0 s.
 void TeamMover::Begin(const world::State& state, double seconds) {
   if (!scene_.StandsAsSliced(state)) Slice(state);
-  LookForLoose(state, seconds);
+  SliceVisibleObstacles(state, seconds);
   const auto all = [&](bool Chunk::*is) {
     return std::all_of(chunks_.begin(), chunks_.end(), [&](const Chunk& c) { return c.*is; });
   };
@@ -126,7 +126,7 @@ void TeamMover::Begin(const world::State& state, double seconds) {
   ForEachChunk(begin_chunk);
   if (!all(&Chunk::is_as_sliced)) {
     Slice(state);
-    scene_.SliceLoose(state, sights_);
+    scene_.SliceDynamicObstacles(state, sights_);
     ForEachChunk(begin_chunk);
   }
   if (!all(&Chunk::has_room)) pairs_.FindCandidates(motions_.positions, motions_.reaches);
@@ -329,7 +329,7 @@ std::vector<world::Contact> TeamMover::OverlapsOf(const world::State& state, int
   motions_.FollowCommand(mover, state, 0);
   sights_.clear();
   AddSight(mover);
-  scene_.SliceLoose(state, sights_);
+  scene_.SliceDynamicObstacles(state, sights_);
   obstacles_.Find(mover / kChunk, mover, motions_.positions[mover], 0);
   pairs_.FindOf(mover, neighbours_, motions_.positions);
   ListTouching();

@@ -9,8 +9,8 @@
 // Ground      Obstacles lower than a robot can climb count as ground: see PlanarScene and
 //             ClimbHeight.
 // Contact     A base stops about half a micrometre before an obstacle in its way, at any speed and
-//             step size. Its linear motion ends, and starts again within the acceleration limits. In
-//             the rest of the step it turns on the spot, if its drive can and if there is room.
+//             step size. Its linear motion ends, and starts again within the acceleration limits.
+//             In the rest of the step it turns on the spot, if its drive can and if there is room.
 //             Bases that can move sideways slide along the obstacle. Bases do not push each other.
 //             The result does not depend on the order of bodies.
 //             A base that starts inside an obstacle can leave it, but cannot move deeper.
@@ -19,8 +19,8 @@
 // Errors      SetLayout() refuses invalid drives (kBadModel) and poses that are not
 //             finite.
 // Threads     one thread at a time, which a team helps where there are many robots.
-// Determinism Step() is a function of only layout, state and step size. It does not depend on earlier
-//             calls or on the size of the team.
+// Determinism Step() is a function of only layout, state and step size. It does not depend on
+//             earlier calls or on the size of the team.
 #pragma once
 
 #include <memory>

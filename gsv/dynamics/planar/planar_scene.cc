@@ -103,7 +103,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   standing_ = std::move(standing);
   loose_ = std::move(loose);
   loose_radii_.clear();
-  for (const int body : loose_) loose_radii_.push_back(LooseRadius(layout_->bodies[body]));
+  for (const int body : loose_) loose_radii_.push_back(DynamicRadius(layout_->bodies[body]));
   levels_.assign(pieces, -1);
   is_sliced_ = false;
   return {};
@@ -123,7 +123,7 @@ void PlanarScene::Slice(const world::State& state) {
   is_sliced_ = true;
 }
 
-void PlanarScene::LookForLoose(const world::State& state, std::span<const Sight> sights) {
+void PlanarScene::FindDynamicObstacles(const world::State& state, std::span<const Sight> sights) {
   seen_.clear();
   for (std::size_t i = 0; i < loose_.size(); ++i) {
     const auto& origin = state.bodies[loose_[i]].world_from_model.position;
@@ -136,9 +136,9 @@ void PlanarScene::LookForLoose(const world::State& state, std::span<const Sight>
   }
 }
 
-void PlanarScene::SliceLoose(const world::State& state, std::span<const Sight> sights) {
+void PlanarScene::SliceDynamicObstacles(const world::State& state, std::span<const Sight> sights) {
   if (loose_.empty()) return;
-  LookForLoose(state, sights);
+  FindDynamicObstacles(state, sights);
   std::vector<double> now;
   for (const int body : seen_) {
     const auto& [p, q] = state.bodies[body].world_from_model;
@@ -155,7 +155,7 @@ void PlanarScene::SliceLoose(const world::State& state, std::span<const Sight> s
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval heights{intervals_[i].low, intervals_[i].high - kRides};
     auto obstacles = heights.high > heights.low
-                         ? CollectLooseObstacles(*layout_, state, seen_, heights)
+                         ? CollectDynamicObstacles(*layout_, state, seen_, heights)
                          : std::vector<Obstacle>{};
     loose_fields_.emplace_back(std::move(obstacles), margins[i]);
   }

@@ -62,7 +62,7 @@ class PlanarScene {
   void Slice(const world::State& state);
   // Slices the dynamic obstacles that reach into one of the sights, if that is not yet done. The
   // levels are those of the last Slice().
-  void SliceLoose(const world::State& state, std::span<const Sight> sights);
+  void SliceDynamicObstacles(const world::State& state, std::span<const Sight> sights);
   // Whether Slice() was called, and all bodies other than movers are where they were then.
   bool StandsAsSliced(const world::State& state) const;
   // Whether the mover at height z has the height of the last Slice().
@@ -89,7 +89,7 @@ class PlanarScene {
   void SliceLevels(const world::State& state);
   std::vector<double> MarginsOfLevels() const;
   // Lists in `seen_` the dynamic obstacles that reach into one of the sights.
-  void LookForLoose(const world::State& state, std::span<const Sight> sights);
+  void FindDynamicObstacles(const world::State& state, std::span<const Sight> sights);
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<MoverKind> kinds_;

@@ -4,8 +4,8 @@
 // Broad phase   rigid and planar bodies by sort and sweep, static ones by a tree of boxes that is
 //               kept while they do not move, planes one by one.
 // Margin        contacts begin where two pieces may touch within a substep.
-// Order         by the first body, the second, and their pieces. It depends on nothing else, so that
-//               bodies far away do not change it.
+// Order         by the first body, the second, and their pieces. It depends on nothing else, so
+//               that bodies far away do not change it.
 // Determinism   Find() is a function of the bodies' poses, velocities and the substep.
 #pragma once
 

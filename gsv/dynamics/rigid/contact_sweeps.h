@@ -6,8 +6,8 @@
 // Order    level by level from the contacts with what does not move outwards, then back, in turn: a
 //          heap is carried from below, so that its lowest contacts must carry the sum of all above.
 // Start    from given impulses, as those of the step before.
-// Cone     friction of a contact is at most its coefficient times the normal impulse, and is opposite
-//          to the slip where it is that large.
+// Cone     friction of a contact is at most its coefficient times the normal impulse, and is
+//          opposite to the slip where it is that large.
 // Threads  one thread at a time for each object.
 // Determinism  Solve() is a function of the added bodies and contacts, in their order.
 #pragma once

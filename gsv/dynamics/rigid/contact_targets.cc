@@ -29,8 +29,8 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
   // The share of the slip that friction takes in this substep. A contact that closes during the
   // substep keeps a part of its closing speed: as much as takes the bodies together by the end. The
-  // next substep takes that part. Friction may not be faster than that: one point that sticks before
-  // it touches would throw a body that lands on two edges at once to one side.
+  // next substep takes that part. Friction may not be faster than that: one point that sticks
+  // before it touches would throw a body that lands on two edges at once to one side.
   const double kept = gap / substep, taken = wanted - free[0];
   const double share = kept > kImpact && taken > 0 ? taken / (taken + kept) : 1;
   return {wanted, (1 - share) * free[1], (1 - share) * free[2]};

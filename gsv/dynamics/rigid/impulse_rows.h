@@ -7,8 +7,8 @@
 // Cone      two rows whose impulses together are at most friction times that of a normal row
 //           (Coulomb). Where they are that large they point against the slip, whatever axes the
 //           two rows were given along.
-// Method    projected Gauss-Seidel, row by row and cone by cone (each cone is solved exactly), which
-//           finds the rows that are within their bounds. For these, up to kMaxDirect, linear
+// Method    projected Gauss-Seidel, row by row and cone by cone (each cone is solved exactly),
+//           which finds the rows that are within their bounds. For these, up to kMaxDirect, linear
 //           equations are solved now and then: Silcowitz, Niebur, Erleben, "Projected Gauss-Seidel
 //           subspace minimization method for interactive rigid body dynamics" (GRAPP 2010). They
 //           hold how friction turns with the slip, too (a semismooth Newton step). Larger

@@ -10,8 +10,8 @@ namespace {
 
 using geometry::Vector3;
 
-// Of a wheel or a foot under its robot's weight: a micrometre or so. Wheels and casters on one floor
-// share the load, however little their heights differ.
+// Of a wheel or a foot under its robot's weight: a micrometre or so. Wheels and casters on one
+// floor share the load, however little their heights differ.
 constexpr double kGive = 0.02;
 // Of the inverse mass: how far an impulse gives way in one iteration of Newton's method.
 constexpr double kCompliance = 1e-6;

@@ -7,8 +7,8 @@
 
 namespace gsv::dynamics {
 
-// A row asks that J v + softness * impulse = target, where v are the tree's velocities at the end of
-// a substep. Its impulse (N m s or N s) has bounds.
+// A row asks that J v + softness * impulse = target, where v are the tree's velocities at the end
+// of a substep. Its impulse (N m s or N s) has bounds.
 struct JointRow {
   int begin = 0, count = 0;  // of its velocities and values in JointRows
   double target = 0;         // rad/s or m/s

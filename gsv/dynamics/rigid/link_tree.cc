@@ -246,10 +246,10 @@ void LinkTree::WriteMassesOf(int part, int velocity) {
   }
 }
 
-// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. Two velocities that move
-// all parts alike (parallel axes of a universal joint) and masses that differ by more digits than a
-// double has leave nothing but rounding errors in D. A least pivot then acts as the inertia of a
-// motor would: the velocities stay finite, and all others keep their accuracy.
+// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. Two velocities that
+// move all parts alike (parallel axes of a universal joint) and masses that differ by more digits
+// than a double has leave nothing but rounding errors in D. A least pivot then acts as the inertia
+// of a motor would: the velocities stay finite, and all others keep their accuracy.
 void LinkTree::Factorise() {
   factors_ = masses_;
   const auto at = [&](int row, int column) -> double& {

@@ -1,5 +1,5 @@
-// The rows of a joint that closes a loop of links (a four-bar linkage, a scissor lift): it holds two
-// parts of one tree together.
+// The rows of a joint that closes a loop of links (a four-bar linkage, a scissor lift): it holds
+// two parts of one tree together.
 //
 // Drift  what the linear velocity constraints leave open is taken back in part each substep
 //        (Baumgarte, "Stabilization of constraints and integrals of motion in dynamical systems",

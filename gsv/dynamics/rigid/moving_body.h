@@ -92,8 +92,8 @@ class MovingBody {
   double resting_speed_before_ = 0;
 };
 
-// m/s² and rad/s²: a body keeps its pose if its speed is below this value times the step, before the
-// step and after it. So bodies at rest keep their poses to the bit. The effect equals a rolling
+// m/s² and rad/s²: a body keeps its pose if its speed is below this value times the step, before
+// the step and after it. So bodies at rest keep their poses to the bit. The effect equals a rolling
 // resistance of one per cent: a body that would start to roll on a slope of half a degree stays.
 inline constexpr double kResting = 0.1;
 

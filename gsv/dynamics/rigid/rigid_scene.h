@@ -30,8 +30,8 @@ class RigidScene {
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   // Bodies whose poses in the state do not change, in the frames of their models.
   const std::vector<Solid>& standing() const { return standing_; }
-  // Bodies that planar kinematics and scripts move. They are obstacles to others, with the shapes of
-  // their footprints (of actors: of their collisions).
+  // Bodies that planar kinematics and scripts move. They are obstacles to others, with the shapes
+  // of their footprints (of actors: of their collisions).
   const std::vector<Solid>& planar() const { return planar_; }
 
  private:

@@ -16,7 +16,7 @@ using geometry::Vector3;
 // m: how far Bullet rounds edges where it works with margins, at most.
 constexpr double kMargin = 1e-3;
 constexpr double kHullMargin = 1e-4;
-constexpr int kMostCorners = 64;
+constexpr int kMaxCorners = 64;
 
 // Evenly spread over the sphere: Fibonacci's lattice.
 Vector3 Direction(int i, int count) {
@@ -29,8 +29,8 @@ Vector3 Direction(int i, int count) {
 // The points furthest out in many directions, for a body of too many corners.
 std::vector<Vector3> Outermost(const std::vector<Vector3>& points) {
   std::vector<Vector3> corners;
-  for (int i = 0; i < kMostCorners; ++i) {
-    const Vector3 direction = Direction(i, kMostCorners);
+  for (int i = 0; i < kMaxCorners; ++i) {
+    const Vector3 direction = Direction(i, kMaxCorners);
     corners.push_back(*std::max_element(
         points.begin(), points.end(),
         [&](const Vector3& a, const Vector3& b) { return Dot(a, direction) < Dot(b, direction); }));
@@ -46,7 +46,7 @@ std::vector<Vector3> HullCorners(const std::vector<Vector3>& points) {
   for (int i = 0; i < computer.vertices.size(); ++i) {
     corners.push_back(FromBullet(computer.vertices[i]));
   }
-  return corners.size() > kMostCorners ? Outermost(corners) : corners;
+  return corners.size() > kMaxCorners ? Outermost(corners) : corners;
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 namespace gsv::dynamics {
 namespace {
 
-constexpr double kSmallestCell = 0.25;
+constexpr double kMinCell = 0.25;
 constexpr double kTooLarge = 500;  // larger obstacles (radius in m) are not in the grid; every
                                    // query checks them
-constexpr double kMostCells = 1 << 20;
-constexpr double kMostEntries = 1 << 23;
+constexpr double kMaxCells = 1 << 20;
+constexpr double kMaxEntries = 1 << 23;
 
 using geometry::kInfinity;
 
@@ -63,7 +63,7 @@ void ObstacleField::LayOutGrid() {
     top = std::max(top, o.centre.y + o.radius + margin_);
   }
   // The outermost cells stay empty. They represent everything outside the grid.
-  double size = std::max(kSmallestCell, margin_);
+  double size = std::max(kMinCell, margin_);
   double entries = 0, cells = 0;
   do {
     if (cells > 0) size *= 2;
@@ -74,7 +74,7 @@ void ObstacleField::LayOutGrid() {
       const double across = 2 * (std::min(o.radius, kTooLarge) + margin_) / size + 2;
       entries += across * across;
     }
-  } while (cells > kMostCells || (entries > kMostEntries && cells > 1024));
+  } while (cells > kMaxCells || (entries > kMaxEntries && cells > 1024));
   left_ -= size;
   bottom_ -= size;
   columns_ = static_cast<int>((right - left_) / size) + 2;

@@ -71,8 +71,9 @@ std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world:
   return obstacles;
 }
 
-std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
-                                            std::span<const int> bodies, Interval heights) {
+std::vector<Obstacle> CollectDynamicObstacles(const world::Layout& layout,
+                                              const world::State& state,
+                                              std::span<const int> bodies, Interval heights) {
   std::vector<Obstacle> obstacles;
   std::vector<ConvexPiece> pieces;
   for (const int i : bodies) {
@@ -93,7 +94,7 @@ std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const w
   return obstacles;
 }
 
-double LooseRadius(const world::Body& body) {
+double DynamicRadius(const world::Body& body) {
   // The collision shapes of an actor are fixed to its frame.
   if (!body.model->joints.empty() && !body.is_actor())
     return std::numeric_limits<double>::infinity();

@@ -19,11 +19,12 @@ std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world:
 
 // Like CollectObstacles(), for `bodies`, which are rigid bodies or actors, at their present joint
 // positions. Planes are omitted.
-std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
-                                            std::span<const int> bodies, Interval heights);
+std::vector<Obstacle> CollectDynamicObstacles(const world::Layout& layout,
+                                              const world::State& state,
+                                              std::span<const int> bodies, Interval heights);
 
 // The radius about the origin of a rigid body or actor that contains all its collision shapes at
 // all times. Infinite for a rigid body with joints.
-double LooseRadius(const world::Body& body);
+double DynamicRadius(const world::Body& body);
 
 }  // namespace gsv::dynamics

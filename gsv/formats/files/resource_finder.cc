@@ -16,12 +16,12 @@ namespace fs = std::filesystem;
 using base::ErrorCode;
 
 constexpr int kParentsSearched = 5;
-constexpr std::size_t kLongestName = 4096;
+constexpr std::size_t kMaxNameLength = 4096;
 constexpr int kPackageParents = 4;       // number of parent folders in which a ROS workspace of a
                                          // file is searched
 constexpr std::size_t kMaxGroups = 200;  // maximum number of folders that are searched beside each
                                          // of these
-constexpr std::uintmax_t kLargestPackageFile = 1u << 20;
+constexpr std::uintmax_t kMaxPackageFileBytes = 1u << 20;
 
 bool StartsWith(std::string_view text, std::string_view prefix) {
   return text.substr(0, prefix.size()) == prefix;
@@ -140,7 +140,7 @@ std::string ModelOfWebAddress(const std::string& address) {
 std::string PackageName(const fs::path& folder) {
   const fs::path file = folder / "package.xml";
   std::error_code error;
-  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kLargestPackageFile) {
+  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kMaxPackageFileBytes) {
     return "";
   }
   tinyxml2::XMLDocument document;
@@ -205,7 +205,7 @@ base::Result<fs::path> FindBeside(const std::string& name, const fs::path& namin
   std::error_code ignored;
   const fs::path here = fs::absolute(naming_file, ignored).lexically_normal().parent_path();
   const fs::path from_above = here.parent_path().filename() / here.filename() / path;
-  if (path.size() <= kLongestName && fs::path(path).is_relative() && !ClimbsOut(from_above)) {
+  if (path.size() <= kMaxNameLength && fs::path(path).is_relative() && !ClimbsOut(from_above)) {
     if (auto found = FindBelow(here, path)) return *found;
   }
   return Fail(ErrorCode::kNotFound, "cannot find " + name, naming_file.string());
@@ -236,7 +236,7 @@ std::vector<std::string> ResourceFinder::ModelNames() const {
 base::Result<fs::path> ResourceFinder::Find(std::string_view name,
                                             const fs::path& naming_file) const {
   std::string path = Trimmed(name);
-  if (path.empty() || path.size() > kLongestName || path.find('\0') != std::string::npos) {
+  if (path.empty() || path.size() > kMaxNameLength || path.find('\0') != std::string::npos) {
     return Fail(ErrorCode::kNotFound, "the name of a file is empty or too long");
   }
   if (IsWebAddress(path)) {

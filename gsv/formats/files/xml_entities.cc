@@ -6,7 +6,7 @@
 namespace gsv::formats {
 namespace {
 
-constexpr std::size_t kLongestEntityName = 256;
+constexpr std::size_t kMaxEntityNameLength = 256;
 
 bool IsNameCharacter(char c) {
   const auto byte = static_cast<unsigned char>(c);
@@ -76,7 +76,8 @@ class DoctypeReader {
     return text_.substr(begin, (end == std::string_view::npos ? text_.size() : end) - begin);
   }
 
-  // <!ENTITY name "value"> or <!ENTITY name SYSTEM "file">; with a % before the name for a parameter entity.
+  // <!ENTITY name "value"> or <!ENTITY name SYSTEM "file">; with a % before the name for a
+  // parameter entity.
   void TakeEntity() {
     at_ += std::string_view("<!ENTITY").size();
     SkipSpace();
@@ -121,7 +122,7 @@ bool IsPredefinedEntity(std::string_view name) {
 std::size_t EntityNameLength(std::string_view text) {
   std::size_t end = 1;
   if (end < text.size() && text[end] == '#') ++end;
-  while (end < text.size() && end <= kLongestEntityName && IsNameCharacter(text[end])) ++end;
+  while (end < text.size() && end <= kMaxEntityNameLength && IsNameCharacter(text[end])) ++end;
   return end < text.size() && text[end] == ';' ? end - 1 : 0;
 }
 

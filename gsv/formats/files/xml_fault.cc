@@ -8,7 +8,7 @@
 namespace gsv::formats {
 namespace {
 
-constexpr std::size_t kLongestTagName = 60;
+constexpr std::size_t kMaxTagNameLength = 60;
 constexpr std::string_view kXmlBlanks = " \t\r\n";
 
 class FaultFinder {
@@ -39,7 +39,7 @@ class FaultFinder {
   };
 
   static std::string Shortened(std::string_view name) {
-    return std::string(name.substr(0, kLongestTagName));
+    return std::string(name.substr(0, kMaxTagNameLength));
   }
   static std::string Tag(std::string_view name) { return "<" + Shortened(name) + ">"; }
 

@@ -17,7 +17,7 @@ namespace {
 using base::ErrorCode;
 using base::Problem;
 
-constexpr std::size_t kDeepestEntity = 32;
+constexpr std::size_t kMaxEntityDepth = 32;
 constexpr std::size_t kMaxExpansions = 1'000'000;
 constexpr std::size_t kMaxNamedEntities = 20;
 
@@ -63,8 +63,8 @@ std::string FromLatin1(std::string_view text) {
 }
 
 bool DeclaresLatin1(std::string_view text) {
-  constexpr std::size_t kLongestDeclaration = 200;
-  std::string start(text.substr(0, std::min(text.find("?>"), kLongestDeclaration)));
+  constexpr std::size_t kMaxDeclarationLength = 200;
+  std::string start(text.substr(0, std::min(text.find("?>"), kMaxDeclarationLength)));
   std::transform(start.begin(), start.end(), start.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   return start.find("iso-8859-1") != std::string::npos || start.find("latin") != std::string::npos;
@@ -163,7 +163,8 @@ class XmlPreparation {
     return Remove(at, doctype_.end);
   }
 
-  // XML allows its declaration only at the beginning. If anything comes before it, parsers refuse the file.
+  // XML allows its declaration only at the beginning. If anything comes before it, parsers refuse
+  // the file.
   std::size_t TakeInstruction(std::size_t at) {
     const std::size_t end = After(at, "?>");
     if (end == std::string_view::npos) return KeepRest(at);
@@ -203,8 +204,8 @@ class XmlPreparation {
       NameOnce(name, "is in another file, which gsv does not read; it is left out");
     } else if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
       Refuse("the entity &" + std::string(name) + "; contains itself");
-    } else if (open_.size() == kDeepestEntity) {
-      Refuse("the entities are nested deeper than " + std::to_string(kDeepestEntity));
+    } else if (open_.size() == kMaxEntityDepth) {
+      Refuse("the entities are nested deeper than " + std::to_string(kMaxEntityDepth));
     } else if (++expansions_ > kMaxExpansions) {
       Refuse("the file needs more than " + std::to_string(kMaxExpansions) +
              " expansions of entities");
@@ -231,8 +232,8 @@ class XmlPreparation {
     }
   }
 
-  // In an attribute, quotes and tags of an entity's value are text (XML 1.0, section 4.4.5). Newlines would shift the
-  // later lines.
+  // In an attribute, quotes and tags of an entity's value are text (XML 1.0, section 4.4.5).
+  // Newlines would shift the later lines.
   void AppendCharacter(char c) {
     if (c == '\n' || c == '\r') {
       out_ += ' ';

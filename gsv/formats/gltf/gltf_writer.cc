@@ -18,7 +18,7 @@ using geometry::Vector3;
 using model::Image;
 using model::Material;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 std::vector<float> Flat(const std::vector<Vector3>& vectors) {
   std::vector<float> values;
@@ -62,7 +62,7 @@ class Writer {
     Json roots = Json::array();
     for (std::size_t i = 0; i < model.links.size(); ++i) {
       roots.push_back(AddLink(model.links[i], i));
-      if (buffer_.size() > kMostBytes) {
+      if (buffer_.size() > kMaxBytes) {
         return base::Fail(base::ErrorCode::kBadModel,
                           "the model has more than 1 GiB of meshes and textures, too much for a "
                           "viewer; use smaller ones",

@@ -59,18 +59,18 @@ bool IsJpeg(const unsigned char* bytes, std::size_t size) {
 }
 
 // Larger images than the limit are decoded up to this many pixels, and then scaled down.
-constexpr std::int64_t kMostOversizedPixels = 128 << 20;
+constexpr std::int64_t kMaxPixelsBeforeScaling = 128 << 20;
 
-// Fails for an image without pixels or with more than kMostOversizedPixels.
+// Fails for an image without pixels or with more than kMaxPixelsBeforeScaling.
 base::Status CheckSize(int width, int height, const std::string& source, const ReadLimits& limits) {
   const bool is_small = width <= limits.texture_side && height <= limits.texture_side;
   const std::int64_t pixels = static_cast<std::int64_t>(width) * height;
-  if (width > 0 && height > 0 && (is_small || pixels <= kMostOversizedPixels)) return {};
+  if (width > 0 && height > 0 && (is_small || pixels <= kMaxPixelsBeforeScaling)) return {};
   return Fail(ErrorCode::kBadModel,
               "the image declares " + std::to_string(width) + " x " + std::to_string(height) +
                   " pixels; the limit is " + std::to_string(limits.texture_side) +
                   " a side, and larger ones are scaled down up to " +
-                  std::to_string(kMostOversizedPixels >> 20) + " million",
+                  std::to_string(kMaxPixelsBeforeScaling >> 20) + " million",
               source);
 }
 

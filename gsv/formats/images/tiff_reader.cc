@@ -157,8 +157,8 @@ bool ReadTiles(TIFF* tiff, const Sample& sample, HeightGrid& grid) {
   TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &wide);
   TIFFGetField(tiff, TIFFTAG_TILELENGTH, &high);
   const auto bytes = static_cast<std::size_t>(TIFFTileSize(tiff));
-  constexpr std::uint32_t kLargestTile = 1u << 14;
-  if (wide == 0 || high == 0 || wide > kLargestTile || high > kLargestTile ||
+  constexpr std::uint32_t kMaxTileSide = 1u << 14;
+  if (wide == 0 || high == 0 || wide > kMaxTileSide || high > kMaxTileSide ||
       bytes < static_cast<std::size_t>(wide) * high * sample.Stride()) {
     return false;
   }
@@ -212,9 +212,9 @@ void FillUnknown(TIFF* tiff, HeightGrid& grid) {
   char* text = nullptr;
   const bool has_mark = TIFFGetField(tiff, kNoDataTag, &text) == 1 && text != nullptr;
   const double mark = has_mark ? std::strtod(text, nullptr) : 0;
-  constexpr double kHighest = 1e5;  // m; larger magnitudes mark unknown heights
+  constexpr double kMaxHeight = 1e5;  // m; larger magnitudes mark unknown heights
   const auto is_known = [&](double height) {
-    return std::isfinite(height) && std::abs(height) < kHighest && !(has_mark && height == mark);
+    return std::isfinite(height) && std::abs(height) < kMaxHeight && !(has_mark && height == mark);
   };
   double lowest = INFINITY;
   for (const double height : grid.heights) {

@@ -37,7 +37,7 @@ namespace {
 using model::Image;
 
 constexpr int kJpegQuality = 88;
-constexpr std::streamsize kMostFileBytes = 16 << 20;
+constexpr std::streamsize kMaxFileBytes = 16 << 20;
 
 bool IsUsable(const Image& image) {
   return image.width > 0 && image.height > 0 && (image.channels == 3 || image.channels == 4) &&
@@ -57,7 +57,7 @@ std::string MimeTypeOf(const std::vector<std::uint8_t>& bytes) {
 // The image's own file; empty if it does not exist, browsers do not read it, or its size differs.
 WebTexture Original(const Image& image) {
   std::ifstream file(image.source, std::ios::binary | std::ios::ate);
-  if (!file || file.tellg() <= 0 || file.tellg() > kMostFileBytes) return {};
+  if (!file || file.tellg() <= 0 || file.tellg() > kMaxFileBytes) return {};
   file.seekg(0);
   WebTexture texture;
   texture.bytes.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());

@@ -90,7 +90,7 @@ class NodeGraph {
   }
 
  private:
-  static constexpr int kDeepestInstance = 64;
+  static constexpr int kMaxInstanceDepth = 64;
   static constexpr double kMaxCopies = 1e6;
 
   // The number of nodes in the copy of a node.
@@ -98,9 +98,9 @@ class NodeGraph {
     if (const auto known = copies_.find(node); known != copies_.end()) return known->second;
     const auto contents = contents_.find(node);
     if (contents == contents_.end() || fault_ != nullptr) return 1;
-    if (depth == kDeepestInstance || !open_.insert(node).second) {
-      fault_ = depth == kDeepestInstance ? "its nodes are nested too deep"
-                                         : "one of its nodes contains itself";
+    if (depth == kMaxInstanceDepth || !open_.insert(node).second) {
+      fault_ = depth == kMaxInstanceDepth ? "its nodes are nested too deep"
+                                          : "one of its nodes contains itself";
       return 1;
     }
     double copies = 1;

@@ -14,9 +14,9 @@ namespace {
 
 using base::ErrorCode;
 
-constexpr int kDeepest = 64;  // glTF itself has about ten levels; the rest is for "extras"
-constexpr std::size_t kDeepestNode = 512;      // assimp descends by recursion
-constexpr std::size_t kMostNodes = 1'000'000;  // after assimp has copied those with several parents
+constexpr int kMaxJsonDepth = 64;  // glTF itself has about ten levels; the rest is for "extras"
+constexpr std::size_t kMaxNodeDepth = 512;    // assimp descends by recursion
+constexpr std::size_t kMaxNodes = 1'000'000;  // after assimp has copied those with several parents
 
 std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   std::uint32_t word = 0;
@@ -67,11 +67,11 @@ const char* FaultOf(const Children& children) {
   for (std::size_t next = 0; next < order.size(); ++next) {
     const Node node = nodes[order[next]];
     copies += node.copies;
-    if (copies > kMostNodes) return "the mesh has more nodes than the limits allow";
-    if (node.depth > kDeepestNode) return "the mesh cannot be read: its nodes are nested too deep";
+    if (copies > kMaxNodes) return "the mesh has more nodes than the limits allow";
+    if (node.depth > kMaxNodeDepth) return "the mesh cannot be read: its nodes are nested too deep";
     for (const std::size_t child : children[order[next]]) {
       nodes[child].depth = std::max(nodes[child].depth, node.depth + 1);
-      nodes[child].copies = std::min(nodes[child].copies + node.copies, kMostNodes + 1);
+      nodes[child].copies = std::min(nodes[child].copies + node.copies, kMaxNodes + 1);
       if (--nodes[child].parents == 0) order.push_back(child);
     }
   }
@@ -133,7 +133,7 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
     return is_allowed;
   }
   bool Enter() {
-    if (++depth_ > kDeepest) wrong = "the mesh cannot be read: its JSON is nested too deeply";
+    if (++depth_ > kMaxJsonDepth) wrong = "the mesh cannot be read: its JSON is nested too deeply";
     if (is_nodes_ && depth_ == kInElement) children_.emplace_back();
     return Take(true) && wrong == nullptr;
   }

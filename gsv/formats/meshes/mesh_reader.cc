@@ -37,7 +37,7 @@ class Gatherer {
   }
 
   base::Result<TriangleMesh> Gather() {
-    if (!Visit(*scene_.mRootNode, aiMatrix4x4(), kDeepestNode)) {
+    if (!Visit(*scene_.mRootNode, aiMatrix4x4(), kMaxNodeDepth)) {
       return Fail(ErrorCode::kBadModel,
                   "the mesh has more than the limit of " + std::to_string(limits_.mesh_triangles) +
                       " triangles or " + std::to_string(limits_.mesh_vertices) + " vertices");
@@ -52,7 +52,7 @@ class Gatherer {
   }
 
  private:
-  static constexpr int kDeepestNode = 256;
+  static constexpr int kMaxNodeDepth = 256;
 
   bool Visit(const aiNode& node, const aiMatrix4x4& root_from_parent, int levels_left) {
     if (levels_left == 0) return true;

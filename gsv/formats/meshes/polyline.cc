@@ -13,7 +13,7 @@ using geometry::TriangleMesh;
 using geometry::Vector2;
 using geometry::Vector3;
 
-constexpr std::size_t kMostPoints = 4096;
+constexpr std::size_t kMaxPoints = 4096;
 
 bool Contains(const Outline& outline, const Vector2& p) {
   bool inside = false;
@@ -128,9 +128,9 @@ base::Result<TriangleMesh> ExtrudeOutlines(const std::vector<Outline>& outlines,
       return Fail(ErrorCode::kBadModel, "a polyline needs three points that bound an area");
     }
   }
-  if (cleaned.empty() || points > kMostPoints) {
+  if (cleaned.empty() || points > kMaxPoints) {
     return Fail(ErrorCode::kBadModel,
-                "a polyline needs points, at most " + std::to_string(kMostPoints));
+                "a polyline needs points, at most " + std::to_string(kMaxPoints));
   }
   TriangleMesh mesh;
   for (const Region& region : ToRegions(cleaned)) {

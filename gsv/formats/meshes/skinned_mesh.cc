@@ -17,8 +17,8 @@ using geometry::Pose;
 using geometry::TriangleMesh;
 using geometry::Vector3;
 
-constexpr int kDeepestBone = 128;
-constexpr double kLongestAnimation = 600;  // s
+constexpr int kMaxBoneDepth = 128;
+constexpr double kMaxAnimationTime = 600;  // s
 
 Vector3 PointOf(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
@@ -65,7 +65,7 @@ class Skeleton {
     double ticks_per_second = 1;
   };
 
-  explicit Skeleton(const aiScene& scene) { Add(*scene.mRootNode, -1, kDeepestBone); }
+  explicit Skeleton(const aiScene& scene) { Add(*scene.mRootNode, -1, kMaxBoneDepth); }
 
   // Returns false if the animation moves none of the nodes.
   bool Animate(const aiScene& motion) {
@@ -83,7 +83,7 @@ class Skeleton {
       }
       length_ = std::max(length_, animation.mDuration / ticks);
     }
-    return any && length_ > 0 && length_ <= kLongestAnimation;
+    return any && length_ > 0 && length_ <= kMaxAnimationTime;
   }
 
   double length() const { return length_; }

@@ -12,7 +12,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr int kDeepestModel = 32;
+constexpr int kMaxModelDepth = 32;
 
 class MimicReader {
  public:
@@ -34,7 +34,7 @@ class MimicReader {
   }
 
   // Removes followers that follow each other in a cycle, because such joints have no leader.
-  void DropCircles() {
+  void DropCycles() {
     for (model::Joint& joint : model_.joints) {
       if (!joint.mimic) continue;
       std::size_t followed = 0;
@@ -102,8 +102,8 @@ std::shared_ptr<const model::Model> WithMimics(const XMLElement& element,
   if (read == nullptr || read->joints.empty() || read->script != nullptr) return read;
   auto following = std::make_shared<model::Model>(*read);
   MimicReader reader(file, *following, problems);
-  reader.Visit(element, "", kDeepestModel);
-  reader.DropCircles();
+  reader.Visit(element, "", kMaxModelDepth);
+  reader.DropCycles();
   const bool any = std::any_of(following->joints.begin(), following->joints.end(),
                                [](const model::Joint& joint) { return joint.mimic.has_value(); });
   if (any) return following;

@@ -21,7 +21,7 @@ using geometry::Pose;
 using geometry::Vector3;
 using tinyxml2::XMLElement;
 
-constexpr double kLongestScript = 1e8;  // s
+constexpr double kMaxScriptTime = 1e8;  // s
 constexpr int kFreedoms = 6;            // number of degrees of freedom of a bone
 
 std::string TextOf(const XMLElement* element) {
@@ -59,7 +59,7 @@ class ActorReader {
     if (element == nullptr) return otherwise;
     double value = 0;
     if (element->QueryDoubleText(&value) == tinyxml2::XML_SUCCESS && value >= 0 &&
-        value <= kLongestScript) {
+        value <= kMaxScriptTime) {
       return value;
     }
     context_.Warn("<" + std::string(name) + "> must be a number from 0 to 1e8, found \"" +

@@ -25,7 +25,7 @@ using base::Problem;
 
 // maximum number of repairs of one document; each requires another parse
 constexpr int kMaxRepairs = 64;
-constexpr std::size_t kLongestMessage = 300;
+constexpr std::size_t kMaxMessageLength = 300;
 // maximum number of schemas that are kept
 constexpr std::size_t kMaxSchemas = 8;
 
@@ -55,7 +55,7 @@ ReasonKeeper& Reasons() {
 std::string Shortened(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
-  if (text.size() > kLongestMessage) text = text.substr(0, kLongestMessage) + "…";
+  if (text.size() > kMaxMessageLength) text = text.substr(0, kMaxMessageLength) + "…";
   return text;
 }
 

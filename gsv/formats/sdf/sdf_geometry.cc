@@ -25,7 +25,7 @@ namespace {
 using base::ErrorCode;
 using geometry::Vector3;
 
-constexpr std::uint64_t kMostLayers = 16;
+constexpr std::uint64_t kMaxLayers = 16;
 
 base::Result<SdfShape> Checked(geometry::Shape shape, std::initializer_list<double> lengths) {
   for (const double length : lengths) {
@@ -61,7 +61,7 @@ std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
                                      const ReadingContext& context) {
   std::vector<TerrainLayer> layers;
   bool any = false;
-  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(heightmap.TextureCount(), kMostLayers);
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(heightmap.TextureCount(), kMaxLayers);
        ++i) {
     const sdf::HeightmapTexture& texture = *heightmap.TextureByIndex(i);
     TerrainLayer layer;

@@ -2,9 +2,9 @@
 // JointController and JointPositionController, and JointControlPlugin of Gazebo classic
 // (sdf_classic_control.h).
 //
-// Elements  <joint_name> (several, in newer files), <initial_velocity> or <initial_position>, and the
-//           gains of a PID controller: <p_gain>, <i_gain>, <d_gain>, <i_max>, <i_min>, <cmd_max>,
-//           <cmd_min>, <cmd_offset>. As in Gazebo, a velocity controller uses them with
+// Elements  <joint_name> (several, in newer files), <initial_velocity> or <initial_position>, and
+//           the gains of a PID controller: <p_gain>, <i_gain>, <d_gain>, <i_max>, <i_min>,
+//           <cmd_max>, <cmd_min>, <cmd_offset>. As in Gazebo, a velocity controller uses them with
 //           <use_force_commands>, and a position controller without <use_velocity_commands>, where
 //           <cmd_max> limits the velocity instead. A position controller without any gain keeps
 //           GSV's own servo, see docs/fidelity.md; <cmd_max> limits its effort.

@@ -24,7 +24,7 @@ using model::Material;
 using model::Visual;
 
 constexpr double kMissingMeshGrey = 0.5;
-constexpr std::size_t kLongestReason = 200;
+constexpr std::size_t kMaxReasonLength = 200;
 
 // Returns the value of a child at the end of a path of elements, if all of them exist.
 template <typename T>
@@ -306,7 +306,7 @@ geometry::Pose Resolve(const sdf::SemanticPose& semantic, const std::string& res
   const sdf::Errors errors = semantic.Resolve(resolved, resolve_to);
   if (!errors.empty()) {
     context.Warn("the pose cannot be resolved, so it is used as written: " +
-                     errors.front().Message().substr(0, kLongestReason),
+                     errors.front().Message().substr(0, kMaxReasonLength),
                  place);
     resolved = semantic.RawPose();
   }

@@ -22,7 +22,7 @@ using model::Colour;
 using model::Image;
 using model::Material;
 
-constexpr std::size_t kLargestScript = 4u << 20;
+constexpr std::size_t kMaxScriptBytes = 4u << 20;
 
 Colour Clamped(const Colour& c) {
   const auto unit = [](double v) { return v > 0 ? std::min(v, 1.0) : 0.0; };
@@ -147,7 +147,7 @@ class MaterialOfVisual {
     for (const fs::path& place : places) {
       for (const fs::path& file : ScriptsAt(place)) {
         std::error_code error;
-        if (fs::file_size(file, error) > kLargestScript || error) continue;
+        if (fs::file_size(file, error) > kMaxScriptBytes || error) continue;
         std::ifstream stream(file, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(stream),
                                std::istreambuf_iterator<char>()};

@@ -33,7 +33,7 @@ using geometry::Pose;
 using model::Joint;
 using model::Model;
 
-constexpr int kDeepestNesting = 32;
+constexpr int kMaxNestingDepth = 32;
 
 class ModelReader {
  public:
@@ -43,7 +43,7 @@ class ModelReader {
     model_.name = source.Name();
     model_.source = context_.source.string();
     model_.is_static = source.Static();
-    AddParts(source, "", Pose{}, kDeepestNesting, false);
+    AddParts(source, "", Pose{}, kMaxNestingDepth, false);
     if (model_.links.empty()) {
       return Fail(ErrorCode::kBadModel, "the model \"" + source.Name() + "\" has no links",
                   context_.source.string());

@@ -25,8 +25,8 @@ std::string DescriptionText(const XMLElement& element) {
 
 bool IsRequired(const XMLElement& element) { return AttributeText(element, "required") == "1"; }
 
-// A file of the schema holds one <element>, which has <attribute>, <element> and <include> inside. An
-// <include> stands for the element of another file.
+// A file of the schema holds one <element>, which has <attribute>, <element> and <include> inside.
+// An <include> stands for the element of another file.
 class SchemaBuilder {
  public:
   explicit SchemaBuilder(const std::set<std::string>& without) : without_(without) {}

@@ -8,10 +8,10 @@
 
 namespace gsv::formats {
 
-// The description of <sdf>, with those of all elements below it: the same tree as sdf::init() builds.
-// Elements that several elements have in common, such as <sensor>, are one object here, so this takes
-// a fifth of the time. Elements named in `without` have no description. Null if libsdformat has no
-// schema. Read only.
+// The description of <sdf>, with those of all elements below it: the same tree as sdf::init()
+// builds. Elements that several elements have in common, such as <sensor>, are one object here, so
+// this takes a fifth of the time. Elements named in `without` have no description. Null if
+// libsdformat has no schema. Read only.
 //
 // Threads  one at a time, as for all of libsdformat.
 sdf::ElementPtr MakeSdfSchema(const std::set<std::string>& without = {});

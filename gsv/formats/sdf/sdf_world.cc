@@ -64,11 +64,11 @@ void ReadOrigin(const ignition::math::SphericalCoordinates& coordinates,
 }
 
 void CheckCone(const ReadingContext& context, const std::string& place, Light& light) {
-  constexpr double kWidest = 2 * std::numbers::pi;
+  constexpr double kMaxConeAngle = 2 * std::numbers::pi;
   double& inner = light.inner_angle;
   double& outer = light.outer_angle;
-  if (0 <= inner && inner <= outer && outer <= kWidest) return;
-  if (!(0 < outer && outer <= kWidest)) outer = 1;
+  if (0 <= inner && inner <= outer && outer <= kMaxConeAngle) return;
+  if (!(0 < outer && outer <= kMaxConeAngle)) outer = 1;
   inner = 0 <= inner ? std::min(inner, outer) : outer / 2;
   context.Warn(fmt::format("a spot light needs 0 <= <inner_angle> <= <outer_angle> <= 2 pi; {:g} "
                            "and {:g} rad are used",

@@ -19,7 +19,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kDefaultMass = 0.1;  // kg
-constexpr double kLightest = 1e-6;    // kg; libsdformat ignores a smaller mass
+constexpr double kMinMass = 1e-6;     // kg; libsdformat ignores a smaller mass
 constexpr std::size_t kMaxNamed = 8;  // maximum number of links named in one message
 constexpr char kWorld[] = "world";    // libsdformat treats a link with this name as the world
 
@@ -299,7 +299,7 @@ class UrdfRepair {
     const XMLElement* mass = inertial->FirstChildElement("mass");
     const char* text = mass == nullptr ? nullptr : mass->Attribute("value");
     const double kilograms = text == nullptr ? 0 : LeadingNumberOf(text).value;
-    if (kilograms > kLightest && std::isfinite(kilograms)) return true;
+    if (kilograms > kMinMass && std::isfinite(kilograms)) return true;
     link.DeleteChild(inertial);
     return false;
   }

@@ -10,8 +10,8 @@
 namespace gsv::formats {
 namespace {
 
-constexpr std::size_t kLongestQuote = 60;
-constexpr double kBrightestByMistake = 2;  // a colour component up to this value counts as 1
+constexpr std::size_t kMaxQuoteLength = 60;
+constexpr double kMaxRoundedToOne = 2;  // a colour component up to this value counts as 1
 constexpr double kByteColour = 255;
 
 std::string TextOf(double value) {
@@ -126,7 +126,7 @@ RepairedText RepairColour(const std::string& text, const std::string& otherwise)
   if (has_right_size && numbers.are_all_clean && are_in_range) return {text, ""};
   const double largest = *std::max_element(parts.begin(), parts.end());
   for (double& part : parts) {
-    if (part > 1 && largest > kBrightestByMistake) part /= kByteColour;
+    if (part > 1 && largest > kMaxRoundedToOne) part /= kByteColour;
     part = part > 0 ? std::min(part, 1.0) : 0.0;
   }
   return {Joined(parts),
@@ -208,10 +208,10 @@ RepairedText AsPlainNumbers(RepairedText repaired, const std::string& otherwise)
 
 std::string Quoted(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text.substr(0, kLongestQuote)) {
+  for (const char c : text.substr(0, kMaxQuoteLength)) {
     quoted += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
   }
-  return quoted + (text.size() > kLongestQuote ? "…\"" : "\"");
+  return quoted + (text.size() > kMaxQuoteLength ? "…\"" : "\"");
 }
 
 }  // namespace gsv::formats

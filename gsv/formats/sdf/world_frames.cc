@@ -11,7 +11,7 @@ namespace {
 using base::ErrorCode;
 using geometry::Pose;
 
-constexpr int kLongestChain = 256;
+constexpr int kMaxChainLength = 256;
 
 std::vector<double> Numbers(const char* text) {
   std::vector<double> numbers;
@@ -75,11 +75,11 @@ void WorldFrames::Add(const std::string& name, WrittenPose at, Pose frame_from_o
 }
 
 base::Result<Pose> WorldFrames::WorldFrom(const std::string& name) const {
-  return Follow(name, kLongestChain);
+  return Follow(name, kMaxChainLength);
 }
 
 base::Result<Pose> WorldFrames::WorldFrom(const WrittenPose& pose) const {
-  auto world_from_base = Follow(pose.relative_to, kLongestChain);
+  auto world_from_base = Follow(pose.relative_to, kMaxChainLength);
   if (!world_from_base) return world_from_base;
   return *world_from_base * pose.pose;
 }

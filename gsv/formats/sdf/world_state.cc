@@ -17,7 +17,7 @@ using geometry::Pose;
 using model::JointKind;
 using tinyxml2::XMLElement;
 
-constexpr int kDeepestState = 32;
+constexpr int kMaxStateDepth = 32;
 // rad or m: a joint position closer to zero than this is set to zero, so that models stay shared.
 constexpr double kAtZero = 1e-9;
 
@@ -102,7 +102,7 @@ void WorldState::ReadState(XMLElement& state, XMLElement& world, const ReadingCo
   ForEachChild(state, "model", "model_state", [&](const XMLElement& model) {
     ModelState& saved = models_[NameAttribute(model)];
     saved.place = PlaceOf(context.source, model);
-    ReadModel(model, "", kDeepestState, context, saved);
+    ReadModel(model, "", kMaxStateDepth, context, saved);
   });
   ForEachChild(state, "light", "light_state", [&](const XMLElement& light) {
     if (const auto pose = StatePose(light, context)) {

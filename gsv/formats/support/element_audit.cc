@@ -143,8 +143,8 @@ class ElementAudit {
     above_.pop_back();
   }
 
-  // An element has a value or elements. Text beside elements is mostly what is left of a comment. CDATA sections are
-  // comments in Gazebo's own worlds.
+  // An element has a value or elements. Text beside elements is mostly what is left of a comment.
+  // CDATA sections are comments in Gazebo's own worlds.
   void ReportTextBesideElements(const XMLElement& element) {
     if (element.FirstChildElement() == nullptr) return;
     for (auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
@@ -280,7 +280,7 @@ class ElementAudit {
   }
 
   static bool SaysDefault(const char* text, const ElementSupport& support) {
-    return support.otherwise && SaysTheSame(text == nullptr ? "" : text, *support.otherwise);
+    return support.otherwise && HasSameMeaning(text == nullptr ? "" : text, *support.otherwise);
   }
 
   // Whether the element and its content have only default values.

@@ -13,7 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr int kMostSteps = 100;  // maximum number of steps from frame to frame
+constexpr int kMaxSteps = 100;  // maximum number of steps from frame to frame
 
 std::string Trimmed(const char* text) {
   const std::string_view whole = text == nullptr ? std::string_view() : text;
@@ -127,7 +127,7 @@ class NamingRules {
          child = child->NextSiblingElement()) {
       CheckPart(*child, scope);
     }
-    CheckCircles(scope);
+    CheckCycles(scope);
   }
 
   static void AddInclude(const XMLElement& include, Scope& scope) {
@@ -207,7 +207,7 @@ class NamingRules {
   // Returns the link to which a frame or joint with that name is attached; empty if it is not
   // known.
   static std::string LinkOf(std::string name, const Scope& scope) {
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       const XMLElement* element = scope.Find(name);
       if (element == nullptr) return {};
       const std::string_view kind = element->Name();
@@ -235,7 +235,7 @@ class NamingRules {
   }
 
   // Reports elements whose frames form a cycle. Visits each name once.
-  void CheckCircles(const Scope& scope) {
+  void CheckCycles(const Scope& scope) {
     std::set<std::string> reported;
     for (const bool attachment : {false, true}) {
       std::set<std::string> passed;

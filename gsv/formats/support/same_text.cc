@@ -40,7 +40,7 @@ bool IsSameWord(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-bool SaysTheSame(std::string_view a, std::string_view b) {
+bool HasSameMeaning(std::string_view a, std::string_view b) {
   for (;;) {
     const std::string_view x = TakeWord(a), y = TakeWord(b);
     if (x.empty() || y.empty()) return x.empty() && y.empty();

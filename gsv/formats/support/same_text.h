@@ -6,6 +6,6 @@
 namespace gsv::formats {
 
 // Compares word by word: "0 0 0" is "0.0 0 -0", "true" is "1". Blanks around words are ignored.
-bool SaysTheSame(std::string_view a, std::string_view b);
+bool HasSameMeaning(std::string_view a, std::string_view b);
 
 }  // namespace gsv::formats

@@ -1,8 +1,8 @@
 // Models as URDF, whatever format they were read from: links, joints, limits, inertias, visuals and
 // collisions.
 //
-// Frames    every link of the model keeps its name and its frame. Links are added where URDF's tree needs
-//           them, see urdf_tree.h.
+// Frames    every link of the model keeps its name and its frame. Links are added where URDF's tree
+//           needs them, see urdf_tree.h.
 // Shapes    URDF has boxes, cylinders, spheres and meshes. All others become meshes. A mesh becomes
 //           one STL file for each of its materials, because STL has no materials.
 // Gazebo    <gazebo> elements have Gazebo's additions to URDF: friction, gravity, static models,

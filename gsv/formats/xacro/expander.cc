@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMaxSteps = 1'000'000;
 constexpr int kMaxLevels = 500;
-constexpr std::size_t kLongestMessage = 600;
+constexpr std::size_t kMaxMessageLength = 600;
 
 tl::unexpected<base::Error> Unfit(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
@@ -390,7 +390,7 @@ base::Status Expander::CallMacro(const Macro& macro, Space& home, const NodePtr&
   const bool is_outermost = active_.insert(definition.get()).second;
   auto status = Children(*definition, parent, body);
   if (is_outermost) active_.erase(definition.get());
-  if (!status && status.error().message.size() < kLongestMessage) {
+  if (!status && status.error().message.size() < kMaxMessageLength) {
     status.error().message +=
         ", in the macro " + WithoutPrefix(node->text) + " called at " + node->place();
   }

@@ -11,7 +11,7 @@ namespace {
 using Kind = Expression::Kind;
 using ParsedPtr = std::unique_ptr<Expression>;
 
-constexpr int kDeepestExpression = 64;
+constexpr int kMaxExpressionDepth = 64;
 constexpr std::size_t kMaxTokens = 4096;
 
 struct Token {
@@ -184,7 +184,7 @@ class Parser {
   }
 
   ParsedPtr Ternary() {
-    if (++depth_ > kDeepestExpression) return Refuse("the expression is nested too deep");
+    if (++depth_ > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
     if (Is("lambda")) return Refuse("lambda is not supported in an expression");
     ParsedPtr then = Or();
     if (Take("if")) {
@@ -218,7 +218,7 @@ class Parser {
   }
 
   ParsedPtr Unary(const char* sign, ParsedPtr (Parser::*operand)()) {
-    if (++depth_ > kDeepestExpression) return Refuse("the expression is nested too deep");
+    if (++depth_ > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
     ParsedPtr node = Make(Kind::kUnary, sign);
     node->parts.push_back((this->*operand)());
     --depth_;
@@ -274,7 +274,7 @@ class Parser {
     if (Take("+")) return Unary("+", &Parser::Signed);
     ParsedPtr base = Postfix();
     if (!Take("**")) return base;
-    if (++depth_ > kDeepestExpression) return Refuse("the expression is nested too deep");
+    if (++depth_ > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
     base = Pair(Kind::kBinary, "**", std::move(base), Signed());
     --depth_;
     return base;
@@ -283,7 +283,7 @@ class Parser {
   ParsedPtr Postfix() {
     ParsedPtr node = Atom();
     for (int links = 0;; ++links) {
-      if (links > kDeepestExpression) return Refuse("the expression is nested too deep");
+      if (links > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
       if (Take(".")) {
         if (Now().kind != Token::Kind::kName) return Refuse("a name is missing after \".\"");
         ParsedPtr member = Make(Kind::kMember, tokens_[at_++].text);

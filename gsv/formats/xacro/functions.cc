@@ -10,7 +10,7 @@
 namespace gsv::formats::xacro {
 namespace {
 
-constexpr std::size_t kLongestResult = 1u << 20;
+constexpr std::size_t kMaxResultLength = 1u << 20;
 
 using Arguments = std::vector<Value>;
 using Function = base::Result<Value> (*)(const Arguments&);
@@ -249,7 +249,7 @@ base::Result<Value> Replaced(const std::string& text, const std::string& what,
     if (at == std::string::npos) return Value{replaced};
     replaced += by;
     from = at + what.size();
-    if (replaced.size() > kLongestResult) return Misuse("a text is too long");
+    if (replaced.size() > kMaxResultLength) return Misuse("a text is too long");
   }
 }
 
@@ -259,7 +259,7 @@ base::Result<Value> Join(const std::string& text, const List& parts) {
     const auto* part = parts[i].as<std::string>();
     if (part == nullptr) return Misuse("join() takes a list of texts");
     joined += (i == 0 ? "" : text) + *part;
-    if (joined.size() > kLongestResult) return Misuse("a text is too long");
+    if (joined.size() > kMaxResultLength) return Misuse("a text is too long");
   }
   return Value{joined};
 }

@@ -9,8 +9,8 @@
 namespace gsv::formats::xacro {
 namespace {
 
-constexpr std::size_t kLongestText = 1u << 20;
-constexpr std::size_t kLongestList = 10'000;
+constexpr std::size_t kMaxTextLength = 1u << 20;
+constexpr std::size_t kMaxListLength = 10'000;
 
 tl::unexpected<base::Error> WrongOperand(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
@@ -87,14 +87,15 @@ base::Result<Value> ApplyToFloats(const std::string& sign, double a, double b) {
 }
 
 base::Result<Value> Repeated(const Value& sequence, std::int64_t times) {
-  const auto count = static_cast<std::size_t>(std::clamp<std::int64_t>(times, 0, kLongestText + 1));
+  const auto count =
+      static_cast<std::size_t>(std::clamp<std::int64_t>(times, 0, kMaxTextLength + 1));
   if (const auto* text = sequence.as<std::string>()) {
-    if (text->size() * count > kLongestText) return WrongOperand("a text is too long");
+    if (text->size() * count > kMaxTextLength) return WrongOperand("a text is too long");
     std::string repeated;
     for (std::size_t i = 0; i < count; ++i) repeated += *text;
     return Value{repeated};
   }
-  if (sequence.items()->size() * count > kLongestList) return WrongOperand("a list is too long");
+  if (sequence.items()->size() * count > kMaxListLength) return WrongOperand("a list is too long");
   List repeated;
   for (std::size_t i = 0; i < count; ++i) {
     repeated.insert(repeated.end(), sequence.items()->begin(), sequence.items()->end());
@@ -108,14 +109,14 @@ bool IsSequence(const Value& value) {
 
 base::Result<Value> Joined(const Value& a, const Value& b) {
   if (const auto* text = a.as<std::string>()) {
-    if (text->size() + b.as<std::string>()->size() > kLongestText) {
+    if (text->size() + b.as<std::string>()->size() > kMaxTextLength) {
       return WrongOperand("a text is too long");
     }
     return Value{*text + *b.as<std::string>()};
   }
   List joined = *a.items();
   joined.insert(joined.end(), b.items()->begin(), b.items()->end());
-  if (joined.size() > kLongestList) return WrongOperand("a list is too long");
+  if (joined.size() > kMaxListLength) return WrongOperand("a list is too long");
   return a.as<Tuple>() != nullptr ? MakeTuple(joined) : MakeList(joined);
 }
 
@@ -136,7 +137,7 @@ base::Result<bool> Contains(const Value& a, const Value& b) {
   return WrongTypes("in", a, b);
 }
 
-constexpr int kWidestField = 100;
+constexpr int kMaxFieldWidth = 100;
 
 // The values of a format, from the left: a tuple gives its items, any other value itself.
 class FormatValues {
@@ -164,13 +165,14 @@ struct Field {
   char kind = '\0';
 };
 
-// Reads the field at `i` of `format`, and moves `i` to its last character. No kind: there is no such field.
+// Reads the field at `i` of `format`, and moves `i` to its last character. No kind: there is no
+// such field.
 Field FieldAt(const std::string& format, std::size_t& i) {
   Field field;
   const auto number = [&] {
     int value = 0;
     while (i + 1 < format.size() && std::isdigit(static_cast<unsigned char>(format[i + 1])) != 0) {
-      value = std::min(value * 10 + (format[++i] - '0'), kWidestField + 1);
+      value = std::min(value * 10 + (format[++i] - '0'), kMaxFieldWidth + 1);
     }
     return value;
   };
@@ -187,7 +189,7 @@ Field FieldAt(const std::string& format, std::size_t& i) {
     field.precision = number();
   }
   if (i + 1 < format.size()) field.kind = format[++i];
-  if (field.width > kWidestField || field.precision > kWidestField) field.kind = '\0';
+  if (field.width > kMaxFieldWidth || field.precision > kMaxFieldWidth) field.kind = '\0';
   return field;
 }
 
@@ -256,7 +258,7 @@ base::Result<Value> Formatted(const std::string& format, const Value& value) {
         return base::Fail(status.error());
       }
     }
-    if (text.size() > kLongestText) return WrongOperand("a text is too long");
+    if (text.size() > kMaxTextLength) return WrongOperand("a text is too long");
   }
   if (!values.is_used_up()) return WrongOperand("the format has fewer fields than values");
   return Value{text};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMaxSequence = 10'000, kMaxSorted = 1000;
 constexpr int kMaxDecimals = 30;
-constexpr double kLargestFormatted = 1e17;
+constexpr double kMaxFormattedNumber = 1e17;
 
 tl::unexpected<base::Error> Misfit(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
@@ -100,7 +100,7 @@ base::Result<std::string> Field(const Value& value, const std::string& format) {
                         read == static_cast<int>(format.size()) && decimals >= 0 &&
                         decimals <= kMaxDecimals && value.is_number();
   const auto number = is_known ? ParseFloat(ToText(value)) : std::nullopt;
-  if (!number || !(*number > -kLargestFormatted && *number < kLargestFormatted)) {
+  if (!number || !(*number > -kMaxFormattedNumber && *number < kMaxFormattedNumber)) {
     return base::Fail(base::ErrorCode::kBadModel,
                       "the format \"" + format + "\" is not supported; use \".Nf\"");
   }

@@ -3,8 +3,8 @@
 namespace gsv::formats::xacro {
 namespace {
 
-constexpr std::size_t kLongestSubstitution = 1u << 20;
-constexpr int kDeepestSubstitution = 8;  // maximum nesting, as in ${…} in $(…) in ${…}
+constexpr std::size_t kMaxSubstitutionLength = 1u << 20;
+constexpr int kMaxSubstitutionDepth = 8;  // maximum nesting, as in ${…} in $(…) in ${…}
 
 // Returns the position at which the bracket at `open` closes, ignoring strings and inner brackets;
 // npos if it does not close.
@@ -35,12 +35,12 @@ class Substitution {
       : context_(context), command_(command) {}
 
   base::Result<Value> Of(const std::string& text, int depth) {
-    if (depth > kDeepestSubstitution) return Refuse("${…} and $(…) are nested too deep");
+    if (depth > kMaxSubstitutionDepth) return Refuse("${…} and $(…) are nested too deep");
     std::string joined;
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t dollar = text.find('$', at);
       joined += text.substr(at, dollar - at);
-      if (joined.size() > kLongestSubstitution) return Refuse("a text is too long");
+      if (joined.size() > kMaxSubstitutionLength) return Refuse("a text is too long");
       if (dollar == std::string::npos) break;
       std::size_t bracket = text.find_first_not_of('$', dollar);
       const bool has_bracket =

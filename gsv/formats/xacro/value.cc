@@ -9,7 +9,7 @@
 namespace gsv::formats::xacro {
 namespace {
 
-constexpr int kDeepestText = 32;  // maximum nesting of lists in a text
+constexpr int kMaxTextDepth = 32;  // maximum nesting of lists in a text
 
 std::string Trimmed(const std::string& text) {
   constexpr const char* kBlanks = " \t\n\r\f\v";
@@ -112,7 +112,7 @@ const char* TypeName(const Value& value) {
   return kNames[value.content.index()];
 }
 
-std::string ToText(const Value& value) { return Printed(value, false, kDeepestText); }
+std::string ToText(const Value& value) { return Printed(value, false, kMaxTextDepth); }
 
 std::string FloatText(double value) {
   if (std::isnan(value)) return "nan";

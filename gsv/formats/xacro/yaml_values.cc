@@ -11,7 +11,7 @@
 namespace gsv::formats::xacro {
 namespace {
 
-constexpr int kDeepestYaml = 32;
+constexpr int kMaxYamlDepth = 32;
 constexpr std::size_t kMaxYamlNodes = 20'000;
 
 // The units of xacro's constructors, in SI units.
@@ -32,7 +32,7 @@ class YamlReader {
   explicit YamlReader(const std::filesystem::path& file) : file_(file) {}
 
   base::Result<Value> Read(const YAML::Node& node, int depth) {
-    if (depth > kDeepestYaml || ++nodes_ > kMaxYamlNodes) {
+    if (depth > kMaxYamlDepth || ++nodes_ > kMaxYamlNodes) {
       return Refuse("the YAML is too large or nested too deep", node.Mark());
     }
     if (node.IsSequence()) {

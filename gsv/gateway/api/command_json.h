@@ -30,8 +30,8 @@ struct TimedDriveCommand {
   world::DriveCommand command;
   std::optional<double> timeout;  // s; nothing: the command lasts
 };
-// Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w, "timeout_s": t}. A missing value is
-// 0, and a missing timeout is none.
+// Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w, "timeout_s": t}. A missing value
+// is 0, and a missing timeout is none.
 base::Result<TimedDriveCommand> ParseDriveCommand(std::string_view body);
 
 // Parses {"position": v}, {"velocity": v} or {"effort": v}: exactly one of them, in SI units.

@@ -1,7 +1,7 @@
 // Stops what somebody drives when no further command comes: a dead man's switch.
 //
-// A page repeats its command while a key is held. If the page, its browser or the network fails, the
-// repetition ends, and the robot must not continue for ever.
+// A page repeats its command while a key is held. If the page, its browser or the network fails,
+// the repetition ends, and the robot must not continue for ever.
 //
 // Time     wall-clock time.
 // Bounded  one function for each key.

@@ -18,7 +18,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kDefaultCurvePoints = 4000;
-constexpr double kLatest = 9e9;  // limit of a time that is converted to nanoseconds, s
+constexpr double kMaxTime = 9e9;  // limit of a time that is converted to nanoseconds, s
 
 std::string JsonText(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
@@ -287,7 +287,7 @@ base::Result<base::SimTime> ParseSeekTime(std::string_view body) {
   const auto time = json.is_object() ? json.find("time_s") : json.end();
   const bool is_number = json.is_object() && time != json.end() && time->is_number();
   const double seconds = is_number ? time->get<double>() : NAN;
-  if (!(std::abs(seconds) < kLatest)) {
+  if (!(std::abs(seconds) < kMaxTime)) {
     return base::Fail(
         base::ErrorCode::kInvalidArgument,
         "the body of the request must be {\"time_s\": T}, in simulated seconds since the start");

@@ -10,8 +10,8 @@ namespace gsv::gateway::drawing {
 
 inline constexpr const char* kImageStreamType = "multipart/x-mixed-replace; boundary=gsv-image";
 
-// `time`: simulated seconds of the image, as in the header Gsv-Time. The boundary after an image lets
-// browsers show it at once.
+// `time`: simulated seconds of the image, as in the header Gsv-Time. The boundary after an image
+// lets browsers show it at once.
 inline SharedBytes ImagePart(std::string_view jpeg, std::string_view time, bool is_first) {
   constexpr std::string_view kBoundary = "--gsv-image\r\n";
   std::string part(is_first ? kBoundary : "");

@@ -40,7 +40,7 @@ std::string Unescaped(std::string_view line) {
   return bytes;
 }
 
-void TellHub(std::string_view lines) {
+void SendToHub(std::string_view lines) {
   static const auto simulation = std::make_shared<gateway::testing::ScriptedSimulation>("arena", 1);
   static WorkerPool workers(1, 1);
   static const auto operations = std::make_shared<LiveOperations>(simulation, workers, nullptr);
@@ -68,7 +68,7 @@ void TellHub(std::string_view lines) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  TellHub(text);
+  SendToHub(text);
   (void)upstream::ParseServerText(text);
   (void)upstream::ParseServerData(text);
   return 0;

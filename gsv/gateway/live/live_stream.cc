@@ -50,7 +50,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
   snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;
   snapshot_topics_[3].encode = &LiveStream::EncodePackedPoses;
   snapshot_topics_[3].rate = kPackedPosesRate;
-  snapshot_topics_[3].lowest_rate = kLowestPackedPosesRate;
+  snapshot_topics_[3].lowest_rate = kMinPackedPosesRate;
   for (std::size_t i = 0; i < channels.size(); ++i) snapshot_topics_[i].channel = channels[i];
   sensors_ = std::make_shared<SensorTopics>(hub_, watchers);
 }

@@ -25,7 +25,7 @@ namespace gsv::gateway {
 // The rate of packed poses, in Hz of wall-clock time. If there are many bodies, the limit of bytes
 // per second reduces it, but not below the lowest rate.
 inline constexpr double kPackedPosesRate = 20;
-inline constexpr double kLowestPackedPosesRate = 8;
+inline constexpr double kMinPackedPosesRate = 8;
 inline constexpr double kMaxPackedBytesPerSecond = 350'000;
 
 // The rate of rounds for a stream with clients, and the highest rate of poses, in Hz of wall-clock

@@ -51,7 +51,7 @@ StatusTopics::StatusTopics(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
 double StatusTopics::RateFor(const Topic& topic, std::size_t size) {
   if (!topic.max_bytes_per_second) return kStatusRate;
   const double bytes = static_cast<double>(std::max<std::size_t>(1, size));
-  return std::clamp(*topic.max_bytes_per_second / bytes, kLowestStatusRate, kStatusRate);
+  return std::clamp(*topic.max_bytes_per_second / bytes, kMinStatusRate, kStatusRate);
 }
 
 void StatusTopics::Publish(const simulation::Simulation& simulation, WallTime now) {

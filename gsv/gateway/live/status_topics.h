@@ -2,7 +2,7 @@
 // and /diagnostics for ROS tools once per second.
 //
 // A large status that differs only in times and counters is sent less often, so that these messages
-// need at most kMaxStatusBytesPerSecond, but not less often than at kLowestStatusRate.
+// need at most kMaxStatusBytesPerSecond, but not less often than at kMinStatusRate.
 //
 // Threads  Publish() from one thread.
 #pragma once
@@ -20,7 +20,7 @@ namespace gsv::gateway {
 
 // In Hz of wall-clock time.
 inline constexpr double kStatusRate = 5;
-inline constexpr double kLowestStatusRate = 0.5;
+inline constexpr double kMinStatusRate = 0.5;
 inline constexpr double kMaxStatusBytesPerSecond = 40'000;
 
 class StatusTopics {

@@ -36,9 +36,9 @@ class ReplaySessions {
   // Adds a session for a player. If `recording` is empty, viewers cannot open the recording again.
   base::Result<std::string> Add(std::unique_ptr<ReplayPlayer> player, const std::string& recording);
 
-  // The routes below /replays/{session}/: the API of a replay, and its live stream at ws, with views
-  // that `drawer` draws. All need the permission to watch only. The handlers are valid during the
-  // lifetime of this object and of the drawer.
+  // The routes below /replays/{session}/: the API of a replay, and its live stream at ws, with
+  // views that `drawer` draws. All need the permission to watch only. The handlers are valid during
+  // the lifetime of this object and of the drawer.
   std::vector<Route> Routes(drawing::ViewDrawer& drawer);
   // The hub of a session. Its users keep the session.
   base::Result<std::shared_ptr<Hub>> FindHub(const std::string& name);

@@ -98,8 +98,8 @@ std::optional<PlaybackState> ReplayOperations::playback() const {
 base::Status ReplayOperations::Control(const foxglove::PlaybackControl& request) {
   if (const base::Status set = player_.SetSpeed(request.speed); !set) return set;
   if (request.seek_ns) {
-    constexpr std::uint64_t kLatest = std::numeric_limits<std::int64_t>::max();
-    player_.Seek(base::SimTime(static_cast<std::int64_t>(std::min(*request.seek_ns, kLatest))));
+    constexpr std::uint64_t kMaxTime = std::numeric_limits<std::int64_t>::max();
+    player_.Seek(base::SimTime(static_cast<std::int64_t>(std::min(*request.seek_ns, kMaxTime))));
   }
   return request.play ? Play(player_) : Pause(player_);
 }

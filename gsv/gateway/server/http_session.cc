@@ -117,7 +117,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 
   // Refuses a body that is too long, and a file without permission, before reading it.
   void OnHeader(error_code error) {
-    if (error) return Complain(error);
+    if (error) return RespondToError(error);
     const auto& request = parser_->get();
     version_ = request.version();
     is_head_ = request.method() == http::verb::head;
@@ -129,7 +129,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     const bool takes_file = match_.route != nullptr && match_.route->takes_file;
     body_limit_ = takes_file ? limits().upload_bytes : limits().body_bytes;
     if (parser_->content_length().value_or(0) > body_limit_) {
-      return Complain(make_error_code(http::error::body_limit));
+      return RespondToError(make_error_code(http::error::body_limit));
     }
     parser_->body_limit(body_limit_);
     takes_file ? Authorise([](HttpSession& self) { self.ReadFile(); }) : ReadBody();
@@ -150,7 +150,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
         [self = shared_from_this()](error_code failed, std::size_t) { self->OnRead(failed); });
   }
 
-  void Complain(error_code error) {
+  void RespondToError(error_code error) {
     std::optional<Response> complaint = ResponseTo(error, limits().header_bytes, body_limit_);
     if (!complaint) return;
     keep_alive_ = false;
@@ -158,7 +158,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   }
 
   void OnRead(error_code error) {
-    if (error) return Complain(error);
+    if (error) return RespondToError(error);
     const auto& request = parser_->get();
     keep_alive_ = request.keep_alive();
     const base::Status allowed = context_->access.Check(View(request[http::field::host]),

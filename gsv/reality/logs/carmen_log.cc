@@ -154,8 +154,8 @@ class CarmenReader {
   // Detects wrong units: ranges in cm or mm exceed the maximum, and headings in degrees are in the
   // hundreds.
   base::Status CheckUnits() const {
-    constexpr double kMostWithoutEcho = 0.95, kLargestHeading = 100;  // rad; a log may count
-                                                                      // several turns
+    constexpr double kMaxFractionWithoutEcho = 0.95, kMaxHeading = 100;  // rad; a log may count
+                                                                         // several turns
     std::size_t without = 0, readings = 0;
     for (const RangeScan& scan : log_.scans) {
       readings += scan.ranges.size();
@@ -163,7 +163,7 @@ class CarmenReader {
           static_cast<std::size_t>(std::count(scan.ranges.begin(), scan.ranges.end(), kInfinity));
     }
     if (readings > 0 &&
-        static_cast<double>(without) > kMostWithoutEcho * static_cast<double>(readings)) {
+        static_cast<double>(without) > kMaxFractionWithoutEcho * static_cast<double>(readings)) {
       return base::Fail(
           base::ErrorCode::kCorrupt,
           fmt::format("{:.0f} % of the ranges are 0, or {} m or more; CARMEN's ranges are in m",
@@ -171,7 +171,7 @@ class CarmenReader {
                       log_.max_range),
           rows_.path().string());
     }
-    if (largest_heading_ > kLargestHeading) {
+    if (largest_heading_ > kMaxHeading) {
       return base::Fail(
           base::ErrorCode::kCorrupt,
           fmt::format("a heading is {:.0f}; CARMEN's headings are in rad", largest_heading_),
@@ -185,11 +185,11 @@ class CarmenReader {
     return WrappedAngle(yaw);
   }
 
-  // FLASER does not state the scanner's maximum, which is its reading without an echo. The largest reading is the
-  // maximum if it occurs many times: echoes do not repeat one distance so often.
+  // FLASER does not state the scanner's maximum, which is its reading without an echo. The largest
+  // reading is the maximum if it occurs many times: echoes do not repeat one distance so often.
   void FindMaximum() {
     constexpr double kShare = 0.001, kShortestMaximum = 2;  // m
-    constexpr std::size_t kFewest = 20;
+    constexpr std::size_t kMinCount = 20;
     double largest = 0;
     std::size_t count = 0, readings = 0;
     for (const RangeScan& scan : log_.scans) {
@@ -200,7 +200,7 @@ class CarmenReader {
         if (range == largest) ++count;
       }
     }
-    if (largest < kShortestMaximum || count < kFewest ||
+    if (largest < kShortestMaximum || count < kMinCount ||
         static_cast<double>(count) < kShare * static_cast<double>(readings)) {
       return;
     }

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxBoxes = 200'000;
 constexpr double kMaxCells = 64e6;
 constexpr double kPastASurface = 1e-6;
 constexpr int kMaxCrossings = 10'000;
-constexpr double kHighest = 1e4;  // m
+constexpr double kMaxHeight = 1e4;  // m
 
 std::string XmlName(const std::string& name) {
   std::string clean;
@@ -106,7 +106,7 @@ class Slicer {
     geometry::Vector3 from{middle(place.x, map_.origin_x), middle(place.y, map_.origin_y), height_};
     int crossings = 0;
     while (crossings < kMaxCrossings) {
-      const auto hit = rays_.Cast({from, {0, 0, 1}, kHighest}, -1);
+      const auto hit = rays_.Cast({from, {0, 0, 1}, kMaxHeight}, -1);
       if (!hit) break;
       from.z += hit->distance + kPastASurface;
       ++crossings;

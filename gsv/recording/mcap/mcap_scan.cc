@@ -9,7 +9,7 @@ namespace gsv::recording {
 namespace {
 
 // Messages outside of chunks are grouped in blocks of about this size.
-constexpr std::uint64_t kLooseBlockSize = std::uint64_t{4} << 20;
+constexpr std::uint64_t kUnchunkedBlockSize = std::uint64_t{4} << 20;
 // The number of bytes of an attachment that are read: enough for its name and media type.
 constexpr std::uint64_t kAttachmentHeadSize = std::uint64_t{64} << 10;
 constexpr std::size_t kMaxProblems = 100;
@@ -85,7 +85,7 @@ class Scanner {
       case Opcode::kChannel:
         return Define<ChannelRecord>(Content(), summary_.channels);
       case Opcode::kMessage:
-        return TakeLooseMessage();
+        return TakeUnchunkedMessage();
       case Opcode::kChunk:
         return TakeChunk();
       case Opcode::kAttachment:
@@ -122,7 +122,7 @@ class Scanner {
     }
   }
 
-  void TakeLooseMessage() {
+  void TakeUnchunkedMessage() {
     const auto message = Parse<MessageRecord>(Content());
     if (!message || !summary_.channels.contains(message->channel_id)) {
       return Problem("a message is damaged or belongs to no channel");
@@ -131,7 +131,7 @@ class Scanner {
     const base::SimTime time = message->log_time;
     const bool follows = !blocks.empty() && !blocks.back().is_chunk &&
                          blocks.back().offset + blocks.back().length == offset_ &&
-                         blocks.back().length + length_ <= kLooseBlockSize;
+                         blocks.back().length + length_ <= kUnchunkedBlockSize;
     if (!follows) blocks.push_back({offset_, 0, false, 0, time, time});
     MessageBlock& block = blocks.back();
     block.length += length_;

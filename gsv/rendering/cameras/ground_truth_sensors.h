@@ -19,12 +19,12 @@
 //             air where nothing is, in whole steps of the parameter `resolution` (0.01 K, so that
 //             16 bits reach to 655.35 K); `noise` (K). As a message:
 //             sensor_msgs/CompressedImage, PNG of 16-bit grey, where a pixel counts steps.
-//             normals_camera ("normals"): values {width, height, then for each pixel the unit normal
-//             x, y, z of the visible surface, towards the camera, in the sensor frame}. The normal
-//             follows from the depths of adjacent pixels of the same visual: it is exact on planes,
-//             and NaN where nothing is or where a pixel has no such neighbours in both directions.
-//             As a message: sensor_msgs/CompressedImage, PNG, where the colour channel of a
-//             component c is 255 (c + 1) / 2, and black where the normal is unknown.
+//             normals_camera ("normals"): values {width, height, then for each pixel the unit
+//             normal x, y, z of the visible surface, towards the camera, in the sensor frame}. The
+//             normal follows from the depths of adjacent pixels of the same visual: it is exact on
+//             planes, and NaN where nothing is or where a pixel has no such neighbours in both
+//             directions. As a message: sensor_msgs/CompressedImage, PNG, where the colour channel
+//             of a component c is 255 (c + 1) / 2, and black where the normal is unknown.
 // Errors      Sample(): kUnavailable with the reason if there is no renderer.
 #pragma once
 

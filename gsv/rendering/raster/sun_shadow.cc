@@ -20,8 +20,8 @@ struct Fineness {
 };
 constexpr Fineness kThing{0.5, 0.5}, kRobot{3, 1.5};
 
-// Returns the coarsest level whose vertices are displaced by at most `moved_by` and by a third of the
-// radius.
+// Returns the coarsest level whose vertices are displaced by at most `moved_by` and by a third of
+// the radius.
 const Level& LevelFor(const std::vector<Level>& levels, const DrawItem& item, double moved_by) {
   const double scale =
       std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});

@@ -1,5 +1,5 @@
-// The services and the action of simulation_interfaces 2 (the standard that Gazebo and Isaac Sim follow), and the
-// parameter services of the node /gsv.
+// The services and the action of simulation_interfaces 2 (the standard that Gazebo and Isaac Sim
+// follow), and the parameter services of the node /gsv.
 //
 // Source   github.com/ros-simulation/simulation_interfaces, 2.0.
 // Threads  as ServiceHost.

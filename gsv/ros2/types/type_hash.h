@@ -1,7 +1,7 @@
 // The hashes by which ROS 2 nodes check whether their definitions of a type are equal.
 //
-// Source  REP-2011, REP-2016 (RIHS01): SHA-256 of the type's description in canonical JSON. Endpoints carry
-//         it in their USER_DATA since Iron.
+// Source  REP-2011, REP-2016 (RIHS01): SHA-256 of the type's description in canonical JSON.
+//         Endpoints carry it in their USER_DATA since Iron.
 // Threads any.
 #pragma once
 

@@ -8,9 +8,9 @@
 // Reading     the opening (m), and 1 or 0 as commanded. Label: the name of the attached body, or
 //             empty.
 // Parameters  opening (0.1 m, between the open fingers), reach (0.08 m, length of the fingers),
-//             height (0.03 m), closing_time (0.5 s), left_finger and right_finger (prismatic joints that
-//             show the fingers: zero if open, else the distance that each has moved; for robots
-//             with planar kinematics only).
+//             height (0.03 m), closing_time (0.5 s), left_finger and right_finger (prismatic joints
+//             that show the fingers: zero if open, else the distance that each has moved; for
+//             robots with planar kinematics only).
 // Message     gsv_msgs/Gripper
 #pragma once
 

@@ -15,7 +15,7 @@ bool Opens(const world::DeviceCommand& command) {
   return command.values.empty() || command.values[0] > 0.5;
 }
 
-bool IsLoose(const world::Body& body) { return body.is_rigid() && !body.is_robot(); }
+bool CanBeGrasped(const world::Body& body) { return body.is_rigid() && !body.is_robot(); }
 
 std::set<std::string> HeldBodies(const world::State& state) {
   std::set<std::string> names;
@@ -50,7 +50,7 @@ std::optional<Between> FindBetween(const world::DeviceStep& step, const Pose& wo
       const auto left = cast(x, 1, z), right = cast(x, -1, z);
       if (!left || !right || left->body != right->body) continue;
       const world::Body& body = step.now->layout->bodies[static_cast<std::size_t>(left->body)];
-      if (!IsLoose(body) || held.contains(body.name)) continue;
+      if (!CanBeGrasped(body) || held.contains(body.name)) continue;
       // A ray from inside a body that reaches beyond a finger hits the body's far side.
       const double width = gripper.opening - left->distance - right->distance;
       if (width > 0 && (!found || width > found->width)) found = Between{left->body, width};

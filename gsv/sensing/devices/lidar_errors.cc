@@ -10,7 +10,7 @@ namespace {
 
 using geometry::kInfinity;
 
-constexpr double kLargestTangent = 20;  // the tangent at a grazing angle of 3 degrees
+constexpr double kMaxTangent = 20;  // the tangent at a grazing angle of 3 degrees
 // two ranges that differ by more than this (m) are of different surfaces
 constexpr double kEdge = 0.1;
 
@@ -26,7 +26,7 @@ double TangentAt(double before, double range, double after, double step) {
   } else if (has_after) {
     slope = (after - range) / step;
   }
-  return std::min(std::abs(slope) / std::max(range, 1e-6), kLargestTangent);
+  return std::min(std::abs(slope) / std::max(range, 1e-6), kMaxTangent);
 }
 
 }  // namespace

@@ -13,19 +13,19 @@ namespace gsv::sensing {
 namespace {
 
 using geometry::kPi;
-constexpr int kMostBeams = 1'000'000;
+constexpr int kMaxBeams = 1'000'000;
 
 Angles ReadAngles(ParameterReader& reader, const std::string& name, int samples, double min_angle,
                   double max_angle, double furthest) {
   Angles fan;
-  fan.count = reader.Count(name + ".samples", samples, 1, kMostBeams);
+  fan.count = reader.Count(name + ".samples", samples, 1, kMaxBeams);
   const double resolution = reader.Number(name + ".resolution", 1, 1e-6, 1e3);
   const double beams = std::max(1.0, std::floor(fan.count * resolution + 0.5));
-  if (beams > kMostBeams) {
+  if (beams > kMaxBeams) {
     reader.Refuse(
-        fmt::format("{} asks for {} beams; at most {} are allowed", name, beams, kMostBeams));
+        fmt::format("{} asks for {} beams; at most {} are allowed", name, beams, kMaxBeams));
   }
-  fan.count = static_cast<int>(std::min(beams, double{kMostBeams}));
+  fan.count = static_cast<int>(std::min(beams, double{kMaxBeams}));
   fan.first = reader.Number(name + ".min_angle", min_angle, -furthest, furthest);
   fan.last = reader.Number(name + ".max_angle", max_angle, -furthest, furthest);
   if (fan.first > fan.last) {
@@ -42,9 +42,9 @@ LidarSettings ReadLidarSettings(ParameterReader& reader) {
   settings.horizontal =
       ReadAngles(reader, "scan.horizontal", 360, -kPi, kPi - 2 * kPi / 360, 4 * kPi);
   settings.vertical = ReadAngles(reader, "scan.vertical", 1, 0, 0, kPi / 2 + 1e-6);
-  if (double{1} * settings.horizontal.count * settings.vertical.count > kMostBeams) {
+  if (double{1} * settings.horizontal.count * settings.vertical.count > kMaxBeams) {
     reader.Refuse(fmt::format("the scan has {} by {} beams; at most {} are allowed",
-                              settings.horizontal.count, settings.vertical.count, kMostBeams));
+                              settings.horizontal.count, settings.vertical.count, kMaxBeams));
   }
   settings.min = reader.Number("range.min", 0.08, 0, 1e4);
   settings.max = reader.Number("range.max", 10, 1e-3, 1e4);

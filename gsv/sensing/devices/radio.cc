@@ -10,7 +10,7 @@ namespace gsv::sensing {
 namespace {
 
 constexpr double kHertzAMegahertz = 1e6;
-constexpr std::size_t kLongestName = 128;
+constexpr std::size_t kMaxNameLength = 128;
 
 world::RadioSetupPtr ReadSetup(ParameterReader& reader) {
   const world::RadioSetup usual;
@@ -53,7 +53,7 @@ class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, 
                     " bytes is longer than the radio's max_size, " +
                     std::to_string(setup_->max_size));
     }
-    if (message.word.size() > kLongestName) {
+    if (message.word.size() > kMaxNameLength) {
       return Refuse("a robot's name has at most 128 characters");
     }
     return {};

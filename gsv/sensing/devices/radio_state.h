@@ -1,8 +1,8 @@
 // The messages that a radio has received since it was switched on.
 //
-// Determinism  The received messages and their order depend on the messages sent since the last step
-//              and on the poses of the robots, not on the order in which behaviours ran. The random
-//              numbers of fading and loss are keyed by (seed, robot, radio, message, step).
+// Determinism  The received messages and their order depend on the messages sent since the last
+//              step and on the poses of the robots, not on the order in which behaviours ran. The
+//              random numbers of fading and loss are keyed by (seed, robot, radio, message, step).
 #pragma once
 
 #include <cstdint>

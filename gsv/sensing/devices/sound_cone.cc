@@ -107,9 +107,9 @@ double SoundCone::NearestHeard(const Sampling& sampling, std::vector<Echo> echoe
   // Echoes whose distances differ by less than this come from one target, which is represented by
   // the strongest of them.
   constexpr double kOneTarget = 0.02;  // as a fraction of the distance
-  constexpr int kMostTargets = 6;
+  constexpr int kMaxTargets = 6;
   int targets = 0;
-  for (std::size_t i = 0; i < echoes.size() && targets < kMostTargets; ++targets) {
+  for (std::size_t i = 0; i < echoes.size() && targets < kMaxTargets; ++targets) {
     Echo strongest = echoes[i];
     const double end = echoes[i].distance * (1 + kOneTarget);
     const double nearest = echoes[i].distance;
@@ -206,7 +206,7 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
 void SoundCone::AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
                              std::span<const std::optional<Hit>> hits,
                              std::vector<Echo>& echoes) const {
-  static const double kLeastCosine = std::cos(kMaxConeAngle);
+  static const double kMinCosine = std::cos(kMaxConeAngle);
   const Vector3 axis = sender.world_from_sonar.orientation * Vector3{1, 0, 0};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i]) continue;
@@ -216,7 +216,7 @@ void SoundCone::AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
     if (length < 1e-6) continue;
     const Vector3 out = (1 / length) * way;
     const double along = Dot(out, axis);
-    if (along < kLeastCosine) continue;  // the point is outside of the sender's lobe
+    if (along < kMinCosine) continue;  // the point is outside of the sender's lobe
     const double heard = std::sqrt(beams_[i].strength);
     const Vector3 half = geometry::Normalized(out + rays[i].direction);
     const double cosine = std::clamp(-Dot(half, hits[i]->normal), -1.0, 1.0);

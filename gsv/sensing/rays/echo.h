@@ -1,5 +1,5 @@
-// The echoes of light pulses: the nearest surface on each ray, with the quantities that determine how
-// much light returns.
+// The echoes of light pulses: the nearest surface on each ray, with the quantities that determine
+// how much light returns.
 //
 // Threads  as for RayScene.
 #pragma once

@@ -58,8 +58,8 @@ struct RayBatch {
 
 class SolidSet {
  public:
-  // Adds a shape of a body, before Commit(). `reflectance` is the fraction of light that its surface
-  // reflects.
+  // Adds a shape of a body, before Commit(). `reflectance` is the fraction of light that its
+  // surface reflects.
   void Add(const geometry::Shape& shape, const geometry::Pose& set_from_shape, int body,
            float reflectance = 0.5f);
 

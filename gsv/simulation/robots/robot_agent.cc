@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxClocks = 64;
 // Maximum number of bytes of the reason that a behaviour gives for ending.
-constexpr std::size_t kLongestReason = 1000;
+constexpr std::size_t kMaxReasonLength = 1000;
 
 base::Error NotRunning(const std::string& robot) {
   return {base::ErrorCode::kNotRunning,
@@ -381,7 +381,7 @@ void RobotAgent::ReportDeath(std::string detail) {
 void RobotAgent::ReportFailure(std::string_view reason) {
   if (death_reported_) return;
   has_given_up_ = true;
-  cause_ = base::LogLine(reason, kLongestReason, {});
+  cause_ = base::LogLine(reason, kMaxReasonLength, {});
   ReportDeath("its run ended with an error: " + cause_);
   shared_->given_up.emplace_back(robot_, DescribeInEvents() + ": " + detail_);
 }
