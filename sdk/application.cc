@@ -289,11 +289,12 @@ class BrokerApplication final : public Application {
     // A broker does not know the type if no simulator has ever registered with it.
     if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
     if (!offers) return base::Fail(offers.error());
-    base::Error error{base::ErrorCode::kNotFound,
-                      "no simulator is available at the broker" +
-                          (constraint.empty() ? "" : " for the constraint: " + constraint) +
-                          "; start one with gsv serve --broker " + broker_.reference(),
-                      broker_.reference()};
+    base::Error error{
+        base::ErrorCode::kNotFound,
+        "no simulator is available at the broker" +
+            (constraint.empty() ? "" : " that matches the constraint: " + constraint) +
+            "; start one with gsv serve --broker " + broker_.reference(),
+        broker_.reference()};
     for (const broker::FoundOffer& offer : *offers) {
       auto created = CreateAt(offer.object, request);
       if (created || created.error().code == base::ErrorCode::kInvalidArgument) return created;

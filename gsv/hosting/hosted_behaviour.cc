@@ -39,7 +39,7 @@ base::Status HostedBehaviour::Init(const std::shared_ptr<simulation::Agent>& age
 base::Status HostedBehaviour::Start() {
   const base::MutexLock lock(mutex_);
   if (behaviour_ == nullptr) {
-    return base::Fail(base::ErrorCode::kBehaviour, "start comes after init", name_);
+    return base::Fail(base::ErrorCode::kBehaviour, "start was called before init", name_);
   }
   const auto clock = agent_->OpenClock();
   if (!clock) return base::Fail(clock.error());

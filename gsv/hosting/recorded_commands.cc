@@ -31,7 +31,7 @@ base::Status RecordedCommands::Init(const std::shared_ptr<simulation::Agent>& ag
 base::Status RecordedCommands::Start() {
   const base::MutexLock lock(mutex_);
   if (agent_ == nullptr) {
-    return base::Fail(base::ErrorCode::kBehaviour, "start comes after init", name_);
+    return base::Fail(base::ErrorCode::kBehaviour, "start was called before init", name_);
   }
   const auto clock = agent_->OpenClock();
   if (!clock) return base::Fail(clock.error());

@@ -29,7 +29,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   if (!offers) return base::Fail(offers.error());
   base::Error error{base::ErrorCode::kBehaviour,
-                    "no behaviour is offered for the constraint: " + constraint +
+                    "no offered behaviour matches the constraint: " + constraint +
                         " (see `gsv offers`; start the behaviour program with --broker " +
                         broker_.reference() + ")",
                     broker_.reference()};

@@ -168,7 +168,7 @@ base::Status Check(const Camera& camera) {
   }
   if (camera.follow.empty() && camera.eye.has_value() != camera.target.has_value()) {
     return Fail(ErrorCode::kInvalidArgument,
-                "a place of the camera needs both eye and target, in metres");
+                "the pose of the camera needs both eye and target, in metres");
   }
   if (camera.eye && camera.target && Norm(*camera.eye - *camera.target) < 1e-6) {
     return Fail(ErrorCode::kInvalidArgument, "eye and target must be different points");

@@ -104,7 +104,7 @@ TEST(ViewCamera, RefusesInvalidPlacements) {
   EXPECT_EQ(SentenceOf(robot), "there is no robot 'nobody'");
   Camera half;
   half.eye = {1, 2, 3};
-  EXPECT_EQ(SentenceOf(half), "a place of the camera needs both eye and target, in metres");
+  EXPECT_EQ(SentenceOf(half), "the pose of the camera needs both eye and target, in metres");
   half.target = half.eye;
   EXPECT_EQ(SentenceOf(half), "eye and target must be different points");
   Camera sensor;

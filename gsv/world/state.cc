@@ -113,7 +113,7 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
   }
   if (body.is_rigid()) return {};
   if (!body.is_robot()) {
-    return base::Fail(ErrorCode::kInvalidArgument, "nothing moves this body's joints", place);
+    return base::Fail(ErrorCode::kInvalidArgument, "the joints of this body cannot move", place);
   }
   if (IsOfDrive(*body.model, joint)) {
     return base::Fail(ErrorCode::kInvalidArgument, "this joint is turned by the robot's drive",

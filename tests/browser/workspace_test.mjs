@@ -139,7 +139,7 @@ test("a link opens its layout; an invalid one shows an error and the standard la
     ["View", "Status", "Log"],
   );
   await linked.goto(`${server.url}#layout=r(view`);
-  await linked.getByText(/^The layout in the link cannot be shown: expected ~ and a share/).waitFor();
+  await linked.getByText(/^The layout in the page's address cannot be shown: expected ~ and a share/).waitFor();
   await part("Inspector", linked).waitFor();
   await linked.close();
 });

@@ -131,7 +131,7 @@ TEST(Servers, CampaignWithoutServersIsAnError) {
   EXPECT_EQ(none.ending, "exit code 5");
   EXPECT_THAT(
       none.err,
-      HasSubstr("no server that accepts scenarios is available at the broker; start one with"));
+      HasSubstr("no server is available at the broker that accepts scenarios; start one with"));
   const auto server = Serve(broker.reference(), "a", {"--scenarios", "1"});
   const Outcome wrong = RunProgram(
       "gsv", {"campaign", "run", file, "--broker", broker.reference(), "--servers", "slots >"});

@@ -179,7 +179,7 @@ bool CheckBroker(const std::string& broker) {
   if (reference.empty()) {
     const std::vector<Instance> instances = RunningInstances();
     if (instances.empty()) {
-      std::printf("broker: none given, none needed: `gsv run` starts its own\n");
+      std::printf("broker: no address given; `gsv run` starts its own broker\n");
       return true;
     }
     reference = instances.front().broker;

@@ -25,8 +25,8 @@ constexpr milliseconds kServerCallTimeout{5000};
 
 base::Error NoServers(const std::string& broker, const std::string& constraint) {
   return {base::ErrorCode::kUnavailable,
-          "no server that accepts scenarios is available at the broker" +
-              (constraint.empty() ? "" : " for the constraint: " + constraint) +
+          "no server is available at the broker that accepts scenarios" +
+              (constraint.empty() ? "" : " and matches the constraint: " + constraint) +
               "; start one with gsv serve --scenarios 2 --broker " + broker,
           broker};
 }
@@ -193,8 +193,8 @@ TestResult ScenarioServers::Run(const std::string& scenario, double timeout,
     if (ending == Ending::kDone) return result;
     lost += ending == Ending::kLost;
   }
-  result.message =
-      fmt::format("{} servers ended during this run, one after the other", kMaxLostServers);
+  result.message = fmt::format("{} servers ended one after the other while they executed this run",
+                               kMaxLostServers);
   return result;
 }
 

@@ -225,7 +225,7 @@ class GlbModelReader {
                       (uvs.empty() || uvs.size() == 2 * count) &&
                       (first == 0 || mesh.normals.empty() == normals.empty()) &&
                       (first == 0 || mesh.texture_coordinates.empty() == uvs.empty());
-    if (count == 0 || !fits) throw Flaw{"the vertices of a mesh do not fit together"};
+    if (count == 0 || !fits) throw Flaw{"the vertex arrays of a mesh differ in length"};
     for (std::size_t i = 0; i < count; ++i) {
       mesh.positions.push_back({positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
       if (!normals.empty()) {

@@ -326,7 +326,7 @@ class WorldReader {
     const sdf::World* world = document ? document->root->WorldByIndex(0) : nullptr;
     if (world == nullptr) {
       const base::Error error =
-          document ? base::Error{ErrorCode::kBadModel, "nothing can be read of it", ""}
+          document ? base::Error{ErrorCode::kBadModel, "no part of it can be read", ""}
                    : document.error();
       for (std::size_t i = first; i < end; ++i) {
         context_.Warn("the model \"" + NameOf(distinct_[i]) + "\" is ignored: " + error.Sentence(),

@@ -52,10 +52,11 @@ base::Result<fs::path> UploadFolder::Put(const std::string& set,
   const bool is_usable = !path.empty() && path.size() <= limits_.depth &&
                          std::all_of(path.begin(), path.end(), IsName);
   if (!is_usable) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "this name of a file cannot be used: folders and names are up to 200 "
-                      "characters long, begin with no dot, and lie at most " +
-                          std::to_string(limits_.depth) + " deep");
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "this file name cannot be used: names of files and folders and names are up to 200 "
+        "characters long, begin with no dot, and lie at most " +
+            std::to_string(limits_.depth) + " deep");
   }
   if (files_ >= limits_.files || content.size() > limits_.bytes - bytes_) {
     return base::Fail(base::ErrorCode::kUnavailable,

@@ -43,12 +43,12 @@ base::Result<Bytes> ReadRecords(const ByteSource& source, const MessageBlock& bl
   std::span<const std::byte> rest = *bytes;
   const std::optional<RawRecord> record = TakeRecord(rest);
   if (!record || record->opcode != Opcode::kChunk || !rest.empty()) {
-    return Damaged(block, "there is no record at the place in the index");
+    return Damaged(block, "there is no chunk at the position in the index");
   }
   const auto chunk = Parse<ChunkRecord>(record->content);
   if (!chunk || chunk->uncompressed_size != block.uncompressed_size ||
       chunk->start != block.start || chunk->end != block.end) {
-    return Damaged(block, "its head makes no sense");
+    return Damaged(block, "its header does not match the index");
   }
   base::Result<Bytes> records = Uncompress(block, *chunk);
   if (!records) return records;

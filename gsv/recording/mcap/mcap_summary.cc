@@ -47,7 +47,7 @@ class SummaryReader {
     start_ = footer->summary_start;
     if (start_ < kMagic.size() || start_ > section_end ||
         section_end - start_ > limits_.summary_size) {
-      return "its summary is not at the place in the footer";
+      return "its footer gives a wrong position of the summary";
     }
     base::Result<Bytes> section = source_.Read(start_, section_end - start_);
     if (!section) return section.error().Sentence();

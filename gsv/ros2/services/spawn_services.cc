@@ -71,7 +71,7 @@ SpawnResponse Spawn(ServedSimulation& served, Simulation& simulation,
   if (!spawn.name.empty() && request.allow_renaming) spawn.name = FreeName(simulation, spawn.name);
   if (!request.name.empty() && (spawn.name.empty() || IsTaken(simulation, spawn.name))) {
     return NotSpawned(SpawnResponse::kNameNotUnique,
-                      "an entity has this name: " + request.name + ". Set allow_renaming");
+                      "an entity named " + request.name + " exists already; set allow_renaming");
   }
   const base::Result<std::string> name = served.spawner->Spawn(simulation, spawn);
   if (!name) return NotSpawned(name.error());

@@ -289,7 +289,7 @@ struct BadParameters {
 
 TEST(SensorParameters, InvalidValuesAreRejectedWithASentence) {
   const std::vector<BadParameters> cases = {
-      {"sonar", {{"min", 2.0}, {"max", 1.0}}, "sonar front: min is 2 and above max, 1"},
+      {"sonar", {{"min", 2.0}, {"max", 1.0}}, "sonar front: min (2) is larger than max (1)"},
       {"sonar",
        {{"max", std::nan("")}},
        "sonar front: max is nan; it must lie between 0.001 and 10000"},

@@ -34,7 +34,7 @@ SonarSettings ReadSonarSettings(ParameterReader& reader) {
   settings.field_of_view =
       reader.Number("field_of_view", settings.field_of_view, 0, std::numbers::pi);
   if (settings.min > settings.max) {
-    reader.Refuse(fmt::format("min is {} and above max, {}", settings.min, settings.max));
+    reader.Refuse(fmt::format("min ({}) is larger than max ({})", settings.min, settings.max));
   }
   settings.noise = ReadNoise(reader, "noise", 1e3);
   const std::string beam = reader.Text("beam", "ray");

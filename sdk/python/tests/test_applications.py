@@ -19,7 +19,7 @@ def test_a_simulator_is_found_by_constraint(simulator):
     with simulator.create("playground", constraint="cores >= 1 and name == 'gsv'",
                           preference="min load") as simulation:
         assert simulation.state().phase == "created"
-    with pytest.raises(gsv.NotFound, match="no simulator is available at the broker for the constraint"):
+    with pytest.raises(gsv.NotFound, match="no simulator is available at the broker that matches the constraint"):
         simulator.create("playground", constraint="cores > 100000")
     with pytest.raises(gsv.Refused, match="character 8"):
         simulator.create("playground", constraint="cores >")

@@ -41,7 +41,7 @@ test("a broken layout shows an error and the standard layout", () => {
   const { host, notices } = fixture({}, "r(view");
   expect(host.layout).toBe(STANDARD_TEXT);
   expect(notices()).toEqual([
-    "The layout in the link cannot be shown: expected ~ and a share at character 7, found the end. The page shows the standard layout.",
+    "The layout in the page's address cannot be shown: expected ~ and a share at character 7, found the end. The page shows the standard layout.",
   ]);
 });
 

@@ -35,7 +35,7 @@ export class LayoutControl {
   start(host: LayoutHost, linked: string | null): void {
     this.host = host;
     const kept = loadCurrent(this.storage);
-    if (linked !== null) this.showText(linked, "The layout in the link");
+    if (linked !== null) this.showText(linked, "The layout in the page's address");
     else if (kept !== null) this.showText(kept, "The last layout of this browser");
     else this.showPreset(STANDARD);
   }

@@ -42,7 +42,7 @@ export class LinkControl {
     window.addEventListener("hashchange", () => {
       read();
       const { layout } = linkedView(window.location.hash);
-      if (layout !== null) this.layouts?.showText(layout, "The layout in the link");
+      if (layout !== null) this.layouts?.showText(layout, "The layout in the page's address");
     });
     this.store.watch(
       ({ scene, status, view }) => scene !== null && status !== null && view !== "starting",
