@@ -43,7 +43,7 @@ struct RobotHealth {
   State state = State::kMoving;
   // kWarning if the robot is stuck, in contact or late, or if its behaviour has run for 10 s without motion.
   Level level = Level::kFine;
-  base::SimTime since{0};  // of `state`
+  base::SimTime since{0};  // start of `state`
   world::DriveCommand command;
   double linear = 0, angular = 0;  // the actual motion, m/s and rad/s
   std::optional<Limit> limit;      // set for a robot that stands or is stuck

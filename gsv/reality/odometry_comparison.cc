@@ -9,7 +9,7 @@
 namespace gsv::reality {
 namespace {
 
-constexpr double kMaxGap = 1;  // s; no odometry is computed across a longer gap
+constexpr double kMaxStepTime = 1;  // s; no odometry is computed across a longer gap
 constexpr double kTruthStep =
     0.5;  // s; long enough to average out the jitter of the reference system
 
@@ -74,7 +74,7 @@ std::vector<TimedPose> ReckonedPath(const Log& log, double wheel_distance, Timed
       continue;
     }
     const TimedTwist& command = log.commands[i - 1];
-    const double step = std::min(start.time - command.time, kMaxGap);
+    const double step = std::min(start.time - command.time, kMaxStepTime);
     path.push_back(
         Advanced(path.back(), start.time, command.linear * step, command.angular * step));
   }

@@ -52,8 +52,7 @@ REFUSED = {
     "CosTrading::Register::resolve": "UnknownTraderName", "CosTrading::Admin::set_type_repos": "system exception",
     "sba::SensorFactory::open": "Refused", "sba::JointActuator::apply": "Refused",
     "sba::ScenarioRun::outcome": "NotRunning",
-    # It is closed at once, and its object with it: on the base, which has no joint, it cannot be
-    # read.
+    # It is closed at once, and its object with it: on the base, which has no joint, it cannot be read.
     **{f"sba::ForceTorque::{name}": "OBJECT_NOT_EXIST"
        for name in ("wrench", "measure", "traits", "close", "_is_a", "_non_existent")}}
 

@@ -24,7 +24,7 @@ struct Placing {
   enum class Kind { kSpiral, kGrid, kRandom };
   Kind kind = Kind::kSpiral;
   int count = 0;           // the number of all robots that are placed in this way
-  std::uint64_t seed = 0;  // of kRandom
+  std::uint64_t seed = 0;  // seed of kRandom
 };
 
 struct PlacedRobot {

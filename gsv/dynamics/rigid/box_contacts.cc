@@ -22,10 +22,10 @@ struct BoxAt {
 };
 
 struct Corner {
-  double x, y, depth;  // on the face of reference, and beyond it along its normal
+  double x, y, depth;  // position on the reference face, and depth beyond it along its normal
 };
 
-// At most eight: each of four edges of the face cuts off one corner and adds two.
+// At most eight corners: each of the four edges of the face cuts off one corner and adds two.
 struct Polygon {
   std::array<Corner, 8> corners;
   int count = 0;
@@ -34,7 +34,7 @@ struct Polygon {
   }
 };
 
-// Returns the part of the polygon that lies within |coordinate| <= half, on one side.
+// Returns the part of the polygon within |coordinate| <= half, on one side.
 template <double Corner::*Coordinate>
 Polygon Clip(const Polygon& polygon, double sign, double half) {
   Polygon clipped;
@@ -51,8 +51,8 @@ Polygon Clip(const Polygon& polygon, double sign, double half) {
   return clipped;
 }
 
-// The four corners that span the most: the deepest, that furthest from it, and those furthest to
-// both sides of the line between the two.
+// Returns the four corners that span the largest area: the deepest, the one farthest from it, and
+// those farthest to both sides of the line between these two.
 Polygon ChooseFour(const Polygon& all) {
   if (all.count <= 4) return all;
   const auto begin = all.corners.begin(), end = begin + all.count;
@@ -76,8 +76,9 @@ Polygon ChooseFour(const Polygon& all) {
   return chosen;
 }
 
-// Contacts of the face of `reference` whose outward normal is along axis `axis` with the face of
-// `other` that looks at it most. `is_first` says that the reference is the first of the pair.
+// Adds the contacts of the face of `reference` whose outward normal is along axis `axis`, with the
+// face of `other` that faces it most directly. `is_first` means that the reference is the first box
+// of the pair.
 void AddFacePoints(const BoxAt& reference, int axis, double sign, const BoxAt& other, bool is_first,
                    double margin, std::vector<TouchPoint>& points) {
   const auto at = [](const auto& values, int i) { return values[static_cast<std::size_t>(i)]; };
@@ -121,7 +122,8 @@ void AddFacePoints(const BoxAt& reference, int axis, double sign, const BoxAt& o
   }
 }
 
-// The point at which an edge of each crosses the other's. `normal` points from the first.
+// Adds the point at which an edge of one box crosses an edge of the other. `normal` points away
+// from the first.
 void AddEdgePoint(const BoxAt& first, int first_edge, const BoxAt& second, int second_edge,
                   const Vector3& normal, std::vector<TouchPoint>& points) {
   const auto middle_of = [](const BoxAt& box, int edge, const Vector3& towards) {
@@ -149,7 +151,8 @@ void AddEdgePoint(const BoxAt& first, int first_edge, const BoxAt& second, int s
 
 void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                   std::vector<TouchPoint>& points) {
-  // An edge must be the better by so much, so that boxes that lie on each other keep their faces.
+  // An edge axis is used only if it is better by this, so that boxes that lie on each other keep
+  // their face contacts.
   constexpr double kBetter = 0.05, kLeast = 1e-6, kParallel = 1e-3;
   const BoxAt a(first), b(second);
   const Vector3 between = b.position - a.position;
@@ -190,7 +193,7 @@ void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double ma
       const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const double square = 1 - cosines[i][j] * cosines[i][j];
       if (square < kParallel * kParallel) continue;
-      // |between . (a_i x b_j)|, by components along the axes of the first
+      // between . (a_i x b_j)|, by components along the axes of the first box
       const double distance = std::abs(at_a[i2] * cosines[i1][j] - at_a[i1] * cosines[i2][j]);
       const double reach = a.half[i1] * absolute[i2][j] + a.half[i2] * absolute[i1][j] +
                            b.half[j1] * absolute[i][j2] + b.half[j2] * absolute[i][j1];

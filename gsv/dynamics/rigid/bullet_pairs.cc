@@ -19,7 +19,7 @@ btTransform TransformOf(const PlacedPiece& placed) {
 }  // namespace
 
 PairAlgorithms::PairAlgorithms() : at_one_point_(m_pdSolver) {
-  // A contact area is found at once, not over several substeps.
+  // Bullet finds all points of a contact area in one call, and not over several substeps.
   setPlaneConvexMultipointIterations(kDirections, kContactPoints);
   setConvexConvexMultipointIterations(kDirections, kContactPoints);
 }

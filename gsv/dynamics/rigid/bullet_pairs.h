@@ -1,8 +1,8 @@
-// The points at which two pieces touch that have no closed form of ours, by Bullet's algorithms:
-// cones, hulls, meshes, and cylinders that are not on a plane. Private to this folder: it includes
-// Bullet.
+// Finds the points at which two pieces touch, by Bullet's algorithms, for shapes without a closed
+// form here: cones, hulls, meshes, and cylinders that are not on a plane. Private to this folder:
+// it includes Bullet.
 //
-// Determinism  nothing is kept from one call to the next.
+// Determinism  no data is kept from one call to the next.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btConvexConvexAlgorithm.h>
@@ -12,8 +12,8 @@
 
 namespace gsv::dynamics {
 
-// Bullet's algorithms. A sphere touches any convex shape at one point: Bullet finds further points
-// by turning a shape a little, which moves a sphere's only point.
+// Bullet's algorithms. A sphere touches any convex shape at one point, so it needs none of the
+// further points that Bullet finds by rotating a shape slightly.
 class PairAlgorithms final : public btDefaultCollisionConfiguration {
  public:
   PairAlgorithms();
@@ -26,7 +26,7 @@ class PairAlgorithms final : public btDefaultCollisionConfiguration {
 class BulletPairs {
  public:
   BulletPairs();
-  // Adds the points at which the two are closer than `margin`.
+  // Adds the points at which the two pieces are closer than `margin`.
   void AddTouchPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                       std::vector<TouchPoint>& points);
 

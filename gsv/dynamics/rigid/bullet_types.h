@@ -1,4 +1,4 @@
-// Between our vectors and poses and Bullet's.
+// Converts between GSV's vectors and poses and those of Bullet.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

@@ -1,4 +1,4 @@
-// A point at which two solids touch, with what the solver needs and finds.
+// A point at which two solids touch, with the inputs and results of the solver.
 #pragma once
 
 #include <array>

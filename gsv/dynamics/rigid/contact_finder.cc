@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Vector3;
 
-// m: contacts begin at this distance, and so much further as both may move.
+// Contacts begin at this distance (m), plus the distance by which both bodies may approach.
 constexpr double kContactMargin = 1e-3;
 // A body carries another from below if the normal is within 45° of the vertical (its cosine).
 constexpr double kCarries = 0.70710678118654757;
@@ -181,7 +181,7 @@ Vector3 ContactFinder::PointOnFirst(const Contact& contact) const {
   return TransposeTimes(tree.rotation(first.part), contact.on_first() - tree.position(first.part));
 }
 
-// Whether the drive of one of the two moves it over what carries it.
+// Whether the drive of one of the two moves it over the body that carries it.
 bool ContactFinder::GlidesOn(const Collider& first, const Collider& second,
                              const Vector3& normal) const {
   const auto is_held = [&](const Collider& collider) {
@@ -204,7 +204,7 @@ std::optional<SlippingContact> ContactFinder::SlippingOf(const Collider& collide
                          rate * wheel->PerRateAcross(ground.wheel_slip)};
 }
 
-// All points of two solids share the force.
+// The slip is that of the whole force between two solids, which all their points share.
 void ContactFinder::SetSoftness(double substep) {
   slipping_.clear();
   const auto slips = [](const Contact& contact) {

@@ -28,7 +28,7 @@ struct Collider {
   const Solid* solid = nullptr;
   int moving = -1, part = 0;  // index of the rigid body, and its part; -1: none
   bool bounces = false;  // touches others at its full speed, so that its contacts have no margin
-  // of planar bodies
+  // set for planar bodies
   geometry::Vector3 position, velocity, angular_velocity;
 };
 
@@ -50,21 +50,22 @@ class ContactFinder {
   std::vector<Contact>& Find(double substep);
 
   const Collider& collider(int index) const { return colliders_[static_cast<std::size_t>(index)]; }
-  // Of a point of a collider that moves as it does, whatever touches it.
+  // Returns the velocity of a point of a collider. It follows from the collider's own motion,
+  // whatever touches it.
   geometry::Vector3 VelocityOf(const Collider& collider, const geometry::Vector3& point) const;
-  // The contact's point in the frame of the first's part.
+  // Returns the contact's point in the frame of the first collider's part.
   geometry::Vector3 PointOnFirst(const Contact& contact) const;
-  // The box around a rigid body.
+  // Returns the bounding box of a rigid body.
   void Bounds(int moving, geometry::Vector3& low, geometry::Vector3& high) const;
 
  private:
   // All solids of one body, whose pieces are in a row.
   struct Group {
-    int moving = -1;  // rigid body, or -1: planar
+    int moving = -1;  // index of the rigid body, or -1 for a planar body
     int first_collider = 0, collider_count = 0;
     int first_piece = 0, piece_count = 0;
     geometry::Vector3 low, high;
-    double reach = 0;  // m: how far it may get in the substep
+    double reach = 0;  // the farthest distance that it may move in the substep, m
   };
   struct StaticPiece {
     PlacedPiece placed;
@@ -87,14 +88,14 @@ class ContactFinder {
   const RigidScene* scene_ = nullptr;
   std::span<const std::unique_ptr<MovingBody>> bodies_;
   std::vector<Collider> colliders_;
-  std::vector<PlacedPiece> pieces_;  // of the groups
+  std::vector<PlacedPiece> pieces_;  // pieces of the groups
   std::vector<int> collider_of_piece_;
   std::vector<Group> groups_;         // rigid bodies, then planar ones
   std::size_t static_colliders_ = 0;  // colliders that stay from step to step
   std::size_t rigid_pieces_ = 0;
   std::vector<geometry::Pose> static_poses_;
   std::vector<StaticPiece> statics_, planes_;
-  BoxBvh static_bvh_;  // of statics_
+  BoxBvh static_bvh_;  // BVH of statics_
   std::vector<int> near_;
   std::vector<int> order_;  // groups by their least x
   std::vector<std::pair<int, int>> group_pairs_;

@@ -85,7 +85,7 @@ TEST(ContactForce, ImpactTransmitsTheMomentumOfTheStep) {
   EXPECT_WITHIN_PERCENT(-force.z, 2 * 3 / 0.05 + 2 * kG, 0.1);
 }
 
-// The links of a robot are another kind of body to the solver.
+// To the solver, the links of a robot are another kind of body than a single solid.
 TEST(ContactForce, WheelsCarryTheWeightOfTheirRobot) {
   auto model = SolidOf(geometry::Box{{0.4, 0.2, 0.1}}, 3);
   for (const double x : {-0.2, 0.2}) {

@@ -14,7 +14,7 @@ bool HasDirection(const model::Surface& surface) {
   return surface.friction != surface.friction2 || HasSlip(surface);
 }
 
-// The direction of the first of the two frictions, in the world.
+// Returns the direction of the first of the two friction coefficients, in the world.
 Vector3 DirectionOf(const PlacedPiece& piece) {
   const Vector3& direction = piece.piece->surface.friction_direction;
   if (Dot(direction, direction) == 0) return {1, 0, 0};

@@ -275,11 +275,11 @@ double ContactSweeps::Sweep(std::vector<Batch>& batches, bool is_forwards, doubl
   return max;
 }
 
-// By the number of contacts between a contact and one with what does not move.
+// Orders the contacts by the number of contacts between each and a fixed body.
 void ContactSweeps::Order() {
   const int count = static_cast<int>(contacts_.size());
   constexpr int kFar = 1 << 30;
-  // The contacts of each body, in a row.
+  // the contacts of each body, one body after the other
   first_of_body_.assign(bodies_.size() + 1, 0);
   for (const Contact& contact : contacts_) {
     for (const int body : {contact.first, contact.second}) {

@@ -28,8 +28,8 @@ class ContactSweeps {
     Matrix3 inverse_inertia;
   };
   struct Side {
-    int body = -1;          // from AddBody(); -1: nothing moves it
-    geometry::Vector3 arm;  // from the body's centre of mass
+    int body = -1;          // from AddBody(); -1 for a fixed body
+    geometry::Vector3 arm;  // vector from the body's centre of mass to the contact
   };
 
   void Clear();
@@ -43,8 +43,8 @@ class ContactSweeps {
                   const std::array<double, 3>& targets, double friction,
                   const std::array<double, 2>& softness, const std::array<double, 3>& impulse);
 
-  // Until no velocity at a contact changes by more than `tolerance` (m/s) in a sweep. Returns the
-  // number of sweeps.
+  // Iterates until no velocity at a contact changes by more than `tolerance` (m/s) in a sweep.
+  // Returns the number of sweeps.
   int Solve(int max_sweeps, double tolerance);
 
   const Body& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }

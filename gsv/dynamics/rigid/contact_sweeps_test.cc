@@ -11,7 +11,7 @@ using geometry::Vector3;
 constexpr std::array<Vector3, 3> kUpright{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
 
 ContactSweeps::Body Cube(double mass, const Vector3& velocity) {
-  const double inverse = 6 / mass;  // of a cube of 1 m
+  const double inverse = 6 / mass;  // inverse inertia of a cube of 1 m
   return {velocity, {}, 1 / mass, {{inverse, 0, 0}, {0, inverse, 0}, {0, 0, inverse}}};
 }
 

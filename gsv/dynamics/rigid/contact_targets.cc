@@ -8,9 +8,9 @@ namespace {
 
 // m: penetration of resting bodies, so that they stay in contact.
 constexpr double kSlop = 1e-5;
-// m/s: what meets slower does not bounce.
+// m/s: bodies that meet at a lower speed do not bounce
 constexpr double kBounces = 0.05;
-// The share of an overlap with a tree of links that a substep takes back.
+// The fraction of an overlap with a tree of links that a substep corrects.
 constexpr double kTreeCorrection = 0.2;
 // m/s: contacts that close more slowly are not impacts.
 constexpr double kImpact = 0.05;

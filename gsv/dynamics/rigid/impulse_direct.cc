@@ -86,7 +86,7 @@ void ImpulseRows::ChooseFree() {
   }
 }
 
-// The change of velocity that a cone's rows still ask for: against the slip.
+// Returns the change of velocity that a cone's rows still require. It is opposite to the slip.
 std::array<double, 2> ImpulseRows::MissingOf(const Cone& cone) const {
   const Row &a = rows_[static_cast<std::size_t>(cone.first_row)],
             &b = rows_[static_cast<std::size_t>(cone.first_row) + 1];
@@ -94,7 +94,7 @@ std::array<double, 2> ImpulseRows::MissingOf(const Cone& cone) const {
   return {a.target - VelocityOf(a) - give_a, b.target - VelocityOf(b) - give_b};
 }
 
-// The velocity by which a cone's rows give way to their impulses.
+// Returns the velocity by which a cone's rows yield to their impulses.
 std::array<double, 2> ImpulseRows::GiveOf(const Cone& cone) const {
   const Row &a = rows_[static_cast<std::size_t>(cone.first_row)],
             &b = rows_[static_cast<std::size_t>(cone.first_row) + 1];
@@ -134,7 +134,7 @@ void ImpulseRows::WriteSlip(const Cone& cone) {
 // Writes the velocity error of each free row, and how much each impulse changes it. The friction of
 // a contact that slips grows with its normal impulse.
 void ImpulseRows::WriteEquations(bool shares_loads) {
-  // Four contacts of a box are one too many: springs of this softness decide among them.
+  // A box has four contacts, one more than needed. Springs of this softness distribute the load.
   constexpr double kRidge = 1e-9;
   const std::size_t n = free_.size(), count = rows_.size();
   matrix_.resize(n * n);

@@ -39,7 +39,7 @@ namespace {
   return {x0 * scale, x1 * scale};
 }
 
-// The turn that makes a symmetric matrix of two rows diagonal.
+// Returns the axes that make a symmetric matrix of two rows diagonal.
 ImpulseRows::Axes PrincipalAxesOf(double a, double b, double coupling) {
   const double angle = 0.5 * std::atan2(2 * coupling, a - b);
   const double c = std::cos(angle), s = std::sin(angle);
@@ -95,7 +95,7 @@ int ImpulseRows::AddRow(const Side& a, const Side& b, const Limits& limits, doub
   return static_cast<int>(rows_.size()) - 1;
 }
 
-// Both rows act on the same bodies.
+// Both rows must act on the same bodies.
 double ImpulseRows::Coupling(const Row& a, const Row& b) const {
   double sum = 0;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -125,7 +125,7 @@ void ImpulseRows::Trim() {
   }
 }
 
-// The two rows become weighted sums of both.
+// Replaces the two rows by weighted sums of both.
 void ImpulseRows::Combine(int first_row, const Axes& axes) {
   Row &a = At(first_row), &b = At(first_row + 1);
   for (std::size_t side = 0; side < 2; ++side) {
@@ -151,7 +151,7 @@ int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const A
                          const std::array<double, 2>& softness) {
   Combine(first_row, axes);
   const Row &a = At(first_row), &b = At(first_row + 1);
-  // They are uncoupled by the bodies and the softness together.
+  // The bodies and the softness together do not couple them.
   const Axes principal =
       PrincipalAxesOf(Coupling(a, a) + softness[0], Coupling(b, b) + softness[1], Coupling(a, b));
   Combine(first_row, principal);
@@ -217,7 +217,7 @@ void ImpulseRows::Sweep(bool backwards) {
   for (Cone& cone : cones_) SolveCone(cone);
 }
 
-// Goes further where the iterations before have led, within the bounds.
+// Extrapolates along the direction of the previous iterations, within the bounds.
 GSV_FOR_EACH_PROCESSOR
 void ImpulseRows::Accelerate(double beta) {
   for (Row& row : rows_) {

@@ -36,12 +36,12 @@ class ImpulseRows {
   // The effect of a row on one body: spans of equal size, one value a degree of freedom.
   struct Side {
     int first = 0;                     // index of the body's velocities, from AddBody()
-    std::span<const double> jacobian;  // empty: none, or a body that nothing moves
+    std::span<const double> jacobian;  // empty for no body, or for a fixed body
     std::span<const double> response;  // change of velocities by a unit impulse
   };
   struct Limits {
     double target = 0;    // m/s or rad/s
-    double softness = 0;  // (m/s) / (N s), or as is fitting
+    double softness = 0;  // (m/s) / (N s), or in the units of the row
     double lower = 0, upper = 0;
   };
 
@@ -55,7 +55,7 @@ class ImpulseRows {
   // Adds a row and returns its index. `impulse` has been applied already: its effect is part of the
   // velocities.
   int AddRow(const Side& a, const Side& b, const Limits& limits, double impulse);
-  // The row asks for this share of its target. Only before AddCone().
+  // Multiplies the row's target by `share`. Call it only before AddCone().
   void ScaleTarget(int row, double share) { At(row).target *= share; }
   // A row that no impulse can move (J M⁻¹ Jᵀ = 0) keeps its impulse.
   double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
@@ -69,8 +69,8 @@ class ImpulseRows {
 
   static constexpr int kMaxDirect = 150;
 
-  // Until no row's velocity changes by more than the tolerance in an iteration. Returns the number
-  // of iterations.
+  // Iterates until no row's velocity changes by more than the tolerance. Returns the number of
+  // iterations.
   int Solve(int max_iterations, double tolerance);
 
   // The impulses of a friction cone, along the axes with which its rows were added. These axes must
@@ -80,14 +80,15 @@ class ImpulseRows {
  private:
   // All lengths are multiples of four. Elements beyond a body's degrees of freedom are zero.
   struct Block {
-    int first = 0, count = 0, start = 0;  // in velocities_; in jacobians_ and responses_
-    int begin = 0, end = 0;               // range in which its jacobian is not zero, from `start`
-    int next = -1;                        // the next block on the same body (CoupleAll())
+    // start in velocities_; start in jacobians_ and responses_
+    int first = 0, count = 0, start = 0;
+    int begin = 0, end = 0;  // range in which its jacobian is not zero, from `start`
+    int next = -1;           // the next block on the same body (CoupleAll())
   };
   struct Row {
     std::array<Block, 2> sides;
     double target, softness, lower, upper, impulse;
-    double mass_inverse;  // J M⁻¹ Jᵀ + softness; 0: nothing can move it
+    double mass_inverse;  // J M⁻¹ Jᵀ + softness; 0 if no impulse can move the row
     double change, search;
     bool is_in_cone;
   };
@@ -133,10 +134,10 @@ class ImpulseRows {
   std::vector<Cone> cones_;
 
   // The linear equations of the rows that are within their bounds.
-  std::vector<double> couplings_;         // J M⁻¹ Jᵀ of all rows, once it is asked for
+  std::vector<double> couplings_;         // J M⁻¹ Jᵀ of all rows, computed on first use
   std::vector<int> free_;                 // rows
-  std::vector<int> place_;                // place of each row in free_, or -1
-  std::vector<int> last_block_;           // place of each body in velocities_, or -1
+  std::vector<int> place_;                // index of each row in free_, or -1
+  std::vector<int> last_block_;           // index of each body's last block, or -1
   std::vector<bool> slips_;               // for each cone, whether its friction is at its limit
   std::vector<int> slipping_;             // cones that slip without turning
   std::vector<bool> turns_;               // for each cone that slips, whether its rows are free

@@ -66,7 +66,7 @@ double IslandSolver::CouplingOf(const ContactRows& rows) {
   return rows.friction * x * y * (rows.softness[1] - rows.softness[0]);
 }
 
-// Its impulses are `known` - G u, with u its velocities.
+// The impulses of the contact are `known` - G u, where u are its velocities.
 void IslandSolver::AddContactEquations(const ContactRows& rows) {
   const Row& normal = rows.normal;
   if (rows.mode == ContactRows::Mode::kOpen) return;
@@ -186,7 +186,7 @@ double IslandSolver::ChooseMode(ContactRows& rows) const {
     rows.direction = {x / length, y / length};
     const double turning = std::min(scale / (1 - scale) * rows.stiffness,
                                     1 / std::max(rows.compliance[0], rows.compliance[1]));
-    // The impulse across the direction gives way, too.
+    // The impulse across the direction also yields by the softness.
     const auto [a, b] = rows.direction;
     rows.turning = turning / (1 + turning * (rows.softness[0] * b * b + rows.softness[1] * a * a));
   }

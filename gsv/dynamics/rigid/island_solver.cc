@@ -10,12 +10,12 @@ namespace {
 
 using geometry::Vector3;
 
-// Of a wheel or a foot under its robot's weight: a micrometre or so. Wheels and casters on one
-// floor share the load, however little their heights differ.
+// How far a contact yields under its robot's weight: about a micrometre. So wheels and casters on
+// one floor share the load, even if their heights differ slightly.
 constexpr double kGive = 0.02;
-// Of the inverse mass: how far an impulse gives way in one iteration of Newton's method.
+// The compliance of an impulse in one iteration of Newton's method, relative to the inverse mass.
 constexpr double kCompliance = 1e-6;
-// J M⁻¹ Jᵀ of a row that no impulse can move, or only rounding.
+// If J M⁻¹ Jᵀ is below this, no impulse can move the row, apart from rounding.
 constexpr double kNothing = 1e-15;
 
 std::size_t IndexOf(int i) { return static_cast<std::size_t>(i); }
@@ -105,7 +105,7 @@ void IslandSolver::AddPushRow(std::span<const std::unique_ptr<MovingBody>> bodie
   row.stiffness = moved > 0 ? 1 / moved : 0;
 }
 
-// Adds the velocities of one side. Returns its share of J M⁻¹ Jᵀ along the normal.
+// Adds the velocities of one side. Returns the side's part of J M⁻¹ Jᵀ along the normal.
 double IslandSolver::AddSide(const MovingBody& body, const Collider& collider, const Vector3& point,
                              double sign, const Contact& contact) {
   const LinkTree& tree = body.tree();
@@ -131,7 +131,8 @@ void IslandSolver::AddContactRows(const ContactFinder& finder,
   for (auto& values : side_values_) values.clear();
   double moved = 0;
   bool has_tree = false;
-  std::array<double, 3> known{};  // the relative velocity by what nothing moves
+  // the relative velocity that bodies with a prescribed motion cause
+  std::array<double, 3> known{};
   for (const double sign : {1.0, -1.0}) {
     const Collider& collider = finder.collider(sign > 0 ? contact.first : contact.second);
     const Vector3 point = sign > 0 ? contact.on_first() : contact.point.on_second;
@@ -246,8 +247,8 @@ void IslandSolver::StoreVelocities(std::span<const std::unique_ptr<MovingBody>> 
   }
 }
 
-// The velocities of Newton's method carry the rounding of stiff equations. Those of the impulses
-// keep the momentum.
+// The velocities of Newton's method contain the rounding errors of stiff equations. The velocities
+// that follow from the impulses conserve momentum.
 void IslandSolver::ApplyImpulses(std::span<const std::unique_ptr<MovingBody>> bodies) {
   velocities_.assign(IndexOf(size_), 0);
   const auto apply = [&](const Row& row, int offset, double impulse) {
@@ -329,7 +330,7 @@ void IslandSolver::SolveBySweeps(const ContactFinder& finder,
     pending_.push_back(
         {sides[0], sides[1], axes, targets, contact.friction, softness, contact.impulse});
   }
-  // The free velocities are those before any of the given impulses.
+  // The free velocities are the velocities before any of the given impulses.
   for (const auto& each : pending_) {
     sweeps_.AddContact(each.first, each.second, each.axes, each.targets, each.friction,
                        each.softness, each.impulse);
@@ -347,7 +348,7 @@ void IslandSolver::SolveBySweeps(const ContactFinder& finder,
   }
 }
 
-// A row with so many values, as ImpulseRows takes it.
+// A row with its values in the form that ImpulseRows takes.
 void IslandSolver::AddRowTo(const Row& row, const double* values, const ImpulseRows::Limits& limits,
                             std::span<const std::unique_ptr<MovingBody>> bodies) {
   ImpulseRows::Side sides[2];

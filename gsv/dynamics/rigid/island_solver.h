@@ -29,7 +29,8 @@
 
 namespace gsv::dynamics {
 
-// A row on a body that holds a point at a speed along a direction, by a force that never pulls.
+// A row on a body that gives a point the required speed along a direction, by a force that never
+// pulls.
 struct PushRow {
   int moving = 0;
   geometry::Vector3 point, normal;  // world
@@ -46,11 +47,12 @@ class IslandSolver {
   void AddContact(int contact) { contacts_.push_back(contact); }
   void AddPush(int push) { pushes_.push_back(push); }
   const std::vector<int>& contacts() const { return contacts_; }
-  // Whether Solve() started from the impulses that its contacts had.
+  // Whether Solve() started from the impulses in its contacts.
   bool starts_from_impulses() const { return is_swept_; }
 
-  // Solves for a substep. Sets the impulses of the island's contacts and pushes. `starts` says where
-  // each moving body's velocities begin in `velocities`, to which they are written.
+  // Solves for a substep. Sets the impulses of the island's contacts and pushes. `starts` has the
+  // index in `velocities` at which each moving body's velocities begin. The results are written
+  // there.
   void Solve(const ContactFinder& finder, std::span<const std::unique_ptr<MovingBody>> bodies,
              std::vector<Contact>& contacts, std::vector<PushRow>& pushes,
              std::span<const int> starts, std::span<double> velocities, double substep);
@@ -58,11 +60,12 @@ class IslandSolver {
  private:
   // A joint row, a push or a contact, which has three rows.
   struct Row {
-    int begin = 0, count = 0;  // its velocities in columns_
-    int values = 0;            // in values_: one row after the other, each of `count`
+    int begin = 0, count = 0;  // range of its velocities in columns_
+    // start of its values in values_: one row after the other, with `count` values each
+    int values = 0;
     double target = 0, softness = 0, lower = 0, upper = 0;
     double compliance = 0,
-           stiffness = 0;  // for the iterations: of the proximal step, and of guesses
+           stiffness = 0;  // stiffness for the iterations: of the proximal step, and of guesses
     double impulse = 0;
     bool is_active = false;
   };
@@ -71,9 +74,9 @@ class IslandSolver {
     int index = 0;
     double friction = 0;
     std::array<double, 2> target{}, softness{}, compliance{}, impulse{};
-    double stiffness = 0;  // of both tangents
+    double stiffness = 0;  // stiffness of both tangents
     enum class Mode : std::uint8_t { kOpen, kSticks, kSlips } mode = Mode::kOpen;
-    std::array<double, 2> direction{};  // of friction, where it slips
+    std::array<double, 2> direction{};  // direction of friction, if the contact slips
     double turning = 0;                 // stiffness across the direction
     std::array<double, 3> velocity{};
   };
@@ -115,9 +118,9 @@ class IslandSolver {
 
   std::vector<int> bodies_, contacts_, pushes_;
   int size_ = 0;
-  std::vector<int> first_;     // of each body's velocities
+  std::vector<int> first_;     // index of each body's first velocity
   std::vector<int> first_of_;  // the same, by the index of the moving body
-  std::vector<Row> rows_;      // of joints, then of pushes
+  std::vector<Row> rows_;      // rows of joints, then rows of pushes
   std::size_t joint_rows_ = 0;
   std::vector<ContactRows> contact_rows_;
   std::vector<int> columns_;
@@ -137,9 +140,10 @@ class IslandSolver {
     std::array<double, 2> softness;
     std::array<double, 3> impulse;
   };
-  std::vector<Pending> pending_;      // contacts, before they are added to sweeps_
-  std::vector<int> place_of_;         // in bodies_, by the index of the moving body
-  std::vector<int> columns_of_rows_;  // of each body, where its velocities begin there
+  std::vector<Pending> pending_;  // contacts, before they are added to sweeps_
+  std::vector<int> place_of_;     // in bodies_, by the index of the moving body
+  // for each body, the index at which its velocities begin in the rows
+  std::vector<int> columns_of_rows_;
   std::vector<double> jacobian_[2], response_[2];
 };
 

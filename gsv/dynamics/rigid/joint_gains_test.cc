@@ -1,5 +1,5 @@
-// Joints that follow their commands by the gains of a controller, against the linear equations of
-// motion.
+// Tests joints that follow their commands by the gains of a controller, against the linear
+// equations of motion.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
@@ -21,7 +21,7 @@ using world::JointCommand;
 constexpr double kMass = 2;    // kg
 constexpr double kRest = 0.1;  // m/s²: a body that accelerates by less is at rest
 
-// A sphere on a slider along x, or z.
+// Returns a sphere on a slider along x, or along z.
 std::shared_ptr<model::Model> Slider(const Vector3& axis) {
   auto model = SolidOf(geometry::Sphere{0.05}, kMass);
   model::Joint joint;
@@ -117,7 +117,7 @@ TEST(JointGains, VelocityFollowsTheResponseOfAFirstOrderSystem) {
   }
 }
 
-// Gains that an explicit integration of 1 ms could not hold.
+// An explicit integration with a step of 1 ms would be unstable with these gains.
 TEST(JointGains, StiffControllerOfALightLinkIsStable) {
   auto model = Slider({1, 0, 0});
   model->links[0].inertial.mass = 1e-3;

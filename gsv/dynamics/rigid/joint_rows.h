@@ -1,4 +1,4 @@
-// Rows of constraint on the joints of one tree of links.
+// Constraint rows on the joints of one tree of links.
 #pragma once
 
 #include <limits>
@@ -7,10 +7,10 @@
 
 namespace gsv::dynamics {
 
-// A row asks that J v + softness * impulse = target, where v are the tree's velocities at the end
-// of a substep. Its impulse (N m s or N s) has bounds.
+// A row requires J v + softness * impulse = target, where v are the tree's velocities at the end of
+// a substep. Its impulse (N m s or N s) has bounds.
 struct JointRow {
-  int begin = 0, count = 0;  // of its velocities and values in JointRows
+  int begin = 0, count = 0;  // range of its velocities and values in JointRows
   double target = 0;         // rad/s or m/s
   double softness = 0;
   double lower = 0, upper = 0;
@@ -25,7 +25,7 @@ class JointRows {
     velocities_.clear();
     values_.clear();
   }
-  // On one velocity of the tree.
+  // Adds a row on one velocity of the tree.
   JointRow& Add(int velocity) {
     rows_.push_back({static_cast<int>(values_.size()), 0, 0, 0, -kNoBound, kNoBound});
     AddValue(velocity, 1);
@@ -36,7 +36,7 @@ class JointRows {
     return rows_.emplace_back(
         JointRow{static_cast<int>(values_.size()), 0, 0, 0, -kNoBound, kNoBound});
   }
-  // Adds to the last row. No velocity is added twice.
+  // Adds a velocity to the last row. No velocity is added twice.
   void AddValue(int velocity, double value) {
     velocities_.push_back(velocity);
     values_.push_back(value);

@@ -35,8 +35,8 @@ std::shared_ptr<model::Model> Hanging(model::JointKind kind, double length,
 
 constexpr double kPendulum = 0.5;  // m
 
-// The mean period of ten swings from rest at an angle, and the largest angle that the pendulum
-// returns to.
+// Returns the mean period of ten swings from rest at an angle, and the largest angle to which the
+// pendulum returns.
 double PeriodOf(double amplitude, double& highest) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("pendulum", Hanging(model::JointKind::kRevolute, kPendulum), At(0, 0, 2));

@@ -1,4 +1,4 @@
-// The impulses at the contacts of heaps, from which ContactSweeps starts in the next substep. They
+// The impulses at the contacts of heaps, with which ContactSweeps starts in the next substep. They
 // are a part of the state.
 #pragma once
 
@@ -14,9 +14,9 @@ namespace gsv::dynamics {
 class KeptImpulses final : public world::EngineState {
  public:
   struct Entry {
-    BodyPair bodies;          // in the layout, as the contact has them
-    geometry::Vector3 point;  // in the frame of the first's part
-    geometry::Vector3 force;  // N: on the first, in the world
+    BodyPair bodies;          // indices in the layout, in the order of the contact
+    geometry::Vector3 point;  // in the frame of the first body's part
+    geometry::Vector3 force;  // N, on the first body, in the world
     friend bool operator==(const Entry&, const Entry&) = default;
   };
 
@@ -24,9 +24,9 @@ class KeptImpulses final : public world::EngineState {
 
   // Adds the impulse of a contact over a substep.
   void Add(const ContactFinder& finder, const Contact& contact, double substep);
-  // Sorts what was added: before StartFrom().
+  // Sorts the added impulses. Call it before StartFrom().
   void Finish();
-  // Sets the impulses of contacts that are within a centimetre of one of these.
+  // Sets the impulses of those contacts that are within a centimetre of a stored one.
   void StartFrom(const ContactFinder& finder, std::vector<Contact>& contacts, double substep) const;
 
   void Clear() { entries_.clear(); }

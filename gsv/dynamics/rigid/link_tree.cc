@@ -11,7 +11,8 @@ using geometry::Quaternion;
 using geometry::Vector3;
 using model::JointKind;
 
-// The least pivot of the factorised mass matrix (kg or kg m²), and its least share of the diagonal.
+// The smallest pivot of the factorised mass matrix (kg or kg m²), and its smallest fraction of the
+// diagonal.
 constexpr double kMinPivot = 1e-100, kMinPivotShare = 1e-12;
 
 Matrix3 Outer(const Vector3& a, const Vector3& b) { return {b.x * a, b.y * a, b.z * a}; }
@@ -33,7 +34,7 @@ Vector3 Solve(const Matrix3& a, const Vector3& b) {
 
 LinkTree::LinkTree(const RigidBody& plan) : plan_(plan) {
   const auto& parts = plan.articulation.parts;
-  // A single body without mass stands still.
+  // A single body without mass does not move.
   const bool is_moved = !plan.articulation.is_fixed &&
                         !(parts.size() == 1 && (parts[0].is_kinematic || !(parts[0].mass > 0)));
   base_size_ = is_moved ? 6 : 0;
@@ -89,7 +90,7 @@ LinkTree::Link LinkTree::LinkOf(int index) const {
   link.inertia = part.inertia;
   link.heaviness = part.heaviness;
   if (parts.size() == 1) {
-    // A body without inertia hardly turns.
+    // A body without inertia hardly rotates.
     constexpr double kHardly = 1e3;  // m²
     for (double* moment : {&link.inertia.x, &link.inertia.y, &link.inertia.z}) {
       if (!(*moment > 0)) *moment = kHardly * part.mass;
@@ -270,7 +271,7 @@ void LinkTree::Factorise() {
 double LinkTree::Response(int part, std::span<const double> row) const {
   const auto& chain = links_[Index(part)].chain;
   if (is_single()) {
-    // The chain runs backwards: linear z, y, x, angular z, y, x.
+    // The chain runs backwards: linear z, y, x, then angular z, y, x.
     const Vector3 turning{row[5], row[4], row[3]}, moving{row[2], row[1], row[0]};
     return Dot(turning, inverse_inertia_ * turning) + Dot(moving, moving) / links_[0].mass;
   }
@@ -327,7 +328,7 @@ void LinkTree::AccelerateSingle(double seconds) {
   if (base_size_ == 0) return;
   const Link& link = links_[0];
   const Matrix3& rotation = rotations_[0];
-  // Residual and its derivative by the angular velocity, in the body's frame.
+  // The residual and its derivative with respect to the angular velocity, in the body's frame.
   const Vector3 w = TransposeTimes(rotation, base_angular_velocity());
   const Vector3 momentum = Scaled(w, link.inertia);
   const Vector3 residual = seconds * Cross(w, momentum);
@@ -348,7 +349,7 @@ void LinkTree::AccelerateSingle(double seconds) {
   std::copy(std::begin(momenta), std::end(momenta), free_momenta_.begin());
 }
 
-// Subtracts from the efforts what the motion itself takes, and adds the forces on the parts.
+// Subtracts the efforts that the motion itself requires, and adds the forces on the parts.
 void LinkTree::AddBias() {
   const std::size_t count = links_.size();
   spins_[0] = base_size_ > 0 ? base_angular_velocity() : Vector3{};
@@ -370,7 +371,7 @@ void LinkTree::AddBias() {
     bias_turning_[i] = bias_turning_[parent] + Cross(spins_[i], turning);
     bias_moving_[i] = bias_moving_[parent] + Cross(spins_[i], moving) + Cross(speeds_[i], turning);
   }
-  // From here on they are the wrenches that the motion needs, about the base's centre of mass.
+  // From here on, they are the wrenches that the motion requires, about the base's centre of mass.
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3 at = positions_[i] - positions_[0];
     const Vector3& spin = spins_[i];

@@ -1,5 +1,5 @@
-// The equations of motion of a rigid body, or of parts that joints hold together, in joint
-// coordinates, in which no joint can drift apart.
+// The equations of motion of a rigid body, or of parts that joints connect, in joint coordinates.
+// So joints cannot drift apart.
 //
 // Velocities  one number for each degree of freedom: those of the base (angular, then linear of its
 //             centre of mass, in the world) unless it is fixed, then those of the joints, part by
@@ -25,14 +25,14 @@ class LinkTree {
  public:
   explicit LinkTree(const RigidBody& plan);
 
-  // Takes pose and velocities from the state.
+  // Reads pose and velocities from the state.
   void Load(const world::State& state);
-  // Computes where the parts are, from the pose of the base and the joints' positions.
+  // Computes the poses of the parts, from the pose of the base and the joints' positions.
   void Place();
-  // Writes the mass matrix and factorises it. After Place().
+  // Computes the mass matrix and factorises it. Call it after Place().
   void WriteMass();
 
-  // Forces that act until the next ClearForces().
+  // Adds forces that apply until the next ClearForces().
   void ClearForces();
   void AddForce(int part, const geometry::Vector3& force, const geometry::Vector3& torque);
   void AddEffort(int velocity, double effort) { efforts_[Index(velocity)] += effort; }
@@ -42,11 +42,11 @@ class LinkTree {
 
   // Moves by `velocities` for `seconds`.
   void Move(std::span<const double> velocities, double seconds);
-  // Moves the base aside, and turns it.
+  // Translates and rotates the base.
   void Shift(const geometry::Vector3& shift, const geometry::Vector3& turn);
 
   int size() const { return size_; }
-  // The index of a part's first velocity; of the base 0.
+  // Returns the index of a part's first velocity; 0 for the base.
   int first_velocity(int part) const { return links_[Index(part)].first; }
   bool is_moved_base() const { return base_size_ > 0; }
   bool is_single() const { return links_.size() == 1; }
@@ -58,14 +58,14 @@ class LinkTree {
   double mass(int row, int column) const { return masses_[Index(row * size_ + column)]; }
 
   double part_mass(int part) const { return links_[Index(part)].mass; }
-  // In the world, of a body without joints. After WriteMass().
+  // The inverse inertia in the world, of a body without joints. Valid after WriteMass().
   const Matrix3& inverse_inertia() const { return inverse_inertia_; }
 
   const geometry::Vector3& position(int part) const { return positions_[Index(part)]; }
   const Matrix3& rotation(int part) const { return rotations_[Index(part)]; }
   geometry::Pose pose(int part) const;
   geometry::Vector3 angular_velocity(int part) const;
-  // Of a point of a part.
+  // Returns the velocity of a point of a part.
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
   // The velocity and angular velocity of the base's centre of mass.
   geometry::Vector3 base_velocity() const;
@@ -75,10 +75,10 @@ class LinkTree {
 
   double joint_position(int part) const { return joint_positions_[Index(part)]; }
   double joint_velocity(int part) const { return velocities_[Index(first_velocity(part))]; }
-  // A ball joint's turn since zero.
+  // Returns the rotation of a ball joint from its zero position.
   const geometry::Quaternion& turn(int part) const { return turns_[Index(part)]; }
 
-  // The velocities that move a part, from its own to those of the base.
+  // Returns the velocities that move a part, from its own to those of the base.
   std::span<const int> Chain(int part) const { return links_[Index(part)].chain; }
   // For each velocity of the part's chain the velocity of a point of the part, and its angular
   // velocity, by a unit of it.
@@ -89,9 +89,9 @@ class LinkTree {
                     std::vector<geometry::Vector3>& motions) const;
   const geometry::Vector3& turning(int velocity) const { return motions_[Index(velocity)].turning; }
 
-  // J M⁻¹ Jᵀ of a row that has values for the velocities of a part's chain.
+  // Returns J M⁻¹ Jᵀ of a row with values for the velocities of a part's chain.
   double Response(int part, std::span<const double> row) const;
-  // M⁻¹ Jᵀ, of a row with values for all velocities; `row` becomes it.
+  // Computes M⁻¹ Jᵀ of a row with values for all velocities, in place.
   void Respond(std::span<double> row) const;
 
  private:
@@ -99,8 +99,9 @@ class LinkTree {
     int parent = -1, joint = -1;
     int first = 0, count = 0;  // its velocities
     model::JointKind kind = model::JointKind::kFixed;
-    geometry::Quaternion parent_from_part;         // at zero
-    geometry::Vector3 axis, pivot_in_parent, arm;  // axis, arm from the pivot: in the part's frame
+    geometry::Quaternion parent_from_part;  // at zero
+    // axis, and vectors from the pivot, in the part's frame
+    geometry::Vector3 axis, pivot_in_parent, arm;
     double pitch = 0, mass = 0, heaviness = 1;
     geometry::Vector3 inertia;
     std::vector<int> chain;
@@ -122,13 +123,13 @@ class LinkTree {
 
   const RigidBody& plan_;
   std::vector<Link> links_;
-  std::vector<BallAngles> balls_;  // of the parts in ball_of_
+  std::vector<BallAngles> balls_;  // for the parts in ball_of_
   std::vector<int> ball_of_;       // by part, -1: none
   int size_ = 0, base_size_ = 6;
-  std::vector<int> parents_;  // of velocities; -1: none
+  std::vector<int> parents_;  // parents of velocities; -1: none
 
   geometry::Quaternion base_;                // orientation
-  std::vector<geometry::Quaternion> turns_;  // of ball joints, by part
+  std::vector<geometry::Quaternion> turns_;  // rotations of ball joints, by part
   std::vector<double> joint_positions_;      // by part
   std::vector<geometry::Quaternion> orientations_;
   std::vector<Matrix3> rotations_;
@@ -139,7 +140,7 @@ class LinkTree {
   std::vector<Inertia> inertias_;
   std::vector<Matrix3> own_inertias_;  // about each part's centre of mass
   std::vector<double> masses_, factors_;
-  Matrix3 inverse_inertia_;  // of a single body
+  Matrix3 inverse_inertia_;  // inverse inertia of a single body
   mutable std::vector<double> scratch_;
   std::vector<geometry::Vector3> bias_turning_, bias_moving_, spins_, speeds_;
 };

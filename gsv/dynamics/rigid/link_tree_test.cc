@@ -1,4 +1,4 @@
-// The equations of motion of trees of links, against closed forms and conservation laws.
+// Tests the equations of motion of trees of links against closed forms and conservation laws.
 #include "gsv/dynamics/rigid/link_tree.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using model::JointKind;
 using testing::At;
 using testing::kG;
 
-// A link whose centre of mass is at a point of the model.
+// Returns a link whose centre of mass is at a point of the model.
 model::Link LinkAt(const Vector3& centre, double mass, const Vector3& inertia) {
   model::Link link;
   link.model_from_link.position = centre;
@@ -35,7 +35,7 @@ model::Joint JointAt(const Vector3& at, int parent, int child, JointKind kind,
   return joint;
 }
 
-// The tree of a model at the origin, in a state of positions and velocities.
+// Returns the tree of a model at the origin, with these positions and velocities.
 class Tree {
  public:
   explicit Tree(model::Model model) : model_(std::move(model)) {
@@ -109,7 +109,7 @@ TEST(LinkTree, DoublePendulumFollowsItsEquationsOfMotion) {
   }
 }
 
-// Two hinges about one line, with a cross without mass between them, turn their link as one hinge does.
+// Two hinges on one line, with a massless cross between them, rotate their link like one hinge.
 TEST(LinkTree, ParallelAxesTurnAsOneHinge) {
   const double mass = 1.5, arm = 0.4, inertia = 0.02, angle = 0.6, step = 1e-3;
   model::Model model;
@@ -136,7 +136,7 @@ TEST(LinkTree, MassesThatDifferByMoreThanADoubleHoldsGiveFiniteVelocities) {
   for (const double velocity : body.tree().free()) EXPECT_TRUE(std::isfinite(velocity));
 }
 
-// The textbook's cart with a pole that hangs down.
+// A cart with a hanging pole, as in textbooks.
 TEST(LinkTree, CartAndPoleFollowTheirEquationsOfMotion) {
   const double cart = 2, pole = 0.5, c = 0.6, inertia = 0.04;
   model::Model model;

@@ -10,7 +10,7 @@ using geometry::Pose;
 using geometry::Vector3;
 using model::JointKind;
 
-constexpr double kLoopCorrection = 0.2;  // share of the drift that a substep takes back
+constexpr double kLoopCorrection = 0.2;  // fraction of the drift that a substep corrects
 
 int LinearRows(JointKind kind) { return kind == JointKind::kPrismatic ? 2 : 3; }
 
@@ -19,7 +19,7 @@ int AngularRows(JointKind kind) {
   return kind == JointKind::kRevolute || kind == JointKind::kContinuous ? 2 : 3;
 }
 
-// The shortest rotation that turns the z axis to `axis`.
+// Returns the shortest rotation of the z axis to `axis`.
 geometry::Quaternion FromZTo(const Vector3& axis) {
   const Vector3 z{0, 0, 1}, across = Cross(z, axis);
   if (axis.z < -1 + 1e-12) return {0, 1, 0, 0};
@@ -50,7 +50,7 @@ void LoopJoint::AddRows(const LinkTree& tree, double seconds, JointRows& rows) c
                                : 0.5 * (Cross(a.x, b.x) + Cross(a.y, b.y) + Cross(a.z, b.z));
   const Vector3 axes[] = {a.x, a.y, a.z};
   const std::vector<int> velocities = VelocitiesOf(tree, first_.part, second_.part);
-  // The motion of the first end relative to the second, by each velocity.
+  // Returns the motion of the first end relative to the second, due to each velocity.
   std::vector<LinkTree::Motion> motions(velocities.size());
   std::vector<Vector3> of_point;
   for (const double sign : {1.0, -1.0}) {

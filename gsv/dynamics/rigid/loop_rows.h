@@ -22,7 +22,7 @@ class LoopJoint {
   LoopJoint(const End& first, const End& second, model::JointKind kind)
       : first_(first), second_(second), kind_(kind) {}
 
-  // Adds the rows for a substep of so many seconds.
+  // Adds the rows for a substep of `seconds`.
   void AddRows(const LinkTree& tree, double seconds, JointRows& rows) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace gsv::dynamics {
 
-// By columns: the axes of a rotated frame.
+// Stored by columns, which are the axes of a rotated frame.
 struct Matrix3 {
   geometry::Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 };
@@ -41,15 +41,15 @@ inline Matrix3 WithPrincipal(const Matrix3& rotation, const geometry::Vector3& v
           column(rotation.x.z, rotation.y.z, rotation.z.z)};
 }
 
-// The rotation by the vector `turn` (rad).
+// Returns the rotation by the vector `turn` (rad).
 inline geometry::Quaternion RotationBy(const geometry::Vector3& turn) {
   const double angle = Norm(turn);
-  // Below this, sin(x) / x is 1 - x² / 6 to the last bit.
+  // Below this value, sin(x) / x equals 1 - x² / 6 in double precision.
   const double scale = angle < 1e-3 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
   return {std::cos(angle / 2), scale * turn.x, scale * turn.y, scale * turn.z};
 }
 
-// A right-handed pair of unit vectors at right angles to the unit vector `normal`.
+// Returns two unit vectors that form a right-handed frame with the unit vector `normal`.
 inline void AxesAcross(const geometry::Vector3& normal, geometry::Vector3& first,
                        geometry::Vector3& second) {
   if (std::abs(normal.z) > 0.70710678118654757) {

@@ -184,7 +184,7 @@ TEST(KinematicLink, IgnoresForces) {
   ASSERT_TRUE(world.Start());
   world.Run(2, kMediumStep);
   EXPECT_EQ(world.position("shelf"), (Vector3{0, 0, 1}));
-  // It fell by 2 mm in a substep.
+  // The body fell by 2 mm in a substep.
   EXPECT_NEAR(world.position("stone").z, 1.2, 2e-3);
 }
 

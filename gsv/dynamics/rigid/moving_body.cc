@@ -13,10 +13,10 @@ using geometry::Pose;
 using geometry::Vector3;
 using CommandKind = world::JointCommand::Kind;
 
-constexpr double kNoLimit = 1e6;  // N, N m, m/s, rad/s: where the model sets none
-// 1/s: a joint that is to be at a position turns there at this times the distance.
+constexpr double kNoLimit = 1e6;  // used if the model sets no limit: N, N m, m/s, rad/s
+// 1/s: a joint moves towards its commanded position at this rate times the distance
 constexpr double kServoGain = 20;
-// Share of the way beyond a joint's limit that a substep takes back.
+// The fraction of a violation of a joint's limit that a substep corrects.
 constexpr double kLimitCorrection = 0.2;
 
 bool Holds(const std::vector<int>& joints, int joint) {
@@ -93,7 +93,7 @@ void MovingBody::BeforeSubstep(double seconds) {
   tree_.Accelerate(seconds);
 }
 
-// Gravity, wind, fluids and the decay of velocities, on each part.
+// Adds gravity, wind, fluids and the decay of velocities for each part.
 void MovingBody::AddForces(double seconds) {
   const auto count = static_cast<int>(plan_.articulation.parts.size());
   for (int i = 0; i < count; ++i) {
@@ -156,7 +156,8 @@ void MovingBody::AddJointRows(double seconds) {
   for (const LoopJoint& loop : loops_) loop.AddRows(tree_, seconds, rows_);
 }
 
-// A motor that takes the joint to a rate within its limit of velocity, by at most this impulse.
+// Adds a motor that drives the joint at a rate within its velocity limit, with at most this
+// impulse.
 void MovingBody::AddRow(const Motor& motor, double rate, double impulse) {
   if (!(impulse > 0)) return;
   const double fastest = std::min(JointOf(motor).velocity_limit, kNoLimit);
@@ -178,7 +179,8 @@ void MovingBody::AddMotor(const Motor& motor, double seconds) {
   if (command.kind == CommandKind::kPosition) {
     rate = kServoGain * (command.value - tree_.joint_position(motor.part));
   }
-  // No force moves a kinematic joint. Without a command, or with one of effort, it stays.
+  // No force moves a kinematic joint. Without a command, or with an effort command, it does not
+  // move.
   if (part(motor.part).is_kinematic) {
     AddRow(motor, rate, kNoLimit * seconds);
     return;
@@ -199,7 +201,7 @@ void MovingBody::AddMotor(const Motor& motor, double seconds) {
   if (joint.velocity_limit < kNoLimit) AddVelocityLimit(motor, force, seconds);
 }
 
-// A force, and Coulomb's friction: a motor that holds still with so much force.
+// Adds a force, and Coulomb's friction as a motor that holds the joint with at most this force.
 void MovingBody::AddPush(const Motor& motor, double force, double seconds) {
   const model::Joint& joint = JointOf(motor);
   AddRow(motor, 0, joint.friction * seconds);
@@ -207,7 +209,7 @@ void MovingBody::AddPush(const Motor& motor, double force, double seconds) {
   if (force != 0) tree_.AddEffort(motor.velocity, std::clamp(force, -effort, effort));
 }
 
-// By the joint's controller. Returns the sign of its effort.
+// Applies the joint's controller. Returns the sign of its effort.
 double MovingBody::AddControl(const Motor& motor, const world::JointCommand& command,
                               double seconds) {
   const double integral =
@@ -223,7 +225,7 @@ double MovingBody::AddControl(const Motor& motor, const world::JointCommand& com
   return demand.rate - rate;
 }
 
-// Keeps a joint to its limit of velocity, whatever drives it there.
+// Limits the velocity of a joint, whatever its cause.
 void MovingBody::AddVelocityLimit(const Motor& motor, double force, double seconds) {
   const double limit = JointOf(motor).velocity_limit, most = kNoLimit * seconds;
   const double rate = tree_.joint_velocity(motor.part);
@@ -235,7 +237,7 @@ void MovingBody::AddVelocityLimit(const Motor& motor, double force, double secon
   row.upper = is_upper ? 0 : most;
 }
 
-// A joint may reach its limit by the end of the substep.
+// A joint may reach its limit at the end of the substep.
 void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
   const model::Joint& joint = JointOf(motor);
   if (joint.kind == model::JointKind::kContinuous) return;
@@ -252,8 +254,8 @@ void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
   }
 }
 
-// As gears do: the joint moves at its leader's rate times the multiplier, and towards where it
-// should be. The leader feels the reaction.
+// Like gears: the joint moves at its leader's rate times the multiplier, and towards its correct
+// position. The reaction acts on the leader.
 void MovingBody::Follow(const Motor& motor, const model::Mimic& mimic, double seconds) {
   const auto leader = std::find_if(motors_.begin(), motors_.end(),
                                    [&](const Motor& other) { return other.joint == mimic.leader; });
@@ -274,7 +276,7 @@ void MovingBody::AfterSubstep(std::span<const double> velocities, bool is_touche
   std::copy(velocities.begin(), velocities.end(), tree_.velocities().begin());
   tree_.Move(velocities, seconds);
   if (!tree_.is_single() || !tree_.is_moved_base() || is_touched) return;
-  // Under a constant force the mean of the velocities at both ends is right.
+  // Under a constant force, the mean of the velocities at the start and at the end is exact.
   tree_.Shift((-seconds * seconds / 2) * outer_acceleration_, {});
 }
 
@@ -338,7 +340,7 @@ void MovingBody::StoreJoints(bool rests, world::State& state) const {
       continue;
     }
     const auto index = static_cast<std::size_t>(plan_.first_joint + part(i).joint);
-    // A limit stops a joint within a substep; so far it may have gone beyond.
+    // A limit stops a joint within a substep. The joint may have exceeded it by this much.
     const model::Range& limits = joint.position_limits;
     if (!rests) {
       state.joint_positions[index] = std::clamp(tree_.joint_position(i), limits.min, limits.max);

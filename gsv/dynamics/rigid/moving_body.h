@@ -15,23 +15,23 @@ class MovingBody {
   // `world` is the world that the body is in. Both must outlive the body.
   MovingBody(const RigidBody& plan, const model::WorldDescription& world);
 
-  // Starts a step from this state.
+  // Begins a step from this state.
   void Load(const world::State& state);
-  // Computes where the parts are.
+  // Computes the poses of the parts.
   void Place();
-  // Follows commands for the next substep: forces, rows and the velocities without impulses.
+  // Applies commands in the next substep: sets forces, rows and the velocities without impulses.
   void BeforeSubstep(double seconds);
-  // Takes the velocities that the substep ends with, and moves. A body that nothing touched follows
-  // its parabola.
+  // Sets the velocities at the end of the substep, and moves. A body without contacts follows a
+  // parabola.
   void AfterSubstep(std::span<const double> velocities, bool is_touched, double seconds);
 
   // An upper bound of the speed of all points, in m/s.
   double Speed() const;
-  // m: half of the least thickness of any part.
+  // Half of the smallest thickness of any part, m.
   double thickness() const { return thickness_; }
 
-  // Writes pose and velocity to `state`, except for bodies that were at rest and still are.
-  // Returns whether it is one of these.
+  // Writes pose and velocity to `state`, except for bodies that were at rest and still are. Returns
+  // true for these.
   bool Store(double seconds, world::State& state) const;
 
   const RigidBody& plan() const { return plan_; }
@@ -40,15 +40,15 @@ class MovingBody {
   const JointRows& rows() const { return rows_; }
   // Whether it moves by its own velocity, whatever touches it.
   bool is_kinematic() const { return is_kinematic_; }
-  // Its drive controls the base directly.
+  // Whether its drive controls the base directly.
   bool is_held() const { return servo_.has_value() && !rolls_; }
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
-  // rad/s, without sign; 0 for a part on a ball joint, which has no axle.
+  // Returns the rate without sign, in rad/s; 0 for a part on a ball joint, which has no axle.
   double WheelRate(int part) const;
 
  private:
   struct Motor {
-    int part, joint, velocity;  // in the articulation, in the model, in the tree
+    int part, joint, velocity;  // indices in the articulation, in the model, in the tree
   };
 
   const Part& part(int index) const {
@@ -82,13 +82,13 @@ class MovingBody {
   std::vector<Motor> motors_;
   std::optional<DriveServo> servo_;
   std::vector<world::JointCommand> commands_;  // commands of the model's joints; may be empty
-  std::vector<double> integrals_;              // of the model's joints; may be empty
-  // positions and rates that the drive wants of its joints
+  std::vector<double> integrals_;              // integral terms of the model's joints; may be empty
+  // positions and rates that the drive commands to its joints
   std::vector<double> wanted_positions_, wanted_rates_;
   bool is_kinematic_, rolls_;
   double thickness_;
-  geometry::Vector3 velocity_, angular_velocity_;  // of a kinematic body
-  geometry::Vector3 outer_acceleration_;           // m/s²: of a single body, by outer forces
+  geometry::Vector3 velocity_, angular_velocity_;  // velocities of a kinematic body
+  geometry::Vector3 outer_acceleration_;  // m/s²: acceleration of a single body due to outer forces
   double resting_speed_before_ = 0;
 };
 

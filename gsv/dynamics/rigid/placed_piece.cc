@@ -14,7 +14,7 @@ using PieceKind = Piece::Kind;
 
 Vector3 Abs(const Vector3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
-// Half of the size of the box around it, and the box's middle from the piece's origin.
+// Half of the size of the bounding box, and the vector from the piece's origin to the box's centre.
 Vector3 ExtentOf(const Piece& piece, const Matrix3& rotation, Vector3& middle) {
   const Vector3& axis = rotation.z;
   const double radius = piece.half.x, half = piece.half.z;
@@ -47,7 +47,7 @@ void AddSphereOnSphere(const Vector3& first, double first_radius, const Vector3&
   points.push_back({second + second_radius * normal, normal, distance});
 }
 
-// The piece is above the plane by its normal.
+// The piece is above the plane, on the side of the normal.
 class OnPlane {
  public:
   OnPlane(const PlacedPiece& piece, const PlacedPiece& plane, double margin,
@@ -82,7 +82,7 @@ class OnPlane {
   }
 
  private:
-  // A sphere around a point of the piece.
+  // Adds the point of a sphere around a point of the piece.
   void Add(const Vector3& from_middle, double radius) {
     const double height = height_ + Dot(normal_, from_middle);
     if (!(height - radius < margin_)) return;
@@ -132,7 +132,7 @@ void AddSphereOnBox(const PlacedPiece& sphere, const PlacedPiece& box, double ma
                       length - radius});
     return;
   }
-  // The middle of the sphere is in the box: it leaves through the nearest face.
+  // The sphere's centre is inside the box, so the nearest face is used.
   const double rooms[] = {half.x - std::abs(at.x), half.y - std::abs(at.y),
                           half.z - std::abs(at.z)};
   const auto axis = std::min_element(std::begin(rooms), std::end(rooms)) - std::begin(rooms);
@@ -183,8 +183,8 @@ bool AddInOrder(const PlacedPiece& first, const PlacedPiece& second, double marg
 
 }  // namespace
 
-// A cylinder whose axis leans from the normal by less than about 45° stands on its lower rim. One
-// that leans by less than a milliradian stands upright.
+// A cylinder stands on its lower rim if its axis is within about 45° of the normal. It counts as
+// upright if the angle is below a milliradian.
 int LowestOfCylinder(const PlacedPiece& cylinder, const Vector3& normal,
                      std::array<Vector3, 4>& lowest) {
   constexpr double kLies = 0.7, kStandsUpright = 1e-3;

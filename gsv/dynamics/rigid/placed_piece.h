@@ -1,4 +1,4 @@
-// A piece of a solid where it is now, and the points at which two pieces touch.
+// A piece of a solid at its present pose, and the points at which two pieces touch.
 #pragma once
 
 #include <array>
@@ -12,20 +12,20 @@ struct PlacedPiece {
   const Piece* piece = nullptr;
   geometry::Vector3 position;
   Matrix3 rotation;
-  geometry::Vector3 low, high;  // the box around it
+  geometry::Vector3 low, high;  // bounding box
 };
 
-// Where the piece is if its solid is at `position`, with these axes.
+// Places the piece for a solid at `position` with these axes.
 PlacedPiece Place(const Piece& piece, const geometry::Vector3& position, const Matrix3& rotation);
 
-// Sets the box around it.
+// Computes the bounding box.
 void SetBoundsOf(PlacedPiece& placed);
 
 // A point at which two pieces touch, or may touch soon.
 struct TouchPoint {
   geometry::Vector3 on_second;  // world
-  geometry::Vector3 normal;     // unit length, from the second to the first
-  double distance = 0;          // m, below 0 where they overlap
+  geometry::Vector3 normal;     // unit length, from the second piece to the first
+  double distance = 0;          // m, negative if they overlap
 };
 
 // Adds the points at which two pieces are closer than `margin`, in closed form. False for a pair of
@@ -39,12 +39,12 @@ struct TouchPoint {
 bool AddTouchPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                     std::vector<TouchPoint>& points);
 
-// The points of a cylinder from its middle that are nearest to a plane below it: the lowest of both
-// rims, or four of the rim on which it stands. Returns their number.
+// Computes, as vectors from a cylinder's centre, the points nearest to a plane below it: the lowest
+// point of both rims, or four points of the rim on which it stands. Returns their number.
 int LowestOfCylinder(const PlacedPiece& cylinder, const geometry::Vector3& normal,
                      std::array<geometry::Vector3, 4>& lowest);
 
-// The box on the box of AddTouchPoints().
+// Implements AddTouchPoints() for two boxes.
 void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                   std::vector<TouchPoint>& points);
 

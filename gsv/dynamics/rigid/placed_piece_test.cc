@@ -1,4 +1,4 @@
-// Points at which shapes touch, against closed forms.
+// Tests the points at which shapes touch against closed forms.
 #include "gsv/dynamics/rigid/placed_piece.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ TEST(PlacedPiece, WheelTouchesAPlaneAtBothRims) {
 }
 
 TEST(PlacedPiece, BoxesShareTheAreaOfTheirFaces) {
-  // The second is turned by 45° about the vertical, so that the area is an octagon.
+  // The second box is rotated by 45° about the vertical, so the common area is an octagon.
   const auto turned = geometry::FromAxisAngle({0, 0, 1}, geometry::kPi / 4);
   const auto points = Touch(kCube, {0, 0, 0.99}, turned, kCube);
   ASSERT_EQ(points.size(), 4u);

@@ -19,18 +19,19 @@ namespace gsv::dynamics {
 
 class TriangleSurface;
 
-// One shape of a solid: what contacts are found with.
+// A shape of a solid, used to find contacts.
 struct Piece {
   enum class Kind : std::uint8_t { kSphere, kBox, kCylinder, kCapsule, kPlane, kMesh, kOther };
   Kind kind = Kind::kOther;
   geometry::Pose solid_from_piece;
-  Matrix3 rotation;                   // of solid_from_piece
-  geometry::Vector3 half;             // of a box or cylinder (radius, radius, half length); of a
-                                      // sphere or capsule (radius, radius, half of its axis)
-  geometry::Vector3 normal;           // of a plane, through the piece's origin
-  geometry::Vector3 middle, box;      // of the box around it, and half of its size
+  Matrix3 rotation;  // rotation of solid_from_piece
+  // half extents of a box or cylinder (radius, radius, half length); of a sphere or capsule
+  // (radius, radius, half of its axis)
+  geometry::Vector3 half;
+  geometry::Vector3 normal;           // normal of a plane, which passes through the piece's origin
+  geometry::Vector3 middle, box;      // centre of its bounding box, and half of its size
   btCollisionShape* shape = nullptr;  // never null
-  const TriangleSurface* triangles = nullptr;  // of a static mesh
+  const TriangleSurface* triangles = nullptr;  // set for a static mesh
   model::Surface surface;
 };
 
@@ -38,8 +39,9 @@ struct Piece {
 struct Solid {
   int body = 0;  // index in the layout
   std::vector<Piece> pieces;
-  double thickness = 1;  // half of the thinnest child's least extent, if that is less than 1 m
-  double radius = 0;     // about the origin of the shape's frame
+  // half of the smallest extent of its thinnest child, if that is less than 1 m
+  double thickness = 1;
+  double radius = 0;                  // radius about the origin of the shape's frame
   std::optional<RollingWheel> wheel;  // set for a part that rolls
 
   bool bounces() const;

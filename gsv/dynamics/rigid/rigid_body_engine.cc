@@ -24,7 +24,7 @@ class RigidBodyEngine final : public RigidEngine {
   void Step(base::SimTime step, const world::State& before, std::span<Push> pushes,
             world::State& state, std::vector<world::Contact>& contacts) override {
     const double seconds = base::ToSeconds(step);
-    // While all rest, the contacts of the last step are those of this one.
+    // While all bodies are at rest, the contacts of the last step apply.
     if (!pushes.empty() || !resting_.Holds(scene_, before, state, seconds)) {
       contacts_.Clear();
       step_->Run(before, state, seconds, pushes, contacts_);
@@ -42,7 +42,7 @@ class RigidBodyEngine final : public RigidEngine {
  private:
   std::shared_ptr<base::ThreadTeam> team_;  // may be null
   RigidScene scene_;
-  std::unique_ptr<RigidStep> step_;  // made once there are rigid bodies
+  std::unique_ptr<RigidStep> step_;  // created when there are rigid bodies
   RigidContacts contacts_;
   RestingState resting_;
 };

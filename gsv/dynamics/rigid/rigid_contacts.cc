@@ -6,7 +6,7 @@
 namespace gsv::dynamics {
 namespace {
 
-// m: closer than this is touching.
+// m: bodies that are closer than this touch
 constexpr double kTouchingDistance = 1e-4;
 // A body carries another from below if the normal is within 45° of the vertical (its cosine).
 constexpr double kSupports = 0.70710678118654757;
@@ -42,7 +42,7 @@ void RigidContacts::Add(const ContactFinder& finder, const std::vector<Contact>&
     const Collider* first = &finder.collider(each.first);
     const Collider* second = &finder.collider(each.second);
     geometry::Vector3 normal = -point.normal;
-    // On the second: the contact's impulses act on its first.
+    // The impulse acts on the second body. Impulses of contacts act on their first body.
     geometry::Vector3 impulse =
         each.impulse[0] * normal - each.impulse[1] * each.axes[0] - each.impulse[2] * each.axes[1];
     if (second->moving >= 0 && (first->moving < 0 || second->solid->body < first->solid->body)) {
@@ -66,7 +66,7 @@ void RigidContacts::Add(const ContactFinder& finder, const std::vector<Contact>&
 
 void RigidContacts::Store(std::vector<world::Contact>& contacts) {
   std::size_t count = 0;
-  // The next contact, with the memory of the one that was there.
+  // Returns the next contact, with the memory of an earlier one.
   const auto next = [&](const world::Contact& contact) -> world::Contact& {
     if (count == contacts.size()) contacts.emplace_back();
     world::Contact& kept = contacts[count++];

@@ -22,7 +22,7 @@ class RigidContacts {
 
  private:
   struct Found {
-    world::Contact contact;     // the contact at one point, in one substep
+    world::Contact contact;     // the contact at one point in one substep
     geometry::Vector3 impulse;  // N s on the second body: normal force and friction
     int substep;
   };

@@ -56,7 +56,7 @@ class SolidBuilder {
     piece.shape = shape;
     piece.surface = surface;
     SetKind(piece);
-    // A plane has no end.
+    // A plane is unbounded.
     if (piece.kind == Piece::Kind::kPlane) return;
     btVector3 low, high;
     shape->getAabb(btTransform::getIdentity(), low, high);

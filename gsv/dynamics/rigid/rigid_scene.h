@@ -12,7 +12,7 @@
 
 namespace gsv::dynamics {
 
-// The box that a rigid body may reach within a step.
+// A box around all places that a rigid body may reach within a step.
 struct Area {
   geometry::Vector3 low, high;
 };
@@ -22,7 +22,7 @@ bool IsNear(const Solid& planar, const world::State& before, const world::State&
 
 class RigidScene {
  public:
-  // Refuses drives that make no sense.
+  // Rejects invalid drives.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
 
   bool has_bodies() const { return !bodies_.empty(); }

@@ -13,12 +13,12 @@ namespace {
 
 using geometry::Vector3;
 
-// m: how far Bullet rounds edges where it works with margins, at most.
+// m: maximum rounding of edges by Bullet, if it uses margins
 constexpr double kMargin = 1e-3;
 constexpr double kHullMargin = 1e-4;
 constexpr int kMaxCorners = 64;
 
-// Evenly spread over the sphere: Fibonacci's lattice.
+// Returns directions that are evenly spread over the sphere (Fibonacci lattice).
 Vector3 Direction(int i, int count) {
   const double z = 1 - (2.0 * i + 1) / count;
   const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
@@ -26,7 +26,7 @@ Vector3 Direction(int i, int count) {
   return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
-// The points furthest out in many directions, for a body of too many corners.
+// Returns the extreme points in many directions, for a body with too many corners.
 std::vector<Vector3> Outermost(const std::vector<Vector3>& points) {
   std::vector<Vector3> corners;
   for (int i = 0; i < kMaxCorners; ++i) {

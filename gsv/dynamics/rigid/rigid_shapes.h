@@ -19,8 +19,8 @@ namespace gsv::dynamics {
 
 inline constexpr int kMaxPieces = 32;
 
-// A mesh as TriangleSurface and Bullet read it, with the data that Bullet points to. It is slow to make, so it is kept
-// from layout to layout.
+// A mesh in the forms of TriangleSurface and Bullet, with the data that Bullet refers to. It takes
+// long to make, so it is kept from one layout to the next.
 struct StandingMesh {
   std::shared_ptr<const geometry::TriangleMesh> source;
   std::vector<btScalar> positions;
@@ -43,7 +43,7 @@ class RigidShapes {
   btCollisionShape* Prism(const Footprint::Piece& piece, double low,
                           geometry::Pose& model_from_shape);
 
-  // Drops all but those meshes that were used since the last call.
+  // Removes the meshes that were not used since the last call.
   void NextLayout();
 
  private:

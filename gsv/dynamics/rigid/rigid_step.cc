@@ -10,16 +10,16 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// s: the longest and the shortest substep.
+// s: the longest and the shortest substep
 constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
-// Of its least thickness a body moves at most so much in a substep, so that it passes through
-// nothing.
+// In a substep, a body moves by at most this fraction of its smallest thickness, so that it passes
+// through nothing.
 constexpr double kPassable = 0.4;
-// m: planar bodies closer than this to where a rigid body may get take part.
+// m: planar bodies that are closer than this to the area of a rigid body take part in the step
 constexpr double kNear = 0.05;
-// m: penetration of resting bodies.
+// m: penetration of bodies at rest
 constexpr double kRestingDepth = 1e-5;
-// The share of the turn that takes two bodies out of each other, of which a substep makes use.
+// The fraction of the rotation that would separate two bodies, which a substep applies.
 constexpr double kTurningShare = 0.1;
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
@@ -28,7 +28,7 @@ std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 template <typename Work>
 void RigidStep::ForEachBody(const Work& work) {
-  // Waking a thread costs as much as preparing some bodies.
+  // Waking a thread costs as much as preparing this number of bodies.
   constexpr std::size_t kGrain = 16;
   const auto all = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(*bodies_[i]);
@@ -124,15 +124,15 @@ void RigidStep::AddPushes(std::span<const Push> pushes) {
     push.row.speed = pushes[i].speed;
     Vector3 low, high;
     finder_.Bounds(push.row.moving, low, high);
-    // The point at which a tipping body leans on the robot: the lowest height at which they face
-    // each other.
+    // Returns the point at which a tipping body leans on the robot: the lowest height at which they
+    // face each other.
     Vector3 point = pushes[i].point;
     point.z = std::max(pushes[i].low, low.z);
     push.point_in_body = Inverse((*found)->tree().pose(0)) * point;
   }
 }
 
-// A push takes part from when its robot gets there.
+// A push applies from the time at which its robot arrives.
 void RigidStep::StartPushes(std::span<const Push> pushes, double time, double substep) {
   push_rows_.clear();
   for (ActivePush& push : pushes_) {
@@ -154,7 +154,7 @@ double RigidStep::SubstepFor(double left) const {
   return left / std::ceil(left / std::max(longest, kShortest) - 1e-9);
 }
 
-// The moving body that impulses on a collider move, or -1.
+// Returns the moving body on which impulses on a collider act, or -1.
 int RigidStep::MovedBy(int collider) const {
   const int moving = finder_.collider(collider).moving;
   return moving >= 0 && bodies_[At(moving)]->tree().size() > 0 ? moving : -1;
@@ -167,7 +167,7 @@ int RigidStep::RootOf(int moving) {
   return moving;
 }
 
-// The first body stands for the others.
+// The first body represents the others.
 void RigidStep::Join(int a, int b) {
   const int x = RootOf(a), y = RootOf(b);
   parents_[At(std::max(x, y))] = std::min(x, y);
@@ -207,7 +207,7 @@ void RigidStep::MakeIslands() {
 }
 
 void RigidStep::SolveIslands(double substep) {
-  // Waking a thread costs as much as solving some islands of this size.
+  // Waking a thread costs as much as solving this number of islands of this size.
   constexpr std::size_t kGrain = 4;
   shifts_.assign(bodies_.size(), {});
   const auto solve = [&](std::size_t begin, std::size_t end) {
@@ -223,9 +223,9 @@ void RigidStep::SolveIslands(double substep) {
   }
 }
 
-// Takes bodies without joints out of each other, by velocities that are gone after the substep.
+// Separates bodies without joints, by velocities that apply in this substep only.
 void RigidStep::PushApart(const IslandSolver& island, double substep) {
-  constexpr double kShare = 0.2;  // of the overlap in a substep
+  constexpr double kShare = 0.2;  // fraction of the overlap that a substep removes
   constexpr int kMaxIterations = 50;
   constexpr double kTolerance = 1e-6;  // m/s
   struct Side {
@@ -382,7 +382,7 @@ std::vector<world::Contact> RigidStep::OverlapsOf(const world::State& state, int
 void RigidStep::Store(world::State& state) const {
   bool all_rest = true;
   for (const auto& body : bodies_) all_rest = body->Store(seconds_, state) && all_rest;
-  // Where all bodies rest, a step changes nothing.
+  // If all bodies are at rest, a step changes nothing.
   if (!all_rest || kept_ == nullptr || state.engine == nullptr) state.engine = kept_;
 }
 

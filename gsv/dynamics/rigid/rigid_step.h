@@ -19,23 +19,25 @@ namespace gsv::dynamics {
 
 class RigidStep {
  public:
-  // `team`, which may be null, must outlive this. It does not change results.
+  // `team` may be null, must outlive this object, and does not change results.
   explicit RigidStep(base::ThreadTeam* team) : team_(team) {}
 
-  // `scene` must outlive this, or the next call.
+  // `scene` must outlive this object, or must exist until the next call.
   void SetScene(const RigidScene& scene);
 
-  // From `before` on. In `after`, the planar bodies have the poses of the step's end.
+  // Runs a step from `before`. In `after`, the planar bodies have their poses at the end of the
+  // step.
   void Run(const world::State& before, const world::State& after, double seconds,
            std::span<Push> pushes, RigidContacts& contacts);
-  // After Run(): writes where the rigid bodies are and how they move, and the impulses to start
-  // from.
+  // Call it after Run(): writes the poses and velocities of the rigid bodies, and the impulses with
+  // which the next step starts.
   void Store(world::State& state) const;
-  // After Run(): the areas that the rigid bodies may reach in a step like this one.
+  // Call it after Run(): returns the areas that the rigid bodies may reach in a step of the same
+  // length.
   std::vector<Area> MakeAreas() const;
 
-  // Takes no step: what overlaps `body` in `state` by more than `tolerance` metres, by (first,
-  // second), one contact for each pair.
+  // Takes no step. Returns the overlaps of `body` in `state` of more than `tolerance` metres,
+  // ordered by (first, second), with one contact for each pair.
   std::vector<world::Contact> OverlapsOf(const world::State& state, int body, double tolerance);
 
  private:
@@ -46,7 +48,7 @@ class RigidStep {
     double turn;
   };
   struct ActivePush {
-    int push = 0;  // in the caller's list
+    int push = 0;  // index in the caller's list
     PushRow row;
     geometry::Vector3 point_in_body;
     bool has_started = false;
@@ -77,18 +79,19 @@ class RigidStep {
   double seconds_ = 0;
   std::vector<std::unique_ptr<MovingBody>> bodies_;
   ContactFinder finder_;
-  std::vector<Contact>* contacts_ = nullptr;  // the finder's, of this substep
+  std::vector<Contact>* contacts_ = nullptr;  // contacts of the finder in this substep
   std::vector<Planar> planar_;
   std::vector<ActivePush> pushes_;
   std::vector<PushRow> push_rows_;
   std::vector<int> parents_, islands_of_;  // by moving body
-  std::deque<IslandSolver> islands_;       // memory for as many as there have been
+  std::deque<IslandSolver> islands_;       // memory for the largest number of islands so far
   std::size_t island_count_ = 0;
-  std::vector<int> starts_;  // of each body's velocities
+  std::vector<int> starts_;  // index of each body's first velocity
   std::vector<double> velocities_;
   std::vector<char> is_touched_;
-  std::shared_ptr<const world::EngineState> kept_before_;  // as the step started; may be null
-  std::shared_ptr<KeptImpulses> kept_;                     // of the last substep; may be null
+  // state at the start of the step; may be null
+  std::shared_ptr<const world::EngineState> kept_before_;
+  std::shared_ptr<KeptImpulses> kept_;  // impulses of the last substep; may be null
   struct Shift {
     geometry::Vector3 moving, turning;
   };

@@ -10,9 +10,9 @@ namespace {
 
 using geometry::Vector3;
 
-// The sine of the angle between two triangles below which they are one plane.
+// If the sine of the angle between two triangles is below this, they count as one plane.
 constexpr double kOnePlane = 1e-4;
-// The cosine by which a direction may be beyond the region of an edge or vertex.
+// Tolerance of the cosine by which a direction may lie outside of the region of an edge or vertex.
 constexpr double kBeyond = 1e-4;
 
 std::size_t IndexOf(int i) { return static_cast<std::size_t>(i); }
@@ -61,7 +61,7 @@ TriangleSurface::TriangleSurface(const geometry::TriangleMesh& mesh, const Vecto
 }
 
 void TriangleSurface::AddTriangle(const std::array<int, 3>& vertices) {
-  // Of the square of the longest edge: a triangle of less area is a line.
+  // fraction of the square of the longest edge; a triangle with less area counts as a line
   constexpr double kThinnest = 1e-9;
   Triangle triangle;
   triangle.vertices = vertices;
@@ -155,14 +155,15 @@ bool TriangleSurface::MayTouchVertex(int vertex, const Vector3& normal) const {
 
 namespace {
 
-// The points of a piece on a mesh. They are in the frame of the mesh until Finish().
+// Collects the points at which a piece touches a mesh. They are in the frame of the mesh until
+// Finish().
 class PointList {
  public:
   PointList(double margin, double near, std::vector<TouchPoint>& points)
       : margin_(margin), near_(near), points_(points), begin_(points.size()) {}
 
   double margin() const { return margin_; }
-  // Leaves out what another triangle found as well.
+  // Removes points that another triangle has found as well.
   void Add(const Vector3& on_mesh, const Vector3& normal, double distance) {
     constexpr double kSameDirection = 1 - 1e-6;
     for (std::size_t i = begin_; i < points_.size(); ++i) {
@@ -262,7 +263,7 @@ class TriangleSurface::CylinderContacts {
     if (!(axial < list_.margin())) return;
     const double radial = RadialDistance() - radius_;
     if (!(radial < list_.margin())) return;
-    // Contacts along other directions than that in which the two are farthest apart are none.
+    // A contact must be along the direction in which the two are farthest apart.
     constexpr double kBetter = 0.05, kLeast = 1e-6;
     const double best = std::max({face, axial, radial});
     floor_ = best - kBetter * std::abs(best) - kLeast;
@@ -355,7 +356,7 @@ class TriangleSurface::CylinderContacts {
   }
 
   void AddEdge(const Triangle& triangle, std::size_t edge) {
-    constexpr double kAlong = 0.7;  // of the axis
+    constexpr double kAlong = 0.7;  // component along the axis
     const Vector3 &a = corners_[edge], along = corners_[After(edge)] - a;
     const double square = along.x * along.x + along.y * along.y;
     const double length_square = square + along.z * along.z;
@@ -371,7 +372,7 @@ class TriangleSurface::CylinderContacts {
       }
       return;
     }
-    // Where it is above the rims, if it is.
+    // The part of the edge that is above the rims, if there is one.
     const double middle = -(a.x * along.x + a.y * along.y) / square;
     const double x = a.x + middle * along.x, y = a.y + middle * along.y;
     const double room = radius_ * radius_ - x * x - y * y;
@@ -384,7 +385,7 @@ class TriangleSurface::CylinderContacts {
     }
   }
 
-  // The point of the edge that is nearest to the axis.
+  // Returns the point of the edge that is nearest to the axis.
   void AddSide(const Triangle& triangle, std::size_t edge, const Vector3& at) {
     const double from_axis = std::sqrt(at.x * at.x + at.y * at.y);
     if (!(from_axis > 0) || !IsContact(from_axis - radius_)) return;

@@ -35,7 +35,7 @@ class TriangleSurface {
 
  private:
   enum class Edge : std::uint8_t {
-    kOpen,   // no neighbour, or several
+    kOpen,   // no neighbour, or several neighbours
     kFlat,   // the neighbour is in the same plane
     kOwn,    // shared with one neighbour
     kOther,  // the same, and the neighbour has it as its own
@@ -46,7 +46,8 @@ class TriangleSurface {
     std::array<int, 3> beside{};  // the same edge of the neighbour: 3 * triangle + edge, or -1
     std::array<Edge, 3> edges{};
     geometry::Vector3 normal;
-    std::array<geometry::Vector3, 3> inwards;  // unit, in the plane, from each edge
+    // unit vectors in the plane, perpendicular to each edge
+    std::array<geometry::Vector3, 3> inwards;
   };
   class SphereContacts;
   class CylinderContacts;
@@ -65,7 +66,8 @@ class TriangleSurface {
 
   std::vector<Triangle> triangles_;
   std::vector<geometry::Vector3> vertices_;
-  std::vector<int> first_beside_, beside_;  // of each vertex, those with which it shares an edge
+  // for each vertex, the vertices with which it shares an edge
+  std::vector<int> first_beside_, beside_;
   BoxBvh bvh_;
 };
 

@@ -1,4 +1,5 @@
-// Contacts of wheels and spheres with triangles, against closed forms and a search by brute force.
+// Tests contacts of wheels and spheres with triangles against closed forms and a brute-force
+// search.
 #include "gsv/dynamics/rigid/triangle_surface.h"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ TriangleMesh Grid(const Height& height) {
   return mesh;
 }
 
-// As files without shared vertices have them.
+// Vertices are not shared, as in files such as STL.
 TriangleMesh WithOwnVertices(const TriangleMesh& mesh) {
   TriangleMesh own;
   for (const auto& triangle : mesh.triangles) {

@@ -1,4 +1,4 @@
-// Wheels that slip in proportion to their force, against the equations of gz-sim's WheelSlip.
+// Tests wheels that slip in proportion to their force against the equations of gz-sim's WheelSlip.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
@@ -43,7 +43,7 @@ std::shared_ptr<model::Model> Rover(const model::Slip& slip) {
   return model;
 }
 
-// m/s up a slope of `angle`, once the speed is steady, with wheels that turn at 1 m/s.
+// Returns the steady speed, in m/s up a slope of `angle`, with wheels that turn at 1 m/s.
 double SpeedUphill(const std::shared_ptr<model::Model>& rover, double angle,
                    const model::Surface& ground = {}) {
   const geometry::Quaternion turn = geometry::FromAxisAngle({0, 1, 0}, -angle);
@@ -83,7 +83,7 @@ TEST(WheelSlip, SoftGroundMakesEveryWheelSlip) {
   EXPECT_WITHIN(SpeedUphill(Rover({1, 1}), 0.1, sand), 1 - 3 * std::sin(0.1), 2e-3, "m/s");
 }
 
-// rad/s of a rover whose wheels turn as for 1 rad/s.
+// Returns the turn rate, in rad/s, of a rover whose wheels turn as for 1 rad/s.
 double TurnOf(const model::Slip& slip) {
   TestWorld world = WorldOnGround();
   world.AddRigid("rover", Rover(slip), At(0, 0, kRadius));

@@ -10,19 +10,19 @@ namespace gsv::dynamics {
 
 class BoxBvh {
  public:
-  // Along the axes of the frame that all boxes have in common.
+  // in the common frame of all boxes
   struct Box {
     geometry::Vector3 low, high;
   };
 
   void Build(std::span<const Box> boxes);
 
-  // Calls `use` with the index of each box that meets the box from `low` to `high`. The order depends
-  // on nothing but the boxes that it was built of.
+  // Calls `use` with the index of each box that overlaps the box from `low` to `high`. The order
+  // depends only on the boxes from which the tree was built.
   template <typename Use>
   void ForEachNear(const geometry::Vector3& low, const geometry::Vector3& high,
                    const Use& use) const {
-    // Each level halves the boxes, and leaves one node behind.
+    // Each level halves the boxes, and adds one node to the stack.
     int stack[64];
     int depth = 0;
     if (!nodes_.empty()) stack[depth++] = 0;

@@ -52,7 +52,8 @@ class ResourceFinder {
   base::Result<std::filesystem::path> FindByPath(const std::string& path,
                                                  const std::filesystem::path& naming_file) const;
 
-  std::vector<std::filesystem::path> search_path_;  // of caller, environment, and built in
+  std::vector<std::filesystem::path>
+      search_path_;  // folders of the caller, of the environment, and built-in ones
   bool allow_absolute_paths_;
 };
 

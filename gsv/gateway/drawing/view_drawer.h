@@ -84,8 +84,8 @@ class ViewDrawer {
     std::weak_ptr<const void> identity;
     std::shared_ptr<ViewSource> source;
     std::shared_ptr<const world::Snapshot> snapshot;  // the newest one that was checked
-    std::uint64_t number = 0;                         // of that
-    std::chrono::system_clock::time_point seen{};     // and when it came
+    std::uint64_t number = 0;                         // its number
+    std::chrono::system_clock::time_point seen{};     // time at which it came
     Clock::time_point used{};
   };
   struct Pending {

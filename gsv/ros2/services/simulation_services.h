@@ -67,7 +67,7 @@ class ServedSimulation {
   mutable base::Mutex mutex_;
   std::weak_ptr<simulation::Simulation> simulation_ GSV_GUARDED_BY(mutex_);
   SetNamespace set_namespace_ GSV_GUARDED_BY(mutex_);
-  std::uint64_t count_ GSV_GUARDED_BY(mutex_) = 0;  // of simulations so far
+  std::uint64_t count_ GSV_GUARDED_BY(mutex_) = 0;  // number of simulations so far
   std::set<std::string> spawned_;
   std::uint64_t spawned_in_ = 0;  // the number of the simulation of spawned_
 };

@@ -63,7 +63,7 @@ class FakeParticipant final : public dds::Participant {
   void Discover() { knows_clients = true; }
 
   std::vector<dds::Topic> topics;
-  OnRequest on_request;  // of the newest reader of requests
+  OnRequest on_request;  // callback of the newest reader of requests
   // Called as soon as a client could send a request; may be empty.
   std::function<void(const dds::Topic&)> on_reader;
   std::atomic<bool> knows_clients{true};
