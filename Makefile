@@ -1,19 +1,23 @@
-# `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
-# (tools/setup) and build what they need: `make run` no tests.
-# `make docs` builds the documentation site, build/release/share/gsv/docs, which gsv serves at /docs/.
-# `make install` installs into PREFIX (/usr/local), `make deb` makes Debian packages in build/release/packages.
-# `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build);
-# it also runs a campaign of 500 runs by a Slurm of its own, has a viewer's tab stand still for three minutes,
-# and tries the packages on a bare Debian, which needs root and debootstrap.
-# `make bench` runs all benches (half an hour, on a machine that does nothing else) and prints one table; it writes
-# build/release/bench.json. BENCH_ARGS="--quick --rows crowd,lidar" runs some, in short; bench/all lists its options.
-# `make chaos` kills, stops, floods and fills up all that a server lives with for CHAOS_SECONDS (3600).
-# `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60), for which it needs clang, and sends
-# mutated requests to every servant of the real programs for as long (of PRESET; FUZZ_SEED says which).
-# `make asan`, `make tsan` and `make ubsan` run every test under a sanitizer; `make coverage` tells what share of
-# the lines of gsv/ the tests run, for which it needs gcovr.
-#   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
-#   PRESET=dev    another preset of CMakePresets.json
+# Targets. All install what is missing (tools/setup) and build what they need.
+#   make run       runs an example; ARGS="…" are arguments of `gsv run`, such as "--headless"
+#   make test      runs all tests
+#   make docs      builds the documentation site in build/release/share/gsv/docs, which gsv serves
+#                  at /docs/
+#   make install   installs into PREFIX (default: /usr/local)
+#   make deb       makes Debian packages in build/release/packages
+#   make soak      runs the long tests: the determinism matrix many times, also with a debug build
+#                  (a quarter of an hour), a campaign of 500 runs on a Slurm cluster of one machine,
+#                  and a viewer whose tab is suspended for three minutes. Also tests the packages on
+#                  a bare Debian, which needs root and debootstrap
+#   make bench     runs all benches (half an hour; run no other programs meanwhile), prints a table
+#                  and writes build/release/bench.json. BENCH_ARGS="--quick --rows crowd,lidar" runs
+#                  some of them for a short time; bench/all lists its options
+#   make chaos     disturbs a running server for CHAOS_SECONDS (3600), see tests/chaos/chaos.py
+#   make fuzz      runs each fuzz target with random input for FUZZ_SECONDS (60), which needs clang,
+#                  and sends mutated requests to all servants for the same time (FUZZ_SEED: seed)
+#   make asan, make tsan, make ubsan   run all tests under a sanitizer
+#   make coverage  reports the percentage of the lines of gsv/ that the tests execute; needs gcovr
+# PRESET=dev selects another preset of CMakePresets.json.
 PRESET ?= release
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 60

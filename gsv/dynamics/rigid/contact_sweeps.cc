@@ -174,7 +174,7 @@ void ContactSweeps::MakeBatches() {
 
 // Returns how much a velocity changes, in m/s.
 __attribute__((always_inline)) inline double ContactSweeps::Solve(Batch& batch, double* motions) {
-  constexpr std::size_t kSize = 8;  // of a motion
+  constexpr std::size_t kSize = 8;  // values of a motion
   FourDoubles v1[kFour], w1[kFour], v2[kFour], w2[kFour];
   for (std::size_t i = 0; i < kFour; ++i) {
     const double* const first = motions + kSize * AsIndex(batch.first[i]);
