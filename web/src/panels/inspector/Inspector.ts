@@ -46,17 +46,24 @@ export function createInspector(ports: Ports): HTMLElement {
     list.append(element("dt", {}, row), element("dd", {}, value, plotOf(ports, row)));
   }
   const detail = element("p", { class: "detail" });
+  const why = createWhy(ports);
+  const output = createOutput(ports);
   const panel = element(
     "section",
     { class: "card inspector", "aria-label": "Selected robot" },
     element("div", { class: "card-head" }, title, closeButton(ports)),
-    createWhy(ports),
+    why,
     list,
     copyButtons(ports),
     detail,
-    createOutput(ports),
+    output,
     createSensorList(ports),
   );
+  // What a dead behaviour printed stands directly below the reason of its death.
+  const placeOutput = (isDead: boolean) => {
+    const before = isDead ? why : detail;
+    if (before.nextElementSibling !== output) before.after(output);
+  };
   const set = (row: Row, text: string) => setText(values.get(row)!, text);
 
   ports.state.watch(
@@ -75,6 +82,7 @@ export function createInspector(ports: Ports): HTMLElement {
     (robot) => {
       if (robot) showStatus(robot, set);
       setText(detail, robot?.detail ?? "");
+      placeOutput(robot?.agentPhase === "dead");
     },
   );
   return panel;
