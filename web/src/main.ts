@@ -33,6 +33,7 @@ import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
 import { createSetUpPanel } from "./setup/SetUpPanel";
 import { listedRobots } from "./state/listedRobots";
+import { markedObject } from "./state/parts";
 import { filtered, isFiltering } from "./state/robotList";
 import { browserStorage, keepColours, keepShown, loadColours, loadShown } from "./state/overlays";
 import { keepChangedKeys, keepSingleKeys, loadChangedKeys, loadSingleKeys } from "./state/shortcuts";
@@ -115,7 +116,7 @@ const session = new Session(
   { simulation: parameters.get("simulation"), recording: parameters.get("recording") },
 );
 const app = new App(store, session, api, () => world);
-const ports = panelPorts(app, api);
+const ports = panelPorts(app, api, library);
 
 const LONGEST_PAINTING_MS = 200;
 
@@ -197,7 +198,7 @@ function connectWorld(world: World3D): void {
     },
   );
   store.watch(
-    ({ editing }) => editing?.chosen ?? null,
+    markedObject,
     (object) => world.choose(object),
   );
   connectTools(store, world);

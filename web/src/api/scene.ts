@@ -38,6 +38,8 @@ export interface SceneSensor {
   topic: string;
   view: CameraView | null; // null if the sensor is no camera, or if its angles are unknown
   units?: Units; // absent in recordings of versions without units
+  pose?: PoseNumbers; // in the frame of its link
+  parameters?: Readonly<Record<string, string | number | boolean>>; // as in the model file; absent in old recordings
 }
 
 export interface SceneBody {
@@ -93,7 +95,8 @@ export function parseScene(json: unknown): SceneDescription {
   const scene = objectAt(json, "scene");
   const bounds = objectAt(scene.bounds, "bounds");
   const look = objectAt(scene.look, "look");
-  const bodies = listAt(scene.bodies, "bodies").map((body, i) => parseBody(body, `bodies[${i}]`));
+  const parameters = Array.isArray(scene.sensor_parameters) ? scene.sensor_parameters.map(parseParameters) : [];
+  const bodies = listAt(scene.bodies, "bodies").map((body, i) => parseBody(body, `bodies[${i}]`, parameters));
   return {
     layoutVersion: numberAt(scene.layout_version, "layout_version"),
     name: textOr(scene.name, ""),
@@ -153,7 +156,7 @@ const camerasOfScene = oncePerScene((scene) =>
   ),
 );
 
-function parseBody(value: unknown, where: string): SceneBody {
+function parseBody(value: unknown, where: string, parameters: readonly SceneSensor["parameters"][]): SceneBody {
   const body = objectAt(value, where);
   return {
     name: textAt(body.name, `${where}.name`),
@@ -167,7 +170,7 @@ function parseBody(value: unknown, where: string): SceneBody {
     pose: numbersAt(body.pose, 7, `${where}.pose`),
     links: listAt(body.links ?? [], `${where}.links`).map((link) => textAt(link, `${where}.links`)),
     sensors: listAt(body.sensors ?? [], `${where}.sensors`).map((sensor, i) =>
-      parseSensor(objectAt(sensor, `${where}.sensors[${i}]`), `${where}.sensors[${i}]`),
+      parseSensor(objectAt(sensor, `${where}.sensors[${i}]`), `${where}.sensors[${i}]`, parameters),
     ),
     collisions: textOr(body.collisions, "") || null,
     joints: listAt(body.joints ?? [], `${where}.joints`).map((joint, i) =>
@@ -207,7 +210,13 @@ function parseInertial(value: unknown, where: string): SceneInertial {
   };
 }
 
-function parseSensor(sensor: JsonObject, where: string): SceneSensor {
+// Numbers, flags and texts; the server writes nothing else.
+function parseParameters(value: unknown): SceneSensor["parameters"] {
+  const entries = typeof value === "object" && value !== null ? Object.entries(value) : [];
+  return Object.fromEntries(entries.filter(([, each]) => ["number", "boolean", "string"].includes(typeof each)));
+}
+
+function parseSensor(sensor: JsonObject, where: string, parameters: readonly SceneSensor["parameters"][]): SceneSensor {
   const overlay = textOr(sensor.overlay, "none");
   return {
     name: textAt(sensor.name, `${where}.name`),
@@ -217,6 +226,8 @@ function parseSensor(sensor: JsonObject, where: string): SceneSensor {
     topic: textAt(sensor.topic, `${where}.topic`),
     view: parseView(sensor),
     units: parseUnits(sensor.units),
+    ...(Array.isArray(sensor.pose) && { pose: numbersAt(sensor.pose, 7, `${where}.pose`) }),
+    ...(typeof sensor.parameters === "number" && { parameters: parameters[sensor.parameters] ?? {} }),
   };
 }
 

@@ -1,11 +1,13 @@
 // The actions that panels, keyboard and pointer can request.
 import type { Action, SimulationApi } from "../api/SimulationApi";
-import { camerasOf } from "../api/scene";
+import { camerasOf, hasAgent } from "../api/scene";
 import { poseOf } from "../scene/poses";
 import type { World3D } from "../scene/World3D";
 import { isAllowed, mainAction } from "../state/actions";
 import type { CameraChoice } from "../api/scene";
 import type { BodyPlace } from "../api/SetUpApi";
+import type { WorldPart } from "../state/parts";
+import { bodyPart } from "../state/parts";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
 import type { OverlayColours, OverlayName } from "../state/overlays";
@@ -39,6 +41,7 @@ import { SetUpControl } from "./SetUpControl";
 const PLOTS_PANEL = "plots";
 const IMAGES_PANEL = "images";
 const TOPICS_PANEL = "topics";
+const INSPECTOR_PANEL = "inspector";
 
 export class App {
   readonly replay: ReplayControl;
@@ -126,6 +129,7 @@ export class App {
     this.edits.choose(null);
     this.store.set(({ selection, selectedPose, viewMode, scene, camera }) => ({
       selection: robot,
+      part: null,
       selectedPose: robot === selection ? selectedPose : null,
       viewMode: robot === null ? "orbit" : viewMode,
       camera:
@@ -141,9 +145,21 @@ export class App {
     const known = scene?.bodies.find(({ name }) => name === body);
     const isObject = known !== undefined && !known.isRobot && !known.isAvatar;
     if (!isObject) return this.select(body);
-    if (!editing) return;
+    if (!editing) return this.store.get().setUp ? undefined : this.inspect(bodyPart(known.name));
     this.select(null);
     this.edits.choose(known.name);
+  }
+
+  // Selects an object, or a link, joint or sensor of any body, for the inspector. Its robot, avatar or station is
+  // selected too.
+  inspect(part: WorldPart): void {
+    const { scene, editing } = this.store.get();
+    const body = scene?.bodies.find(({ name }) => name === part.body);
+    if (!body) return;
+    if (hasAgent(body)) this.select(body.name);
+    else this.select(null);
+    if (editing && !body.isRobot && !body.isAvatar) this.edits.choose(body.name);
+    this.store.set({ part: part.kind === "body" && hasAgent(body) ? null : part });
   }
 
   // Selects all of these bodies. The first one determines the reference for moving and rotating.
@@ -257,6 +273,12 @@ export class App {
   showTopic(topic: string): void {
     this.store.set({ topic });
     this.panels.open(TOPICS_PANEL);
+  }
+
+  // Shows a part of the world in the inspector.
+  showPart(part: WorldPart): void {
+    this.inspect(part);
+    this.panels.open(INSPECTOR_PANEL);
   }
 
   openHelp(open: boolean): void {

@@ -51,6 +51,7 @@ const NOTHING_WATCHED: Partial<State> = {
   wishedTime: null,
   selection: null,
   selectedPose: null,
+  part: null,
   viewMode: "orbit",
   camera: null,
   serverWarnings: [],

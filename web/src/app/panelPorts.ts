@@ -1,10 +1,12 @@
 // Implements the ports with which panels access this page.
 import type { SimulationApi } from "../api/SimulationApi";
+import type { ModelLibrary } from "../scene/ModelLibrary";
+import { visualFacts } from "../scene/visualFacts";
 import type { PanelPorts } from "../panels/contract/ports";
 import type { App } from "./App";
 import { notify } from "./notices";
 
-export function panelPorts(app: App, api: SimulationApi): PanelPorts {
+export function panelPorts(app: App, api: SimulationApi, library: Pick<ModelLibrary, "get">): PanelPorts {
   const { store, session } = app;
   return {
     state: store,
@@ -29,9 +31,11 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       joints: (simulation, body) => api.joints(simulation, body),
       commandJoint: (simulation, body, joint, kind, value) => api.commandJoint(simulation, body, joint, kind, value),
     },
+    shapes: { visuals: async (model, links) => visualFacts(await library.get(model, links)) },
     replay: { seek: (time) => app.replay.seek(time) },
     robots: {
       select: (robot) => app.select(robot),
+      inspect: (part) => app.inspect(part),
       pick: (body, isAdding) => app.pick(body, isAdding),
       filter: (change) => app.filterRobots(change),
       follow: () => app.toggleViewMode("follow"),

@@ -1,5 +1,6 @@
 // @vitest-environment jsdom
 import { beforeAll, expect, test, vi } from "vitest";
+import { body, scene } from "../scene/testScene";
 import { createPalette } from "./Palette";
 import { commandsOf, findCommands } from "./commandList";
 import { robotStatus, simulationStatus, testApp } from "./testApp";
@@ -62,6 +63,17 @@ test("a topic opens in the panel Topics", () => {
   press("Enter");
   expect(store.get().topic).toBe("/pebble/sonar");
   expect(store.get().openPanels).toContain("topics");
+});
+
+test("an object of the world is shown in the inspector", () => {
+  const { app, store } = testApp({ scene: scene({ bodies: [body("crate", { isRobot: false })] }) });
+  const found = findCommands(commandsOf(app), "object crate");
+  expect(found.map(({ label }) => label)).toEqual(["crate"]);
+  found[0]!.run();
+  expect(store.get().part).toEqual({ body: "crate", kind: "body", name: "crate" });
+  expect(store.get().openPanels).toContain("inspector");
+  app.select(null);
+  expect(store.get().part).toBeNull();
 });
 
 test("commands that are not possible now are not offered", () => {

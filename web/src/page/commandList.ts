@@ -1,6 +1,8 @@
-// Everything that the command palette finds: commands, panels, layouts, robots and topics.
+// Everything that the command palette finds: commands, panels, layouts, robots, objects, sensors and topics.
 import type { App } from "../app/App";
 import { PANELS } from "../panels/registry";
+import { hasAgent } from "../api/scene";
+import { bodyPart } from "../state/parts";
 import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
 import { OVERLAYS } from "../state/overlays";
 import { PRESETS } from "../workspace/presets";
@@ -16,7 +18,7 @@ const MAX_FOUND = 50;
 
 // Returns the commands that are possible at present.
 export function commandsOf(app: App): Command[] {
-  return [...runCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...topicCommands(app)];
+  return [...runCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...objectCommands(app), ...topicCommands(app)];
 }
 
 // Returns the entries that contain each word of the text. Entries that begin with the text come
@@ -92,6 +94,19 @@ function placeCommands(app: App): Command[] {
 function robotCommands(app: App): Command[] {
   const robots = app.store.get().status?.robots ?? [];
   return robots.map(({ name }) => ({ group: "Robot", label: name, run: () => app.select(name) }));
+}
+
+// Objects of the world, and the sensors of all bodies, which the inspector shows.
+function objectCommands(app: App): Command[] {
+  const bodies = app.store.get().scene?.bodies ?? [];
+  return bodies.flatMap((body) => [
+    ...(hasAgent(body) ? [] : [{ group: "Object", label: body.name, run: () => app.showPart(bodyPart(body.name)) }]),
+    ...body.sensors.map(({ name }) => ({
+      group: "Sensor",
+      label: `${body.name} ${name}`,
+      run: () => app.showPart({ body: body.name, kind: "sensor", name }),
+    })),
+  ]);
 }
 
 function topicCommands(app: App): Command[] {

@@ -1,4 +1,5 @@
 // An App with a test's own store, without a server or a 3D view.
+import { Box3 } from "three";
 import type { SimulationApi } from "../api/SimulationApi";
 import type { Phase, RobotStatus, SimulationStatus } from "../api/status";
 import { App } from "../app/App";
@@ -52,5 +53,5 @@ export function testApp(
   });
   const session = new Session(api as SimulationApi, store, NOTHING_WANTED);
   const app = new App(store, session, api as SimulationApi, () => null);
-  return { app, store, ports: panelPorts(app, api as SimulationApi) };
+  return { app, store, ports: panelPorts(app, api as SimulationApi, { get: async () => ({ parts: [], bounds: new Box3() }) }) };
 }

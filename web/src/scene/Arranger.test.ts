@@ -18,6 +18,7 @@ function box(size: number, depth = 0.4): ModelTemplate {
   return {
     parts: [
       {
+        visual: { name: "", link: null, shape: {} },
         geometry: new BoxGeometry(size, size, depth),
         material: new MeshBasicMaterial(),
         link: null,

@@ -15,6 +15,7 @@ import { HERE, body, scene } from "./testScene";
 
 function template(): ModelTemplate {
   const part = (link: string, x: number) => ({
+    visual: { name: "", link: null, shape: {} },
     geometry: new BoxGeometry(0.4, 0.4, 0.4),
     material: new MeshBasicMaterial(),
     link,

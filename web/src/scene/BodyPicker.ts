@@ -28,6 +28,11 @@ export class BodyPicker {
     );
   }
 
+  // Returns the body at a place; null if there is none.
+  objectAt(place: ScreenPlace): string | null {
+    return this.bodyAt(place)?.name ?? null;
+  }
+
   // Returns the movable body at a place; null if there is none.
   movableAt(place: ScreenPlace): string | null {
     const hit = this.bodyAt(place);

@@ -17,6 +17,7 @@ function crowd(count: number) {
     }),
   );
   const part = (radius: number) => ({
+    visual: { name: "", link: null, shape: {} },
     geometry: new SphereGeometry(radius),
     material: new MeshBasicMaterial(),
     link: null,

@@ -1,6 +1,7 @@
-import { BoxGeometry, Mesh, MeshBasicMaterial, Object3D, Vector3 } from "three";
+import { BoxGeometry, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Vector3 } from "three";
 import { expect, test } from "vitest";
 import { makeTemplate } from "./ModelTemplate";
+import { visualFacts } from "./visualFacts";
 
 // Returns a cart: its body is lifted by 0.5 m, and the mesh of its wheel, at y = 0.3, is shifted by
 // 0.1 in x.
@@ -37,6 +38,19 @@ test("a mesh without a link belongs to the model", () => {
   const { parts } = makeTemplate(cart(), ["wheel:left"]);
   expect(parts[0]!.link).toBeNull();
   expect(new Vector3().setFromMatrixPosition(parts[0]!.linkFromPart).toArray()).toEqual([0, 0, 0.5]);
+});
+
+test("the parts of one visual share its name and its shape", () => {
+  const root = cart();
+  const group = new Object3D();
+  group.userData = { visual: "cab", shape: { kind: "box", size: [1, 2, 3] } };
+  group.add(...[0, 1].map(() => new Mesh(new BoxGeometry(1, 2, 3), new MeshStandardMaterial({ color: 0xff0000 }))));
+  root.children[0]!.add(group);
+  const facts = visualFacts(makeTemplate(root, ["chassis", "wheel:left"]));
+  expect(facts).toHaveLength(3);
+  expect(facts[1]).toMatchObject({ name: "cab", link: "chassis", shape: { kind: "box", size: [1, 2, 3] } });
+  expect(facts[1]!.materials.map(({ colour }) => colour)).toEqual(["#ff0000", "#ff0000"]);
+  expect(facts[2]!.shape).toEqual({ kind: "mesh", size: [expect.closeTo(0.2), expect.closeTo(0.2), expect.closeTo(0.2)] });
 });
 
 test("the bounds contain all parts", () => {

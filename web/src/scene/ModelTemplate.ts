@@ -1,8 +1,10 @@
 // The shape of one model, fetched once and drawn many times: the drawable parts of its links.
 import type { BufferGeometry, Material, Mesh, Object3D } from "three";
 import { Box3, Matrix4 } from "three";
+import type { ModelVisual } from "../api/visuals";
 
 export interface ModelPart {
+  visual: ModelVisual; // shared by the parts of a visual with several materials
   geometry: BufferGeometry;
   material: Material;
   link: string | null; // null: the part belongs to the model itself
@@ -21,16 +23,27 @@ export function makeTemplate(root: Object3D, links: readonly string[]): ModelTem
   root.updateMatrixWorld(true);
   const modelFromWorld = root.matrixWorld.clone().invert();
   const linkNames = new Set(links);
+  const visuals = new Map<Object3D, ModelVisual>();
   const template: ModelTemplate = { parts: [], bounds: new Box3() };
   root.traverse((node) => {
     const mesh = node as Mesh;
     if (!mesh.isMesh) return;
     const linkNode = linkAbove(node, root, linkNames);
     const frame = linkNode ?? root;
+    const link = linkNode ? originalName(linkNode) : null;
+    const visualNode = visualAbove(node, frame);
+    const { visual: name, shape } = visualNode.userData as { visual?: unknown; shape?: unknown };
+    const visual = visuals.get(visualNode) ?? {
+      name: typeof name === "string" ? name : "",
+      link,
+      shape: typeof shape === "object" && shape !== null ? (shape as ModelVisual["shape"]) : {},
+    };
+    visuals.set(visualNode, visual);
     const part: ModelPart = {
+      visual,
       geometry: mesh.geometry,
       material: Array.isArray(mesh.material) ? mesh.material[0]! : mesh.material,
-      link: linkNode ? originalName(linkNode) : null,
+      link,
       linkFromPart: frame.matrixWorld.clone().invert().multiply(mesh.matrixWorld),
       modelFromPart: modelFromWorld.clone().multiply(mesh.matrixWorld),
     };
@@ -53,6 +66,14 @@ export function disposeTemplate(template: ModelTemplate): void {
 function originalName(node: Object3D): string {
   const name: unknown = node.userData.name;
   return typeof name === "string" ? name : node.name;
+}
+
+// The node of the visual that contains a mesh; the mesh itself if there is none.
+function visualAbove(mesh: Object3D, frame: Object3D): Object3D {
+  for (let each: Object3D | null = mesh; each && each !== frame; each = each.parent) {
+    if (each.userData.visual !== undefined) return each;
+  }
+  return mesh;
 }
 
 function linkAbove(node: Object3D, root: Object3D, links: Set<string>): Object3D | null {

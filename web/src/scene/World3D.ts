@@ -1,6 +1,6 @@
 // The 3D view, the only interface between three.js and the rest of the page. It draws frames only
 // after changes. Screen positions are in CSS pixels of the page.
-import type { Matrix4, Object3D, PerspectiveCamera } from "three";
+import type { Matrix4 } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
 import type { Expectation } from "../state/expectations";
@@ -21,7 +21,7 @@ import { CollisionLayer } from "./CollisionLayer";
 import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
 import { Environment } from "./Environment";
-import { environmentOf } from "./framing";
+import { FrameDrawer } from "./FrameDrawer";
 import { FrameRate } from "./FrameRate";
 import { GhostLayer } from "./GhostLayer";
 import type { ModelLibrary } from "./ModelLibrary";
@@ -30,12 +30,10 @@ import type { ScreenPlace } from "./picking";
 import { onClick } from "./picking";
 import { makeBareRenderer, makeRenderer } from "./renderer";
 import { RenderLoop } from "./RenderLoop";
-import { RobotPlaces } from "./RobotPlaces";
 import type { RobotStates } from "./RobotSigns";
 import { RobotSigns } from "./RobotSigns";
 import { RobotWatch } from "./RobotWatch";
-import { SceneParts } from "./SceneParts";
-import { ShadowPace } from "./ShadowPace";
+import { SceneStage } from "./SceneStage";
 import { ShownPoses } from "./ShownPoses";
 import { Surface } from "./Surface";
 import type { DrawnView } from "../view/DrawnView";
@@ -44,8 +42,6 @@ import type { DrawnView } from "../view/DrawnView";
 // take longer than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
-// A scene is first drawn together with its shapes, unless they take longer than this.
-const LONGEST_WAIT_FOR_SHAPES_MS = 400;
 // Poses for which no image comes from the server are shown after this time.
 const LATE_POSES_MS = 150;
 
@@ -83,15 +79,11 @@ export class World3D {
   private readonly watch: RobotWatch;
   private readonly arranger: Arranger;
   readonly tools: EditTools;
-  private parts: SceneParts | null = null;
-  private lastBeams: MarkerArrayMessage | null = null;
+  private readonly stage: SceneStage;
+  private readonly drawer: FrameDrawer;
   private shown: Shown = FIRST_SHOWN;
-  private framedFor = ""; // the environment that the camera was set up for
-  private hasGraphics = true;
   private latePoses: ReturnType<typeof setTimeout> | undefined;
-  private readonly frameRate: FrameRate;
   private readonly environment: Environment | null; // null: there is no environment map
-  private readonly shadows = new ShadowPace();
 
   constructor(
     readonly host: HTMLElement,
@@ -111,11 +103,12 @@ export class World3D {
       onChange: () => this.loop.request(),
       onProblem: (sentence) => events.onProblem(sentence),
     });
-    this.frameRate = new FrameRate((rate) => events.onFrameRate(rate));
     this.signs = new RobotSigns((name) => events.onPick(name));
     this.loop = new RenderLoop(
       (now) => this.draw(now),
-      (took) => this.tookFrame(took),
+      (took) => {
+        if (this.drawer.tookFrame(took)) this.loop.request();
+      },
       gl ? fenceOf(gl.getContext() as WebGL2RenderingContext) : undefined,
     );
     this.rig = new CameraRig(
@@ -124,9 +117,11 @@ export class World3D {
       (from, direction, far) => this.bodies?.freeAlong(from, direction, far) ?? Infinity,
     );
     this.watch = new RobotWatch(this.rig);
-    this.picker = new BodyPicker({ host, camera: () => this.shownCamera, bodies: () => this.bodies, robots: () => this.watch.robots });
+    this.picker = new BodyPicker({ host, camera: () => this.drawer.shownCamera, bodies: () => this.bodies, robots: () => this.watch.robots });
     this.arranger = new Arranger(this.arrangerView(), events);
     this.tools = new EditTools(this.toolsView(), { ...events, onPlacePoint: (point) => this.arranger.placeAt(point) });
+    this.stage = this.makeStage();
+    this.drawer = this.makeDrawer();
     this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
     // the canvas is below the elements that lie over the image
     host.prepend(canvas, this.signs.labels.element);
@@ -152,12 +147,7 @@ export class World3D {
 
   // Shows another scene, or none. If only the layout has changed, the camera stays where it is.
   setScene(scene: SceneDescription | null): void {
-    this.clear();
-    this.library.keepOnly(new Set(scene?.bodies.flatMap(({ model, collisions }) => [model, collisions ?? model])));
-    if (!scene) this.lastBeams = null;
-    if (scene) this.build(scene);
-    else this.poses.setScene(null);
-    this.refresh();
+    this.stage.setScene(scene);
   }
 
   setPoses(message: PosesMessage): void {
@@ -170,8 +160,7 @@ export class World3D {
   }
 
   setBeams(message: MarkerArrayMessage): void {
-    this.lastBeams = message;
-    this.takeBeams(message);
+    this.stage.setBeams(message);
     this.loop.request();
   }
 
@@ -252,8 +241,7 @@ export class World3D {
 
   // Removes the beams of a topic that is no longer read.
   forgetBeams(): void {
-    this.lastBeams = null;
-    this.overlays.forgetBeams();
+    this.stage.forgetBeams();
     this.loop.request();
   }
 
@@ -274,7 +262,7 @@ export class World3D {
   }
 
   topView(): void {
-    if (this.parts) this.rig.top(this.parts.focus);
+    if (this.stage.parts) this.rig.top(this.stage.parts.focus);
   }
 
   // Whether the view is a map: from above, north up.
@@ -284,7 +272,7 @@ export class World3D {
   }
 
   resetView(): void {
-    if (this.parts) this.rig.frame(this.parts.focus, true);
+    if (this.stage.parts) this.rig.frame(this.stage.parts.focus, true);
   }
 
   // Moves the camera at once: its position and target, in metres.
@@ -344,7 +332,36 @@ export class World3D {
   }
 
   private get bodies(): BodyLayer | null {
-    return this.parts?.bodies ?? null;
+    return this.stage.parts?.bodies ?? null;
+  }
+
+  private makeStage(): SceneStage {
+    const { scene: root, library, rig, loop, overlays, collisions, poses, signs, watch, environment } = this;
+    return new SceneStage(
+      { root, library, rig, loop, overlays, collisions, poses, signs, watch, environment },
+      {
+        onModelsMissing: (count) => this.events.onModelsMissing(count),
+        onProblem: (sentence) => this.events.onProblem(sentence),
+        onChange: () => this.refresh(),
+      },
+    );
+  }
+
+  private makeDrawer(): FrameDrawer {
+    const { scene: root, surface, rig, poses, overlays, collisions, signs, watch, arranger, tools, environment } = this;
+    return new FrameDrawer({
+      ...{ root, surface, rig, poses, overlays, collisions, signs, watch, arranger, tools },
+      frameRate: new FrameRate((rate) => this.events.onFrameRate(rate)),
+      hasFineLight: environment !== null,
+      parts: () => this.stage.parts,
+      frames: () => this.frames,
+    });
+  }
+
+  private draw(now: number): boolean {
+    const follows = this.drawer.draw(now, this.shown);
+    this.events.onScale(this.rig.metresPerPixel);
+    return follows;
   }
 
   private arrangerView(): ConstructorParameters<typeof Arranger>[0] {
@@ -373,54 +390,13 @@ export class World3D {
     };
   }
 
-  private clear(): void {
-    this.parts?.dispose();
-    this.parts = null;
-    this.overlays.setScene(null);
-    this.collisions.setScene(null);
-    this.watch.robots = null;
-    this.signs.setRobots(null);
-  }
-
-  private build(scene: SceneDescription): void {
-    this.environment?.show(scene.look);
-    this.parts = new SceneParts(scene, this.scene, this.environment !== null);
-    const { bodies, focus } = this.parts;
-    this.watch.robots = new RobotPlaces(bodies, this.overlays.frames);
-    this.signs.setRobots(this.watch.robots);
-    this.overlays.setScene(bodies);
-    this.collisions.setScene(scene);
-    const environment = environmentOf(scene);
-    if (this.framedFor !== environment) {
-      this.rig.frame(focus, false);
-      this.loop.await(LONGEST_WAIT_FOR_SHAPES_MS);
-    }
-    this.framedFor = environment;
-    this.poses.setScene(bodies);
-    if (this.lastBeams) this.takeBeams(this.lastBeams);
-    this.parts.load(this.library, {
-      onMissing: (count) => {
-        this.signs.measure();
-        this.refresh();
-        if (count === 0) this.loop.hurry();
-        this.events.onModelsMissing(count);
-      },
-      onProblem: (sentence) => this.events.onProblem(sentence),
-    });
-    this.watch.update();
-  }
-
-  private takeBeams(message: MarkerArrayMessage): void {
-    this.overlays.takeBeams(message, (at) => this.poses.at(at));
-  }
-
   private refresh(): void {
     this.surface.renewShadows();
     this.loop.request();
   }
 
   private setGraphics(isThere: boolean): void {
-    this.hasGraphics = isThere;
+    this.drawer.hasGraphics = isThere;
     this.events.onGraphics(isThere);
     if (!isThere) return;
     this.environment?.renew();
@@ -433,57 +409,6 @@ export class World3D {
     this.loop.request();
   }
 
-  private tookFrame(milliseconds: number): void {
-    this.shadows.frameTook(milliseconds);
-    if (this.surface.frameTook(milliseconds)) this.loop.request();
-  }
-
-  // The camera of what is on the screen: images of the server show where the camera was.
-  private get shownCamera(): PerspectiveCamera {
-    return this.surface.drawnImage?.camera ?? this.rig.camera;
-  }
-
-  private showPoses(now: number): boolean {
-    if (this.arranger.holds || this.tools.holds) return false;
-    const stamp = this.surface.drawnImage?.stamp ?? null;
-    return stamp === null ? this.poses.show(now) : this.poses.showAt(stamp);
-  }
-
-  private draw(now: number): boolean {
-    if (!this.hasGraphics && !this.surface.isDrawnByServer) return false;
-    this.surface.advance();
-    if (this.showPoses(now)) {
-      this.shadows.moved();
-      this.watch.move();
-    }
-    const { width, height } = this.surface;
-    const isFlying = this.rig.update(now);
-    this.overlays.place(this.rig.camera.position);
-    if (this.bodies) this.collisions.place(this.bodies);
-    this.bodies?.chooseDetail(this.rig.camera, height);
-    if (this.parts) this.parts.grid.visible = this.shown.grid;
-    this.watch.showRing();
-    this.arranger.showHandle();
-    this.tools.show();
-    const isMoving = !this.poses.isSettled(now);
-    const isFitted = this.environment !== null && this.parts?.lights.fitShadow(this.rig.camera.position, this.rig.controls.target);
-    if (this.shadows.areDue(isMoving) || isFitted) this.surface.renewShadows();
-    this.surface.prepare();
-    this.signs.placeMarks(this.shownCamera, height, this.surface.pixelRatio, this.shown);
-    this.surface.render(this.scene, this.rig.camera, () => this.painted());
-    this.signs.placeLabels(this.shownCamera, width, height, this.watch.selection, this.shown, isMoving);
-    this.events.onScale(this.rig.metresPerPixel);
-    this.frameRate.count(this.surface.images ?? this.frames, now);
-    return isFlying || (isMoving && !this.surface.isDrawnByServer);
-  }
-
-  // The objects that the page draws over an image from the server.
-  private painted(): Object3D[] {
-    const { overlays, signs, watch, arranger, tools } = this;
-    const objects: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group, tools.group];
-    return this.parts && this.shown.grid ? [this.parts.grid, ...objects] : objects;
-  }
-
   private click(place: ScreenPlace): void {
     if (this.tools.isHandleAt(place) || this.tools.click(place)) return;
     const robot = this.picker.robotAt(place);
@@ -492,6 +417,6 @@ export class World3D {
     // In edit mode, a click beside all bodies keeps the selection, because the user wants to move
     // it.
     if (firm === null && robot === null && this.arranger.isOn && this.watch.selection !== null) return;
-    this.events.onPick(firm ?? robot);
+    this.events.onPick(firm ?? robot ?? (this.arranger.isOn ? null : this.picker.objectAt(place)));
   }
 }

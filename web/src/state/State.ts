@@ -21,6 +21,7 @@ import { NO_FILTER } from "./robotList";
 import type { SavedLayout } from "./layouts";
 import type { SetUp } from "./setUp";
 import type { ChangedKeys } from "./shortcuts";
+import type { WorldPart } from "./parts";
 import type { Plots } from "./plots";
 import { NO_PLOTS } from "./plots";
 
@@ -101,6 +102,7 @@ export interface State {
   selection: string | null; // name of the selected robot
   selectedPose: RobotPose | null;
   chosenPose: BodyPose | null; // pose of the edited body as it is drawn
+  part: WorldPart | null; // the selected object, link, joint or sensor, for the inspector
   placing: boolean; // whether the next click on the floor moves the selection there
   ruler: readonly Point[] | null; // the measured points, at most two; null if nothing is measured
   mapMode: boolean; // whether the view is a map: from above, north up
@@ -158,6 +160,7 @@ export const initialState: State = {
   selection: null,
   selectedPose: null,
   chosenPose: null,
+  part: null,
   placing: false,
   ruler: null,
   mapMode: false,

@@ -13,6 +13,8 @@ import type { RecordedLine } from "../../api/replay";
 import type { CameraChoice } from "../../api/scene";
 import type { ParameterValue, TopicCount } from "../../protocol/FoxgloveClient";
 import type { TopicSource } from "../../protocol/SharedTopics";
+import type { VisualFacts } from "../../api/visuals";
+import type { WorldPart } from "../../state/parts";
 import type { Source } from "../../state/plots";
 import type { RobotFilter } from "../../state/robotList";
 import type { BodyPose, State } from "../../state/State";
@@ -25,6 +27,7 @@ export interface PanelPorts {
   server: ServerPort;
   commands: CommandsPort;
   control: ControlPort;
+  shapes: ShapesPort;
   replay: ReplayPort;
   robots: RobotsPort;
   edits: EditsPort;
@@ -75,6 +78,12 @@ export interface ControlPort {
   commandJoint(simulation: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void>;
 }
 
+// The shapes of models. Promises reject with a sentence.
+export interface ShapesPort {
+  // The visuals of the model with this identifier. The identifier of its collision shapes gives those.
+  visuals(model: string, links: readonly string[]): Promise<readonly VisualFacts[]>;
+}
+
 export interface ReplayPort {
   // Goes to an instant of the recording, in simulated seconds. Resolves when the page is there.
   seek(time: number): Promise<void>;
@@ -83,6 +92,7 @@ export interface ReplayPort {
 export interface RobotsPort {
   select(robot: string | null): void;
   // Same as a click on the body: selects a robot, or in edit mode an object.
+  inspect(part: WorldPart): void; // selects an object, link, joint or sensor
   pick(body: string, isAdding?: boolean): void; // `isAdding`: adds to the selection
   filter(change: Partial<RobotFilter>): void; // filters the list and the view
   follow(): void; // the view follows the selected robot; a second call ends this

@@ -1,6 +1,8 @@
 // Ports for tests: with the test's own store and the messages that it sends.
 import { vi } from "vitest";
 import type { TopicSource } from "../../protocol/SharedTopics";
+import type { VisualFacts } from "../../api/visuals";
+import type { WorldPart } from "../../state/parts";
 import type { State } from "../../state/State";
 import { initialState } from "../../state/State";
 import { Store } from "../../state/Store";
@@ -60,9 +62,11 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       commandJoint: vi.fn(async () => {}),
       ...control,
     },
+    shapes: { visuals: vi.fn(async (): Promise<VisualFacts[]> => []) },
     replay: { seek: vi.fn(async () => {}) },
     robots: {
       select: vi.fn(),
+      inspect: vi.fn((part: WorldPart) => store.set({ part })),
       pick: vi.fn(),
       filter: vi.fn((change: object) => store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, ...change } }))),
       follow: vi.fn(),

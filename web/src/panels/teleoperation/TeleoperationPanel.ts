@@ -16,7 +16,7 @@ import { GamepadReader } from "./GamepadReader";
 
 type Ports = Pick<PanelPorts, "state" | "control">;
 
-const NONE = "No robot can be driven: each is controlled by its behaviour. Press Edit, then add a robot without a behaviour.";
+const NONE = "No robot can be driven: each is controlled by its behaviour. To add a robot that you can drive: press Edit, choose a model, leave Behaviour at None, press Add, then Resume.";
 const HINT = "Press the pad, then hold W A S D or the arrow keys (Q and E: sideways). Or drag on the pad. Or use a gamepad.";
 const MAX_LISTED = 200;
 
@@ -27,6 +27,8 @@ export function mount({ state, control }: Ports): MountedPanel {
   const { line, follow } = controlLine(state, control);
   const linear = speedSlider("Speed", "m/s", 0.1, 3, 0.5);
   const angular = speedSlider("Turn rate", "rad/s", 0.1, 3, 1);
+  const place = element("div", { class: "pad-place" });
+  const speeds = element("div", { class: "teleoperation-speeds" }, linear.element, angular.element);
   const wishes = { pad: STILL, gamepad: STILL };
   let robot: string | null = null;
 
@@ -44,6 +46,7 @@ export function mount({ state, control }: Ports): MountedPanel {
     wishes.pad = wish;
     update();
   });
+  place.append(pad.element);
   const show = (wish: Wish) => {
     pad.show(wish);
     const isMoving = !isStill(wish) && robot !== null;
@@ -88,8 +91,9 @@ export function mount({ state, control }: Ports): MountedPanel {
     const isThere = (name: string | null): name is string => name !== null && names.includes(name);
     choose(isThere(robot) ? robot : isThere(selection) ? selection : (names[0] ?? null));
     choice.value = robot ?? "";
-    choice.hidden = pad.element.hidden = names.length === 0;
-    setText(note, names.length === 0 ? NONE : HINT);
+    const isEmpty = names.length === 0;
+    for (const hidden of [choice, place, speeds, moving]) hidden.hidden = isEmpty;
+    setText(note, isEmpty ? NONE : HINT);
   };
   const whileOpen = () => {
     const ends = [
@@ -110,8 +114,7 @@ export function mount({ state, control }: Ports): MountedPanel {
     show(STILL);
     return () => ends.forEach((end) => end());
   };
-  const speeds = element("div", { class: "teleoperation-speeds" }, linear.element, angular.element);
-  const body = element("div", { class: "teleoperation-body" }, line, element("div", { class: "pad-place" }, pad.element), speeds, moving, note);
+  const body = element("div", { class: "teleoperation-body" }, line, place, speeds, moving, note);
   return { body, tools: [choice], whileOpen };
 }
 

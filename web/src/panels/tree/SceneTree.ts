@@ -2,6 +2,8 @@
 import type { RobotStatus } from "../../api/status";
 import type { SceneBody, SceneDescription } from "../../api/scene";
 import { robotsOf } from "../../api/scene";
+import { shownPart } from "../../state/parts";
+import type { State } from "../../state/State";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
 import { count } from "../../ui/format";
@@ -57,10 +59,12 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
     ({ scene }) => scene,
     (scene) => showWorld(ports, world, scene),
   );
+  // In edit mode, fixed objects cannot be selected.
   ports.state.watch(
-    ({ editing }) => `${editing !== null} ${editing?.chosen} ${editing?.more}`,
+    ({ editing }) => editing !== null,
     () => showWorld(ports, world, ports.state.get().scene),
   );
+  ports.state.watch(chosenObjects, (chosen) => markObjects(world, chosen), shallowEqual);
   return tree;
 }
 
@@ -83,22 +87,31 @@ function showWorld(ports: Ports, details: HTMLElement, scene: SceneDescription |
     element("summary", {}, `World: ${count(bodies.length, "object")}`),
     element("ul", {}, ...bodies.map((body) => element("li", {}, objectEntry(ports, body)))),
   );
+  markObjects(details, chosenObjects(ports.state.get()));
 }
 
-// In edit mode, movable objects can be selected here.
+function chosenObjects({ editing, part, selection }: State): string[] {
+  const shown = shownPart({ editing, part, selection });
+  return [...(shown ? [shown.body] : []), ...(editing?.more ?? [])];
+}
+
+function markObjects(list: HTMLElement, chosen: readonly string[]): void {
+  for (const entry of list.querySelectorAll<HTMLElement>("[data-object]")) {
+    entry.setAttribute("aria-pressed", String(chosen.includes(entry.dataset.object!)));
+  }
+}
+
 function objectEntry(ports: Ports, { name, isFixed }: SceneBody): string | HTMLElement {
   const { editing } = ports.state.get();
-  if (!editing || isFixed) return name;
-  const entry = element(
+  if (editing && isFixed) return name;
+  return element(
     "button",
     {
       class: "button plain small",
       type: "button",
       "data-object": name,
+      "aria-pressed": "false",
       onclick: (event: MouseEvent) => ports.robots.pick(name, event.shiftKey || event.ctrlKey || event.metaKey),
     },
     name,
-  );
-  entry.setAttribute("aria-pressed", String(editing.chosen === name || editing.more.includes(name)));
-  return entry;
-}
+  );}

@@ -1,36 +1,36 @@
 // Shows the data of the selected part of the world, and updates it.
-import type { SceneBody, SceneDescription, SceneSensor } from "../../api/scene";
-import { anglesOf, stampOf, valuesOf } from "../../live/values";
-import type { PosesMessage } from "../../protocol/messages";
-import { seconds } from "../../protocol/messages";
+import type { SceneBody, SceneSensor } from "../../api/scene";
+import { stampOf, valuesOf } from "../../live/values";
+import type { PosesMessage, TransformsMessage } from "../../protocol/messages";
 import { element, setText } from "../../ui/element";
 import { formatNumber, formatValue } from "../../ui/format";
 import { smallButton } from "../../ui/smallButton";
 import type { PanelPorts } from "../contract/ports";
 import type { WorldNode } from "./nodes";
-import { kindOf } from "./nodes";
+import type { Line } from "./partLines";
+import { collisionLines, factsOf, massLines, mountLines, orientationText, poseLines, positionText, sensorLines, visualLines } from "./partLines";
 import type { Transforms } from "./Transforms";
 import { ageText } from "./Transforms";
 
-type Ports = Pick<PanelPorts, "state" | "topics" | "control" | "robots" | "cameras" | "plots" | "traffic" | "notices">;
+type Ports = Pick<PanelPorts, "state" | "topics" | "control" | "shapes" | "robots" | "cameras" | "plots" | "traffic" | "notices">;
 
 const UPDATE_MS = 200; // as fast as numbers can be read
 const POSES = "/gsv/poses";
-const DEGREES = 180 / Math.PI;
-type Line = [name: string, value: string];
 
 export class NodeInspector {
   private readonly title = element("h2");
   private readonly actions = element("div", { class: "inspector-actions" });
   private readonly facts = element("dl", { class: "inspector-rows" });
   private readonly cells = new Map<string, HTMLElement>();
-  readonly element = element("section", { class: "world-inspector", tabindex: "0", "aria-label": "Selected part" }, this.title, this.actions, this.facts);
+  readonly element: HTMLElement;
   private end = () => {};
 
   constructor(
     private readonly ports: Ports,
     private readonly transforms: Transforms,
+    label = "Selected part",
   ) {
+    this.element = element("section", { class: "world-inspector", tabindex: "0", "aria-label": label }, this.title, this.actions, this.facts);
     this.close();
   }
 
@@ -63,34 +63,55 @@ export class NodeInspector {
 
   private readPose(body: SceneBody, link: string | null): () => void {
     let newest: PosesMessage | null = null;
-    const stop = this.every(() => this.show([...factsOf(body, link), ...poseLines(this.ports.state.get().scene, newest, body, link, this.ports.state.get().time)]));
+    let shapes: Line[] = [];
+    let isOn = true;
+    const update = () => {
+      const { scene, time } = this.ports.state.get();
+      this.show([...factsOf(body, link), ...poseLines(scene, newest, body, link, time), ...massLines(scene, body, link), ...shapes]);
+    };
+    const stop = this.every(update);
+    void this.shapeLines(body, link).then((lines) => {
+      shapes = lines;
+      if (isOn) update();
+    });
     const end = this.ports.topics.subscribe<PosesMessage>(POSES, (message) => (newest = message), { newestOnly: true });
     return () => {
+      isOn = false;
       stop();
       end();
     };
   }
 
+  private async shapeLines({ model, collisions, links }: SceneBody, link: string | null): Promise<Line[]> {
+    const { shapes } = this.ports;
+    const isMeant = (visual: { link: string | null }) => link === null || visual.link === link;
+    try {
+      const visuals = await shapes.visuals(model, links);
+      const shown = collisions === null ? [] : await shapes.visuals(collisions, links);
+      return [...visualLines(visuals.filter(isMeant)), ...collisionLines(shown.filter(isMeant))];
+    } catch (error) {
+      return [["Geometry", (error as Error).message]];
+    }
+  }
+
   private readSensor(body: SceneBody, sensor: SceneSensor): () => void {
     let newest: unknown = null;
-    const facts: Line[] = [
-      ["Of", body.name],
-      ["Type", sensor.type.replaceAll("_", " ")],
-      ["Link", sensor.link],
-      ["Topic", sensor.topic],
-    ];
+    const facts = sensorLines(body, sensor);
+    let mount: Line[] = [];
     const isLarge = sensor.overlay === "picture" || sensor.type === "depth_camera";
     const stop = this.every(() => {
       const stamp = stampOf(newest);
       const age = stamp === null ? [] : [["Age", `${Math.max(0, this.ports.state.get().time - stamp).toFixed(2)} s`] as Line];
       const values = newest === null || isLarge ? [] : valuesOf(newest, sensor.units);
-      this.show([...facts, ...age, ...values.map(({ key, unit, value }): Line => [key, formatValue(value, unit)])]);
+      this.show([...facts, ...mount, ...age, ...values.map(({ key, unit, value }): Line => [key, formatValue(value, unit)])]);
       for (const { key, unit } of values) this.addPlot(key, sensor, unit);
     });
-    const end = isLarge ? () => {} : this.ports.topics.subscribe<unknown>(sensor.topic, (message) => (newest = message), { newestOnly: true });
+    const { topics } = this.ports;
+    const ends = [topics.subscribe<TransformsMessage>("/tf_static", (message) => (mount = mountLines(message, body, sensor)))];
+    if (!isLarge) ends.push(topics.subscribe<unknown>(sensor.topic, (message) => (newest = message), { newestOnly: true }));
     return () => {
       stop();
-      end();
+      ends.forEach((end) => end());
     };
   }
 
@@ -133,11 +154,10 @@ export class NodeInspector {
   private transformLines(child: string): Line[] {
     const frame = this.transforms.get(child);
     if (!frame) return [["", "This transform has not come. Keep Transforms open in the tree."]];
-    const { roll, pitch, yaw } = frame.angles;
     return [
       ["Parent", frame.parent],
-      ["Translation", `${frame.position.map((value) => formatNumber(value, 3)).join(", ")} m`],
-      ["Rotation", `${[roll, pitch, yaw].map((value) => formatNumber(value * DEGREES, 1)).join(", ")} ° (roll, pitch, yaw)`],
+      ["Translation", positionText(frame.position)],
+      ["Rotation", orientationText(frame.angles)],
       ["At", `${frame.time.toFixed(2)} s`],
       ["Age", ageText(frame, this.ports.state.get().time)],
     ];
@@ -184,30 +204,4 @@ function titleOf(node: WorldNode): string {
     case "transform":
       return node.child;
   }
-}
-
-function factsOf(body: SceneBody, link: string | null): Line[] {
-  if (link !== null) return [["Of", body.name]];
-  return [
-    ["Kind", kindOf(body)],
-    ["Links", String(body.links.length)],
-    ["Joints", String(body.joints.length)],
-    ["Sensors", String(body.sensors.length)],
-  ];
-}
-
-// A link without its own pose moves with its model. A static body keeps its initial pose.
-function poseLines(scene: SceneDescription | null, message: PosesMessage | null, body: SceneBody, link: string | null, now: number): Line[] {
-  const entry = scene?.poses.findIndex((each) => scene.bodies[each.body]?.name === body.name && each.link === link) ?? -1;
-  const isFresh = message !== null && scene?.layoutVersion === message.layout_version && entry >= 0;
-  if (link !== null && entry < 0) return [["Moves", "with its model"]];
-  const pose = isFresh ? Array.from(message.poses.subarray(7 * entry, 7 * entry + 7)) : link === null ? body.pose : null;
-  if (!pose || pose.length < 7) return [];
-  const [x, y, z, qx, qy, qz, qw] = pose as [number, number, number, number, number, number, number];
-  const { roll, pitch, yaw } = anglesOf({ x: qx, y: qy, z: qz, w: qw });
-  const lines: Line[] = [
-    ["Position", `${[x, y, z].map((value) => formatNumber(value, 3)).join(", ")} m`],
-    ["Orientation", `${[roll, pitch, yaw].map((value) => formatNumber(value * DEGREES, 1)).join(", ")} ° (roll, pitch, yaw)`],
-  ];
-  return isFresh ? [...lines, ["Age", `${Math.max(0, now - seconds(message.stamp)).toFixed(2)} s`]] : lines;
 }

@@ -7,9 +7,10 @@ import { mount } from "./WorldPanel";
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-const SONAR = { name: "sonar", type: "sonar", overlay: "lines" as const, link: "base", topic: "/b/sonar", view: null, units: { range: "m" } };
+const SONAR = { name: "sonar", type: "sonar", overlay: "lines" as const, link: "base", topic: "/b/sonar", view: null, units: { range: "m" }, pose: [0.2, 0, 0, 0, 0, 0, 1], parameters: { update_rate: 10, max: 5 } };
 const SCENE = scene({
-  bodies: [body("wall", { isRobot: false, isStatic: true, links: ["link"] }), body("crate", { isRobot: false, isStatic: false, links: ["box"] }), body("b", { links: ["base", "arm"], sensors: [SONAR] })],
+  bodies: [body("wall", { isRobot: false, isStatic: true, links: ["link"] }), body("crate", { model: "crate model", isRobot: false, isStatic: false, links: ["box"] }), body("b", { links: ["base", "arm"], sensors: [SONAR] })],
+  inertials: new Map([["crate model", [{ link: "box", mass: 2.5, pose: [0, 0, 0, 0, 0, 0, 1], poseInModel: [0, 0, 0, 0, 0, 0, 1], inertia: [1, 1, 1, 0, 0, 0] as const }]]]),
   poses: [
     { body: 1, link: null },
     { body: 2, link: null },
@@ -78,6 +79,52 @@ test("a sensor shows what it reads, with a curve, its age, and the way to its me
   expect(ports.plots.add).toHaveBeenCalledWith({ kind: "sensor", topic: "/b/sonar" }, "range", "m");
   [...document.querySelectorAll("button")].find(({ textContent }) => textContent === "Show messages")!.click();
   expect(ports.traffic.open).toHaveBeenCalledWith("/b/sonar");
+  end();
+});
+
+test("an object has its mass, geometry, material and collision shapes", async () => {
+  const { ports, choose, facts, end } = opened();
+  const material = { colour: "#ff0000", opacity: 0.5, metalness: 0, roughness: 0.8, maps: ["light"] };
+  ports.shapes.visuals.mockResolvedValue([{ name: "v", link: "box", shape: { kind: "box", size: [0.4, 0.4, 1 / 3] }, materials: [material] }]);
+  choose("crate");
+  await vi.advanceTimersByTimeAsync(250);
+  expect(facts()).toMatchObject({
+    Mass: "2.5 kg",
+    Geometry: "box, 0.4 × 0.4 × 0.3333 m",
+    Material: "#ff0000, opacity 0.5, metalness 0, roughness 0.8, maps of light",
+    Collision: "none",
+  });
+  choose("wall");
+  await vi.advanceTimersByTimeAsync(250);
+  expect(facts().Mass).toBe("none: the object is static and does not move");
+  end();
+});
+
+test("a sensor has its parameters and its transform", () => {
+  const { topics, choose, unfold, facts, end } = opened();
+  unfold("Parts of b");
+  choose("b::sensor::sonar");
+  const transform = { translation: { x: 0.2, y: 0, z: 0.1 }, rotation: { x: 0, y: 0, z: 0, w: 1 } };
+  topics.send("/tf_static", { transforms: [{ header: { stamp: { sec: 0, nsec: 0 }, frame_id: "b/base_link" }, child_frame_id: "b/sonar", transform }] });
+  vi.advanceTimersByTime(250);
+  expect(facts()).toMatchObject({
+    "Update rate": "10 Hz",
+    "Parameter max": "5",
+    "Position in the link": "0.200, 0.000, 0.000 m",
+    Transform: "0.200, 0.000, 0.100 m in b/base_link, static",
+  });
+  end();
+});
+
+test("the tree shows the part that was selected elsewhere", () => {
+  const { store, facts, end } = opened();
+  store.set({ part: { body: "b", kind: "sensor", name: "sonar" } });
+  expect(facts().Topic).toBe("/b/sonar");
+  store.set({ part: null, selection: "b" });
+  expect(facts().Kind).toBe("robot");
+  expect(document.querySelector('[data-node="b"]')!.getAttribute("aria-pressed")).toBe("true");
+  store.set({ selection: null });
+  expect(document.querySelector('[aria-pressed="true"]')).toBeNull();
   end();
 });
 

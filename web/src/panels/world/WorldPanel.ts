@@ -1,11 +1,12 @@
 // The tree of the world: every body with its links, joints and sensors, the transforms, and an
 // inspector of the selected part.
+import { shownPart } from "../../state/parts";
 import { shallowEqual } from "../../state/Store";
 import { element } from "../../ui/element";
 import type { MountedPanel } from "../contract/Panel";
 import { NodeInspector } from "./NodeInspector";
 import type { WorldNode } from "./nodes";
-import { bodiesOf, nodeId } from "./nodes";
+import { bodiesOf, nodeId, nodeOf, partOf } from "./nodes";
 import { Transforms } from "./Transforms";
 import { WorldTree } from "./WorldTree";
 
@@ -14,7 +15,7 @@ type Ports = ConstructorParameters<typeof NodeInspector>[0];
 const UPDATE_MS = 500;
 
 export function mount(ports: Ports): MountedPanel {
-  const { state, topics } = ports;
+  const { state, topics, robots } = ports;
   const filter = element("input", { type: "search", class: "log-filter", placeholder: "Name…", "aria-label": "Name in the world", autocomplete: "off", spellcheck: "false" });
   const transforms = new Transforms();
   const inspector = new NodeInspector(ports, transforms);
@@ -22,11 +23,16 @@ export function mount(ports: Ports): MountedPanel {
   let isOpen = false;
   let showsFrames = false;
   let endFrames = () => {};
+  const open = (node: WorldNode) => {
+    chosen = node;
+    tree.select(nodeId(node));
+    inspector.open(node);
+  };
   const tree = new WorldTree(
     (node) => {
-      chosen = node;
-      tree.select(nodeId(node));
-      inspector.open(node);
+      open(node);
+      const part = partOf(node);
+      if (part) robots.inspect(part);
     },
     (open) => {
       if (open === showsFrames) return;
@@ -57,6 +63,15 @@ export function mount(ports: Ports): MountedPanel {
     isOpen = true;
     follow();
     const ends = [
+      // The choice in the view, in the list and in the edit panel is shown here, too.
+      state.watch(shownPart, (part) => {
+        const node = nodeOf(state.get().scene, part);
+        if (node && nodeId(node) !== (chosen && nodeId(chosen))) open(node);
+        if (node || chosen?.kind === "transform") return;
+        chosen = null;
+        tree.select("");
+        inspector.close();
+      }, shallowEqual),
       state.watch(({ scene, simulation }) => ({ scene, simulation }), () => {
         showBodies();
         // In a new scene, the part may be missing or different.

@@ -1,5 +1,7 @@
 // The nodes in the tree of the world: bodies with their links, joints and sensors, and transforms.
 import type { SceneBody, SceneDescription, SceneJoint, SceneSensor } from "../../api/scene";
+import type { WorldPart } from "../../state/parts";
+import { bodyPart } from "../../state/parts";
 
 export type WorldNode =
   | { kind: "body"; body: SceneBody }
@@ -21,6 +23,37 @@ export function nodeId(node: WorldNode): string {
       return `${node.body.name}::sensor::${node.sensor.name}`;
     case "transform":
       return `tf::${node.child}`;
+  }
+}
+
+// The selected part in the tree. Null if the scene has no such part.
+export function nodeOf(scene: SceneDescription | null, part: WorldPart | null): WorldNode | null {
+  const body = part && scene?.bodies.find(({ name }) => name === part.body);
+  if (!body) return null;
+  const { kind, name } = part;
+  if (kind === "body") return { kind, body };
+  if (kind === "link") return body.links.includes(name) ? { kind, body, name } : null;
+  if (kind === "joint") {
+    const joint = body.joints.find((each) => each.name === name);
+    return joint ? { kind, body, joint } : null;
+  }
+  const sensor = body.sensors.find((each) => each.name === name);
+  return sensor ? { kind, body, sensor } : null;
+}
+
+// Null for a transform, which is no part of the scene.
+export function partOf(node: WorldNode): WorldPart | null {
+  switch (node.kind) {
+    case "body":
+      return bodyPart(node.body.name);
+    case "link":
+      return { body: node.body.name, kind: "link", name: node.name };
+    case "joint":
+      return { body: node.body.name, kind: "joint", name: node.joint.name };
+    case "sensor":
+      return { body: node.body.name, kind: "sensor", name: node.sensor.name };
+    case "transform":
+      return null;
   }
 }
 

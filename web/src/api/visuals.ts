@@ -1,0 +1,19 @@
+// The visuals of a model, as its file describes them.
+
+export interface ModelVisual {
+  name: string;
+  link: string | null;
+  shape: Readonly<Record<string, unknown>>; // kind and size in metres; empty if the server does not describe it
+}
+
+export interface MaterialFacts {
+  colour: string; // "#rrggbb", sRGB
+  opacity: number;
+  metalness: number;
+  roughness: number;
+  maps: readonly string[]; // "colour", "normals", …
+}
+
+export interface VisualFacts extends ModelVisual {
+  materials: readonly MaterialFacts[];
+}

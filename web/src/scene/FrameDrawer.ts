@@ -1,0 +1,95 @@
+// Draws one frame of the view: moves what has moved, renews the shadows when they are due, and draws
+// the scene, or draws over an image of the server.
+import type { Object3D, PerspectiveCamera, Scene } from "three";
+import type { Shown } from "../state/overlays";
+import type { Arranger } from "./Arranger";
+import type { CameraRig } from "./CameraRig";
+import type { CollisionLayer } from "./CollisionLayer";
+import type { EditTools } from "./EditTools";
+import type { FrameRate } from "./FrameRate";
+import type { OverlayLayers } from "./OverlayLayers";
+import type { RobotSigns } from "./RobotSigns";
+import type { RobotWatch } from "./RobotWatch";
+import type { SceneParts } from "./SceneParts";
+import { ShadowPace } from "./ShadowPace";
+import type { ShownPoses } from "./ShownPoses";
+import type { Surface } from "./Surface";
+
+export interface DrawnLayers {
+  surface: Surface;
+  root: Scene;
+  rig: CameraRig;
+  poses: ShownPoses;
+  overlays: OverlayLayers;
+  collisions: CollisionLayer;
+  signs: RobotSigns;
+  watch: RobotWatch;
+  arranger: Arranger;
+  tools: EditTools;
+  frameRate: FrameRate;
+  hasFineLight: boolean;
+  parts(): SceneParts | null;
+  frames(): number; // drawn so far
+}
+
+export class FrameDrawer {
+  hasGraphics = true; // whether the browser can draw at present
+  private readonly shadows = new ShadowPace();
+
+  constructor(private readonly layers: DrawnLayers) {}
+
+  // The camera of what is on the screen: images of the server show where the camera was.
+  get shownCamera(): PerspectiveCamera {
+    return this.layers.surface.drawnImage?.camera ?? this.layers.rig.camera;
+  }
+
+  // Returns whether another frame must follow. `now`: ms, as performance.now().
+  draw(now: number, shown: Shown): boolean {
+    const { surface, root, rig, poses, overlays, collisions, signs, watch, arranger, tools, frameRate } = this.layers;
+    if (!this.hasGraphics && !surface.isDrawnByServer) return false;
+    const parts = this.layers.parts();
+    surface.advance();
+    if (this.showPoses(now)) {
+      this.shadows.moved();
+      watch.move();
+    }
+    const { width, height } = surface;
+    const isFlying = rig.update(now);
+    overlays.place(rig.camera.position);
+    if (parts) collisions.place(parts.bodies);
+    parts?.bodies.chooseDetail(rig.camera, height);
+    if (parts) parts.grid.visible = shown.grid;
+    watch.showRing();
+    arranger.showHandle();
+    tools.show();
+    const isMoving = !poses.isSettled(now);
+    const isFitted = this.layers.hasFineLight && parts?.lights.fitShadow(rig.camera.position, rig.controls.target);
+    if (this.shadows.areDue(isMoving) || isFitted) surface.renewShadows();
+    surface.prepare();
+    signs.placeMarks(this.shownCamera, height, surface.pixelRatio, shown);
+    surface.render(root, rig.camera, () => this.painted(parts, shown));
+    signs.placeLabels(this.shownCamera, width, height, watch.selection, shown, isMoving);
+    frameRate.count(surface.images ?? this.layers.frames(), now);
+    return isFlying || (isMoving && !surface.isDrawnByServer);
+  }
+
+  // Returns whether the quality has changed, so that a frame must follow.
+  tookFrame(milliseconds: number): boolean {
+    this.shadows.frameTook(milliseconds);
+    return this.layers.surface.frameTook(milliseconds);
+  }
+
+  private showPoses(now: number): boolean {
+    const { arranger, tools, surface, poses } = this.layers;
+    if (arranger.holds || tools.holds) return false;
+    const stamp = surface.drawnImage?.stamp ?? null;
+    return stamp === null ? poses.show(now) : poses.showAt(stamp);
+  }
+
+  // The objects that the page draws over an image from the server.
+  private painted(parts: SceneParts | null, shown: Shown): Object3D[] {
+    const { overlays, signs, watch, arranger, tools } = this.layers;
+    const objects: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group, tools.group];
+    return parts && shown.grid ? [parts.grid, ...objects] : objects;
+  }
+}

@@ -1,0 +1,114 @@
+// Sets up the view for a scene: its bodies, lights, overlays and collision shapes, and the camera.
+import type { Scene } from "three";
+import type { SceneDescription } from "../api/scene";
+import type { MarkerArrayMessage } from "../protocol/messages";
+import type { CameraRig } from "./CameraRig";
+import type { CollisionLayer } from "./CollisionLayer";
+import type { Environment } from "./Environment";
+import { environmentOf } from "./framing";
+import type { ModelLibrary } from "./ModelLibrary";
+import type { OverlayLayers } from "./OverlayLayers";
+import type { RenderLoop } from "./RenderLoop";
+import { RobotPlaces } from "./RobotPlaces";
+import type { RobotSigns } from "./RobotSigns";
+import type { RobotWatch } from "./RobotWatch";
+import { SceneParts } from "./SceneParts";
+import type { ShownPoses } from "./ShownPoses";
+
+// A scene is first drawn with its shapes, unless they take longer than this.
+const LONGEST_WAIT_FOR_SHAPES_MS = 400;
+
+// The layers of the view, which are the same for all scenes.
+export interface StageLayers {
+  root: Scene;
+  library: ModelLibrary;
+  rig: CameraRig;
+  loop: RenderLoop;
+  overlays: OverlayLayers;
+  collisions: CollisionLayer;
+  poses: ShownPoses;
+  signs: RobotSigns;
+  watch: RobotWatch;
+  environment: Environment | null; // null: there is no environment map
+}
+
+export interface StageEvents {
+  onModelsMissing(count: number): void;
+  onProblem(sentence: string): void;
+  onChange(): void; // the view must be drawn again, with new shadows
+}
+
+export class SceneStage {
+  parts: SceneParts | null = null; // the parts of the present scene
+  private lastBeams: MarkerArrayMessage | null = null;
+  private framedFor = ""; // the environment that the camera was set up for
+
+  constructor(
+    private readonly layers: StageLayers,
+    private readonly events: StageEvents,
+  ) {}
+
+  // Shows another scene, or none. If only the layout has changed, the camera stays where it is.
+  setScene(scene: SceneDescription | null): void {
+    this.clear();
+    this.layers.library.keepOnly(new Set(scene?.bodies.flatMap(({ model, collisions }) => [model, collisions ?? model])));
+    if (!scene) this.lastBeams = null;
+    if (scene) this.build(scene);
+    else this.layers.poses.setScene(null);
+    this.events.onChange();
+  }
+
+  setBeams(message: MarkerArrayMessage): void {
+    this.lastBeams = message;
+    this.takeBeams(message);
+  }
+
+  // Removes the beams of a topic that is no longer read.
+  forgetBeams(): void {
+    this.lastBeams = null;
+    this.layers.overlays.forgetBeams();
+  }
+
+  private clear(): void {
+    const { overlays, collisions, watch, signs } = this.layers;
+    this.parts?.dispose();
+    this.parts = null;
+    overlays.setScene(null);
+    collisions.setScene(null);
+    watch.robots = null;
+    signs.setRobots(null);
+  }
+
+  private build(scene: SceneDescription): void {
+    const { root, library, rig, loop, overlays, collisions, poses, signs, watch, environment } = this.layers;
+    environment?.show(scene.look);
+    this.parts = new SceneParts(scene, root, environment !== null);
+    const { bodies, focus } = this.parts;
+    watch.robots = new RobotPlaces(bodies, overlays.frames);
+    signs.setRobots(watch.robots);
+    overlays.setScene(bodies);
+    collisions.setScene(scene);
+    const place = environmentOf(scene);
+    if (this.framedFor !== place) {
+      rig.frame(focus, false);
+      loop.await(LONGEST_WAIT_FOR_SHAPES_MS);
+    }
+    this.framedFor = place;
+    poses.setScene(bodies);
+    if (this.lastBeams) this.takeBeams(this.lastBeams);
+    this.parts.load(library, {
+      onMissing: (count) => {
+        signs.measure();
+        this.events.onChange();
+        if (count === 0) loop.hurry();
+        this.events.onModelsMissing(count);
+      },
+      onProblem: (sentence) => this.events.onProblem(sentence),
+    });
+    watch.update();
+  }
+
+  private takeBeams(message: MarkerArrayMessage): void {
+    this.layers.overlays.takeBeams(message, (at) => this.layers.poses.at(at));
+  }
+}
