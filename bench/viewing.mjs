@@ -1,9 +1,10 @@
 #!/usr/bin/env node
 // Measures the viewer in a browser without a graphics card: the time to the first image and to the
 // list of robots, the time from a click to the displayed selection, frames per second, traffic, the
-// number of drawing calls, and the images that the server draws and pushes.
+// number of drawing calls, the images that the server draws and pushes, and the growth of the page's
+// memory.
 //
-//   bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing|pushed]]
+//   bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing|pushed|growth]]
 //
 // BUILD is a release build (build/release). WORLD is a world for the first image; the default is
 // the TurtleBot3 house in GSV_REAL_DIR. The third word selects a single measurement. The machine
@@ -16,7 +17,7 @@ import process from "node:process";
 const HOUSE = path.join(process.env.GSV_REAL_DIR ?? "", "turtlebot3/worlds/turtlebot3_house.world");
 const [build, given, only = ""] = process.argv.slice(2);
 const world = given || HOUSE;
-if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing|pushed]]");
+if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing|pushed|growth]]");
 process.env.GSV_BUILD_DIR = path.resolve(build);
 const { openBrowser, openPage, waitUntilDrawn } = await import("../tests/browser/browser.mjs");
 const { crowd, noteClicks, timeClicks } = await import("../tests/browser/crowd.mjs");
@@ -279,6 +280,51 @@ const traffic = (robots, off) =>
     ),
   );
 
+// The page's memory is measured after a while, in which caches fill. Plots grow with simulated time
+// up to their limit, so none is open.
+const GROWTH = { warmUpS: Number(process.env.GSV_GROWTH_WARM_UP_S ?? 60), everyS: 10, samples: 12, robots: 50, dayH: 8 };
+
+// Returns the growth of a value in 8 hours, from the medians of the first and the last third of the
+// samples.
+function growthOf(samples, name) {
+  const third = Math.floor(samples.length / 3);
+  const middle = (part, key) => part.map((sample) => sample[key]).sort((a, b) => a - b)[part.length >> 1];
+  const [first, last] = [samples.slice(0, third), samples.slice(-third)];
+  const hours = (middle(last, "at_s") - middle(first, "at_s")) / 3600;
+  return Math.round((GROWTH.dayH * (middle(last, name) - middle(first, name))) / hours);
+}
+
+// Measures the page's heap after forced garbage collections, its nodes and its listeners.
+const growth = () =>
+  withServer(crowd(folder, GROWTH.robots), (url) =>
+    withPage(url, async (page) => {
+      await page.locator("[data-robot]").first().click();
+      const devTools = await page.context().newCDPSession(page);
+      await devTools.send("Performance.enable");
+      const begin = performance.now();
+      const sample = async () => {
+        for (let i = 0; i < 3; i++) await devTools.send("HeapProfiler.collectGarbage");
+        const { metrics } = await devTools.send("Performance.getMetrics");
+        const of = (name) => metrics.find((metric) => metric.name === name).value;
+        return {
+          at_s: Math.round((performance.now() - begin) / 1000),
+          heap_kB: Math.round(of("JSHeapUsedSize") / 1000),
+          nodes: of("Nodes"),
+          listeners: of("JSEventListeners"),
+        };
+      };
+      await new Promise((resolve) => setTimeout(resolve, 1000 * GROWTH.warmUpS));
+      const samples = [];
+      while (samples.length < GROWTH.samples) {
+        samples.push(await sample());
+        await new Promise((resolve) => setTimeout(resolve, 1000 * GROWTH.everyS));
+      }
+      const names = ["heap_kB", "nodes", "listeners"];
+      const inADay = Object.fromEntries(names.map((name) => [name, growthOf(samples, name)]));
+      return { robots: GROWTH.robots, growth_in_8_hours: inADay, samples };
+    }),
+  );
+
 try {
   const result = { world: path.basename(world), load_average: os.loadavg()[0] };
   const isWanted = (part) => only === "" || only === part;
@@ -289,6 +335,7 @@ try {
   if (isWanted("traffic")) result.traffic = [await traffic(50, true), await traffic(50, false), await traffic(500, true), await traffic(500, false)];
   if (isWanted("frames")) result.frames = [await frames(100), await frames(1000)];
   if (isWanted("drawing")) result.drawing = [await drawing(100), await drawing(1000)];
+  if (isWanted("growth")) result.growth = await growth();
   if (isWanted("pushed")) {
     result.pushed = [
       await pushed("office", IN_OFFICE),
