@@ -59,7 +59,7 @@ export function createInspector(ports: Ports): HTMLElement {
     output,
     createSensorList(ports),
   );
-  // What a dead behaviour printed stands directly below the reason of its death.
+  // The output of a dead behaviour stands directly below the reason of its death.
   const placeOutput = (isDead: boolean) => {
     const before = isDead ? why : detail;
     if (before.nextElementSibling !== output) before.after(output);
