@@ -13,6 +13,7 @@ namespace {
 
 using geometry::Pose;
 using geometry::Vector3;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -351,6 +352,27 @@ TEST_F(SdfReaderTest, ReadsMaterials) {
   EXPECT_EQ(visuals[3].materials[0].base_colour, (model::Colour{0, 0, 1, 1}));
   EXPECT_EQ(visuals[4].materials[0].metalness, 0.9);
   EXPECT_EQ(visuals[4].materials[0].roughness, 0.2);
+}
+
+TEST_F(SdfReaderTest, ReadsOcclusionAndLightMaps) {
+  // A grey TGA image of one pixel.
+  std::string tga(18, '\0');
+  tga[2] = 2, tga[12] = tga[14] = 1, tga[16] = 24;
+  folder_.Write("map.tga", tga + "\x80\x80\x80");
+  const auto visual = [](const std::string& name, const std::string& light) {
+    return "<visual name='" + name + "'><geometry><box><size>1 1 1</size></box></geometry>" +
+           "<material><pbr><metal><ambient_occlusion_map>map.tga</ambient_occlusion_map>" + light +
+           "</metal></pbr></material></visual>";
+  };
+  const auto model =
+      Model("<model name='m'><link name='l'>" + visual("a", "<light_map>map.tga</light_map>") +
+            visual("b", "<light_map uv_set='1'>map.tga</light_map>") + "</link></model>");
+  const auto& visuals = model->links.at(0).visuals;
+  ASSERT_THAT(visuals, SizeIs(2));
+  EXPECT_NE(visuals[0].materials.at(0).occlusion_map, nullptr);
+  EXPECT_NE(visuals[0].materials[0].light_map, nullptr);
+  EXPECT_EQ(visuals[1].materials.at(0).light_map, nullptr);
+  EXPECT_THAT(Sentences(), Contains(HasSubstr("only set 0 is read")));
 }
 
 TEST_F(SdfReaderTest, ReadsTemperaturesOfTheAirAndOfVisuals) {

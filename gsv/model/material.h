@@ -25,6 +25,11 @@ struct Material {
   std::shared_ptr<const Image> normal_map;
   std::shared_ptr<const Image> metallic_roughness_map;  // G: roughness, B: metalness
   std::shared_ptr<const Image> emissive_map;
+  // R: the fraction of ambient and baked light that reaches the surface.
+  std::shared_ptr<const Image> occlusion_map;
+  // Baked light, sRGB. The surface reflects it as diffuse light: it adds light map times diffuse
+  // colour, as Gazebo does.
+  std::shared_ptr<const Image> light_map;
   // If true, the map's alpha is a mask (transparent below one half); otherwise alpha is blended.
   bool alpha_mask = false;
   bool double_sided = false;

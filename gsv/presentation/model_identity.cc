@@ -87,6 +87,8 @@ class Identity {
     Add(material.normal_map);
     Add(material.metallic_roughness_map);
     Add(material.emissive_map);
+    if (material.occlusion_map) Add(std::string_view("occlusion")), Add(material.occlusion_map);
+    if (material.light_map) Add(std::string_view("light")), Add(material.light_map);
     Add(std::uint64_t{material.alpha_mask});
     Add(std::uint64_t{material.double_sided});
   }

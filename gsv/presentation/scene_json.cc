@@ -82,8 +82,33 @@ Json LookJson(const model::SceneLook& look) {
           {"sky", look.sky}};
 }
 
+// The parameters of sensors, each set once: robots of one model have equal ones.
+class ParameterSets {
+ public:
+  // Returns the index of the sensor's set in Take().
+  std::size_t IndexOf(const model::SensorDescription& sensor) {
+    Json set = Json::object();
+    if (sensor.update_rate > 0) set["update_rate"] = sensor.update_rate;
+    for (const auto& [name, value] : sensor.parameters) {
+      std::visit([&, &key = name](const auto& held) { set[key] = held; }, value);
+    }
+    // Text that is not UTF-8 must not fail here.
+    const auto [it, is_new] =
+        index_.try_emplace(set.dump(-1, ' ', false, Json::error_handler_t::replace), sets_.size());
+    if (is_new) sets_.push_back(std::move(set));
+    return it->second;
+  }
+
+  Json Take() { return std::move(sets_); }
+
+ private:
+  Json sets_ = Json::array();
+  std::map<std::string, std::size_t> index_;
+};
+
 // Returns the sensors of a body. `known` provides the frustums of its cameras.
-Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::SensorSet& known) {
+Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::SensorSet& known,
+                 ParameterSets& parameters) {
   Json sensors = Json::array();
   if (!world::HasAgent(body)) return sensors;
   for (const model::SensorDescription& sensor : source.sensors(body.name)) {
@@ -96,7 +121,8 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
               {"overlay", OverlayName(type->overlay)},
               {"link", body.model->links[sensor.link].name},
               {"pose", PoseJson(sensor.link_from_sensor)},
-              {"topic", SensorTopic(body.name, sensor.name)}};
+              {"topic", SensorTopic(body.name, sensor.name)},
+              {"parameters", parameters.IndexOf(sensor)}};
     // Units are listed by the path of a field in the sensor's message. A path includes all fields
     // below it.
     if (auto units = type->layout.Units(); !units.empty()) json["units"] = std::move(units);
@@ -150,7 +176,7 @@ bool IsOfWorld(const world::Layout& layout, const world::Body& body) {
 }
 
 Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose,
-              const std::set<int>& moving, sensing::SensorSet& known) {
+              const std::set<int>& moving, sensing::SensorSet& known, ParameterSets& parameters) {
   Json links = Json::array();
   for (const model::Link& link : body.model->links) links.push_back(link.name);
   Json json{{"name", body.name},
@@ -160,7 +186,7 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
             {"is_avatar", body.is_avatar()},
             {"pose", PoseJson(pose)},
             {"links", std::move(links)},
-            {"sensors", SensorsJson(source, body, known)}};
+            {"sensors", SensorsJson(source, body, known, parameters)}};
   if (world::IsStation(body)) json["is_station"] = true;
   if (body.is_static() && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
   if (body.is_robot() && IsOfWorld(*source.snapshot.layout, body)) json["is_of_world"] = true;
@@ -274,9 +300,10 @@ std::string SceneJson(const SceneSource& source) {
     if (entry.link >= 0) moving[entry.body].insert(entry.link);
   }
   sensing::SensorSet known(source.sensor_types);
+  ParameterSets parameters;
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
     bodies.push_back(BodyJson(source, layout.bodies[i], snapshot.state.bodies[i].world_from_model,
-                              moving[i], known));
+                              moving[i], known, parameters));
   }
   const Json scene{{"layout_version", layout.version},
                    {"name", layout.description->name},
@@ -285,6 +312,7 @@ std::string SceneJson(const SceneSource& source) {
                    {"lights", std::move(lights)},
                    {"bodies", std::move(bodies)},
                    {"inertials", AllInertialsJson(source)},
+                   {"sensor_parameters", parameters.Take()},
                    {"poses", PoseListJson(layout)}};
   return scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

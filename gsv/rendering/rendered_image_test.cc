@@ -154,6 +154,56 @@ TEST_F(IMAGE_SUITE, TextureIsUpright) {
   EXPECT_GT(blue.v, 60);
 }
 
+// An image with two columns: black on the left, white on the right.
+std::shared_ptr<const model::Image> BlackAndWhite() {
+  auto image = std::make_shared<model::Image>();
+  image->width = 64, image->height = 1, image->channels = 3;
+  for (int x = 0; x < 64; ++x) image->pixels.insert(image->pixels.end(), 3, x < 32 ? 0 : 255);
+  return image;
+}
+
+TEST_F(IMAGE_SUITE, OcclusionMapScalesAmbientLight) {
+  // Light from straight above does not reach the side that the camera sees.
+  model::Light above;
+  above.kind = model::Light::Kind::kDirectional;
+  above.direction = {0, 0, -1};
+  scene_.description().lights = {above};
+  model::Material material = Matt(0.8, 0.8, 0.8);
+  const auto take = [&] {
+    scene_.Remove("board");
+    scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
+    return Take({{}, {160, 120, 0.5, 0.1, 100}});
+  };
+  const auto plain = take();
+  material.occlusion_map = BlackAndWhite();
+  const auto occluded = take();
+  EXPECT_GT(Brightness(*plain, 40, 60), 30);
+  EXPECT_LE(Brightness(*occluded, 40, 60), 2);
+  EXPECT_EQ(Brightness(*occluded, 120, 60), Brightness(*plain, 120, 60));
+}
+
+TEST_F(IMAGE_SUITE, LightMapIsReflectedAsDiffuseLight) {
+  const auto take = [&](const model::Material& material) {
+    scene_.Remove("board");
+    scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
+    return Take({{}, {160, 120, 0.5, 0.1, 100}});
+  };
+  model::Material material = Matt(0.5, 0.3, 0.2);
+  const auto plain = take(material);
+  material.light_map = BlackAndWhite();
+  const auto lit = take(material);
+  // White light times the diffuse colour is the light of a surface that emits this colour.
+  model::Material emitting = Matt(0.5, 0.3, 0.2);
+  emitting.emissive = emitting.base_colour;
+  const auto expected = take(emitting);
+  const std::size_t left = (60 * 160 + 40) * 3, right = (60 * 160 + 120) * 3;
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(lit->pixels[left + c], plain->pixels[left + c], 1);
+    EXPECT_NEAR(lit->pixels[right + c], expected->pixels[right + c], 1);
+  }
+  EXPECT_GT(lit->pixels[right], lit->pixels[left] + 30);
+}
+
 TEST_F(IMAGE_SUITE, AlphaMaskShowsTheObjectBehindItsHoles) {
   model::Material material = Matt(1, 1, 1);
   material.base_colour_map = Quarters(4);

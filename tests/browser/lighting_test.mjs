@@ -16,6 +16,11 @@ const shape = (name, pose, geometry, colour, more = "") => `
   </visual></link></model>`;
 const box = (size) => `<box><size>${size}</size></box>`;
 const METAL = "<pbr><metal><metalness>1</metalness><roughness>0.1</roughness></metal></pbr>";
+// Grey images of one pixel: black and white.
+const tga = (value) => Buffer.from([0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0, value, value, value]);
+const maps = (inside) => `<pbr><metal><metalness>0</metalness><roughness>1</roughness>${inside}</metal></pbr>`;
+const NO_AMBIENT = maps("<ambient_occlusion_map>black.tga</ambient_occlusion_map>");
+const BAKED = maps("<light_map>white.tga</light_map>");
 // The sun shines towards negative x, so the sides of the block at x = 0.5 and y = -0.5 have no
 // shadow on the ground.
 const WORLD = `<?xml version="1.0"?>
@@ -25,6 +30,9 @@ const WORLD = `<?xml version="1.0"?>
   ${shape("block", "0 0 0.5", box("1 1 1"), "0.8 0.8 0.8")}
   ${shape("pole", "3 0 0.1", box("0.02 0.02 0.2"), "0.8 0.8 0.8")}
   ${shape("ball", "0 -3 0.5", "<sphere><radius>0.5</radius></sphere>", "0.9 0.7 0.3", METAL)}
+  ${shape("plain", "-10 1.8 0.5", box("1 1 1"), "0.7 0.7 0.7", maps(""))}
+  ${shape("occluded", "-10 3 0.5", box("1 1 1"), "0.7 0.7 0.7", NO_AMBIENT)}
+  ${shape("baked", "-10 4.2 0.5", box("1 1 1"), "0.7 0.7 0.7", BAKED)}
 </world></sdf>`;
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-lighting-"));
@@ -34,6 +42,8 @@ let browser;
 before(async () => {
   const world = path.join(folder, "lighting.sdf");
   fs.writeFileSync(world, WORLD);
+  fs.writeFileSync(path.join(folder, "black.tga"), tga(0));
+  fs.writeFileSync(path.join(folder, "white.tga"), tga(255));
   server = await startServer([world]);
   browser = await openBrowser({ width: 1100, height: 700 });
   const { page } = await openPage(browser, server.url);
@@ -113,4 +123,14 @@ test("the shadow of a pole of 2 cm is sharp, because the shadow map is fitted to
   assert.ok(rich.inside < 0.75, `in the shadow: ${rich.inside}`);
   assert.ok(rich.outside > 0.9, `15 mm beside it: ${rich.outside}`);
   assert.ok(plain.outside < 0.9, `15 mm beside it, not fitted: ${plain.outside}`);
+});
+
+test("ambient occlusion maps darken a surface in the shade, and light maps light it", async () => {
+  const [eye, target] = [[-16, 3, 1.5], [-10, 3, 0.5]];
+  const at = await look("", eye, target); // the sides away from the sun
+  const [plain, occluded, baked] = [1.8, 3, 4.2].map((y) => at([-10.5, y, 0.5]));
+  assert.ok(plain > 20, `without maps: ${plain}`);
+  assert.ok(occluded < plain / 3, `without ambient light: ${occluded}`);
+  // White light on a diffuse colour of 0.7 (sRGB 179) adds this colour.
+  assert.ok(baked > 165 && baked < 215, `with baked light: ${baked}`);
 });

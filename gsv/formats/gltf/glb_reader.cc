@@ -297,6 +297,8 @@ class GlbModelReader {
     material.metallic_roughness_map = ReadTexture(Member(pbr, "metallicRoughnessTexture"));
     material.normal_map = ReadTexture(Member(json, "normalTexture"));
     material.emissive_map = ReadTexture(Member(json, "emissiveTexture"));
+    material.occlusion_map = ReadTexture(Member(json, "occlusionTexture"));
+    material.light_map = ReadTexture(Member(Member(json, "extensions"), "MOZ_lightmap"));
     material.alpha_mask = Member(json, "alphaMode") == GlbJson("MASK");
     material.double_sided = Member(json, "doubleSided") == GlbJson(true);
     return material;

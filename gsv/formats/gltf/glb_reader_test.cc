@@ -81,6 +81,18 @@ TEST(ReadGlb, ReadsMaterials) {
   EXPECT_TRUE(material.double_sided);
 }
 
+TEST(ReadGlb, ReadsOcclusionAndLightMaps) {
+  model::Model cart = Cart();
+  model::Material& given = cart.links[1].visuals[0].materials[0];
+  given.occlusion_map = Checkers();
+  given.light_map = Checkers();
+  const auto materials = Reread(cart).links[1].visuals.at(0).materials;
+  ASSERT_NE(materials.at(0).occlusion_map, nullptr);
+  ASSERT_NE(materials[0].light_map, nullptr);
+  EXPECT_EQ(materials[0].light_map->width, 2);
+  EXPECT_EQ(materials.at(1).light_map, nullptr);
+}
+
 TEST(ReadGlb, KeepsPartsScaleAndTextureCoordinates) {
   const model::Visual visual = Reread(Cart()).links[1].visuals.at(0);
   const auto& mesh = std::get<geometry::Mesh>(visual.shape);

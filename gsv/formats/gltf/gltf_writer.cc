@@ -18,6 +18,9 @@ using geometry::Vector3;
 using model::Image;
 using model::Material;
 
+// Mozilla Hubs' extension, the only one for baked light: {"index": texture, "intensity": factor}.
+constexpr const char* kLightMapExtension = "MOZ_lightmap";
+
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 std::vector<float> Flat(const std::vector<Vector3>& vectors) {
@@ -56,6 +59,37 @@ void SetPose(const geometry::Pose& pose, Json& node) {
   if (q != geometry::Quaternion{}) node["rotation"] = {q.x, q.y, q.z, q.w};
 }
 
+// The kind and the size of a shape in metres, for viewers that describe it.
+Json ShapeJson(const geometry::Shape& shape) {
+  const auto of = [](const Vector3& v) { return Json{v.x, v.y, v.z}; };
+  if (const auto* box = std::get_if<geometry::Box>(&shape)) {
+    return {{"kind", "box"}, {"size", of(box->size)}};
+  }
+  if (const auto* sphere = std::get_if<geometry::Sphere>(&shape)) {
+    return {{"kind", "sphere"}, {"radius", sphere->radius}};
+  }
+  if (const auto* cylinder = std::get_if<geometry::Cylinder>(&shape)) {
+    return {{"kind", "cylinder"}, {"radius", cylinder->radius}, {"length", cylinder->length}};
+  }
+  if (const auto* capsule = std::get_if<geometry::Capsule>(&shape)) {
+    return {{"kind", "capsule"}, {"radius", capsule->radius}, {"length", capsule->length}};
+  }
+  if (const auto* cone = std::get_if<geometry::Cone>(&shape)) {
+    return {{"kind", "cone"}, {"radius", cone->radius}, {"length", cone->length}};
+  }
+  if (const auto* ellipsoid = std::get_if<geometry::Ellipsoid>(&shape)) {
+    return {{"kind", "ellipsoid"}, {"radii", of(ellipsoid->radii)}};
+  }
+  if (const auto* plane = std::get_if<geometry::Plane>(&shape)) {
+    return {{"kind", "plane"}, {"size", {plane->size.x, plane->size.y}}};
+  }
+  const auto& mesh = std::get<geometry::Mesh>(shape);
+  const geometry::Bounds bounds = geometry::BoundsOf(shape);
+  return {{"kind", "mesh"},
+          {"size", of(bounds.max - bounds.min)},
+          {"triangles", mesh.triangles->triangles.size()}};
+}
+
 class Writer {
  public:
   base::Result<std::vector<std::uint8_t>> Write(const model::Model& model) {
@@ -81,6 +115,11 @@ class Writer {
                                      {"textures", &textures_},
                                      {"images", &images_}}) {
       if (!list->empty()) document[name] = *list;
+    }
+    for (const Json& material : materials_) {
+      if (!material.contains("extensions")) continue;
+      document["extensionsUsed"] = Json::array({kLightMapExtension});
+      break;
     }
     if (!textures_.empty()) {
       constexpr int kRepeat = 10497, kLinear = 9729, kTrilinear = 9987;
@@ -117,7 +156,10 @@ class Writer {
     const int mesh = AddMesh(triangles, visual.materials);
     if (mesh < 0) return -1;
     Json node{{"mesh", mesh},
-              {"extras", {{"visual", visual.name}, {"cast_shadows", visual.cast_shadows}}}};
+              {"extras",
+               {{"visual", visual.name},
+                {"cast_shadows", visual.cast_shadows},
+                {"shape", ShapeJson(visual.shape)}}}};
     SetPose(visual.link_from_visual, node);
     if (file_mesh != nullptr && file_mesh->scale != Vector3{1, 1, 1}) {
       node["scale"] = {file_mesh->scale.x, file_mesh->scale.y, file_mesh->scale.z};
@@ -203,6 +245,10 @@ class Writer {
     json["pbrMetallicRoughness"] = std::move(pbr);
     set_map(material.normal_map, "normalTexture", true, json);
     set_map(material.emissive_map, "emissiveTexture", true, json);
+    set_map(material.occlusion_map, "occlusionTexture", true, json);
+    if (const int texture = AddTexture(material.light_map, true); texture >= 0) {
+      json["extensions"][kLightMapExtension] = {{"index", texture}, {"intensity", 1.0}};
+    }
     if (glow.r > 0 || glow.g > 0 || glow.b > 0) {
       json["emissiveFactor"] = {linear(glow.r), linear(glow.g), linear(glow.b)};
     }

@@ -193,6 +193,30 @@ TEST(WriteGlb, MaterialsKeepTheirAppearance) {
   EXPECT_EQ(JsonOf(Glb(model))["materials"][0]["alphaMode"], "BLEND");
 }
 
+TEST(WriteGlb, DescribesTheShapesOfVisuals) {
+  const nlohmann::json json = JsonOf(Glb(Robot()));
+  std::vector<nlohmann::json> shapes;
+  for (const auto& node : json["nodes"]) {
+    if (node["extras"].contains("shape")) shapes.push_back(node["extras"]["shape"]);
+  }
+  ASSERT_EQ(shapes.size(), 3u);
+  EXPECT_EQ(shapes[0], nlohmann::json::parse(R"({"kind":"box","size":[1.0,2.0,3.0]})"));
+  EXPECT_EQ(shapes[1], nlohmann::json::parse(R"({"kind":"cylinder","radius":0.5,"length":0.2})"));
+}
+
+TEST(WriteGlb, NamesTheExtensionOfALightMap) {
+  model::Material material;
+  material.occlusion_map = Picture(8, 8);
+  material.light_map = Picture(4, 4);
+  model::Model model;
+  model.links.push_back(LinkWith("base", Box{}, material));
+  const nlohmann::json json = JsonOf(Glb(model));
+  EXPECT_EQ(json["extensionsUsed"], nlohmann::json::parse(R"(["MOZ_lightmap"])"));
+  const auto& written = json["materials"][0];
+  EXPECT_NE(written["occlusionTexture"]["index"], written["extensions"]["MOZ_lightmap"]["index"]);
+  EXPECT_FALSE(JsonOf(Glb(Robot())).contains("extensionsUsed"));
+}
+
 TEST(WriteGlb, EqualModelsGiveEqualBytes) { EXPECT_EQ(Glb(Robot()), Glb(Robot())); }
 
 TEST(WriteGlb, AModelWithoutVisualsIsReadable) {

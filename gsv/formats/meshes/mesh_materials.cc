@@ -94,6 +94,10 @@ class MaterialReader {
       material.metallic_roughness_map = FirstMap(
           source,
           {aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS, aiTextureType_UNKNOWN});
+      int set = 0;  // only the first set of texture coordinates is read
+      source.Get(AI_MATKEY_UVWSRC(aiTextureType_LIGHTMAP, 0), set);
+      // Assimp calls glTF's occlusion texture a light map.
+      if (set == 0) material.occlusion_map = FirstMap(source, {aiTextureType_LIGHTMAP});
       return;
     }
     aiColor4D specular(0, 0, 0, 1);

@@ -100,6 +100,22 @@ class MaterialOfVisual {
       material_.emissive_map = Texture(flow.EmissiveMap());
       if (!Has("emissive") && material_.emissive_map != nullptr) material_.emissive = {};
     }
+    material_.occlusion_map = Texture(flow.AmbientOcclusionMap());
+    ReadLightMap(flow);
+  }
+
+  // A mesh has one set of texture coordinates here, so only the first one can be used.
+  void ReadLightMap(const sdf::PbrWorkflow& flow) {
+    if (flow.LightMap().empty()) return;
+    if (flow.LightMapTexCoordSet() != 0) {
+      context_.Warn("light map " + flow.LightMap() +
+                        " is not drawn: it uses texture coordinate set " +
+                        std::to_string(flow.LightMapTexCoordSet()) +
+                        ", and only set 0 is read; bake the map for set 0",
+                    place_);
+      return;
+    }
+    material_.light_map = Texture(flow.LightMap());
   }
 
   std::shared_ptr<const Image> Texture(const std::string& name) {

@@ -210,11 +210,11 @@ lighting - 1.4- =true ; every material is lit
 pbr + 1.6-
 pbr/metal + 1.6-
 pbr/metal/albedo_map + 1.6- =
-pbr/metal/ambient_occlusion_map - 1.6- = ; this map is not used
+pbr/metal/ambient_occlusion_map + 1.6- =
 pbr/metal/emissive_map + 1.6- =
 pbr/metal/environment_map - 1.6- = ; this map is not used
-pbr/metal/light_map - 1.7- = ; this map is not used
-pbr/metal/light_map/@uv_set - 1.7- =0 ; this map is not used
+pbr/metal/light_map + 1.7- =
+pbr/metal/light_map/@uv_set - 1.7- =0 ; only texture coordinate set 0 is read
 pbr/metal/metalness + 1.6- =0.5
 pbr/metal/metalness_map + 1.6- =
 pbr/metal/normal_map + 1.6- =
@@ -223,13 +223,13 @@ pbr/metal/roughness + 1.6- =0.5
 pbr/metal/roughness_map + 1.6- =
 pbr/specular + 1.6-
 pbr/specular/albedo_map + 1.6- =
-pbr/specular/ambient_occlusion_map - 1.6- = ; this map is not used
+pbr/specular/ambient_occlusion_map + 1.6- =
 pbr/specular/emissive_map + 1.6- =
 pbr/specular/environment_map - 1.6- = ; this map is not used
 pbr/specular/glossiness + 1.6- =0
 pbr/specular/glossiness_map - 1.6- = ; this map is not used
-pbr/specular/light_map - 1.7- = ; this map is not used
-pbr/specular/light_map/@uv_set - 1.7- =0 ; this map is not used
+pbr/specular/light_map + 1.7- =
+pbr/specular/light_map/@uv_set - 1.7- =0 ; only texture coordinate set 0 is read
 pbr/specular/normal_map + 1.6- =
 pbr/specular/normal_map/@type - 1.6- =tangent ; normals are in tangent space
 pbr/specular/specular_map - 1.6- = ; this map is not used

@@ -106,6 +106,8 @@ layout(binding = 1) uniform sampler2D normal_map;
 layout(binding = 2) uniform sampler2D metallic_roughness_map;
 layout(binding = 3) uniform sampler2D emissive_map;
 layout(binding = 4) uniform sampler2DShadow shadow_map;
+layout(binding = 5) uniform sampler2D occlusion_map;
+layout(binding = 6) uniform sampler2D light_map;
 in vec3 v_position;
 in vec3 v_normal;
 in vec2 v_uv;
@@ -234,7 +236,14 @@ void main() {
 #ifdef SHADOWS
   sun *= SunVisible(face_normal, n_dot_l);
 #endif
-  vec3 light = emissive + sun + Ambient(surface, to_view, roughness);
+  vec3 ambient = Ambient(surface, to_view, roughness);
+#ifdef LIGHT_MAP
+  ambient += Decode(texture(light_map, v_uv).rgb) * surface.diffuse;
+#endif
+#ifdef OCCLUSION_MAP
+  ambient *= texture(occlusion_map, v_uv).r;
+#endif
+  vec3 light = emissive + sun + ambient;
 #ifdef LAMPS
   for (int i = 0; i < light_count.x; ++i) light += Lamp(lights[i], surface, to_view);
 #endif

@@ -12,7 +12,7 @@
 namespace gsv::rendering {
 
 // Compile these with a selection of the following defined: BASE_COLOUR_MAP, NORMAL_MAP,
-// METALLIC_ROUGHNESS_MAP, EMISSIVE_MAP, CUT_OUT, SEE_THROUGH, SHADOWS, LAMPS. With SEE_THROUGH,
+// METALLIC_ROUGHNESS_MAP, EMISSIVE_MAP, OCCLUSION_MAP, LIGHT_MAP, CUT_OUT, SEE_THROUGH, SHADOWS, LAMPS. With SEE_THROUGH,
 // alpha is the opacity. Otherwise alpha is the number of the surface (0: the sky) for
 // SmoothAliasedEdges().
 extern const std::string kSurfaceVertexShader;
@@ -28,7 +28,7 @@ extern const std::string kSkyFragmentShader;
 // The bindings are the same in all shaders.
 inline constexpr unsigned kFrameBlockBinding = 0;
 inline constexpr unsigned kBaseColourUnit = 0, kNormalUnit = 1, kMetallicRoughnessUnit = 2,
-                          kEmissiveUnit = 3, kShadowUnit = 4;
+                          kEmissiveUnit = 3, kShadowUnit = 4, kOcclusionUnit = 5, kLightUnit = 6;
 
 // The vertex attributes are those of GpuMesh's vertices, then those of an InstanceData.
 inline constexpr unsigned kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2,

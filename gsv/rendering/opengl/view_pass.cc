@@ -24,6 +24,8 @@ enum Feature : unsigned {
   kShadows = 32,
   kLamps = 64,
   kTransparentFeature = 128,
+  kOcclusionMap = 256,
+  kLightMap = 512,
 };
 
 constexpr std::pair<unsigned, const char*> kFeatureNames[] = {
@@ -35,12 +37,15 @@ constexpr std::pair<unsigned, const char*> kFeatureNames[] = {
     {kShadows, "SHADOWS"},
     {kLamps, "LAMPS"},
     {kTransparentFeature, "SEE_THROUGH"},
+    {kOcclusionMap, "OCCLUSION_MAP"},
+    {kLightMap, "LIGHT_MAP"},
 };
 
 unsigned FeaturesOf(const DrawGroup& group) {
   return (group.base_colour ? kBaseColourMap : 0u) | (group.normal ? kNormalMap : 0u) |
          (group.metallic_roughness ? kMetallicRoughnessMap : 0u) |
-         (group.emissive ? kEmissiveMap : 0u) |
+         (group.emissive ? kEmissiveMap : 0u) | (group.occlusion ? kOcclusionMap : 0u) |
+         (group.light ? kLightMap : 0u) |
          (group.blending == Blending::kAlphaMask ? kAlphaMaskFeature : 0u) |
          (group.blending == Blending::kTransparent ? kTransparentFeature : 0u);
 }
@@ -54,6 +59,8 @@ void BindMaps(const DrawGroup& group) {
   bind(kNormalUnit, group.normal);
   bind(kMetallicRoughnessUnit, group.metallic_roughness);
   bind(kEmissiveUnit, group.emissive);
+  bind(kOcclusionUnit, group.occlusion);
+  bind(kLightUnit, group.light);
 }
 
 void SetFaces(const DrawGroup& group) {

@@ -149,7 +149,7 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
   s.alpha2 = s.alpha * s.alpha;
   s.n_dot_v = Min(Max(Dot(s.normal, s.to_view), Splat(1e-3f)), Splat(1));
 
-  F8x3 light = surface.emissive + Ambient(block_, s, surface.roughness);
+  F8x3 light = surface.emissive + Ambient(block_, s, surface.roughness) * surface.occlusion;
   const F8x3 to_sun = Splat3(block_.to_sun);
   const F8 n_dot_l = Clamp01(Dot(s.normal, to_sun));
   if (Bits(n_dot_l > Splat(0)) != 0) {

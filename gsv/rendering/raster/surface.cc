@@ -156,9 +156,10 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
   F8x3 base = Splat(f.base_colour[0], f.base_colour[1], f.base_colour[2]);
   F8x3 emissive = Splat(f.emissive_metalness[0], f.emissive_metalness[1], f.emissive_metalness[2]);
   F8 alpha = Splat(f.base_colour[3]), metalness = Splat(f.emissive_metalness[3]),
-     roughness = Splat(f.roughness);
+     roughness = Splat(f.roughness), occlusion = Splat(1);
   F8x3 bumped = n;
-  if (group.base_colour || group.normal || group.metallic_roughness || group.emissive) {
+  if (group.base_colour || group.normal || group.metallic_roughness || group.emissive ||
+      group.occlusion || group.light) {
     const F8 u = At(surface.u, dx, dy) * w, v = At(surface.v, dx, dy) * w;
     const int seen = Bits(mask);
     const float middle = 0.5f * static_cast<float>(__builtin_ctz(static_cast<unsigned>(seen)) + 31 -
@@ -182,10 +183,18 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
       const Texels texel = sample(group.emissive);
       emissive = emissive * F8x3{Decoded(texel.r), Decoded(texel.g), Decoded(texel.b)};
     }
+    if (group.occlusion) occlusion = sample(group.occlusion).r;
+    if (group.light) {
+      const Texels texel = sample(group.light);
+      const F8x3 diffuse = base * (Splat(1) - metalness);
+      emissive = emissive +
+                 F8x3{Decoded(texel.r), Decoded(texel.g), Decoded(texel.b)} * (diffuse * occlusion);
+    }
     if (group.normal) bumped = Bumped(drawn, t, sample(group.normal), Normalized(n));
   }
   if (is_first) {
-    s = {w, bumped, n, base, emissive, alpha, metalness, roughness, SplatInt(surface.number)};
+    s = {w,     bumped,    n,         base,      emissive,
+         alpha, metalness, roughness, occlusion, SplatInt(surface.number)};
     return;
   }
   s.w = Select(mask, w, s.w);
@@ -196,6 +205,7 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
   s.alpha = Select(mask, alpha, s.alpha);
   s.metalness = Select(mask, metalness, s.metalness);
   s.roughness = Select(mask, roughness, s.roughness);
+  s.occlusion = Select(mask, occlusion, s.occlusion);
   s.number = SelectInt(mask, SplatInt(surface.number), s.number);
 }
 

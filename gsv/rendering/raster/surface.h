@@ -12,7 +12,8 @@ struct Surfaces {
   F8x3 face_normal;  // does not include the normal map
   F8x3 base, emissive;
   F8 alpha, metalness, roughness;
-  I8 number;  // number of the surface, from 1 to 255
+  F8 occlusion;  // the fraction of ambient light that reaches the surface
+  I8 number;     // number of the surface, from 1 to 255
 };
 
 // The attributes of a triangle's surface as functions of the pixel. The value of a plane at the

@@ -30,8 +30,9 @@ SurfaceFactors FactorsOf(const model::Material& material) {
 geometry::Shape AsDrawn(const model::Visual& visual) {
   constexpr double kLandscape = 20, kHorizon = 2000;
   const auto* plane = std::get_if<geometry::Plane>(&visual.shape);
+  const model::Material& material = visual.materials.front();
   if (plane == nullptr || std::min(plane->size.x, plane->size.y) < kLandscape ||
-      visual.materials.front().base_colour_map != nullptr) {
+      material.base_colour_map != nullptr || material.light_map != nullptr) {
     return visual.shape;
   }
   return geometry::Plane{plane->normal,
@@ -84,6 +85,8 @@ class Builder {
     group.normal = textures_.Find(material.normal_map);
     group.metallic_roughness = textures_.Find(material.metallic_roughness_map);
     group.emissive = textures_.Find(material.emissive_map);
+    group.occlusion = textures_.Find(material.occlusion_map);
+    group.light = textures_.Find(material.light_map);
     group.double_sided = material.double_sided;
     const bool map_see_through = group.base_colour != nullptr && group.base_colour->is_transparent;
     if (material.base_colour.a < 1 || (map_see_through && !material.alpha_mask)) {
@@ -101,6 +104,8 @@ class Builder {
                   group.normal.get(),
                   group.metallic_roughness.get(),
                   group.emissive.get(),
+                  group.occlusion.get(),
+                  group.light.get(),
                   group.blending,
                   group.mirrored,
                   group.double_sided};
@@ -110,7 +115,8 @@ class Builder {
   }
 
   using Key = std::tuple<const DrawMesh*, std::uint32_t, const DrawTexture*, const DrawTexture*,
-                         const DrawTexture*, const DrawTexture*, Blending, bool, bool>;
+                         const DrawTexture*, const DrawTexture*, const DrawTexture*,
+                         const DrawTexture*, Blending, bool, bool>;
   MeshStore& meshes_;
   TextureStore& textures_;
   std::map<Key, int> index_of_;

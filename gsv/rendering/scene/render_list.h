@@ -25,7 +25,8 @@ struct DrawGroup {
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   // each is null if the material has no such map
-  std::shared_ptr<const DrawTexture> base_colour, normal, metallic_roughness, emissive;
+  std::shared_ptr<const DrawTexture> base_colour, normal, metallic_roughness, emissive, occlusion,
+      light;
   Blending blending = Blending::kOpaque;
   bool mirrored = false;
   bool double_sided = false;

@@ -1,11 +1,12 @@
 // Fetches models by ID, each once, and keeps those that the present scene uses.
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { SceneDescription } from "../api/scene";
+import { LightMaps } from "./LightMaps";
 import type { ModelTemplate } from "./ModelTemplate";
 import { disposeTemplate, makeTemplate } from "./ModelTemplate";
 
 export class ModelLibrary {
-  private readonly loader = new GLTFLoader();
+  private readonly loader = new GLTFLoader().register((parser) => new LightMaps(parser));
   private readonly templates = new Map<string, Promise<ModelTemplate>>();
 
   constructor(
