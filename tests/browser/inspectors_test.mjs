@@ -77,9 +77,9 @@ test("a click on an object in the view shows its pose, mass, geometry, material 
   await shown.getByRole("heading", { name: "crate", exact: true }).waitFor();
   await shows(shown, "Kind", "dynamic");
   await shows(shown, "Mass", "2.5 kg");
-  await shows(shown, "Geometry", /^\w+, 0\.4 × 0\.4 × 0\.4 m$/);
+  await shows(shown, "Geometry", "box, 0.4 × 0.4 × 0.4 m");
   await shows(shown, "Material", "#ff0000, metalness 0.25, roughness 0.5");
-  await shows(shown, "Collision", /^\w+, 0\.4 × 0\.4 × 0\.4 m$/);
+  await shows(shown, "Collision", "box, 0.4 × 0.4 × 0.4 m");
   await shows(shown, "Position", "0.000, 0.000, 0.200 m");
   await shows(shown, "Age", /^\d+\.\d\d s$/);
   // The list shows the same choice.
@@ -90,20 +90,21 @@ test("an object of the list is shown in the inspector and in the tree", async ()
   await page.locator(".world-tree summary").click();
   await inList("post").click();
   await inspector().getByRole("heading", { name: "post", exact: true }).waitFor();
-  await shows(inspector(), "Geometry", /2 m$/);
+  await shows(inspector(), "Geometry", "cylinder, radius 0.1 m, length 2 m");
   await shows(inspector(), "Collision", "none");
   await page.getByRole("button", { name: "World", exact: true }).click();
   const tree = page.getByRole("region", { name: "World", exact: true });
   await until(async () => (await tree.locator('[data-node="post"]').getAttribute("aria-pressed")) === "true", "the choice in the tree");
 });
 
-test("a sensor of the world is chosen in the tree: transform and the newest value with its age", async () => {
+test("a sensor of the world is chosen in the tree: parameters, transform and the newest value with its age", async () => {
   const tree = page.getByRole("region", { name: "World", exact: true });
   await tree.getByLabel("Name in the world").fill("post");
   await tree.locator('[data-node="post::sensor::height"]').click();
   const shown = page.getByRole("region", { name: "Selected part", exact: true });
   await shown.getByRole("heading", { name: "Sensor height", exact: true }).waitFor();
   await shows(shown, "Type", "altimeter");
+  await shows(shown, "Update rate", "5 Hz");
   await shows(shown, "Position in the link", "0.000, 0.000, 2.000 m");
   await shows(shown, "Transform", /^0\.000, 0\.000, 2\.000 m in post.*, static$/);
   await shows(shown, "Age", /^\d+\.\d\d s$/);
