@@ -11,8 +11,10 @@ import { fetchRecordings } from "../recordings/recordings";
 import type { Comparison } from "../state/comparison";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
+import { resultOf } from "../state/comparison";
 import { shallowEqual } from "../state/Store";
 import { recordingOf } from "./NotesControl";
+import { notify } from "./notices";
 
 // If the two are farther apart than this, the second recording is moved to the instant of the
 // first.
@@ -107,7 +109,10 @@ export class CompareControl {
     if (shown === "") return;
     try {
       const difference = await this.api.difference(shown, recording);
-      if (this.store.get().comparison?.recording === recording) this.set({ difference });
+      if (this.store.get().comparison?.recording !== recording) return;
+      this.set({ difference });
+      const { sentence, details } = resultOf(this.store.get().comparison!);
+      notify(this.store, "note", `${sentence} ${details.split("\n", 1)[0]!}`.trim());
     } catch (error) {
       if (this.store.get().comparison?.recording === recording) this.set({ problem: (error as Error).message });
     }

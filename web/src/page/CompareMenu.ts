@@ -2,10 +2,10 @@
 // differ.
 import type { App } from "../app/App";
 import type { RecordingLine } from "../recordings/recordings";
-import type { Comparison } from "../state/comparison";
+import { resultOf } from "../state/comparison";
 import { shallowEqual } from "../state/Store";
 import { element, setText } from "../ui/element";
-import { formatDate, formatTime } from "../ui/format";
+import { formatDate } from "../ui/format";
 import { createMenu } from "../ui/menu";
 
 export function createCompareMenu(app: App): HTMLElement {
@@ -29,21 +29,14 @@ export function createCompareMenu(app: App): HTMLElement {
     ({ comparison }) => ({ comparison }),
     ({ comparison }) => {
       menu.button.setAttribute("aria-pressed", String(comparison !== null));
-      setText(verdict, comparison ? verdictOf(comparison) : "Choose a recording. Its robots are shown as ghosts, its curves dashed.");
+      const { sentence = "", details = "" } = comparison ? resultOf(comparison) : {};
+      setText(verdict, comparison ? `${sentence}\n${details}`.trim() : "Choose a recording. Its robots are shown as ghosts, its curves dashed.");
       end.hidden = comparison === null;
       goTo.hidden = comparison?.difference?.time == null;
     },
     shallowEqual,
   );
   return menu.element;
-}
-
-function verdictOf({ recording, difference, problem }: Comparison): string {
-  if (problem !== "") return `${recording}: ${problem}`;
-  if (difference === null) return `Compared with ${recording}.`;
-  if (difference.isEqual) return `${recording} has the same messages. ${difference.text.trim()}`;
-  const when = difference.time === null ? "" : ` at ${formatTime(difference.time)}`;
-  return `${recording} first differs${when}:\n${difference.text.trim()}`;
 }
 
 async function fill(app: App, list: HTMLElement, close: () => void): Promise<void> {

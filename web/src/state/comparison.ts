@@ -1,6 +1,7 @@
 // A second recording that is compared with the replayed one.
 import type { Difference } from "../api/history";
 import type { SceneDescription } from "../api/scene";
+import { formatTime } from "../ui/format";
 
 export interface Comparison {
   recording: string; // name of the recording
@@ -8,4 +9,14 @@ export interface Comparison {
   scene: SceneDescription | null; // null if unknown
   difference: Difference | null; // null if unknown, or not requested
   problem: string; // why it cannot be compared; empty if it can
+}
+
+// Returns a sentence that says how the recordings differ, and below it the details.
+export function resultOf({ recording, difference, problem }: Comparison): { sentence: string; details: string } {
+  if (problem !== "") return { sentence: `${recording}: ${problem}`, details: "" };
+  if (difference === null) return { sentence: `Compared with ${recording}.`, details: "" };
+  const details = difference.text.trim();
+  if (difference.isEqual) return { sentence: `${recording} has the same messages.`, details };
+  const when = difference.time === null ? "" : ` at ${formatTime(difference.time)}`;
+  return { sentence: `${recording} first differs${when}:`, details };
 }

@@ -23,6 +23,8 @@ export function createMenu(label: string, picture: IconName, ...items: HTMLEleme
   );
   const sheet = element("div", { class: "card menu-sheet", role: "group", "aria-label": label, popover: "manual" }, ...items);
   sheet.hidden = true;
+  // Choices that arrive later make the sheet larger.
+  if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => sheet.hidden || standBelow(button, sheet)).observe(sheet);
   const place = element("div", { class: "menu" }, button, sheet);
 
   const open = (value: boolean) => {
