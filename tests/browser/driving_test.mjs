@@ -95,7 +95,7 @@ test("a gamepad drives the robot, which stops when the gamepad is disconnected",
   await panel("Teleoperation").getByText(/Gamepad connected: Test pad/).waitFor();
   await movesOn("pebble", 0.1);
   await page.evaluate(() => (window.pads = [null]));
-  await panel("Teleoperation").getByText("The gamepad was pulled out. The robot stops.").waitFor();
+  await panel("Teleoperation").getByText("The gamepad was disconnected. The robot stops.").waitFor();
   await standsStill("pebble");
 });
 

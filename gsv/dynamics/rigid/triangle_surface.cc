@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <tuple>
+#include <unordered_set>
 
 namespace gsv::dynamics {
 namespace {
@@ -45,7 +47,14 @@ TriangleSurface::TriangleSurface(const geometry::TriangleMesh& mesh, const Vecto
   vertices_.reserve(mesh.positions.size());
   for (const Vector3& position : mesh.positions) vertices_.push_back(Scaled(position, scale));
   const std::vector<int> numbers = Weld(vertices_);
-  for (const auto& [a, b, c] : mesh.triangles) AddTriangle({numbers[a], numbers[b], numbers[c]});
+  // Meshes for drawing have a second triangle for the back of each.
+  std::set<std::array<int, 3>> known;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    std::array<int, 3> vertices{numbers[a], numbers[b], numbers[c]};
+    std::array<int, 3> sorted = vertices;
+    std::sort(sorted.begin(), sorted.end());
+    if (known.insert(sorted).second) AddTriangle(vertices);
+  }
   JoinNeighbours();
   ListVerticesBeside();
   std::vector<BoxBvh::Box> boxes;
@@ -222,6 +231,7 @@ class TriangleSurface::SphereContacts {
     const double length = Norm(between);
     if (!(length > 0) || !(length - radius_ < list_.margin())) return;
     const Vector3 normal = (1 / length) * between;
+    if (is_vertex && !answered_.insert(triangle.vertices[corner]).second) return;
     const bool may_touch = is_vertex ? surface_.MayTouchVertex(triangle.vertices[corner], normal)
                                      : surface_.MayTouchEdge(triangle, i, normal);
     if (may_touch) list_.Add(nearest, normal, length - radius_);
@@ -231,6 +241,7 @@ class TriangleSurface::SphereContacts {
   const Vector3 middle_;
   const double radius_;
   PointList& list_;
+  std::unordered_set<int> answered_;  // vertices; thousands of triangles may share one
 };
 
 // Works in the frame of the cylinder, whose axis is z.
@@ -349,7 +360,7 @@ class TriangleSurface::CylinderContacts {
       distance = std::max(out, beyond);
       normal = out > beyond ? inwards : down;
     }
-    if (IsContact(distance) &&
+    if (IsContact(distance) && answered_.insert(triangle.vertices[corner]).second &&
         surface_.MayTouchVertex(triangle.vertices[corner], cylinder_.rotation * normal)) {
       Add(v, normal, distance);
     }
@@ -413,6 +424,7 @@ class TriangleSurface::CylinderContacts {
   const PlacedPiece& cylinder_;
   const double radius_, half_;
   PointList& list_;
+  std::unordered_set<int> answered_;  // vertices
   std::array<Vector3, 3> corners_;
   double floor_ = 0;
 };

@@ -20,7 +20,7 @@ namespace gsv::dynamics {
 class TriangleSurface {
  public:
   // Two triangles are neighbours if they share two vertices of equal positions. Triangles without
-  // area are left out.
+  // area are left out, and so are those with the vertices of an earlier one.
   TriangleSurface(const geometry::TriangleMesh& mesh, const geometry::Vector3& scale);
 
   // Adds the points at which a cylinder or sphere is closer than `margin` to the triangles, as

@@ -54,6 +54,13 @@ TriangleMesh WithOwnVertices(const TriangleMesh& mesh) {
   return own;
 }
 
+// Each triangle has a second one for its back, as in meshes for drawing.
+TriangleMesh WithBacks(TriangleMesh mesh) {
+  const auto fronts = mesh.triangles;
+  for (const auto& [a, b, c] : fronts) mesh.triangles.push_back({a, c, b});
+  return mesh;
+}
+
 Piece PieceOf(Piece::Kind kind, double radius, double half) {
   Piece piece;
   piece.kind = kind;
@@ -90,7 +97,7 @@ TEST(TriangleSurface, WheelOnLevelTrianglesTouchesThemAsAPlane) {
     const Vector3 at{place(random), place(random), 0.1195};
     std::vector<TouchPoint> expected;
     AddTouchPoints(Place(kWheel, at, rotation), Place(plane, {}, {}), kMargin, expected);
-    for (const TriangleMesh& mesh : {level, WithOwnVertices(level)}) {
+    for (const TriangleMesh& mesh : {level, WithOwnVertices(level), WithBacks(level)}) {
       const auto points = Touch(kWheel, at, rotation, mesh);
       ASSERT_EQ(points.size(), expected.size());
       for (const TouchPoint& point : points) {
@@ -228,14 +235,33 @@ TEST(TriangleSurface, NearestPointOfAWheelIsThatOfABruteForceSearch) {
   ExpectNearestPoints(kWheel, 0.3, 1e-6);
 }
 
+// The search would otherwise look at all neighbours of the tip once for each triangle.
+TEST(TriangleSurface, TipOfManyTrianglesIsFoundOnce) {
+  constexpr int kCount = 20'000;
+  TriangleMesh fan;
+  fan.positions.push_back({0, 0, 0});
+  for (int i = 0; i < kCount; ++i) {
+    const double angle = 2 * geometry::kPi * i / kCount;
+    fan.positions.push_back({std::cos(angle), std::sin(angle), -1});
+  }
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % kCount});
+  }
+  const auto points = Touch(kBall, {0, 0, 0.1}, {}, fan);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].normal.z, 1, 1e-12);
+}
+
 TEST(TriangleSurface, BallRollsOverInnerEdgesAndIsNotCaught) {
   const TriangleMesh level = Grid([](double, double) { return 0.0; });
-  for (double x = -0.3; x < 0.3; x += 0.003) {
-    // It penetrates the ground, so that the triangles ahead of it are nearer than its radius.
-    const auto points = Touch(kBall, {x, 0.4 * x, 0.0995}, {}, level);
-    ASSERT_EQ(points.size(), 1u);
-    EXPECT_NEAR(points[0].normal.z, 1, 1e-12);
-    EXPECT_NEAR(points[0].distance, -5e-4, 1e-12);
+  for (const TriangleMesh& mesh : {level, WithBacks(level)}) {
+    for (double x = -0.3; x < 0.3; x += 0.003) {
+      // It penetrates the ground, so that the triangles ahead of it are nearer than its radius.
+      const auto points = Touch(kBall, {x, 0.4 * x, 0.0995}, {}, mesh);
+      ASSERT_EQ(points.size(), 1u);
+      EXPECT_NEAR(points[0].normal.z, 1, 1e-12);
+      EXPECT_NEAR(points[0].distance, -5e-4, 1e-12);
+    }
   }
 }
 

@@ -284,8 +284,10 @@ class ModelReader {
     const auto link = static_cast<std::size_t>(sensor.link);
     sensor.link_from_sensor = geometry::Inverse(model_.links[link].model_from_link) *
                               model_from_owner * owner_from_sensor;
-    if (!(sensor.update_rate >= 0) || !std::isfinite(sensor.update_rate)) {
-      context_.Warn("a sensor's update rate must not be negative; 0 is used", place);
+    const bool is_rate = sensor.update_rate >= 1e-6 && sensor.update_rate <= 1e6;
+    if (sensor.update_rate != 0 && !is_rate) {
+      context_.Warn("a sensor's update rate must be 0 or lie between 1e-6 and 1e6 Hz; 0 is used",
+                    place);
       sensor.update_rate = 0;
     }
     if (sensor.type.empty() || sensor.type == "__default__") {

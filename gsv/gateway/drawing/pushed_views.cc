@@ -159,10 +159,12 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   std::shared_ptr<ViewDrawer::Seat> seat;
   std::uint32_t sequence = 0;
   std::uint64_t last = 0;
+  std::size_t detail = 0;
   Clock::time_point earliest;
   {
     const base::MutexLock lock(mutex_);
-    view = Coarsened(watched->query.view, watched->detail);
+    detail = watched->detail;
+    view = Coarsened(watched->query.view, detail);
     seat = watched->seat;
     sequence = watched->sequence;
     last = watched->last;
@@ -171,6 +173,16 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   view.world = world->name;
   if (seat == nullptr) {
     auto taken = drawer_.Take(view);
+    if (!taken && detail > 0) {
+      // There is no place for another camera: the image keeps the size that other viewers have.
+      {
+        const base::MutexLock lock(mutex_);
+        watched->detail = 0;
+        view = watched->query.view;
+      }
+      view.world = world->name;
+      taken = drawer_.Take(view);
+    }
     if (!taken) return base::Fail(taken.error());
     seat = *std::move(taken);
     const base::MutexLock lock(mutex_);

@@ -59,6 +59,8 @@ std::string UnadvertiseText(std::span<const ChannelId> channels);
 // `id` (empty: none) is what RemoveStatusText() takes back.
 std::string StatusText(StatusLevel level, std::string_view message, std::string_view id = {});
 std::string RemoveStatusText(std::string_view id);
+// The id of the status message that says that the connection to the client is slow.
+inline constexpr std::string_view kSlowConnectionId = "gsv-slow-connection";
 
 // The header of a binary message: opcode (1 byte), subscription (4, little endian) and time (8,
 // nanoseconds, little endian), or fewer.

@@ -13,6 +13,10 @@ std::span<const std::uint8_t> StreamOf(const foxglove::BinaryHeader& header) {
   return std::span(header.bytes).first(has_subscription ? 5 : 1);
 }
 
+bool IsSameStream(const Outgoing& a, const Outgoing& b) {
+  return std::ranges::equal(StreamOf(a.header), StreamOf(b.header));
+}
+
 }  // namespace
 
 bool SendQueue::PushControl(SharedBytes message, bool is_text) {
@@ -34,13 +38,33 @@ std::size_t SendQueue::PushData(const foxglove::BinaryHeader& header, SharedByte
   std::size_t dropped = 0;
   while (!data_.empty() && (data_.size() >= limits_.data_messages ||
                             data_bytes_ + message.size() > limits_.data_bytes)) {
-    Take(data_, data_bytes_);
+    DropFor(message);
     ++dropped;
   }
   dropped_ += dropped;
   data_bytes_ += message.size();
   data_.push_back(std::move(message));
   return dropped;
+}
+
+void SendQueue::DropFor(const Outgoing& incoming) {
+  const auto replaced = std::find_if(data_.begin(), data_.end(), [&](const Outgoing& message) {
+    return message.delivery == Delivery::kNewest && IsSameStream(message, incoming);
+  });
+  auto victim = replaced;
+  if (victim == data_.end()) {
+    for (victim = data_.begin(); victim != data_.end() && !IsReplaced(victim); ++victim) {
+    }
+  }
+  if (victim == data_.end()) victim = data_.begin();
+  data_bytes_ -= victim->size();
+  data_.erase(victim);
+}
+
+bool SendQueue::IsReplaced(std::deque<Outgoing>::const_iterator message) const {
+  return message->delivery == Delivery::kNewest &&
+         std::any_of(message + 1, data_.cend(),
+                     [&](const Outgoing& newer) { return IsSameStream(newer, *message); });
 }
 
 SendQueue::Popped SendQueue::Pop(Time now, bool allows_data) {
@@ -62,11 +86,7 @@ SendQueue::Popped SendQueue::Pop(Time now, bool allows_data) {
 
 bool SendQueue::IsOutdated(Time now) const {
   if (data_.empty()) return false;
-  const Outgoing& oldest = data_.front();
-  if (oldest.delivery != Delivery::kNewest || now - oldest.queued < kMaxWait) return false;
-  return std::any_of(data_.begin() + 1, data_.end(), [&](const Outgoing& newer) {
-    return std::ranges::equal(StreamOf(newer.header), StreamOf(oldest.header));
-  });
+  return now - data_.front().queued >= kMaxWait && IsReplaced(data_.begin());
 }
 
 bool SendQueue::empty() const {

@@ -3,7 +3,8 @@
 // Newest   data that have waited for kMaxWait are left out if they are state and a newer message of
 //          their subscription waits. So a slow connection gets fewer messages, and no old ones.
 // Bounded  control messages (advertisements, answers) are never dropped; if they exceed the limit,
-//          the client is disconnected. If data exceed their limit, the oldest are dropped.
+//          the client is disconnected. If data exceed their limit, state with a newer message of its
+//          subscription is dropped first, and the oldest data if there is none.
 // Threads  any.
 #pragma once
 
@@ -65,6 +66,10 @@ class SendQueue {
 
  private:
   static Outgoing Take(std::deque<Outgoing>& queue, std::size_t& bytes);
+  // Drops one message, for another that does not fit.
+  void DropFor(const Outgoing& incoming) GSV_REQUIRES(mutex_);
+  // Whether the message is state, and a newer one of its subscription waits.
+  bool IsReplaced(std::deque<Outgoing>::const_iterator message) const GSV_REQUIRES(mutex_);
   // Whether a newer message replaces the oldest data.
   bool IsOutdated(Time now) const GSV_REQUIRES(mutex_);
 

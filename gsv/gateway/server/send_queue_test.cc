@@ -102,6 +102,16 @@ TEST(SendQueue, KeepsEachEvent) {
   EXPECT_EQ(queue.dropped(), 0u);
 }
 
+TEST(SendQueue, DropsReplacedStateBeforeEventsAndOtherState) {
+  SendQueue queue({.control_bytes = 100, .data_bytes = 1000, .data_messages = 4});
+  PushAt(queue, 0, 'E', 1, Delivery::kEach);
+  PushAt(queue, 0, 'h', 2);  // published once
+  for (const char name : {'a', 'b', 'c', 'd'}) PushAt(queue, 0, name, 3);
+  PushAt(queue, 0, 'F', 1, Delivery::kEach);
+  EXPECT_EQ(queue.dropped(), 3u);
+  EXPECT_EQ(Order(queue), "EhdF");
+}
+
 TEST(SendQueue, LeavesOutOldTimes) {
   SendQueue queue({});
   for (const std::uint64_t time : {1u, 2u, 3u}) {

@@ -44,21 +44,27 @@ void SendWindow::Pong(std::uint64_t number, Time now) {
     }
   }
   if (is_late) {
-    NoteLate(now);
+    NoteLate(mark.started, now);
   } else if (holds_back_ && 2 * excess < kAimedDelay) {
     bytes_ = std::min(kMaxBytes, 2 * bytes_);
   }
   holds_back_ = false;
 }
 
-void SendWindow::NoteLate(Time now) {
-  if (!last_late_ || now - *last_late_ > kInTimeAfter) first_late_ = now;
+void SendWindow::NoteLate(Time began, Time now) {
+  if (!last_late_ || began - *last_late_ > kInTimeAfter) first_late_ = now;
   last_late_ = now;
   if (now - *first_late_ >= kSlowAfter) is_slow_ = true;
 }
 
+bool SendWindow::IsOverdue(Time now) const {
+  const Clock::duration minimum =
+      std::min<Clock::duration>(min_delay_.value_or(kMaxMinDelay), kMaxMinDelay);
+  return mark_ && now - mark_->started > minimum + kMaxDelay;
+}
+
 bool SendWindow::IsSlow(Time now) {
-  if (is_slow_ && now - *last_late_ > kInTimeAfter) is_slow_ = false;
+  if (is_slow_ && now - *last_late_ > kInTimeAfter && !IsOverdue(now)) is_slow_ = false;
   return is_slow_;
 }
 

@@ -54,9 +54,13 @@ class SendWindow {
   // message if the ping follows it directly, else the present time.
   std::uint64_t Ping(Time now, Time started);
   void Pong(std::uint64_t number, Time now);
+  // A pong without a number. It may answer a later ping, and clients may answer only the last one.
+  void PongOfAny(Time now) {
+    if (mark_) Pong(mark_->number, now);
+  }
 
   // Data were left out because they had waited for too long.
-  void LeftOut(Time now) { NoteLate(now); }
+  void LeftOut(Time now) { NoteLate(now, now); }
   bool IsSlow(Time now);
   // Whether a ping has no pong yet.
   bool is_pinging() const { return mark_.has_value(); }
@@ -75,7 +79,10 @@ class SendWindow {
     Time started{};
   };
 
-  void NoteLate(Time now);
+  // A message that was sent or queued at `began` was late.
+  void NoteLate(Time began, Time now);
+  // Whether the ping without a pong is late already.
+  bool IsOverdue(Time now) const;
 
   std::size_t bytes_ = kFirstBytes;
   std::size_t sent_ = 0;  // all bytes

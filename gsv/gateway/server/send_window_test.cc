@@ -164,6 +164,30 @@ TEST(SendWindow, ControlMessagesDoNotCloseIt) {
   EXPECT_TRUE(window.is_open());
 }
 
+TEST(SendWindow, AConnectionIsSlowIfEachPongTakesLongerThanTheTimeAfterWhichItCountsAsFast) {
+  SendWindow window;
+  Time now{std::chrono::seconds(100)};
+  for (int i = 0; i < 3; ++i) {
+    window.Sent(SendWindow::kMinBytes, true, now);
+    const std::uint64_t number = window.Ping(now, now);
+    now += 2 * SendWindow::kInTimeAfter;
+    if (i == 2) EXPECT_TRUE(window.IsSlow(now)) << "while a pong is overdue";
+    window.Pong(number, now);
+  }
+  EXPECT_TRUE(window.IsSlow(now));
+  ASSERT_TRUE(window.slow_rate());
+  EXPECT_NEAR(*window.slow_rate(), SendWindow::kMinBytes / 10.0, 100);
+}
+
+TEST(SendWindow, APongWithoutANumberOpensIt) {
+  SendWindow window;
+  window.Sent(SendWindow::kMaxBytes, true, Time{});
+  window.Ping(Time{}, Time{});
+  EXPECT_FALSE(window.is_open());
+  window.PongOfAny(Time{});
+  EXPECT_TRUE(window.is_open());
+}
+
 TEST(SendWindow, OneLatePongDoesNotMakeAConnectionSlow) {
   SendWindow window;
   window.Sent(100, true, Time{});

@@ -27,7 +27,6 @@ constexpr std::size_t kReadSize = 16u << 10;
 constexpr std::chrono::seconds kFarewell{2};
 // Time between two looks at a slow connection, which may be fast again without messages.
 constexpr std::chrono::seconds kSlowLook{1};
-constexpr std::string_view kSlowId = "gsv-slow-connection";
 constexpr std::string_view kSlowSentence =
     "The connection is slow: the server leaves out older updates, so that the newest ones arrive "
     "in time.";
@@ -225,7 +224,9 @@ class WebSocketSession final : public Client,
   }
 
   void Ping(SendWindow::Time started) {
-    if (is_pinging_ || !is_open_ || close_reason_) return;
+    // During a write, the ping would stand behind bytes that it does not count; the write's end asks
+    // again.
+    if (is_pinging_ || is_writing_ || !is_open_ || close_reason_) return;
     is_pinging_ = true;
     const std::string number = std::to_string(window_.Ping(SendWindow::Clock::now(), started));
     stream_.async_ping(websocket::ping_data(number.data(), number.size()),
@@ -236,12 +237,17 @@ class WebSocketSession final : public Client,
                        });
   }
 
-  // Called while the stream reads. Pongs of other pings have other contents.
+  // Called while the stream reads. The pings that keep the connection alive have no content.
   void OnPong(std::string_view content) {
-    std::uint64_t number = 0;
-    const auto parsed = std::from_chars(content.begin(), content.end(), number);
-    if (parsed.ec != std::errc() || parsed.ptr != content.end()) return;
-    window_.Pong(number, SendWindow::Clock::now());
+    const auto now = SendWindow::Clock::now();
+    if (content.empty()) {
+      window_.PongOfAny(now);
+    } else {
+      std::uint64_t number = 0;
+      const auto parsed = std::from_chars(content.begin(), content.end(), number);
+      if (parsed.ec != std::errc() || parsed.ptr != content.end()) return;
+      window_.Pong(number, now);
+    }
     PingIfWanted(SendWindow::Clock::now());
     ReportSlowness();
     Wake();
@@ -251,9 +257,10 @@ class WebSocketSession final : public Client,
     const bool is_slow = window_.IsSlow(SendWindow::Clock::now());
     slow_rate_ = is_slow ? window_.slow_rate().value_or(0) : 0;
     if (std::exchange(is_slow_, is_slow) == is_slow) return;
-    if (!is_slow) return SendText(SharedBytes(foxglove::RemoveStatusText(kSlowId)));
-    SendText(
-        SharedBytes(foxglove::StatusText(foxglove::StatusLevel::kWarning, kSlowSentence, kSlowId)));
+    if (!is_slow)
+      return SendText(SharedBytes(foxglove::RemoveStatusText(foxglove::kSlowConnectionId)));
+    SendText(SharedBytes(foxglove::StatusText(foxglove::StatusLevel::kWarning, kSlowSentence,
+                                              foxglove::kSlowConnectionId)));
     LookAgain();
   }
 

@@ -57,7 +57,7 @@ base::Result<ServerText> ParseUnadvertise(const Json& json) {
 
 base::Result<ServerText> ParseStatus(const Json& json) {
   // It is about the connection of the relay, and is taken back later.
-  if (json.contains("id")) return Other{};
+  if (TextOf(json, "id") == foxglove::kSlowConnectionId) return Other{};
   const auto level = json.find("level");
   const bool has_level = level != json.end() && level->is_number_unsigned();
   const auto number = has_level ? std::min<std::uint64_t>(level->get<std::uint64_t>(), 2) : 0;

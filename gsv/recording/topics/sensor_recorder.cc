@@ -1,5 +1,6 @@
 #include "gsv/recording/topics/sensor_recorder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -21,7 +22,8 @@ constexpr std::size_t kMaxSlowSensors = 64;
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
   if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
   const base::SimTime own = base::FromSeconds(1 / description.update_rate);
-  return own * static_cast<std::int64_t>(std::ceil(description.update_rate / rate - 1e-9));
+  const double periods = std::max(1.0, std::ceil(description.update_rate / rate - 1e-9));
+  return own * static_cast<std::int64_t>(periods);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
     return base::Fail(base::ErrorCode::kInvalidArgument, sentence, where);
   };
   const double rate = description.update_rate;
-  if (!std::isfinite(rate) || rate < 0 || rate > 1e6) {
-    return refuse("the update rate must lie between 0 and 1e6 Hz");
+  if (!std::isfinite(rate) || (rate != 0 && (rate < 1e-6 || rate > 1e6))) {
+    return refuse("the update rate must be 0 or lie between 1e-6 and 1e6 Hz");
   }
   const double latency = model::NumberOr(description.parameters, "latency", 0);
   if (!(latency >= 0 && latency <= 10)) return refuse("the latency must lie between 0 and 10 s");

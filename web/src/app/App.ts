@@ -6,7 +6,7 @@ import type { World3D } from "../scene/World3D";
 import { isAllowed, mainAction } from "../state/actions";
 import type { CameraChoice } from "../api/scene";
 import type { BodyPlace } from "../api/SetUpApi";
-import type { WorldPart } from "../state/parts";
+import type { WorldPart } from "../state/worldPart";
 import { bodyPart } from "../state/parts";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";

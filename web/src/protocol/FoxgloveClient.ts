@@ -248,7 +248,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
         this.unadvertise((message.channelIds ?? []) as number[]);
         break;
       case "status":
-        if (message.id !== undefined) {
+        if (message.id !== undefined && Number(message.level) >= 1) {
           this.lasting.set(String(message.id), String(message.message));
           this.tellLasting();
         } else if (Number(message.level) >= 1) this.problem(String(message.message));

@@ -21,7 +21,7 @@ import { NO_FILTER } from "./robotList";
 import type { SavedLayout } from "./layouts";
 import type { SetUp } from "./setUp";
 import type { ChangedKeys } from "./shortcuts";
-import type { WorldPart } from "./parts";
+import type { WorldPart } from "./worldPart";
 import type { Plots } from "./plots";
 import { NO_PLOTS } from "./plots";
 

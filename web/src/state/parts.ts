@@ -1,11 +1,6 @@
-// A part of the world that the user has selected: an object, or a link, joint or sensor of any body.
+// Which part of the world inspectors, tree and view show as selected.
 import type { State } from "./State";
-
-export interface WorldPart {
-  body: string;
-  kind: "body" | "link" | "joint" | "sensor";
-  name: string; // that of the body itself for the kind "body"
-}
+import type { WorldPart } from "./worldPart";
 
 export function bodyPart(body: string): WorldPart {
   return { body, kind: "body", name: body };

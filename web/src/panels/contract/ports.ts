@@ -14,7 +14,7 @@ import type { CameraChoice } from "../../api/scene";
 import type { ParameterValue, TopicCount } from "../../protocol/FoxgloveClient";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { VisualFacts } from "../../api/visuals";
-import type { WorldPart } from "../../state/parts";
+import type { WorldPart } from "../../state/worldPart";
 import type { Source } from "../../state/plots";
 import type { RobotFilter } from "../../state/robotList";
 import type { BodyPose, State } from "../../state/State";

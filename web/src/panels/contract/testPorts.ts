@@ -2,7 +2,7 @@
 import { vi } from "vitest";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { VisualFacts } from "../../api/visuals";
-import type { WorldPart } from "../../state/parts";
+import type { WorldPart } from "../../state/worldPart";
 import type { State } from "../../state/State";
 import { initialState } from "../../state/State";
 import { Store } from "../../state/Store";

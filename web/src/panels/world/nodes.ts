@@ -1,6 +1,6 @@
 // The nodes in the tree of the world: bodies with their links, joints and sensors, and transforms.
 import type { SceneBody, SceneDescription, SceneJoint, SceneSensor } from "../../api/scene";
-import type { WorldPart } from "../../state/parts";
+import type { WorldPart } from "../../state/worldPart";
 import { bodyPart } from "../../state/parts";
 
 export type WorldNode =
