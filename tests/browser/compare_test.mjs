@@ -161,7 +161,7 @@ test("the curves of the second recording are dashed beside those of the first", 
   }, "the curves");
   await keepPicture(page, "compare");
   await page.getByRole("button", { name: "Compare with…" }).click();
-  await page.getByRole("button", { name: "Compare no longer" }).click();
+  await page.getByRole("button", { name: "Stop comparing" }).click();
   await page.keyboard.press("Escape");
   assert.equal(await ghost(), null);
   await until(async () => (await coloured()) < 0.85 * both, "the second curve to go");

@@ -12,7 +12,7 @@ export function createCompareMenu(app: App): HTMLElement {
   const list = element("ul", { class: "compare-list", "aria-label": "Recordings to compare with" });
   const verdict = element("p", { class: "compare-verdict", role: "status" });
   const goTo = element("button", { class: "button small", type: "button" }, "Go to the first difference");
-  const end = element("button", { class: "button small", type: "button", onclick: () => app.compare.end() }, "Compare no longer");
+  const end = element("button", { class: "button small", type: "button", onclick: () => app.compare.end() }, "Stop comparing");
   const menu = createMenu("Compare with…", "layers", verdict, element("div", { class: "compare-actions" }, goTo, end), list);
   goTo.addEventListener("click", () => {
     const time = app.store.get().comparison?.difference?.time;

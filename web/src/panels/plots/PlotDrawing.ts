@@ -118,7 +118,7 @@ export class PlotDrawing {
     });
   }
 
-  // Returns the same values of the compared recording, as dashed curves.
+  // Returns the curves of the same quantities from the compared recording. They are dashed.
   private compared(curves: readonly Shown[]): DrawnCurve[] {
     return curves.flatMap(({ id, unit, colour }) => {
       const series = this.feed.comparedOf(id);
