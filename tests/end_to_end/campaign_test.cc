@@ -20,7 +20,7 @@ class CampaignCommand : public ::testing::Test {
   CampaignCommand() {
     folder_.Write(
         "s.yaml",
-        "world: playground\nduration: 200\nrobots: [{name: r, model: pebble, x: 0, y: 0}]\n"
+        "world: playground\nduration: 2000\nrobots: [{name: r, model: pebble, x: 0, y: 0}]\n"
         "expect: [{name: stays, stays_within: {robot: r, x: [-0.5, 0.5]}}]\n");
   }
   Outcome Campaign(const std::string& what, Strings more = {}) const {
