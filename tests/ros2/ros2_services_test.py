@@ -54,28 +54,8 @@ class Client:
 
 
 @contextlib.contextmanager
-def running_gsv(*options):
-    gsv = subprocess.Popen([GSV, "run", "office", "--robot", "pebble@1,1", "--ros2", "--headless", *options],
-                           env={**os.environ, "ROS_DOMAIN_ID": DOMAIN}, stdout=subprocess.DEVNULL,
-                           stderr=subprocess.PIPE, text=True)
-    client = Client()
-    try:
-        yield client
-    finally:
-        client.close()
-        gsv.terminate()
-        gsv.communicate(timeout=30)
-
-
-POSTS = """<sdf version="1.9"><world name="posts">
-  <frame name="post"><pose>2 0 0 0 0 1.5707963267948966</pose></frame>
-  <frame name="gate" attached_to="post"><pose relative_to="post">1 0 0 0 0 0</pose></frame>
-</world></sdf>"""
-
-
-@contextlib.contextmanager
-def serving_gsv():
-    gsv = subprocess.Popen([GSV, "serve", "--ros2", "--port", "0"], env={**os.environ, "ROS_DOMAIN_ID": DOMAIN},
+def client_of(*command):
+    gsv = subprocess.Popen([GSV, *command, "--ros2"], env={**os.environ, "ROS_DOMAIN_ID": DOMAIN},
                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     client = Client()
     try:
@@ -84,6 +64,20 @@ def serving_gsv():
         client.close()
         gsv.terminate()
         gsv.communicate(timeout=30)
+
+
+def running_gsv(*options):
+    return client_of("run", "office", "--robot", "pebble@1,1", "--headless", *options)
+
+
+def serving_gsv():
+    return client_of("serve", "--port", "0")
+
+
+POSTS = """<sdf version="1.9"><world name="posts">
+  <frame name="post"><pose>2 0 0 0 0 1.5707963267948966</pose></frame>
+  <frame name="gate" attached_to="post"><pose relative_to="post">1 0 0 0 0 0</pose></frame>
+</world></sdf>"""
 
 
 def result_of(reply):
