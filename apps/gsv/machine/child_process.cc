@@ -1,6 +1,7 @@
 #include "apps/gsv/machine/child_process.h"
 
 #include <fcntl.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -37,6 +38,8 @@ struct Ends {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
+  // Sockets of libraries would else stay open in the child, and their ports taken if the parent ends first.
+  close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   execve(arguments[0], arguments, environment);
   _exit(127);
 }

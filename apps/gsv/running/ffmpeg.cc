@@ -35,6 +35,7 @@ base::Result<std::unique_ptr<Ffmpeg>> Ffmpeg::Start(const std::string& program,
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   pid_t pid = -1;
   const int failure =
       posix_spawnp(&pid, program.c_str(), &actions, nullptr, pointers.data(), environ);
