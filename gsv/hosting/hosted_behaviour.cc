@@ -87,9 +87,9 @@ void HostedBehaviour::Control(simulation::Turn& turn) {
   if (!next_) {
     next_ = turn.now() + controller_->period();
   } else {
-    robot_->ReadOpenSensors(readings_, /*are_named=*/true);
+    const std::vector<Reading>& readings = robot_->ReadOpenSensors();
     try {
-      if (robot_->IsRunning()) command = controller_->Control(readings_);
+      if (robot_->IsRunning()) command = controller_->Control(readings);
     } catch (const std::exception& exception) {
       failure_ = FailureOf(exception);
       robot_->End();

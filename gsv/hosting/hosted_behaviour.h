@@ -55,7 +55,6 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   // The started behaviour if it is a Controller, which needs no fibre; else null.
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
   std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // the instant of a controller's next turn
-  std::vector<Reading> readings_ GSV_GUARDED_BY(mutex_);
   RunFailure failure_ GSV_GUARDED_BY(mutex_);
 };
 

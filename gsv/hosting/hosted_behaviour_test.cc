@@ -308,6 +308,54 @@ TEST(HostedBehaviour, ReadsManySonarsAsOneAfterTheOther) {
   EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], expected);
 }
 
+// A behaviour that opens sonars of its own and checks that it reads exactly these.
+class OwnSonars final : public Controller {
+ public:
+  OwnSonars(std::string prefix, int count, int* cycles)
+      : Controller(50ms), prefix_(std::move(prefix)), count_(count), cycles_(cycles) {}
+  base::Status Init(gsv::Robot& robot) override {
+    for (int i = 0; i < count_; ++i) {
+      auto sonar = robot.CreateSonar(prefix_ + std::to_string(i), {0, 0, 0.2, 0, 0, 1.2 * i}, 0.05,
+                                     0.06 * (i + 1));
+      if (!sonar) return base::Fail(sonar.error());
+    }
+    return {};
+  }
+  DriveCommand Control(const std::vector<Reading>& readings) override {
+    EXPECT_EQ(readings.size(), static_cast<std::size_t>(count_));
+    for (int i = 0; i < count_; ++i) {
+      EXPECT_EQ(readings.at(i).sensor, prefix_ + std::to_string(i));
+      EXPECT_EQ(readings.at(i).values, std::vector{0.06 * (i + 1)});  // nothing is in range
+    }
+    ++*cycles_;
+    return {};
+  }
+
+ private:
+  const std::string prefix_;
+  const int count_;
+  int* const cycles_;
+};
+
+TEST(HostedBehaviour, RobotsWithDifferentSensorsReadTheirOwn) {
+  auto specification = Lockstep(1s);
+  specification.threads = 1;
+  auto simulation = simulation::Make(specification);
+  const std::vector<std::pair<std::string, int>> sonars{{"a", 4}, {"a", 5}, {"b", 4}, {"a", 0}};
+  std::vector<int> cycles(sonars.size());
+  for (std::size_t i = 0; i < sonars.size(); ++i) {
+    const auto factory = [&, i] {
+      return std::make_unique<OwnSonars>(sonars[i].first, sonars[i].second, &cycles[i]);
+    };
+    const auto added = simulation->AddRobot(
+        simulation::Robot("robot" + std::to_string(i), static_cast<double>(i) - 2, 0,
+                          std::make_shared<HostedBehaviour>("own", factory)));
+    ASSERT_TRUE(added) << added.error().Sentence();
+  }
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  for (const int each : cycles) EXPECT_GE(each, 19);
+}
+
 TEST(HostedBehaviour, ASilentSonarAmongManyKeepsItsRange) {
   auto specification = Lockstep(1s);
   scenario::Fault fault;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <boost/container/small_vector.hpp>
+
 #include "gsv/base/check.h"
 #include "gsv/hosting/local_joint.h"
 
@@ -30,7 +32,21 @@ SensorTraits TraitsOf(const model::SensorDescription& description,
 // Below this number of beams, each beam is cast separately.
 constexpr std::size_t kMinSweep = 3;
 
-void CopyValue(double value, SimTime time, Reading& to) {
+// The readings of the behaviour whose turn a thread executes. If the next behaviour has the same
+// plan, it finds the names in place, and the memory in the cache.
+struct ThreadReadings {
+  std::shared_ptr<const SweepPlan> plan;
+  std::vector<Reading> readings;
+};
+
+void SetNames(const SweepPlan& plan, std::vector<Reading>& readings) {
+  readings.resize(plan.names.size());
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (readings[i].sensor != plan.names[i]) readings[i].sensor = plan.names[i];
+  }
+}
+
+void SetValue(double value, SimTime time, Reading& to) {
   to.time = time;
   if (to.values.size() != 1) to.values.resize(1);
   to.values.front() = value;
@@ -96,34 +112,16 @@ void LocalRobot::Note(const base::Error& error) {
 
 void LocalRobot::SetTurn(simulation::Turn* turn) {
   turn_ = turn;
-  has_swept_ = false;
   if (turn_ != nullptr) turn_->ExpectRays(ray_sensors_);
 }
 
 void LocalRobot::PlanSweeps() {
-  beams_ = {};
-  beam_of_.assign(open_.size(), kNoBeam);
+  plan_ = std::make_shared<const SweepPlan>(open_);
+  is_plan_shared_ = false;
   sweeps_ = std::make_shared<simulation::Sweeps>();
-  named_ = 0;
   for (std::size_t i = 0; i < open_.size(); ++i) {
-    const simulation::SensorDesign& design = open_[i]->design();
-    if (design.sensor == nullptr || design.sensor->beam() == nullptr) continue;
-    if (design.cadence != simulation::Cadence{}) continue;
-    beam_of_[i] = beams_.size();
-    beams_.Add(*design.sensor);
+    if (plan_->beam_of[i] != SweepPlan::kNoBeam) open_[i]->Join(sweeps_);
   }
-  values_.resize(beams_.size());
-  for (std::size_t i = 0; i < open_.size(); ++i) {
-    if (beam_of_[i] != kNoBeam) open_[i]->Join(sweeps_);
-  }
-}
-
-bool LocalRobot::HasSwept() {
-  if (has_swept_) return true;
-  if (turn_ == nullptr || beams_.size() < kMinSweep) return false;
-  if (!sweeps_->is_allowed.load(std::memory_order_relaxed)) return false;
-  turn_->ReadBeams(beams_, values_);
-  return has_swept_ = true;
 }
 
 std::optional<sensing::Reading> LocalRobot::Read(MountedSensor& sensor) {
@@ -169,27 +167,40 @@ bool LocalRobot::HasOnlyFastSensors() const {
                       [](const SensorPtr& sensor) { return sensor->takes_long(); });
 }
 
-void LocalRobot::SweepInto(std::vector<Reading>& readings, bool are_named) {
+bool LocalRobot::SweepInto(std::vector<Reading>& readings) {
+  const sensing::BeamSet& beams = plan_->beams;
+  if (turn_ == nullptr || beams.size() < kMinSweep) return false;
+  if (!sweeps_->is_allowed.load(std::memory_order_relaxed)) return false;
+  boost::container::small_vector<double, 16> values(beams.size(), boost::container::default_init);
+  turn_->ReadBeams(beams, std::span(values.data(), values.size()));
   // Only this thread writes `count`, so no atomic increment is needed.
   auto& count = sweeps_->count;
   count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   const SimTime time = turn_->snapshot_time();
-  for (std::size_t i = 0; i < open_.size(); ++i) {
-    if (beam_of_[i] == kNoBeam) continue;
-    if (!are_named && readings[i].sensor != open_[i]->name()) readings[i].sensor = open_[i]->name();
-    CopyValue(values_[beam_of_[i]], time, readings[i]);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const std::size_t beam = plan_->beam_of[i];
+    if (beam != SweepPlan::kNoBeam) SetValue(values[beam], time, readings[i]);
   }
+  return true;
 }
 
-void LocalRobot::ReadOpenSensors(std::vector<Reading>& readings, bool are_named) {
-  readings.resize(open_.size());
-  if (!is_running_) return;
-  const bool has_swept = HasSwept();
-  if (has_swept) SweepInto(readings, are_named && named_ == open_.size());
-  named_ = open_.size();
-  if (has_swept && beams_.size() == open_.size()) return;
+const std::vector<Reading>& LocalRobot::ReadOpenSensors() {
+  static thread_local ThreadReadings of_thread;
+  if (plan_ != nullptr && !is_plan_shared_) plan_ = Share(plan_), is_plan_shared_ = true;
+  if (of_thread.plan != plan_) {
+    of_thread.plan = plan_;
+    if (plan_ != nullptr) SetNames(*plan_, of_thread.readings);
+  }
+  if (plan_ == nullptr) of_thread.readings.clear();
+  if (is_running_ && plan_ != nullptr) ReadInto(of_thread.readings);
+  return of_thread.readings;
+}
+
+void LocalRobot::ReadInto(std::vector<Reading>& readings) {
+  const bool has_swept = SweepInto(readings);
+  if (has_swept && plan_->HasOnlyBeams()) return;
   for (std::size_t i = 0; i < open_.size(); ++i) {
-    if (has_swept && beam_of_[i] != kNoBeam) continue;
+    if (has_swept && plan_->beam_of[i] != SweepPlan::kNoBeam) continue;
     const auto reading = Read(*open_[i]);
     if (!reading) return;
     Copy(*open_[i], *reading, readings[i]);
@@ -289,7 +300,13 @@ bool LocalRobot::Exchange(const DriveCommand& command, SimTime instant,
   turn_->CountExchange();
   turn_->WaitUntil(instant);
   suspend_();
-  if (is_running_) ReadOpenSensors(readings);
+  if (!is_running_) return false;
+  if (plan_ == nullptr) {
+    readings.clear();
+    return true;
+  }
+  SetNames(*plan_, readings);
+  ReadInto(readings);
   return is_running_;
 }
 

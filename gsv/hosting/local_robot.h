@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/hosting/sweep_plan.h"
 #include "gsv/simulation/robots/local_behaviour.h"
 #include "sdk/behaviour/robot.h"
 
@@ -33,8 +34,8 @@ class LocalRobot final : public Robot {
 
   // The next two functions: whether all open sensors are fast, and their readings, ordered by name.
   bool HasOnlyFastSensors() const;
-  // If `are_named`, `readings` come from the last call unchanged, so that their names are already set.
-  void ReadOpenSensors(std::vector<Reading>& readings, bool are_named = false);
+  // The readings remain valid until the next call on this thread.
+  const std::vector<Reading>& ReadOpenSensors();
 
   // The members of Robot.
   const std::string& name() const override { return agent_->robot(); }
@@ -77,22 +78,18 @@ class LocalRobot final : public Robot {
   const std::shared_ptr<simulation::Agent> agent_;
   simulation::Turn* turn_ = nullptr;
   Suspend suspend_;
-  // Casts all beams of this turn together at the first call, if that is allowed. Returns whether they were cast.
-  bool HasSwept();
   void PlanSweeps();
-  void SweepInto(std::vector<Reading>& readings, bool are_named);
+  // Reads all beams together, if that is allowed. Returns whether they were read. `readings` must have
+  // the names of the sensors.
+  bool SweepInto(std::vector<Reading>& readings);
+  void ReadInto(std::vector<Reading>& readings);
 
   std::vector<SensorPtr> open_;  // ordered by name
   std::size_t ray_sensors_ = 0;  // how many open sensors cast rays
 
-  // The beams of the open sensors, which are cast together.
-  static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
-  sensing::BeamSet beams_;
-  std::vector<std::size_t> beam_of_;  // index of each open sensor's beam in beams_, or kNoBeam
-  std::vector<double> values_;        // the values of the beams in this turn
+  std::shared_ptr<const SweepPlan> plan_;  // the plan for open_; null without sensors
+  bool is_plan_shared_ = false;            // whether plan_ is a result of Share()
   std::shared_ptr<simulation::Sweeps> sweeps_;
-  bool has_swept_ = false;  // whether the beams were cast in this turn
-  std::size_t named_ = 0;   // number of readings whose names are already set
   std::atomic<bool> is_running_{true};
   std::string error_;
 };

@@ -1,5 +1,8 @@
 #include "gsv/sensing/beam_set.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include "gsv/base/check.h"
 #include "gsv/base/each_processor.h"
 
@@ -64,6 +67,20 @@ void BeamSet::Add(const Sensor& sensor) {
   beams.qy[i] = pose.orientation.y, beams.qz[i] = pose.orientation.z;
   beams.min[i] = beam->min, beams.max[i] = beam->max;
   ++size_;
+}
+
+bool BeamSet::IsIdenticalTo(const BeamSet& other) const {
+  const auto are_identical = [](const Beams& a, const Beams& b) {
+    const auto has_same = [&](RayPacket::Coordinates Beams::*each) {
+      return std::memcmp((a.*each).data(), (b.*each).data(), sizeof(a.*each)) == 0;
+    };
+    return a.link == b.link && a.count == b.count && has_same(&Beams::x) && has_same(&Beams::y) &&
+           has_same(&Beams::z) && has_same(&Beams::qw) && has_same(&Beams::qx) &&
+           has_same(&Beams::qy) && has_same(&Beams::qz) && has_same(&Beams::min) &&
+           has_same(&Beams::max);
+  };
+  return std::equal(beams_.begin(), beams_.end(), other.beams_.begin(), other.beams_.end(),
+                    are_identical);
 }
 
 void BeamSet::Sample(const Sampling& sampling, std::span<double> values) const {

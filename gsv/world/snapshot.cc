@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gsv/base/check.h"
+#include "gsv/world/accelerations.h"
 
 namespace gsv::world {
 namespace {
@@ -78,13 +79,35 @@ geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& i
   return impulse * (1 / base::ToSeconds(snapshot.step_length));
 }
 
+void KeepBodyVelocities(std::span<const BodyState> bodies, std::span<Acceleration> kept) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    kept[i] = {bodies[i].linear_velocity, bodies[i].angular_velocity};
+  }
+}
+
+void FinishBodyAccelerations(std::span<const BodyState> bodies, double step_seconds,
+                             std::span<Acceleration> accelerations) {
+  const double per_second = 1 / step_seconds;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Acceleration& mean = accelerations[i];
+    mean.linear = per_second * (bodies[i].linear_velocity - mean.linear);
+    mean.angular = per_second * (bodies[i].angular_velocity - mean.angular);
+  }
+}
+
+void FinishJointAccelerations(std::span<const double> velocities, double step_seconds,
+                              std::span<double> accelerations) {
+  const double per_second = 1 / step_seconds;
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    accelerations[i] = per_second * (velocities[i] - accelerations[i]);
+  }
+}
+
 void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations,
                     std::vector<double>& joint_accelerations) {
   joint_accelerations = state.joint_velocities;
   accelerations.resize(state.bodies.size());
-  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-    accelerations[i] = {state.bodies[i].linear_velocity, state.bodies[i].angular_velocity};
-  }
+  KeepBodyVelocities(state.bodies, accelerations);
 }
 
 void FinishContacts(const State& state, const std::vector<Acceleration>& kept,
@@ -107,15 +130,8 @@ void FinishContacts(const State& state, const std::vector<Acceleration>& kept,
 void FinishAccelerations(const State& state, double step_seconds,
                          std::vector<Acceleration>& accelerations,
                          std::vector<double>& joint_accelerations) {
-  const double per_second = 1 / step_seconds;
-  for (std::size_t i = 0; i < joint_accelerations.size(); ++i) {
-    joint_accelerations[i] = per_second * (state.joint_velocities[i] - joint_accelerations[i]);
-  }
-  for (std::size_t i = 0; i < accelerations.size(); ++i) {
-    Acceleration& mean = accelerations[i];
-    mean.linear = per_second * (state.bodies[i].linear_velocity - mean.linear);
-    mean.angular = per_second * (state.bodies[i].angular_velocity - mean.angular);
-  }
+  FinishJointAccelerations(state.joint_velocities, step_seconds, joint_accelerations);
+  FinishBodyAccelerations(state.bodies, step_seconds, accelerations);
 }
 
 std::vector<Pose> LinkPoses(const model::Model& model, std::span<const double> joint_positions) {

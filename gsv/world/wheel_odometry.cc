@@ -1,52 +1,67 @@
 #include "gsv/world/wheel_odometry.h"
 
+#include <algorithm>
+
 namespace gsv::world {
 
 void WheelOdometry::SetLayout(const Layout& layout) {
   bases_.clear();
+  wheels_.clear();
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
     const Body& body = layout.bodies[i];
     if (!body.is_robot() || !body.model->drive) continue;
     const model::Drive& drive = *body.model->drive;
-    Base base;
-    base.body = static_cast<int>(i);
-    base.separation = drive.wheel_separation;
-    const auto add = [&](const std::vector<int>& joints, std::vector<Wheel>& wheels) {
+    const auto add = [&](const std::vector<int>& joints) {
       for (const int joint : joints) {
         const model::Joint& axle = body.model->joints[static_cast<std::size_t>(joint)];
         // If the axle points to the left, a positive rotation rolls the wheel forwards.
         const bool backwards = (axle.model_from_joint.orientation * axle.axis).y < 0;
         const double radius = backwards ? -drive.wheel_radius : drive.wheel_radius;
-        wheels.push_back({body.first_joint + joint, radius / static_cast<double>(joints.size())});
+        wheels_.push_back({body.first_joint + joint, radius / static_cast<double>(joints.size())});
       }
     };
+    const auto next_wheel = [&] { return static_cast<std::uint32_t>(wheels_.size()); };
+    Base base;
+    base.body = static_cast<int>(i);
+    base.separation = drive.wheel_separation;
+    base.left_wheel = base.right_wheel = base.end_wheel = next_wheel();
     if (drive.kind == model::DriveKind::kDifferential && !drive.left_wheels.empty() &&
         !drive.right_wheels.empty()) {
-      add(drive.left_wheels, base.left);
-      add(drive.right_wheels, base.right);
+      add(drive.left_wheels);
+      base.right_wheel = next_wheel();
+      add(drive.right_wheels);
+      base.end_wheel = next_wheel();
     }
-    bases_.push_back(std::move(base));
+    bases_.push_back(base);
   }
 }
 
-double WheelOdometry::Travel(const std::vector<Wheel>& wheels, const State& state) const {
+double WheelOdometry::Travel(std::uint32_t begin, std::uint32_t end, const State& state) const {
   double travel = 0;
-  for (const Wheel& wheel : wheels) {
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const Wheel& wheel = wheels_[i];
     travel += wheel.metres_per_rad * (state.joint_positions[wheel.joint] - before_[wheel.joint]);
   }
   return travel;
 }
 
-void WheelOdometry::Advance(double step_seconds, State& state) const {
-  for (const Base& base : bases_) {
+void WheelOdometry::Advance(double step_seconds, std::size_t begin, std::size_t end,
+                            State& state) const {
+  const auto first =
+      std::lower_bound(bases_.begin(), bases_.end(), begin, [](const Base& base, std::size_t body) {
+        return static_cast<std::size_t>(base.body) < body;
+      });
+  for (auto at = first; at != bases_.end() && static_cast<std::size_t>(at->body) < end; ++at) {
+    const Base& base = *at;
     BodyState& body = state.bodies[base.body];
     double forward = 0, left = 0, angle = 0;
-    if (base.left.empty()) {
+    if (base.left_wheel == base.end_wheel) {
       forward = step_seconds * body.drive.actual.linear;
       left = step_seconds * body.drive.actual.lateral;
       angle = step_seconds * body.drive.actual.angular;
     } else {
-      const double on_left = Travel(base.left, state), on_right = Travel(base.right, state);
+      const double on_left = Travel(base.left_wheel, base.right_wheel, state);
+      const double on_right = Travel(base.right_wheel, base.end_wheel, state);
       forward = (on_left + on_right) / 2;
       angle = (on_right - on_left) / base.separation;
     }

@@ -10,10 +10,11 @@
 //               motion that obstacles allow. So stops at obstacles appear in the odometry, as if a
 //               sensor measured the slip. For a rigid body it is the commanded motion of the
 //               wheels, as above.
-// Threads       one at a time.
+// Threads       one at a time, except Advance() for some bodies.
 #pragma once
 
-#include <memory>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "gsv/world/state.h"
@@ -26,22 +27,30 @@ class WheelOdometry {
 
   // Called before and after each step.
   void KeepWheels(const State& state) { before_ = state.joint_positions; }
-  void Advance(double step_seconds, State& state) const;
+  void Advance(double step_seconds, State& state) const {
+    Advance(step_seconds, 0, state.bodies.size(), state);
+  }
+  // Advances the bodies from `begin` to before `end`. Calls for different bodies may run
+  // concurrently.
+  void Advance(double step_seconds, std::size_t begin, std::size_t end, State& state) const;
 
  private:
   struct Wheel {
     int joint = 0;              // index of the joint among all bodies' joints
     double metres_per_rad = 0;  // metres that the side travels per radian of this wheel
   };
+  // A base has a row of wheels on the left, in wheels_[left_wheel..right_wheel), and one on the
+  // right, in wheels_[right_wheel..end_wheel). Both are empty if the drive does not have two rows.
   struct Base {
     int body = 0;
-    std::vector<Wheel> left, right;  // empty if the drive does not have two rows of wheels
+    std::uint32_t left_wheel = 0, right_wheel = 0, end_wheel = 0;
     double separation = 1;
   };
 
-  double Travel(const std::vector<Wheel>& wheels, const State& state) const;
+  double Travel(std::uint32_t begin, std::uint32_t end, const State& state) const;
 
-  std::vector<Base> bases_;
+  std::vector<Base> bases_;  // ordered by body
+  std::vector<Wheel> wheels_;
   std::vector<double> before_;
 };
 

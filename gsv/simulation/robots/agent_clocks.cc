@@ -7,14 +7,19 @@
 namespace gsv::simulation {
 
 ClockId AgentClocks::Open() {
-  clocks_.emplace(next_id_, Clock{});
+  clocks_.push_back({.id = next_id_});
   return next_id_++;
 }
 
+void AgentClocks::Close(ClockId clock) {
+  if (const Clock* const found = Find(clock))
+    clocks_.erase(clocks_.begin() + (found - &clocks_[0]));
+}
+
 bool AgentClocks::WaitUntil(ClockId id, base::SimTime until, base::SimTime now) {
-  const auto it = clocks_.find(id);
-  GSV_CHECK(it != clocks_.end());
-  Clock& clock = it->second;
+  Clock* const found = Find(id);
+  GSV_CHECK(found != nullptr);
+  Clock& clock = *found;
   // In a pause, the instant may be reached although the agent has not been woken.
   if (clock.waiting && clock.until == until) return false;
   if (until <= now) {
@@ -27,18 +32,18 @@ bool AgentClocks::WaitUntil(ClockId id, base::SimTime until, base::SimTime now) 
 }
 
 bool AgentClocks::IsWaiting(ClockId clock) const {
-  const auto it = clocks_.find(clock);
-  return it != clocks_.end() && it->second.waiting;
+  const Clock* const found = Find(clock);
+  return found != nullptr && found->waiting;
 }
 
 bool AgentClocks::IsWaitingUntil(ClockId clock, base::SimTime until) const {
-  const auto it = clocks_.find(clock);
-  return it != clocks_.end() && it->second.waiting && it->second.until == until;
+  const Clock* const found = Find(clock);
+  return found != nullptr && found->waiting && found->until == until;
 }
 
 bool AgentClocks::Wake(base::SimTime now) {
   bool woke = false;
-  for (auto& [id, clock] : clocks_) {
+  for (Clock& clock : clocks_) {
     if (clock.waiting && clock.until <= now) {
       clock.waiting = false;
       woke = true;
@@ -50,24 +55,24 @@ bool AgentClocks::Wake(base::SimTime now) {
 bool AgentClocks::IsRunning() const {
   if (!HasOpened()) return true;
   return std::any_of(clocks_.begin(), clocks_.end(),
-                     [](const auto& entry) { return !entry.second.waiting; });
+                     [](const Clock& clock) { return !clock.waiting; });
 }
 
 std::uint64_t AgentClocks::last_cycle(ClockId clock) const {
-  const auto it = clocks_.find(clock);
-  return it == clocks_.end() ? 0 : it->second.last_cycle;
+  const Clock* const found = Find(clock);
+  return found == nullptr ? 0 : found->last_cycle;
 }
 
 void AgentClocks::set_last_cycle(ClockId clock, std::uint64_t cycle) {
-  const auto it = clocks_.find(clock);
-  GSV_CHECK(it != clocks_.end());
-  it->second.last_cycle = cycle;
+  Clock* const found = Find(clock);
+  GSV_CHECK(found != nullptr);
+  found->last_cycle = cycle;
 }
 
 void AgentClocks::AddToHash(base::Hash& hash) const {
   hash.Add(std::uint64_t{static_cast<std::uint64_t>(next_id_)});
-  for (const auto& [id, clock] : clocks_) {
-    hash.Add(static_cast<std::uint64_t>(id));
+  for (const Clock& clock : clocks_) {
+    hash.Add(static_cast<std::uint64_t>(clock.id));
     hash.Add(std::uint64_t{clock.waiting});
     hash.Add(static_cast<std::int64_t>(clock.waiting ? clock.until.count() : 0));
     hash.Add(clock.last_cycle);

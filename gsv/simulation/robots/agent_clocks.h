@@ -5,8 +5,11 @@
 // all its clocks are closed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <map>
+#include <utility>
+
+#include <boost/container/small_vector.hpp>
 
 #include "gsv/base/hash.h"
 #include "gsv/base/sim_time.h"
@@ -18,8 +21,8 @@ class AgentClocks {
  public:
   // Opens a clock, which then runs.
   ClockId Open();
-  bool IsOpen(ClockId clock) const { return clocks_.contains(clock); }
-  void Close(ClockId clock) { clocks_.erase(clock); }
+  bool IsOpen(ClockId clock) const { return Find(clock) != nullptr; }
+  void Close(ClockId clock);
 
   // Makes the clock wait until the first step at or after `until`. Returns true if that step has
   // already been taken; the clock then runs on. Repeating a wait that has ended or is pending
@@ -47,11 +50,21 @@ class AgentClocks {
 
  private:
   struct Clock {
+    ClockId id = 0;
     bool waiting = false;
     base::SimTime until{0};
     std::uint64_t last_cycle = 0;
   };
-  std::map<ClockId, Clock> clocks_;  // only the open clocks
+  // Returns null if the clock is not open.
+  const Clock* Find(ClockId id) const {
+    const auto it = std::find_if(clocks_.begin(), clocks_.end(),
+                                 [id](const Clock& clock) { return clock.id == id; });
+    return it == clocks_.end() ? nullptr : &*it;
+  }
+  Clock* Find(ClockId id) { return const_cast<Clock*>(std::as_const(*this).Find(id)); }
+
+  // The open clocks, ordered by id. Most agents have one, which needs no allocation.
+  boost::container::small_vector<Clock, 1> clocks_;
   ClockId next_id_ = 1;
 };
 

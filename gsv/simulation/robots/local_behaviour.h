@@ -46,10 +46,14 @@ class Turn {
     std::shared_ptr<const sensing::RayScene> scene;  // keeps the scene alive during the turns
   };
 
-  Turn() = default;
-  // `sampling` is the Sampling of the behaviour's robot at this instant.
-  Turn(const Instant& instant, const sensing::Sampling& sampling)
-      : instant_(&instant), sampling_(&sampling) {}
+  // Begins a new turn. `sampling` is the Sampling of the behaviour's robot at this instant.
+  void Begin(const Instant& instant, const sensing::Sampling& sampling) {
+    instant_ = &instant;
+    sampling_ = &sampling;
+    commands_.Clear();
+    exchanges_ = 0;
+    end_ = Finished{};
+  }
 
   base::SimTime now() const { return instant_->now; }
 

@@ -34,6 +34,7 @@ RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> mo
 
 void RobotAgent::SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) {
   behaviour_ = std::move(behaviour);
+  local_ = behaviour_ != nullptr ? behaviour_->local() : nullptr;
   UpdateRunningCount();
 }
 
@@ -337,8 +338,9 @@ void RobotAgent::MarkStarted() {
 }
 
 bool RobotAgent::BlocksStep() const {
-  return started_ && behaviour_ != nullptr && behaviour_->time_managed() && is_alive() &&
-         !is_removed_ && clocks_.IsRunning();
+  // The time of every local behaviour is managed.
+  return started_ && behaviour_ != nullptr && is_alive() && !is_removed_ && clocks_.IsRunning() &&
+         (local_ != nullptr || behaviour_->time_managed());
 }
 
 bool RobotAgent::IsAtWork() const {
@@ -396,11 +398,12 @@ void RobotAgent::MakeReady() {
 void RobotAgent::TakeTurn(const Turn::Instant& instant,
                           sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);
-  turn_ = Turn(instant, sampling);
+  turn_.Begin(instant, sampling);
   const WallTime began = WallNow();
-  turn_began_ = began;
-  behaviour_->local()->TakeTurn(turn_);
-  turn_began_ = WallTime();
+  turn_began_.store(began, std::memory_order_release);
+  local_->TakeTurn(turn_);
+  turn_clock_ = local_->clock();
+  turn_began_.store(WallTime(), std::memory_order_release);
   if (instant.is_timed) turn_took_ = WallNow() - began;
 }
 
@@ -409,13 +412,38 @@ std::optional<WallTime> RobotAgent::in_turn_since() const {
   return began == WallTime() ? std::nullopt : std::optional(began);
 }
 
+RobotAgent::UsualEnd RobotAgent::ApplyUsualTurn(SimTime now) {
+  const ClockId clock = turn_clock_;
+  const auto* const waiting = std::get_if<Turn::Waiting>(&turn_.end_);
+  if (waiting == nullptr || waiting->until <= now) return {};
+  if (is_removed_ || fate_ != Fate::kAlive || death_reported_ || has_given_up_) return {};
+  // With a second clock, the agent may still run.
+  if (clocks_.count() != 1 || !clocks_.IsOpen(clock) || clocks_.IsWaiting(clock)) return {};
+  UsualEnd end{.is_usual = true, .until = waiting->until};
+  clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
+  if (!turn_.commands_.empty()) {
+    MergeTurnCommands();
+    end.has_command = !std::exchange(is_commanded_, true);
+  }
+  clocks_.WaitUntil(clock, waiting->until, now);
+  end.was_counted = std::exchange(is_counted_, false);
+  return end;
+}
+
+void RobotAgent::MergeTurnCommands() {
+  RobotCommands& commands = turn_.commands_;
+  if (commands.drive() && turn_.exchanges_ > 0) commands.drive()->clock = turn_clock_;
+  commands_.Merge(std::move(commands));
+}
+
 std::function<void()> RobotAgent::ApplyTurn() {
-  const ClockId clock = behaviour_->local()->clock();
+  const ClockId clock = turn_clock_;
   if (is_removed_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
   clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
-  RobotCommands& commands = turn_.commands_;
-  if (commands.drive() && turn_.exchanges_ > 0) commands.drive()->clock = clock;
-  if (!commands.empty()) Commands().Merge(commands.Take());
+  if (!turn_.commands_.empty()) {
+    (void)Commands();
+    MergeTurnCommands();
+  }
   if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
     is_blocked_ = true;
     return std::move(blocked->work);
@@ -429,6 +457,18 @@ std::function<void()> RobotAgent::ApplyTurn() {
     UpdateRunningCount();
   }
   return {};
+}
+
+bool RobotAgent::ApplyDriveCommand(world::State& state) {
+  if (!commands_.drive() || !commands_.joints().empty() || !commands_.devices().empty()) {
+    return false;
+  }
+  world::DriveState& driven = state.bodies[static_cast<std::size_t>(body_)].drive;
+  driven.command = has_motor_ ? commands_.drive()->command : world::DriveCommand{};
+  driven.command_time = state.time;
+  commands_.drive().reset();
+  is_commanded_ = false;
+  return true;
 }
 
 RobotCommands RobotAgent::TakeCommands() {

@@ -64,9 +64,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     return behaviour_;
   }
   // Whether the behaviour is in this process. Such a behaviour takes turns, and has no waiting thread.
-  bool is_hosted() const GSV_REQUIRES(simulation_mutex) {
-    return behaviour_ != nullptr && behaviour_->local() != nullptr;
-  }
+  bool is_hosted() const GSV_REQUIRES(simulation_mutex) { return local_ != nullptr; }
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
   // Whether the agent still runs, so that the next step must wait for it.
@@ -123,6 +121,26 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // How long the last timed turn took. Only the stepping thread may call this, after the turn.
   WallDuration turn_took() const { return turn_took_; }
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
+  // The changes of SharedState's lists that must follow ApplyUsualTurn().
+  struct UsualEnd {
+    bool is_usual = false;     // false: nothing was applied, and ApplyTurn() must be called
+    bool has_command = false;  // whether the agent must be added to SharedState::commanded
+    bool was_counted = false;  // whether the agent no longer counts in SharedState::running
+    SimTime until{0};          // the agent must be added to SharedState::sleepers for this instant
+  };
+  // Applies the turn if it ended in a wait for a later instant, as almost all turns do. Changes only
+  // this agent, so calls for different agents may run concurrently while the stepping thread holds
+  // the mutex.
+  UsualEnd ApplyUsualTurn(SimTime now) GSV_REQUIRES(simulation_mutex);
+  // Does the same as TakeCommands() and applies the command if the only one is for the drive. Else
+  // does nothing and returns false. Concurrent calls are allowed as for ApplyUsualTurn().
+  bool ApplyDriveCommand(world::State& state) GSV_REQUIRES(simulation_mutex);
+  // Loads the agent's data into the cache, because a call for it follows soon.
+  void Prefetch() const {
+    for (std::size_t line = 0; line < kPrefetchedLines; ++line) {
+      __builtin_prefetch(reinterpret_cast<const char*>(&behaviour_) + 64 * line);
+    }
+  }
   // Marks its local behaviour as ready for a turn.
   void MakeReady() GSV_REQUIRES(simulation_mutex);
 
@@ -144,6 +162,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // this.
   void UpdateRunningCount() GSV_REQUIRES(simulation_mutex);
 
+  // Adds the commands of the last turn to commands_.
+  void MergeTurnCommands() GSV_REQUIRES(simulation_mutex);
   // Returns the agent's commands for the next step, and adds the agent to SharedState::commanded.
   RobotCommands& Commands() GSV_REQUIRES(simulation_mutex);
   void StopDriving() GSV_REQUIRES(simulation_mutex) { Commands().SetDrive({}); }
@@ -160,12 +180,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
 
   WaitEvent wait_event_;
 
+  // The members that each turn uses come first and are together.
+  static constexpr std::size_t kPrefetchedLines = 6;
   std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
-  AgentClocks clocks_ GSV_GUARDED_BY(simulation_mutex);
-  RobotCommands commands_ GSV_GUARDED_BY(simulation_mutex);
+  LocalBehaviour* local_ GSV_GUARDED_BY(simulation_mutex) = nullptr;  // behaviour_->local()
   int body_ GSV_GUARDED_BY(simulation_mutex) = -1;
   bool has_motor_ GSV_GUARDED_BY(simulation_mutex) = true;
-  std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
   // whether the agent counts in shared_->running
   bool is_counted_ GSV_GUARDED_BY(simulation_mutex) = false;
   // whether the agent is in shared_->commanded
@@ -178,15 +198,19 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Whether the behaviour has reported its own death. Its later calls are ignored.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
   Fate fate_ GSV_GUARDED_BY(simulation_mutex) = Fate::kAlive;
-  std::string detail_ GSV_GUARDED_BY(simulation_mutex);
-  std::string cause_ GSV_GUARDED_BY(simulation_mutex);  // see RobotStatus
-  SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};
   WallTime running_since_ GSV_GUARDED_BY(simulation_mutex){};
-
+  AgentClocks clocks_ GSV_GUARDED_BY(simulation_mutex);
+  RobotCommands commands_ GSV_GUARDED_BY(simulation_mutex);
   Turn turn_;  // used by the stepping thread and, during a turn, by the thread of the turn
+  ClockId turn_clock_ = 0;                        // the clock of the last turn; used like turn_
   std::atomic<WallTime> turn_began_{WallTime()};  // start of the current turn; WallTime() between
                                                   // turns
   WallDuration turn_took_{};                      // used like turn_
+
+  std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
+  std::string detail_ GSV_GUARDED_BY(simulation_mutex);
+  std::string cause_ GSV_GUARDED_BY(simulation_mutex);  // see RobotStatus
+  SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};
 };
 
 }  // namespace gsv::simulation

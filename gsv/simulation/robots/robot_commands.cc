@@ -83,10 +83,11 @@ base::Status RobotCommands::Send(const MountedSensor& radio, const std::string& 
   return {};
 }
 
-void RobotCommands::Merge(RobotCommands later) {
+void RobotCommands::Merge(RobotCommands&& later) {
   if (later.drive_) drive_ = later.drive_;
   joints_.insert(joints_.end(), later.joints_.begin(), later.joints_.end());
   for (DeviceAction& action : later.devices_) Add(std::move(action));
+  later.Clear();
 }
 
 }  // namespace gsv::simulation

@@ -53,10 +53,17 @@ class RobotCommands {
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content,
                     const std::string& robot);
 
-  // Adds commands that were given later.
-  void Merge(RobotCommands later);
+  // Adds commands that were given later, and clears `later`.
+  void Merge(RobotCommands&& later);
   // Returns all commands and clears them.
   RobotCommands Take() { return std::exchange(*this, {}); }
+
+  // Clears all commands. Keeps the memory for later ones.
+  void Clear() {
+    drive_.reset();
+    joints_.clear();
+    devices_.clear();
+  }
 
   bool empty() const { return !drive_ && joints_.empty() && devices_.empty(); }
   std::optional<Drive>& drive() { return drive_; }

@@ -1,6 +1,9 @@
 // A queue of waiting objects (sleepers), ordered by the instant at which they wake. A sleeper
 // checks its own clocks when it is woken, so superfluous entries do no harm.
 //
+// If a sleeper has a function Prefetch(), it is called some time before the sleeper is woken, to
+// load data into the cache.
+//
 // Threads  the owner synchronises access.
 #pragma once
 
@@ -35,7 +38,12 @@ class TimerQueue {
     while (HasDue(now)) {
       std::vector<Sleeper*> due = std::move(entries_.begin()->second);
       entries_.erase(entries_.begin());
-      for (Sleeper* sleeper : due) wake(*sleeper);
+      for (std::size_t i = 0; i < due.size(); ++i) {
+        if constexpr (requires(Sleeper & sleeper) { sleeper.Prefetch(); }) {
+          if (i + kAhead < due.size()) due[i + kAhead]->Prefetch();
+        }
+        wake(*due[i]);
+      }
       due.clear();
       if (due.capacity() > spare_.capacity()) spare_ = std::move(due);
     }
@@ -47,6 +55,9 @@ class TimerQueue {
   void Clear() { entries_.clear(); }
 
  private:
+  // How many sleepers ahead data is loaded into the cache.
+  static constexpr std::size_t kAhead = 8;
+
   std::map<base::SimTime, std::vector<Sleeper*>> entries_;
   std::vector<Sleeper*> spare_;  // kept for reuse by the next entry
 };

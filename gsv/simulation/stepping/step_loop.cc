@@ -14,6 +14,9 @@ namespace {
 // The number of turns that a thread executes at a time: some tens of microseconds of work.
 constexpr std::size_t kTurnsAPiece = 16;
 
+// The number of agents whose turns or commands a thread applies at a time.
+constexpr std::size_t kAgentsAtOnce = 256;
+
 // The reason of a pause that nobody requested.
 constexpr const char* kReachedTarget = "the requested time is reached";
 
@@ -139,13 +142,37 @@ void StepLoop::TakeTurns() {
   const SimulationLock lock(shared);
   parts_.world.lock().SetStuck(false);  // the behaviour has finally returned
   const WallTime deadline = WallNow() - parts_.specification.deadline;
-  for (RobotAgent* agent : turns_) {
+  ApplyUsualTurns();
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    RobotAgent* const agent = turns_[i];
+    if (usual_ends_[i].is_usual) {
+      Enlist(*agent, usual_ends_[i]);
+      continue;
+    }
     if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
     // Check again: the agent may have waited meanwhile, for instants that were already past.
     if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
+  if (shared.running == 0) shared.changed.notify_all();
   if (is_timed_) NoteLongestTurn();
   turns_.clear();
+}
+
+void StepLoop::ApplyUsualTurns() {
+  usual_ends_.resize(turns_.size());
+  parts_.team->ParallelFor(
+      turns_.size(), kAgentsAtOnce,
+      [this, now = parts_.shared->now](std::size_t begin, std::size_t end) {
+        simulation_mutex.AssertHeld();  // by the stepping thread, which waits for this
+        for (std::size_t i = begin; i < end; ++i) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
+      });
+}
+
+void StepLoop::Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) {
+  SharedState& shared = *parts_.shared;
+  if (end.has_command) shared.commanded.push_back(&agent);
+  shared.sleepers.Add(end.until, &agent);
+  if (end.was_counted) --shared.running;
 }
 
 void StepLoop::NoteLongestTurn() {
@@ -273,7 +300,16 @@ bool StepLoop::BeginStep(WallTime start) {
 
 void StepLoop::ApplyCommands() {
   world::State& state = parts_.world.state();
-  for (RobotAgent* agent : parts_.shared->commanded) {
+  std::vector<RobotAgent*>& commanded = parts_.shared->commanded;
+  parts_.team->ParallelFor(
+      commanded.size(), kAgentsAtOnce, [&](std::size_t begin, std::size_t end) {
+        simulation_mutex.AssertHeld();  // by the stepping thread, which waits for this
+        for (std::size_t i = begin; i < end; ++i) {
+          if (commanded[i]->ApplyDriveCommand(state)) commanded[i] = nullptr;
+        }
+      });
+  for (RobotAgent* agent : commanded) {
+    if (agent == nullptr) continue;
     RobotCommands commands = agent->TakeCommands();
     if (const auto& drive = commands.drive()) {
       world::DriveState& driven = state.bodies[static_cast<std::size_t>(agent->body())].drive;
@@ -287,7 +323,7 @@ void StepLoop::ApplyCommands() {
       device_actions_.emplace_back(agent->robot(), std::move(commands.devices()));
     }
   }
-  parts_.shared->commanded.clear();
+  commanded.clear();
 }
 
 void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start) {

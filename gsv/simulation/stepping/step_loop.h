@@ -56,6 +56,10 @@ class StepLoop {
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
   // Executes the turns of local behaviours until all of them wait.
   void TakeTurns();
+  // Applies the turns that ended in a wait, and sets usual_ends_.
+  void ApplyUsualTurns() GSV_REQUIRES(simulation_mutex);
+  // Adds an agent whose turn has ended to the lists of SharedState.
+  void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
   // Stores the robot whose turn took the longest, unless another agent delays the step.
   void NoteLongestTurn() GSV_REQUIRES(simulation_mutex);
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
@@ -76,9 +80,10 @@ class StepLoop {
 
   // The stepping thread alone uses these.
   SnapshotPool snapshots_;
-  DeviceActions device_actions_;    // the actions for the next step
-  Turn::Instant instant_;           // the instant of the current turns
-  std::vector<RobotAgent*> turns_;  // the agents of the current turns
+  DeviceActions device_actions_;                  // the actions for the next step
+  Turn::Instant instant_;                         // the instant of the current turns
+  std::vector<RobotAgent*> turns_;                // the agents of the current turns
+  std::vector<RobotAgent::UsualEnd> usual_ends_;  // how these turns ended
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events of the agents that were just woken
   bool is_timed_ = false;        // whether an observer requests the times of steps

@@ -1,16 +1,33 @@
 #include "gsv/simulation/world/simulated_world.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "gsv/simulation/world/device_loop.h"
+#include "gsv/world/accelerations.h"
 
 namespace gsv::simulation {
+namespace {
+
+// The numbers of bodies that a thread processes at a time: some microseconds of work.
+constexpr std::size_t kBodiesAtOnce = 512;
+constexpr std::size_t kVelocitiesAtOnce = 4096;
+
+template <class T>
+std::span<T> Part(std::vector<T>& of, std::size_t begin, std::size_t end) {
+  return std::span(of).subspan(begin, end - begin);
+}
+
+}  // namespace
 
 SimulatedWorld::SimulatedWorld(std::unique_ptr<dynamics::Engine> engine,
-                               std::shared_ptr<const world::Layout> layout)
+                               std::shared_ptr<const world::Layout> layout,
+                               std::shared_ptr<base::ThreadTeam> team)
     : engine_(std::move(engine)),
       layout_(std::move(layout)),
-      state_(world::InitialState(*layout_)) {
+      state_(world::InitialState(*layout_)),
+      team_(std::move(team)) {
   wheel_odometry_.SetLayout(*layout_);
 }
 
@@ -28,20 +45,44 @@ void SimulatedWorld::Reset() {
 }
 
 void SimulatedWorld::Step(base::SimTime step, world::Snapshot& snapshot) {
-  const double step_seconds = base::ToSeconds(step);
-  world::KeepVelocities(state_, snapshot.accelerations, snapshot.joint_accelerations);
+  snapshot.joint_accelerations = state_.joint_velocities;
+  snapshot.accelerations.resize(state_.bodies.size());
+  team_->ParallelFor(state_.bodies.size(), kVelocitiesAtOnce,
+                     [&](std::size_t begin, std::size_t end) GSV_REQUIRES(world_mutex) {
+                       world::KeepBodyVelocities(Part(state_.bodies, begin, end),
+                                                 Part(snapshot.accelerations, begin, end));
+                     });
   wheel_odometry_.KeepWheels(state_);
   engine_->Step(step, state_, snapshot.contacts);
   MoveDevices(*layout_, state_.time + step, state_);
-  wheel_odometry_.Advance(step_seconds, state_);
-  world::FinishContacts(state_, snapshot.accelerations, snapshot.contacts);
-  world::FinishAccelerations(state_, step_seconds, snapshot.accelerations,
-                             snapshot.joint_accelerations);
   snapshot.step_length = step;
   ++state_.step;
   state_.time = state_.step * step;
   snapshot.layout = layout_;
+  FinishStep(base::ToSeconds(step), snapshot);
+}
+
+// One pass over the bodies does all that remains, while a body's state is in the cache.
+void SimulatedWorld::FinishStep(double step_seconds, world::Snapshot& snapshot) {
+  world::FinishContacts(state_, snapshot.accelerations, snapshot.contacts);
+  world::FinishJointAccelerations(state_.joint_velocities, step_seconds,
+                                  snapshot.joint_accelerations);
+  // The bodies are set aside, so that this copies everything except them.
+  std::vector<world::BodyState> bodies = std::move(state_.bodies);
+  std::vector<world::BodyState> copies = std::move(snapshot.state.bodies);
   snapshot.state = state_;
+  state_.bodies = std::move(bodies);
+  copies.resize(state_.bodies.size());
+  snapshot.state.bodies = std::move(copies);
+  team_->ParallelFor(state_.bodies.size(), kBodiesAtOnce,
+                     [&](std::size_t begin, std::size_t end) GSV_REQUIRES(world_mutex) {
+                       wheel_odometry_.Advance(step_seconds, begin, end, state_);
+                       const auto moved = Part(state_.bodies, begin, end);
+                       world::FinishBodyAccelerations(moved, step_seconds,
+                                                      Part(snapshot.accelerations, begin, end));
+                       std::copy(moved.begin(), moved.end(),
+                                 Part(snapshot.state.bodies, begin, end).begin());
+                     });
 }
 
 }  // namespace gsv::simulation

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/dynamics/motion/engine.h"
 #include "gsv/simulation/world/attachments.h"
 #include "gsv/simulation/world/world_lock.h"
@@ -15,9 +16,11 @@ namespace gsv::simulation {
 
 class SimulatedWorld {
  public:
-  // The world starts in the initial state of `layout`, which must be the engine's layout.
+  // The world starts in the initial state of `layout`, which must be the engine's layout. Step()
+  // shares the bodies of a large world among the threads of `team`.
   SimulatedWorld(std::unique_ptr<dynamics::Engine> engine,
-                 std::shared_ptr<const world::Layout> layout);
+                 std::shared_ptr<const world::Layout> layout,
+                 std::shared_ptr<base::ThreadTeam> team);
 
   WorldLock& lock() const { return lock_; }
 
@@ -55,12 +58,16 @@ class SimulatedWorld {
   }
 
  private:
+  // Completes the step that the engine has computed, and copies the state to `snapshot`.
+  void FinishStep(double step_seconds, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
+
   mutable WorldLock lock_;
   std::unique_ptr<dynamics::Engine> engine_ GSV_GUARDED_BY(world_mutex);
   std::shared_ptr<const world::Layout> layout_ GSV_GUARDED_BY(world_mutex);
   world::State state_ GSV_GUARDED_BY(world_mutex);
   Attachments attachments_ GSV_GUARDED_BY(world_mutex);
   world::WheelOdometry wheel_odometry_ GSV_GUARDED_BY(world_mutex);
+  const std::shared_ptr<base::ThreadTeam> team_;
 };
 
 }  // namespace gsv::simulation

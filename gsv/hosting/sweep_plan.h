@@ -1,0 +1,34 @@
+// How a robot's open sensors are read together. Robots with equal sensors share one plan, so that a
+// crowd's plan stays in the processor's cache.
+//
+// Threads  const objects may be used concurrently; Share() by any thread.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/sensing/beam_set.h"
+#include "gsv/simulation/robots/mounted_sensor.h"
+
+namespace gsv::hosting {
+
+struct SweepPlan {
+  static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
+
+  // Plans for `sensors`, which are ordered by name. Beams of sensors without an update rate are cast
+  // together.
+  explicit SweepPlan(const std::vector<std::shared_ptr<simulation::MountedSensor>>& sensors);
+
+  bool HasOnlyBeams() const { return beams.size() == names.size(); }
+
+  std::vector<std::string> names;    // names of the sensors
+  std::vector<std::size_t> beam_of;  // index of each sensor's beam in `beams`, or kNoBeam
+  sensing::BeamSet beams;
+};
+
+// Returns an equal plan that is in use, or this plan if there is none.
+std::shared_ptr<const SweepPlan> Share(std::shared_ptr<const SweepPlan> plan);
+
+}  // namespace gsv::hosting
