@@ -13,7 +13,6 @@
 
 #include <xmmintrin.h>
 
-#include "gsv/sensing/rays/ray_packet.h"
 #include "gsv/sensing/rays/ray_scene.h"
 
 namespace gsv::sensing {
@@ -58,15 +57,6 @@ class CandidateSet {
 
   // Whether the set contains all solids that the ray may meet.
   bool Hold(const Ray& ray) const { return Norm(ray.origin - place_) + ray.max_distance <= reach_; }
-
-  // A solid, and the rays of a packet that may touch it: bit i stands for ray i.
-  struct Touched {
-    std::uint32_t number;
-    unsigned rays;
-  };
-  // Finds the solids that at least one ray of the packet may touch, and returns their number. The
-  // packet must be within the set, see Hold().
-  std::size_t FindTouched(const RayPacket& rays, std::array<Touched, kMax>& touched) const;
 
   // Calls visit(number) for every solid that the ray may touch within `length`, which `visit` may
   // shorten.

@@ -49,39 +49,6 @@ TEST(CandidateSet, ContainsEverySphereThatARayTouchesAndFewOthers) {
   }
 }
 
-TEST(CandidateSet, FindsTheSameForTheRaysOfAPacket) {
-  Random random(52);
-  for (int round = 0; round < 100; ++round) {
-    const Vector3 place = random.Point(5000);
-    RayPacket packet;
-    const auto rays = 1 + static_cast<std::size_t>(round) % RayPacket::kMax;
-    while (packet.count < rays) {
-      packet.Add({place + random.Point(1), Normalized(random.Point(1)), random.Uniform(0, 5)});
-    }
-    CandidateSet candidates;
-    candidates.Begin(place, 10);
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(round) % CandidateSet::kMax; ++i) {
-      candidates.Add({place + random.Point(9), random.Uniform(0.01, 2)}, 1000 + i, i % 3 != 0);
-    }
-    ASSERT_TRUE(candidates.Finish());
-    std::vector<std::set<std::uint32_t>> found(rays), alone(rays);
-    std::array<CandidateSet::Touched, CandidateSet::kMax> touched;
-    const std::size_t count = candidates.FindTouched(packet, touched);
-    for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_NE(touched[i].rays, 0u);
-      EXPECT_EQ(touched[i].rays >> rays, 0u);
-      for (std::size_t ray = 0; ray < rays; ++ray) {
-        if ((touched[i].rays >> ray & 1) != 0) found[ray].insert(touched[i].number);
-      }
-    }
-    for (std::size_t ray = 0; ray < rays; ++ray) {
-      const double length = packet.max_distance[ray];
-      candidates.Find(packet.At(ray), length, [&](std::uint32_t i) { alone[ray].insert(i); });
-    }
-    EXPECT_EQ(found, alone);
-  }
-}
-
 TEST(CandidateSet, ServesOnlyRaysThatEndWithinIt) {
   CandidateSet candidates;
   candidates.Begin({1, 2, 3}, 5);

@@ -79,7 +79,7 @@ void PlacedSolids::Place(std::size_t index, const world::Snapshot& snapshot) {
   const Vector3 centre = world_from_part * part->ball.centre;
   const double radius = part->ball.radius;
   const Vector3 reach{radius, radius, radius};
-  spheres_[index] = {{centre, radius}, body};
+  spheres_[index] = {centre, radius};
   boxes_[index] = {centre - reach, centre + reach};
 }
 
@@ -97,7 +97,19 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
   } else {
     place(0, parts_.size());
   }
-  index_.Build(boxes_, /*often=*/true);
+  grid_.Build(spheres_, boxes_);
+  is_indexed_.store(false, std::memory_order_relaxed);
+}
+
+const BoxIndex& PlacedSolids::index() const {
+  if (!is_indexed_.load(std::memory_order_acquire)) {
+    const base::MutexLock lock(index_mutex_);
+    if (!is_indexed_.load(std::memory_order_relaxed)) {
+      index_.Build(boxes_, /*often=*/true);
+      is_indexed_.store(true, std::memory_order_release);
+    }
+  }
+  return index_;
 }
 
 Bearer PlacedSolids::BearerOf(std::size_t part) const {
@@ -125,9 +137,9 @@ Nearest PlacedSolids::Find(const Ray& ray, int ignored_body) const {
   nearest.distance = ray.max_distance;
   if (!IsSound(ray)) return nearest;
   solids_->standing.CastAtShapes(ray, ignored_body, nearest);
-  index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
-    const auto& [ball, body] = spheres_[i];
-    if (body != ignored_body && Passes(ray, nearest.distance, ball)) CastAtPart(i, ray, nearest);
+  index().Walk(ray, nearest.distance, [&](std::uint32_t i) {
+    if (BodyOf(i) == ignored_body || !Passes(ray, nearest.distance, spheres_[i])) return;
+    CastAtPart(i, ray, nearest);
   });
   CastAtUnindexed(ray, ignored_body, nearest);
   return nearest;
@@ -199,11 +211,10 @@ bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
     if (sector) shadings.push_back({*sector, true, shape});
   }
   found.count = 0;
-  if (!index_.Near(place, reach, found)) return false;
+  if (!index().Near(place, reach, found)) return false;
   for (std::size_t i = 0; i < found.count; ++i) {
     const std::uint32_t part = found.boxes[i];
-    const auto& [ball, body] = spheres_[part];
-    if (body == ignored_body || !is_near(ball)) continue;
+    if (BodyOf(part) == ignored_body || !is_near(spheres_[part])) continue;
     const auto sector = SectorOf(fan, parts_[part].part_from_world * fan.world_from_fan,
                                  parts_[part].part->solids.bounds());
     if (sector) shadings.push_back({*sector, false, part});
@@ -286,13 +297,14 @@ bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
   if (!IsFinite(place) || !(reach >= 0)) return false;
   candidates.Begin(place, reach);
   FoundBoxes found;
-  if (!index_.Near(place, reach, found)) return false;
+  if (!index().Near(place, reach, found)) return false;
   for (std::size_t i = 0; i < found.count; ++i) {
-    const auto& [ball, body] = spheres_[found.boxes[i]];
+    const BoundingSphere& ball = spheres_[found.boxes[i]];
     const Vector3 gap = ball.centre - place;
     const double furthest = reach + ball.radius;
-    candidates.Add(ball, found.boxes[i],
-                   (body != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
+    candidates.Add(
+        ball, found.boxes[i],
+        (BodyOf(found.boxes[i]) != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
   }
   return solids_->standing.Gather(candidates, kStanding) && candidates.Finish();
 }
@@ -308,29 +320,40 @@ void PlacedSolids::Ranges(const RayPacket& packet, const Vector3& place, int ign
     is_sound = is_sound && IsSound(rays[i]);
     reach = std::max(reach, Norm(rays[i].origin - place) + rays[i].max_distance);
   }
-  CandidateSet candidates;
-  if (!is_sound || !Gather(place, reach, ignored_body, candidates)) {
+  TouchedSpheres moving, standing;
+  const auto find_touched = [&] {
+    const PacketSearch search(packet, place, reach);
+    return grid_.FindTouched(search, moving) && solids_->standing.FindTouched(search, standing);
+  };
+  if (!is_sound || !IsFinite(place) || !find_touched()) {
     for (std::size_t i = 0; i < packet.count; ++i) ranges[i] = Range(rays[i], ignored_body);
     return;
   }
-  std::array<CandidateSet::Touched, CandidateSet::kMax> touched;
-  const std::size_t count = candidates.FindTouched(packet, touched);
   std::array<Nearest, RayPacket::kMax> nearest;
   for (std::size_t i = 0; i < packet.count; ++i) nearest[i].distance = rays[i].max_distance;
-  for (const CandidateSet::Touched& each : std::span(touched).first(count)) {
-    const std::uint32_t shape = each.number & ~kStanding;
-    for (unsigned left = each.rays; left != 0; left &= left - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(left));
-      if (shape == each.number) {
-        CastAtPart(shape, rays[i], nearest[i]);
-      } else if (solids_->standing.ShapeReaches(shape, Around(rays[i]))) {
-        solids_->standing.CastAtShape(shape, rays[i], ignored_body, nearest[i]);
-      }
-    }
-  }
+  CastAtTouched(moving, standing, rays, ignored_body, nearest);
+  const bool has_unindexed = parts_.size() > solids_->bounded || solids_->standing.HasOthers();
   for (std::size_t i = 0; i < packet.count; ++i) {
-    CastAtUnindexed(rays[i], ignored_body, nearest[i]);
+    if (has_unindexed) CastAtUnindexed(rays[i], ignored_body, nearest[i]);
     ranges[i] = DistanceOf(nearest[i]);
+  }
+}
+
+void PlacedSolids::CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
+                                 std::span<const Ray> rays, int ignored_body,
+                                 std::span<Nearest> nearest) const {
+  const auto for_rays = [](unsigned mask, const auto& cast) {
+    for (; mask != 0; mask &= mask - 1) cast(static_cast<std::size_t>(std::countr_zero(mask)));
+  };
+  for (const TouchedSpheres::Touched& each : moving.all()) {
+    if (BodyOf(each.number) == ignored_body) continue;
+    for_rays(each.rays, [&](std::size_t i) { CastAtPart(each.number, rays[i], nearest[i]); });
+  }
+  for (const TouchedSpheres::Touched& each : standing.all()) {
+    for_rays(each.rays, [&](std::size_t i) {
+      if (!solids_->standing.ShapeReaches(each.number, Around(rays[i]))) return;
+      solids_->standing.CastAtShape(each.number, rays[i], ignored_body, nearest[i]);
+    });
   }
 }
 

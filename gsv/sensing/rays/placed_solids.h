@@ -1,16 +1,19 @@
 // The ray scene of one snapshot: the static solids, and the others at their poses.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/base/thread_team.h"
 #include "gsv/sensing/rays/box_index.h"
 #include "gsv/sensing/rays/echo.h"
 #include "gsv/sensing/rays/layout_solids.h"
+#include "gsv/sensing/rays/sphere_grid.h"
 
 namespace gsv::sensing {
 
@@ -40,14 +43,11 @@ class PlacedSolids final : public RayScene {
     geometry::Pose part_from_world;
     const Part* part;
   };
-  struct PlacedSphere {
-    BoundingSphere ball;
-    int body;
-  };
-
   struct Shading;  // a solid and the rays of a fan that may hit it
 
   void Place(std::size_t index, const world::Snapshot& snapshot);
+  const BoxIndex& index() const;
+  int BodyOf(std::size_t part) const { return solids_->moving[part].body; }
   Nearest Find(const Ray& ray, int ignored_body) const;
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
   Bearer BearerOf(std::size_t part) const;
@@ -55,6 +55,9 @@ class PlacedSolids final : public RayScene {
   // Finds the bounded solids within the fan's reach, the nearest first. Returns false if there are
   // too many.
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
+  // Casts the rays of a packet at the solids whose spheres they touch.
+  void CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
+                     std::span<const Ray> rays, int ignored_body, std::span<Nearest> nearest) const;
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
@@ -67,9 +70,14 @@ class PlacedSolids final : public RayScene {
   std::shared_ptr<const LayoutSolids> solids_;
   // Vectors in the order of LayoutSolids::moving. The last two are only for bounded parts.
   std::vector<PlacedPart> parts_;
-  std::vector<PlacedSphere> spheres_;
+  std::vector<BoundingSphere> spheres_;
   std::vector<geometry::Bounds> boxes_;
-  BoxIndex index_;  // the index of boxes_
+  SphereGrid grid_;  // the grid of spheres_, for packets
+
+  // The index of boxes_, for other rays. It is built for the first of them.
+  mutable base::Mutex index_mutex_;
+  mutable std::atomic<bool> is_indexed_{false};
+  mutable BoxIndex index_;
 };
 
 }  // namespace gsv::sensing

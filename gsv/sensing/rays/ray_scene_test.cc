@@ -183,6 +183,31 @@ TEST(RayScene, ManyRaysAtOnceEqualSingleRays) {
   }
 }
 
+TEST(RayScene, APacketOfRaysEqualsSingleRays) {
+  Random random(13);
+  RaySceneCache cache;
+  int echoes = 0;
+  for (int round = 0; round < 20; ++round) {
+    const auto snapshot = RandomWorld(random);
+    const auto scene = cache.At(snapshot);
+    for (int i = 0; i < 50; ++i) {
+      const Vector3 place = random.Point(round % 2 == 0 ? 8 : 30);
+      RayPacket packet;
+      const auto count = 1 + static_cast<std::size_t>(i) % RayPacket::kMax;
+      while (packet.count < count) {
+        packet.Add({place + random.Point(0.2), Normalized(random.Point(1)), random.Uniform(0, 9)});
+      }
+      std::vector<double> ranges(count);
+      scene->Ranges(packet, place, i, ranges);
+      for (std::size_t ray = 0; ray < count; ++ray) {
+        EXPECT_EQ(ranges[ray], scene->Range(packet.At(ray), i));
+        echoes += std::isfinite(ranges[ray]) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(echoes, 100);
+}
+
 TEST(RayScene, NoRayPassesBetweenTheTrianglesOfAMesh) {
   // A wavy sheet of 2 × 100 × 100 triangles, hit exactly at its vertices and edges.
   auto mesh = std::make_shared<geometry::TriangleMesh>();

@@ -166,6 +166,7 @@ BoundingSphere SolidSet::ball() const {
 
 void SolidSet::Commit() {
   shape_index_.Build(shape_bounds_, /*often=*/false);
+  shape_grid_.Build(shape_spheres_, shape_bounds_);
   if (triangles_.size() <= kHandful) return;
   std::vector<Bounds> boxes;
   boxes.reserve(triangles_.size());

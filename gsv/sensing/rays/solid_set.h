@@ -16,6 +16,7 @@
 #include "gsv/sensing/rays/box_index.h"
 #include "gsv/sensing/rays/candidate_set.h"
 #include "gsv/sensing/rays/ray_scene.h"
+#include "gsv/sensing/rays/sphere_grid.h"
 
 namespace gsv::sensing {
 
@@ -117,6 +118,13 @@ class SolidSet {
     return shape_own_bounds_[shape];
   }
 
+  // Finds the shapes that a packet may touch; see SphereGrid.
+  bool FindTouched(const PacketSearch& search, TouchedSpheres& found) const {
+    return shape_grid_.FindTouched(search, found);
+  }
+  // Whether the set contains planes or triangles, which CastAtOthers() serves.
+  bool HasOthers() const { return !planes_.empty() || !triangles_.empty(); }
+
   // Adds the shapes within the reach of `candidates`, with numbers that contain the bits of `mark`.
   // Returns false if there is no fast method.
   bool Gather(CandidateSet& candidates, std::uint32_t mark) const;
@@ -159,6 +167,7 @@ class SolidSet {
   std::vector<BoundingSphere> shape_spheres_;       // padded, in the set's frame
   std::vector<geometry::Bounds> shape_own_bounds_;  // in the shape's frame
   BoxIndex shape_index_;
+  SphereGrid shape_grid_;
   std::vector<SolidPlane> planes_;
   std::vector<float> shape_reflectances_, plane_reflectances_;
   // The first triangle of each mesh with the reflectance of the mesh.

@@ -1,0 +1,86 @@
+// A uniform grid of bounding spheres over the ground, for packets of rays. It finds the spheres that
+// the rays of a packet may touch. Spheres of one cell, and of the cells beside it, are side by side
+// in memory.
+//
+// Exactness  spheres are tested in single precision. They are enlarged by more than its error, so
+//            that no sphere on a ray is omitted.
+// Threads    const members may run concurrently.
+// Units      metres, world frame (or the frame of a set).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gsv/geometry/triangle_mesh.h"
+#include "gsv/sensing/rays/candidate_set.h"
+#include "gsv/sensing/rays/ray_packet.h"
+
+namespace gsv::sensing {
+
+// Spheres by number, and the rays of a packet that may touch them: bit i stands for ray i.
+struct TouchedSpheres {
+  static constexpr std::size_t kMax = 64;
+  struct Touched {
+    std::uint32_t number;
+    unsigned rays;
+  };
+  std::array<Touched, kMax> touched;
+  std::size_t count = 0;
+
+  std::span<const Touched> all() const { return std::span(touched).first(count); }
+};
+
+// Rays of a packet near one place, which several grids are searched with.
+class PacketSearch {
+ public:
+  // `reach` is the largest distance from `place` to a point of a ray.
+  PacketSearch(const RayPacket& rays, const geometry::Vector3& place, double reach);
+
+ private:
+  friend class SphereGrid;
+  using Floats = std::array<float, RayPacket::kMax>;
+
+  geometry::Vector3 place_;
+  double reach_;
+  float rounding_;  // by which spheres are enlarged
+  unsigned used_;   // a bit for each ray
+  alignas(32) Floats ox_, oy_, oz_, dx_, dy_, dz_, length_;
+};
+
+class SphereGrid {
+ public:
+  // Replaces all spheres. Sphere i bounds the same solid as boxes[i].
+  void Build(std::span<const BoundingSphere> spheres, std::span<const geometry::Bounds> boxes);
+
+  // Appends the spheres that at least one ray may touch. Returns false, and may omit spheres, if
+  // there are too many near the place or if the grid does not suit the spheres.
+  bool FindTouched(const PacketSearch& search, TouchedSpheres& found) const;
+
+ private:
+  struct Large {
+    geometry::Bounds box;
+    std::uint32_t number;
+  };
+
+  int ColumnOf(double x) const;
+  int RowOf(double y) const;
+  bool AddLarge(const PacketSearch& search, TouchedSpheres& found) const;
+  bool Divide(std::span<const BoundingSphere> spheres);
+
+  bool is_suitable_ = true;
+  double low_x_ = 0, low_y_ = 0, cells_per_metre_ = 0;
+  int columns_ = 0, rows_ = 0;
+  double max_radius_ = 0;  // the radius of the largest sphere in a cell
+  // The first sphere of each cell, row by row, and the number of spheres.
+  std::vector<std::uint32_t> starts_;
+  std::vector<std::uint32_t> cell_of_;  // working memory of Build()
+  // The spheres by cell.
+  std::vector<float> x_, y_, z_, radius_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<Large> large_;  // solids that are too large for cells
+};
+
+}  // namespace gsv::sensing
