@@ -32,6 +32,7 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   const std::string& place() const override { return place_; }
 
   simulation::ClockId clock() const override { return clock_; }
+  void PrefetchTurn() const override;
   void TakeTurn(simulation::Turn& turn) override;
 
  private:

@@ -44,6 +44,11 @@ Bounds Around(const Ray& ray) {
           {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
+// Moved() without calls.
+[[gnu::flatten]] Ray MovedInline(const Pose& to_from, const Ray& ray, double length) {
+  return Moved(to_from, ray, length);
+}
+
 // Whether the ray intersects the bounding sphere.
 bool Passes(const Ray& ray, double length, const BoundingSphere& ball) {
   const Vector3 to_centre = ball.centre - ray.origin;
@@ -121,7 +126,11 @@ Bearer PlacedSolids::BearerOf(std::size_t part) const {
 
 void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const {
   const auto& [part_from_world, part] = parts_[index];
-  part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest, BearerOf(index));
+  const Ray moved = MovedInline(part_from_world, ray, nearest.distance);
+  if (part->solids.ShapesAlone() == 1) {
+    return part->solids.CastAtShape(0, moved, -1, nearest, BearerOf(index));
+  }
+  part->solids.Cast(moved, -1, nearest, BearerOf(index));
 }
 
 // This is called last, because there are many triangles, and earlier hits shorten the ray.

@@ -252,7 +252,13 @@ Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle) {
   return Against(Cross(triangle.edge1, triangle.edge2), ray.direction);
 }
 
-std::optional<double> DistanceToShape(const Ray& ray, const geometry::Shape& shape) {
+// Most shapes are cylinders and boxes. For these, all calls are worth inlining.
+[[gnu::flatten]] std::optional<double> DistanceToShape(const Ray& ray,
+                                                       const geometry::Shape& shape) {
+  const DistanceCaster caster{ray};
+  if (const auto* const cylinder = std::get_if<geometry::Cylinder>(&shape))
+    return caster(*cylinder);
+  if (const auto* const box = std::get_if<geometry::Box>(&shape)) return caster(*box);
   return std::visit(DistanceCaster{ray}, shape);
 }
 

@@ -25,7 +25,7 @@ constexpr double kLargeCells = 2;
 constexpr std::size_t kMaxLarge = 32;
 
 // With more spheres than this near the rays, single rays are faster.
-constexpr std::size_t kMaxTested = 512;
+constexpr std::size_t kMaxTested = 512, kMaxRows = 128;
 
 // Single precision has a relative error of 6e-8. The gap between ray and centre takes a dozen
 // operations on distances from the ray's origin. The coordinates themselves are rounded once.
@@ -48,46 +48,57 @@ struct Spheres {
   const float *x, *y, *z, *radius;
 };
 
-// Both versions set masks[i] to the rays that touch sphere first + i.
+// Spheres that are side by side, in a row of cells.
+struct Run {
+  std::uint32_t first, count;
+};
+
+// Both versions set the masks of the runs' spheres, in this order, to the rays that touch them.
 __attribute__((target("avx2"))) void TestByAvx2(const Rays& rays, const Spheres& spheres,
-                                                std::size_t first, std::size_t count,
-                                                unsigned* masks) {
+                                                std::span<const Run> runs, unsigned* masks) {
   const __m256 ox = _mm256_load_ps(rays.ox), oy = _mm256_load_ps(rays.oy);
   const __m256 oz = _mm256_load_ps(rays.oz), dx = _mm256_load_ps(rays.dx);
   const __m256 dy = _mm256_load_ps(rays.dy), dz = _mm256_load_ps(rays.dz);
   const __m256 length = _mm256_load_ps(rays.length), zero = _mm256_setzero_ps();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = first + i;
-    const __m256 x = _mm256_set1_ps(spheres.x[at]) - ox, y = _mm256_set1_ps(spheres.y[at]) - oy;
-    const __m256 z = _mm256_set1_ps(spheres.z[at]) - oz;
-    const __m256 along = _mm256_min_ps(_mm256_max_ps(x * dx + y * dy + z * dz, zero), length);
-    const __m256 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
-    const __m256 gap = gap_x * gap_x + gap_y * gap_y + gap_z * gap_z;
-    const float radius = spheres.radius[at] + rays.rounding;
-    const __m256 is_near = _mm256_cmp_ps(gap, _mm256_set1_ps(radius * radius), _CMP_LE_OQ);
-    masks[i] = static_cast<unsigned>(_mm256_movemask_ps(is_near));
+  for (const Run& run : runs) {
+    for (std::uint32_t at = run.first; at < run.first + run.count; ++at) {
+      const __m256 x = _mm256_set1_ps(spheres.x[at]) - ox, y = _mm256_set1_ps(spheres.y[at]) - oy;
+      const __m256 z = _mm256_set1_ps(spheres.z[at]) - oz;
+      const __m256 along = _mm256_min_ps(_mm256_max_ps(x * dx + y * dy + z * dz, zero), length);
+      const __m256 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
+      const __m256 gap = gap_x * gap_x + gap_y * gap_y + gap_z * gap_z;
+      const float radius = spheres.radius[at] + rays.rounding;
+      const __m256 is_near = _mm256_cmp_ps(gap, _mm256_set1_ps(radius * radius), _CMP_LE_OQ);
+      *masks++ = static_cast<unsigned>(_mm256_movemask_ps(is_near));
+    }
   }
 }
 
-void TestBySse(const Rays& rays, const Spheres& spheres, std::size_t first, std::size_t count,
+unsigned TestBySse(const Rays& rays, const Spheres& spheres, std::uint32_t at) {
+  unsigned mask = 0;
+  const __m128 cx = _mm_set1_ps(spheres.x[at]), cy = _mm_set1_ps(spheres.y[at]);
+  const __m128 cz = _mm_set1_ps(spheres.z[at]);
+  const float radius = spheres.radius[at] + rays.rounding;
+  for (std::size_t four = 0; four < RayPacket::kMax; four += 4) {
+    const __m128 dx = _mm_load_ps(rays.dx + four), dy = _mm_load_ps(rays.dy + four);
+    const __m128 dz = _mm_load_ps(rays.dz + four);
+    const __m128 x = cx - _mm_load_ps(rays.ox + four), y = cy - _mm_load_ps(rays.oy + four);
+    const __m128 z = cz - _mm_load_ps(rays.oz + four);
+    const __m128 along = _mm_min_ps(_mm_max_ps(x * dx + y * dy + z * dz, _mm_setzero_ps()),
+                                    _mm_load_ps(rays.length + four));
+    const __m128 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
+    const __m128 gap = gap_x * gap_x + gap_y * gap_y + gap_z * gap_z;
+    const __m128 is_near = _mm_cmple_ps(gap, _mm_set1_ps(radius * radius));
+    mask |= static_cast<unsigned>(_mm_movemask_ps(is_near)) << four;
+  }
+  return mask;
+}
+
+void TestBySse(const Rays& rays, const Spheres& spheres, std::span<const Run> runs,
                unsigned* masks) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = first + i;
-    masks[i] = 0;
-    const __m128 cx = _mm_set1_ps(spheres.x[at]), cy = _mm_set1_ps(spheres.y[at]);
-    const __m128 cz = _mm_set1_ps(spheres.z[at]);
-    const float radius = spheres.radius[at] + rays.rounding;
-    for (std::size_t four = 0; four < RayPacket::kMax; four += 4) {
-      const __m128 dx = _mm_load_ps(rays.dx + four), dy = _mm_load_ps(rays.dy + four);
-      const __m128 dz = _mm_load_ps(rays.dz + four);
-      const __m128 x = cx - _mm_load_ps(rays.ox + four), y = cy - _mm_load_ps(rays.oy + four);
-      const __m128 z = cz - _mm_load_ps(rays.oz + four);
-      const __m128 along = _mm_min_ps(_mm_max_ps(x * dx + y * dy + z * dz, _mm_setzero_ps()),
-                                      _mm_load_ps(rays.length + four));
-      const __m128 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
-      const __m128 gap = gap_x * gap_x + gap_y * gap_y + gap_z * gap_z;
-      const __m128 is_near = _mm_cmple_ps(gap, _mm_set1_ps(radius * radius));
-      masks[i] |= static_cast<unsigned>(_mm_movemask_ps(is_near)) << four;
+  for (const Run& run : runs) {
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      *masks++ = TestBySse(rays, spheres, run.first + i);
     }
   }
 }
@@ -109,14 +120,6 @@ PacketSearch::PacketSearch(const RayPacket& rays, const Vector3& place, double r
     dz_[i] = static_cast<float>(rays.direction_z[i]);
     length_[i] = static_cast<float>(rays.max_distance[i]);
   }
-}
-
-int SphereGrid::ColumnOf(double x) const {
-  return static_cast<int>(std::clamp((x - low_x_) * cells_per_metre_, 0.0, columns_ - 1.0));
-}
-
-int SphereGrid::RowOf(double y) const {
-  return static_cast<int>(std::clamp((y - low_y_) * cells_per_metre_, 0.0, rows_ - 1.0));
 }
 
 // Chooses the cells. Returns false if the spheres do not suit a grid.
@@ -217,22 +220,27 @@ bool SphereGrid::FindTouched(const PacketSearch& search, TouchedSpheres& found) 
   const Vector3& place = search.place_;
   const int left = ColumnOf(place.x - reach), right = ColumnOf(place.x + reach);
   const int front = RowOf(place.y - reach), back = RowOf(place.y + reach);
-  std::size_t tested = 0;
-  std::array<unsigned, kMaxTested> masks;
+  std::array<Run, kMaxRows> runs;
+  std::size_t run_count = 0, tested = 0;
+  if (back - front >= static_cast<int>(kMaxRows)) return false;
   for (int row = front; row <= back; ++row) {
     const std::uint32_t* const starts = &starts_[std::size_t(row) * columns_];
-    const std::size_t first = starts[left], count = starts[right + 1] - first;
-    tested += count;
-    if (tested > kMaxTested) return false;
-    (has_avx2 ? TestByAvx2 : TestBySse)(rays, spheres, first, count, masks.data());
-    if (found.count + count > TouchedSpheres::kMax) {
-      const auto touches = [&](unsigned mask) { return (mask & search.used_) != 0; };
-      const auto more = std::count_if(masks.begin(), masks.begin() + count, touches);
-      if (found.count + static_cast<std::size_t>(more) >= TouchedSpheres::kMax) return false;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      found.touched[found.count] = {numbers_[first + i], masks[i] & search.used_};
-      found.count += (masks[i] & search.used_) != 0;
+    runs[run_count] = {starts[left], starts[right + 1] - starts[left]};
+    tested += runs[run_count].count;
+    run_count += runs[run_count].count > 0;
+  }
+  if (tested > kMaxTested) return false;
+  const auto in_reach = std::span<const Run>(runs).first(run_count);
+  std::array<unsigned, kMaxTested> masks;
+  has_avx2 ? TestByAvx2(rays, spheres, in_reach, masks.data())
+           : TestBySse(rays, spheres, in_reach, masks.data());
+  const unsigned* mask = masks.data();
+  for (const Run& run : in_reach) {
+    for (std::uint32_t at = run.first; at < run.first + run.count; ++at) {
+      const unsigned touching = *mask++ & search.used_;
+      if (touching == 0) continue;
+      if (found.count == TouchedSpheres::kMax) return false;
+      found.touched[found.count++] = {numbers_[at], touching};
     }
   }
   return true;

@@ -8,6 +8,7 @@
 // Units      metres, world frame (or the frame of a set).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -65,8 +66,12 @@ class SphereGrid {
     std::uint32_t number;
   };
 
-  int ColumnOf(double x) const;
-  int RowOf(double y) const;
+  // The column and row of a coordinate, which may be outside of the grid.
+  int ColumnOf(double x) const { return CellOf((x - low_x_) * cells_per_metre_, columns_); }
+  int RowOf(double y) const { return CellOf((y - low_y_) * cells_per_metre_, rows_); }
+  static int CellOf(double cells, int count) {
+    return static_cast<int>(std::clamp(cells, 0.0, count - 1.0));
+  }
   bool AddLarge(const PacketSearch& search, TouchedSpheres& found) const;
   bool Divide(std::span<const BoundingSphere> spheres);
 

@@ -117,6 +117,8 @@ class LocalBehaviour : public BehaviourPort {
 
   // The clock of the turns, which Start() has opened.
   virtual ClockId clock() const = 0;
+  // Loads data into the cache that the turn needs. Called shortly before the turn.
+  virtual void PrefetchTurn() const {}
   // Executes a turn. The function must return, because nothing can interrupt it. If it exceeds the
   // deadline, the simulation fails, and requests that need the world are refused until it returns.
   virtual void TakeTurn(Turn& turn) = 0;

@@ -9,6 +9,8 @@ namespace gsv::simulation {
 namespace {
 
 constexpr int kMaxClocks = 64;
+// The number of cache lines of a local behaviour and of a body that are loaded before a turn.
+constexpr std::size_t kBehaviourLines = 5, kBodyLines = 2;
 // Maximum number of bytes of the reason that a behaviour gives for ending.
 constexpr std::size_t kMaxReasonLength = 1000;
 
@@ -393,8 +395,18 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-// No lock is needed: the index of the body changes only with the world's lock held, which the
+// No lock is needed for the next three functions: the index of the body changes only with the world's lock held, which the
 // stepping thread holds now. The behaviour changes only before the run has started.
+void RobotAgent::PrefetchBehaviour(const world::Snapshot& snapshot) const
+    GSV_NO_THREAD_SAFETY_ANALYSIS {
+  PrefetchLines(local_, kBehaviourLines);
+  if (body_ < 0) return;
+  PrefetchLines(&snapshot.state.bodies[static_cast<std::size_t>(body_)], 1);
+  PrefetchLines(&snapshot.layout->bodies[static_cast<std::size_t>(body_)], kBodyLines);
+}
+
+void RobotAgent::PrefetchTurn() const GSV_NO_THREAD_SAFETY_ANALYSIS { local_->PrefetchTurn(); }
+
 void RobotAgent::TakeTurn(const Turn::Instant& instant,
                           sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);

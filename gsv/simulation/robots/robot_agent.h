@@ -136,11 +136,11 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // does nothing and returns false. Concurrent calls are allowed as for ApplyUsualTurn().
   bool ApplyDriveCommand(world::State& state) GSV_REQUIRES(simulation_mutex);
   // Loads the agent's data into the cache, because a call for it follows soon.
-  void Prefetch() const {
-    for (std::size_t line = 0; line < kPrefetchedLines; ++line) {
-      __builtin_prefetch(reinterpret_cast<const char*>(&behaviour_) + 64 * line);
-    }
-  }
+  void Prefetch() const { PrefetchLines(&behaviour_, kPrefetchedLines); }
+  // Does the same for the data of a turn at `snapshot`. The agent's own data should be there already,
+  // and for the second function also those of the first.
+  void PrefetchBehaviour(const world::Snapshot& snapshot) const;
+  void PrefetchTurn() const;
   // Marks its local behaviour as ready for a turn.
   void MakeReady() GSV_REQUIRES(simulation_mutex);
 
@@ -179,6 +179,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   SensorRack rack_;
 
   WaitEvent wait_event_;
+
+  static void PrefetchLines(const void* begin, std::size_t lines) {
+    for (std::size_t line = 0; line < lines; ++line) {
+      __builtin_prefetch(static_cast<const char*>(begin) + 64 * line);
+    }
+  }
 
   // The members that each turn uses come first and are together.
   static constexpr std::size_t kPrefetchedLines = 6;

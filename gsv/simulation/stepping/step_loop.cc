@@ -137,7 +137,10 @@ void StepLoop::TakeTurns() {
   instant_.Prepare(*parts_.team);
   parts_.team->ParallelFor(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
     sensing::Sampling sampling = instant_.MakeSampling();
-    for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
+    for (std::size_t i = begin; i < end; ++i) {
+      PrefetchTurns(i);
+      turns_[i]->TakeTurn(instant_, sampling);
+    }
   });
   const SimulationLock lock(shared);
   parts_.world.lock().SetStuck(false);  // the behaviour has finally returned
@@ -156,6 +159,15 @@ void StepLoop::TakeTurns() {
   if (shared.running == 0) shared.changed.notify_all();
   if (is_timed_) NoteLongestTurn();
   turns_.clear();
+}
+
+// Each stage finds its addresses in the data that the stage before it has loaded.
+void StepLoop::PrefetchTurns(std::size_t now) const {
+  if (now + 6 < turns_.size()) turns_[now + 6]->Prefetch();
+  if (now + 4 < turns_.size()) {
+    turns_[now + 4]->PrefetchBehaviour(*instant_.snapshots.latest());
+  }
+  if (now + 2 < turns_.size()) turns_[now + 2]->PrefetchTurn();
 }
 
 void StepLoop::ApplyUsualTurns() {

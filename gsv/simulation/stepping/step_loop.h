@@ -56,6 +56,8 @@ class StepLoop {
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
   // Executes the turns of local behaviours until all of them wait.
   void TakeTurns();
+  // Loads data of the turns that follow the turn `now` into the cache.
+  void PrefetchTurns(std::size_t now) const;
   // Applies the turns that ended in a wait, and sets usual_ends_.
   void ApplyUsualTurns() GSV_REQUIRES(simulation_mutex);
   // Adds an agent whose turn has ended to the lists of SharedState.
