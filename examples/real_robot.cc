@@ -68,7 +68,7 @@ class Cart {
   }
   void CheckAlive() const {
     const std::lock_guard lock(mutex_);
-    if (ended_) throw sba::Ended("the robot is being switched off");
+    if (ended_) throw sba::Ended("the robot is shutting down");
   }
   double travelled() const { return travelled_; }
   double nearest_to_wall() const { return nearest_; }
@@ -182,7 +182,7 @@ class CartBase final : public POA_sba::ActuatorProxy {
     cart_.Drive(linear_m_s, angular_rad_s);
   }
   void drive_sideways(CORBA::Double, CORBA::Double, CORBA::Double) override {
-    throw sba::Refused("this base cannot go sideways");
+    throw sba::Refused("this base cannot move sideways");
   }
   void halt() override { cart_.Drive(0, 0); }
 
@@ -244,7 +244,7 @@ base::Status DriveFor(double seconds, CORBA::ORB_ptr orb, const std::string& bro
                               "name == '" + behaviour_name + "'", "first", 1);
   if (!offers) return base::Fail(offers.error());
   if (offers->empty()) {
-    return base::Fail(base::ErrorCode::kNotFound, "the behaviour is not offered there",
+    return base::Fail(base::ErrorCode::kNotFound, "the broker does not offer the behaviour",
                       broker->reference());
   }
   // The ORB keeps its servants until it is destroyed.
@@ -270,7 +270,7 @@ base::Status DriveFor(double seconds, CORBA::ORB_ptr orb, const std::string& bro
 int main(int argc, char** argv) {
   std::string broker, behaviour = "wander";
   double seconds = 3;
-  CLI::App app("Drives a robot that is no simulation with an offered behaviour.");
+  CLI::App app("Drives a robot outside of the simulator with a behaviour from the broker.");
   app.add_option("--broker", broker)->envname("GSV_BROKER")->required();
   app.add_option("--behaviour", behaviour)->capture_default_str();
   app.add_option("--seconds", seconds)->capture_default_str();
@@ -288,7 +288,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", status.error().Sentence().c_str());
     return 5;
   }
-  std::printf("%d readings, %d commands, %.2f m travelled, never nearer to the wall than %.2f m\n",
+  std::printf("%d readings, %d commands, %.2f m travelled, minimum distance to the wall %.2f m\n",
               cart.readings(), cart.commands(), cart.travelled(), cart.nearest_to_wall());
   return cart.readings() > 0 && cart.commands() > 0 && cart.travelled() > 0.05 &&
                  cart.nearest_to_wall() > kRadius

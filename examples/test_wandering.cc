@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   CLI::App app("Tests a behaviour in a simulated world.");
   app.add_option("--broker", options.broker)->envname("GSV_BROKER")->required();
   app.add_option("--constraint", options.constraint,
-                 "which simulator, over the properties of its offer");
+                 "constraint over the properties of the simulator's offer");
   app.add_option("--world", options.world, "without it: the simulator's default");
   app.add_option("--robot", options.model)->capture_default_str();
   app.add_option("--places", options.places, "x and y of each robot, in metres");

@@ -180,7 +180,7 @@ class SimulationProxy final : public RemoteSimulation {
     while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
       if (std::chrono::steady_clock::now() > give_up) {
         return base::Fail(base::ErrorCode::kTimeout,
-                          "the simulation did not reach this time in time", server_);
+                          "the simulation did not reach this time before the timeout", server_);
       }
       if (keep_waiting && !keep_waiting()) {
         return base::Fail(base::ErrorCode::kEnded, "the wait was interrupted", server_);

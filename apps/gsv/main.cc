@@ -131,6 +131,12 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
     what = unknown.empty() ? "a command is missing" : UnknownWord(*typed, unknown);
   } else if (!typed->remaining().empty()) {
     what = UnknownWord(*typed, typed->remaining());
+  } else if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExcludesError)) {
+    const std::string word = " excludes ";
+    if (const std::size_t at = what.find(word); at != std::string::npos) {
+      what.replace(at, word.size(), " and ");
+      what += " cannot be used together";
+    }
   }
   return "gsv: " + what + (what.ends_with('?') ? " See " : ". See ") + words + " --help\n";
 }

@@ -43,7 +43,7 @@ class Infrared final : public sensing::SensorOf<Proximity, messages::sensor_msgs
         scale_(reader.Number("scale", 0.27, 0, 100)),
         offset_(reader.Number("offset", 0.015, 1e-6, 10)),
         noise_(sensing::ReadNoise(reader, "noise", 10)) {
-    if (min_ > max_) reader.Refuse("min is above max");
+    if (min_ > max_) reader.Refuse("min is larger than max");
   }
 
   base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {

@@ -118,13 +118,13 @@ Result<spdlog::level::level_enum> ParseLogLevel(const std::string& text) {
     if (text == std::string_view(name.data(), name.size())) return level;
   }
   return Fail(ErrorCode::kInvalidArgument,
-              "a level of the log is trace, debug, info, warning, error or off");
+              "the log level must be trace, debug, info, warning, error or off");
 }
 
 Result<LogFormat> ParseLogFormat(const std::string& text) {
   if (text == "text") return LogFormat::kText;
   if (text == "json") return LogFormat::kJson;
-  return Fail(ErrorCode::kInvalidArgument, "a format of the log is text or json");
+  return Fail(ErrorCode::kInvalidArgument, "the log format must be text or json");
 }
 
 LogOptions LogOptionsFromEnvironment(spdlog::level::level_enum level) {

@@ -51,6 +51,11 @@ int SpellingDistance(std::string_view a, std::string_view b, int limit) {
 bool LooksLike(std::string_view written, std::string_view known) {
   const std::size_t shorter = std::min(written.size(), known.size());
   if (shorter < kMinNameLength || written == known) return false;
+  // Three letters suffice to name another thing: "ksh" is not a misspelt "zsh".
+  if (shorter == kMinNameLength && written.size() == known.size() &&
+      !std::is_permutation(written.begin(), written.end(), known.begin())) {
+    return false;
+  }
   const int allowed = shorter >= kLongName ? 2 : 1;
   return SpellingDistance(written, known, allowed) <= allowed;
 }

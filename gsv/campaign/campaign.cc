@@ -63,8 +63,9 @@ class ParameterReader {
   std::vector<Parameter> Read(const YAML::Node& node) {
     std::vector<Parameter> parameters;
     if (!node.IsMap() || node.size() > kMaxParameters) {
-      place_.AddProblem(node.Mark(), "parameters",
-                        "parameters must be a mapping of paths into the scenario, 64 at most");
+      place_.AddProblem(
+          node.Mark(), "parameters",
+          "parameters must be a mapping with at most 64 keys, which are paths in the scenario");
       return parameters;
     }
     for (const auto& entry : node) {
@@ -113,7 +114,8 @@ class ParameterReader {
     const double stride = step.value_or(1);
     if (!from || !to || *from > *to || (*to - *from) / stride >= kMaxValues) {
       mapping.AddProblem(
-          "from and to are required, the smaller first, with at most 100,000 values");
+          "from and to are required; from is the smaller one, and the list has at most 100,000 "
+          "values");
       return;
     }
     // The tolerance allows for rounding, so that the range includes its end.
@@ -249,7 +251,8 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
     YamlMapping mapping(YAML::Load(text), "", place);
     scenario_file = mapping.Text("scenario").value_or("");
     if (mapping.is_mapping() && scenario_file.empty())
-      mapping.AddProblem("scenario", "the key scenario is required: the file that each run varies");
+      mapping.AddProblem("scenario",
+                         "the key scenario is required; it names the file that each run varies");
     if (const auto node = mapping.Any("parameters"))
       campaign.parameters = ParameterReader(place).Read(*node);
     campaign.draws = static_cast<std::size_t>(mapping.Number("draws", 1, kMaxRuns).value_or(1));

@@ -71,7 +71,7 @@ Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request)
     const auto former = mapping.Number("runs_a_task", 1, most_runs);  // a former name of the key
     if (runs && former) {
       mapping.AddProblem("runs_a_task",
-                         "runs_a_task is the former name of runs_per_task; give one");
+                         "runs_a_task is the former name of runs_per_task; give only one of them");
     }
     const auto runs_per_task = static_cast<std::size_t>(runs.value_or(former.value_or(0)));
     if (!is_chosen) continue;

@@ -88,7 +88,7 @@ tl::unexpected<base::Error> Results::Refused(const base::Error& error) const {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       message +=
-          ": the file is damaged, or not a results file. Move it away and repeat the command, "
+          ": the file is damaged, or is not a results file. Move it away and repeat the command, "
           "which makes it again from the runs in the folder NAME.runs, if there is one";
       break;
     default:

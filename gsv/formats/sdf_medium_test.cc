@@ -233,7 +233,7 @@ TEST_F(SdfMedium, AMimicJointWithoutALeaderMovesByItself) {
         ModelOf(std::string(kTwoJoints) + "<mimic joint='" + leader + "'/></axis></joint>", "1.11");
     EXPECT_FALSE(model.joints.at(1).mimic);
     ASSERT_EQ(problems_.size(), 1u) << leader;
-    EXPECT_THAT(problems_[0].Sentence(), HasSubstr("moves by itself"));
+    EXPECT_THAT(problems_[0].Sentence(), HasSubstr("moves independently"));
   }
 }
 

@@ -75,7 +75,8 @@ TEST_F(SdfTerrain, WithoutItsTextureIsGreyWithAWarning) {
   const auto material = MaterialOf("<texture><diffuse>none.tga</diffuse><size>2</size></texture>");
   EXPECT_EQ(material.base_colour_map, nullptr);
   ASSERT_EQ(problems_.size(), 1u);
-  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("the terrain is grey in place of a texture"));
+  EXPECT_THAT(problems_[0].Sentence(),
+              HasSubstr("the terrain is drawn in grey instead of a texture"));
 }
 
 }  // namespace

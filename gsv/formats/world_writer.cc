@@ -134,7 +134,7 @@ class WorldWriter {
     const bool has_file =
         !original_.source.empty() && fs::exists(xacro::FilePart(original_.source), ignored);
     if (!has_file && !original_.source.empty()) {
-      return base::Fail(base::ErrorCode::kBadModel, "the file of the world is gone",
+      return base::Fail(base::ErrorCode::kBadModel, "the file of the world does not exist any more",
                         original_.source);
     }
     if (has_file) {

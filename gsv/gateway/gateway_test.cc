@@ -195,7 +195,7 @@ TEST_F(GatewayTest, ViewersOfADestroyedSimulationAreNotified) {
   while (viewer.Receive()) {
   }
   EXPECT_EQ(viewer.close_code(), 1001);
-  EXPECT_EQ(viewer.close_reason(), "the simulation 'arena' is gone");
+  EXPECT_EQ(viewer.close_reason(), "the simulation 'arena' does not exist any more");
 }
 
 TEST_F(GatewayTest, WithoutASimulationAConnectionIsRefused) {

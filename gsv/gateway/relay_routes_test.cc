@@ -217,7 +217,7 @@ TEST_F(RelayTest, ViewersOfADestroyedSimulationAreNotified) {
   while (stranger.Receive()) {
   }
   EXPECT_EQ(stranger.close_code(), 1001);
-  EXPECT_EQ(stranger.close_reason(), "the simulation 'nobody' is gone");
+  EXPECT_EQ(stranger.close_reason(), "the simulation 'nobody' does not exist any more");
 }
 
 TEST_F(RelayTest, ARelayCanBeRelayed) {

@@ -84,7 +84,7 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
       {"uint32", {Kind::kUnsigned, 4}}, {"int64", {Kind::kInteger, 8}},
       {"uint64", {Kind::kUnsigned, 8}}, {"float32", {Kind::kFloat, 4}},
       {"float64", {Kind::kFloat, 8}}};
-  if (structs_.size() >= kMaxTypes) return Bad("more types than can be", root_);
+  if (structs_.size() >= kMaxTypes) return Bad("too many types", root_);
   Struct& fields = structs_[type];
   fields.clear();
   std::istringstream lines{std::string(text)};
@@ -94,7 +94,7 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
     // NAME=value and NAME = value are constants; a default follows the name after a blank.
     if (words[1].find('=') != std::string::npos) continue;
     if (words.size() > 2 && words[2].front() == '=') continue;
-    if (fields.size() >= kMaxFields) return Bad("more fields than can be", type);
+    if (fields.size() >= kMaxFields) return Bad("too many fields", type);
     Field field;
     field.name = words[1];
     std::string base = words[0];

@@ -269,7 +269,8 @@ std::string DescribeDrive(const Model& model) {
   text += is_guessed ? ", guessed from wheels " : " on wheels ";
   text += Names(model, wheels);
   if (!drive.steered.empty()) {
-    text += drive.kind == DriveKind::kAckermann ? ", steered by " : ", held straight by ";
+    text += drive.kind == DriveKind::kAckermann ? ", steered by "
+                                                : ", with the steering joints held straight: ";
     text += Names(model, drive.steered);
   }
   text += "; " + Metres("radius", drive.wheel_radius) + ", " +

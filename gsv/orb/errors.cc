@@ -50,12 +50,12 @@ base::Error ToError(const CORBA::SystemException& exception, const std::string& 
   }
   if (CORBA::TRANSIENT::_downcast(&exception) != nullptr) {
     if (exception.minor() == omni::TRANSIENT_CallTimedout) {
-      return {ErrorCode::kTimeout, "did not answer in time", where};
+      return {ErrorCode::kTimeout, "did not respond in time", where};
     }
-    return {ErrorCode::kUnavailable, "nobody accepts connections there", where};
+    return {ErrorCode::kUnavailable, "no program accepts connections at this address", where};
   }
   if (CORBA::TIMEOUT::_downcast(&exception) != nullptr) {
-    return {ErrorCode::kTimeout, "did not answer in time", where};
+    return {ErrorCode::kTimeout, "did not respond in time", where};
   }
   if (CORBA::COMM_FAILURE::_downcast(&exception) != nullptr) {
     return {ErrorCode::kUnavailable, "the connection broke during the call", where};

@@ -96,8 +96,7 @@ base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message)
   if (!kind || !moment || message.body.empty() || message.step > kMaxSteps ||
       (!edit.movement && !movement.empty()) || !geometry::IsFinite(edit.world_from_body) ||
       !(std::abs(length - 1) < 1e-6)) {
-    return base::Fail(base::ErrorCode::kCorrupt,
-                      "the recording has an edit that nobody can have made", message.body);
+    return base::Fail(base::ErrorCode::kCorrupt, "the recording has an invalid edit", message.body);
   }
   edit.step = static_cast<std::int64_t>(message.step);
   edit.time = messages::ToSimTime(message.stamp);

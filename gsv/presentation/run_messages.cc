@@ -56,7 +56,7 @@ DiagnosticStatus Diagnosis(const simulation::SimulationStatus& status) {
     diagnosis.message += ": " + status.failure;
   } else if (!status.waiting_for.empty()) {
     diagnosis.level = DiagnosticStatus::kWarn;
-    diagnosis.message += ", held up by " + status.waiting_for;
+    diagnosis.message += ", waits for " + status.waiting_for;
   }
   diagnosis.values = {
       {"mode", simulation::ToString(status.mode)},

@@ -70,7 +70,7 @@ TEST(DiagnosticsMessage, SlowBehaviourIsAWarningAndAFailureAnError) {
   status.waiting_for = "b (slow) since 2.1 s";
   const DiagnosticStatus held = DiagnosticsMessage(status).status[0];
   EXPECT_EQ(held.level, DiagnosticStatus::kWarn);
-  EXPECT_EQ(held.message, "running, held up by b (slow) since 2.1 s");
+  EXPECT_EQ(held.message, "running, waits for b (slow) since 2.1 s");
   status.phase = simulation::Phase::kFailed;
   status.failure = "a crashed";
   const DiagnosticStatus failed = DiagnosticsMessage(status).status[0];

@@ -78,12 +78,12 @@ base::Status CompareOdometry(const Log& log, const CompareOptions& options, Comp
     result.rows.push_back(
         {"odometry", what, unit, real_value, summary.mean, k95 * summary.deviation});
   };
-  add("true over reckoned way", "", real.way_ratio, way);
-  add("true over reckoned turn", "", real.turn_ratio, turn);
-  add("scatter of the way in 5 s", "m", real.way_scatter, way_scatter);
+  add("true distance / estimated distance", "", real.way_ratio, way);
+  add("true turn / estimated turn", "", real.turn_ratio, turn);
+  add("scatter of the distance in 5 s", "m", real.way_scatter, way_scatter);
   add("scatter of the turn in 5 s", "rad", real.turn_scatter, turn_scatter);
   add("error at the end", "m", EndError(path, log.truth), ends);
-  result.rows.push_back({"odometry", "Kolmogorov-Smirnov distance of the way", "", 0,
+  result.rows.push_back({"odometry", "Kolmogorov-Smirnov distance of path lengths", "", 0,
                          KolmogorovSmirnov(way_series.real, way_series.simulated), 0});
   result.rows.push_back({"odometry", "Kolmogorov-Smirnov distance of the turn", "", 0,
                          KolmogorovSmirnov(turn_series.real, turn_series.simulated), 0});

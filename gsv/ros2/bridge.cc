@@ -271,7 +271,7 @@ base::Status SimulationBridge::SetNamespace(const std::string& robot,
                                             const std::string& name_space) {
   const std::string whole = name_space.starts_with('/') ? name_space : "/" + name_space;
   if (!IsNamespace(whole)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "it is no namespace of ROS 2",
+    return base::Fail(base::ErrorCode::kInvalidArgument, "it is not a valid ROS 2 namespace",
                       name_space.substr(0, 100));
   }
   const base::MutexLock lock(namespaces_mutex_);

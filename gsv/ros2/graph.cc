@@ -80,7 +80,7 @@ Graph::Graph(dds::Participant& participant, Distro distro)
   if (writer) {
     writer_ = *std::move(writer);
   } else {
-    spdlog::warn("no ROS 2 node is listed: {}", writer.error().Sentence());
+    spdlog::warn("ROS 2 nodes cannot be listed: {}", writer.error().Sentence());
   }
 }
 

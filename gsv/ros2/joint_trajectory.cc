@@ -110,7 +110,7 @@ base::Result<JointTrajectory> ReadJointTrajectory(std::span<const std::byte> sam
     if (!point) return base::Fail(point.error());
     const bool is_later = trajectory.points.empty() ? point->time >= base::SimTime(0)
                                                     : point->time > trajectory.points.back().time;
-    if (!is_later) return RefuseTrajectory("time_from_start must grow from point to point");
+    if (!is_later) return RefuseTrajectory("time_from_start must increase from point to point");
     trajectory.points.push_back(*std::move(point));
   }
   return trajectory;

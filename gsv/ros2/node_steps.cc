@@ -36,8 +36,7 @@ void NodeSteps::Offer(const std::string& robot, base::SimTime stamp,
       there.has_warned = true;
       spdlog::warn(
           "{}: a command of ROS 2 has the time {} s and is ignored, because the step waits for "
-          "that of the last "
-          "/clock, {} s",
+          "a command with the time of the last /clock, {} s",
           robot, base::ToSeconds(stamp), base::ToSeconds(*there.awaited));
     }
     if (there.awaited && stamp < *there.awaited) return;

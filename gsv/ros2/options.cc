@@ -50,9 +50,10 @@ base::Result<std::optional<dds::Range>> RangeOf(const Environment& environment) 
   if (range == "LOCALHOST") return dds::Range::kLocalhost;
   if (range == "SUBNET" || range == "SYSTEM_DEFAULT") return dds::Range::kSubnet;
   if (range == "OFF") {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "OFF leaves no ROS 2 node to talk to. Unset it, or use --ros2-range",
-                      "ROS_AUTOMATIC_DISCOVERY_RANGE");
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "with OFF, gsv cannot communicate with ROS 2 nodes. Unset it, or use --ros2-range",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE");
   }
   return base::Fail(base::ErrorCode::kInvalidArgument,
                     "must be LOCALHOST, SUBNET, SYSTEM_DEFAULT or OFF, found '" + range + "'",

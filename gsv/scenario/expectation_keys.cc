@@ -52,8 +52,8 @@ class FormulaReader {
       const auto node = mapping.Any(each.key);
       if (!mapping.Has(each.key)) continue;
       if (!found.empty()) {
-        mapping.AddProblem(each.key, "there is one operator in a condition; here are " + found +
-                                         " and " + each.key);
+        mapping.AddProblem(
+            each.key, "a condition has exactly one operator, found " + found + " and " + each.key);
         continue;
       }
       found = each.key;
@@ -158,7 +158,7 @@ class FormulaReader {
   std::string Body(YamlMapping& m) {
     const auto name = m.Text("robot");
     if (m.is_mapping() && (!name || name->empty()))
-      m.AddProblem("robot", "robot is needed: a robot's or an object's name");
+      m.AddProblem("robot", "set robot to the name of a robot or an object");
     return name.value_or("");
   }
 
@@ -166,11 +166,11 @@ class FormulaReader {
     const auto least = m.Number("at_least", -kMax, kMax);
     const auto most = m.Number("at_most", -kMax, kMax);
     if (m.is_mapping() && !m.Has("at_least") && !m.Has("at_most")) {
-      m.AddProblem("at_least and at_most, or one of them, are needed");
+      m.AddProblem("set at_least, at_most or both");
     }
     if (least) atom.min = *least;
     if (most) atom.max = *most;
-    if (atom.min > atom.max) m.AddProblem("at_most", "at_most lies below at_least");
+    if (atom.min > atom.max) m.AddProblem("at_most", "at_most is less than at_least");
   }
 
   Formula Near(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
@@ -213,7 +213,7 @@ class FormulaReader {
     ReadRange(region, "y", QuantityKind::kY, robot, atoms);
     ReadRange(region, "z", QuantityKind::kZ, robot, atoms);
     if (region.is_mapping() && !region.Has("x") && !region.Has("y") && !region.Has("z")) {
-      region.AddProblem("x, y or z is needed, as in x: [-1, 2.5]");
+      region.AddProblem("set x, y or z, as in x: [-1, 2.5]");
     }
     return Joined(FormulaKind::kAll, std::move(atoms));
   }
@@ -257,7 +257,7 @@ class FormulaReader {
     Formula atom = Atom(QuantityKind::kDistance, "", 0, kMax);
     ReadPair(of, atom.quantity);
     const auto metres = of.Number("metres", 0, kMaxCoordinate);
-    if (of.is_mapping() && !of.Has("metres")) of.AddProblem("metres", "metres is needed");
+    if (of.is_mapping() && !of.Has("metres")) of.AddProblem("metres", "set metres");
     atom.min = metres.value_or(0);
     return Joined(FormulaKind::kAlways, {std::move(atom)});
   }

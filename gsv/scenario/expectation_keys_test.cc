@@ -97,12 +97,14 @@ TEST(TestKeys, ErrorsInFaultsAreReportedWithTheirPlace) {
           "t.yaml:2:5: the fault needs a time: set at, in seconds",
           "t.yaml:3:21: sensor must be as in ROBOT/sensor",
           "t.yaml:4:24: behaviour must be one name, found \"scout/front\"",
-          "t.yaml:5:5: a fault is about one of sensor, behaviour, motor, move and joint",
-          "t.yaml:6:5: a fault is about one of sensor, behaviour, motor, move and joint",
+          "t.yaml:5:5: a fault needs exactly one of these keys: sensor, behaviour, motor, move, "
+          "joint",
+          "t.yaml:6:5: a fault needs exactly one of these keys: sensor, behaviour, motor, move, "
+          "joint",
           "t.yaml:7:5: a place needs both x and y",
           "t.yaml:8:5: give exactly one of 'position', 'velocity' and 'effort' for the joint",
           "t.yaml:9:10: at must be a number from 0 to 1e+09, found \"-1\"",
-          HasSubstr("t.yaml:9:24: there is no key \"fails\" here; known are at, sensor")));
+          HasSubstr("t.yaml:9:24: there is no key \"fails\" here; the known keys are at, sensor")));
 }
 
 TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
@@ -123,16 +125,16 @@ TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
       ElementsAre("t.yaml:3:13: never must be stuck or a condition, as in never: {contact: scout}",
                   HasSubstr("t.yaml:4:5: a condition has one operator of reaches, "),
                   HasSubstr("t.yaml:4:6: there is no key \"newer\" here"),
-                  "t.yaml:5:36: there is one operator in a condition; here are never_collides "
+                  "t.yaml:5:36: a condition has exactly one operator, found never_collides "
                   "and ended",
                   HasSubstr("t.yaml:6:45: 'from' and 'by' belong to expectations about time only"),
-                  "t.yaml:7:26: at_least and at_most, or one of them, are needed",
+                  "t.yaml:7:26: set at_least, at_most or both",
                   "t.yaml:7:43: 'by' is after the end of the run (duration)",
-                  "t.yaml:8:55: at_most lies below at_least",
+                  "t.yaml:8:55: at_most is less than at_least",
                   HasSubstr("t.yaml:8:73: 'by' is before 'from'"),
                   "t.yaml:9:14: before must be a list of 2 conditions",
                   HasSubstr("t.yaml:10:28: x must be two numbers"),
-                  "t.yaml:11:15: robot is needed: a robot's or an object's name",
+                  "t.yaml:11:15: set robot to the name of a robot or an object",
                   "t.yaml:12:26: between must be two names, as in [scout, crate]",
                   "t.yaml:13:19: of must be a sensor, as in scout/front",
                   "t.yaml:13:32: take must be min, max or mean, found \"median\""));

@@ -69,7 +69,8 @@ Fault ReadFault(YamlMapping& mapping) {
     }
   }
   if (mapping.is_mapping() && subjects != 1) {
-    mapping.AddProblem("a fault is about one of sensor, behaviour, motor, move and joint");
+    mapping.AddProblem(
+        "a fault needs exactly one of these keys: sensor, behaviour, motor, move, joint");
   }
   if (!subject) return fault;
   switch (*subject) {

@@ -48,14 +48,14 @@ base::Result<RobotEntry> ParseRobot(const std::string& text) {
   const std::size_t at = text.rfind('@');
   RobotEntry robot;
   robot.model = text.substr(0, at);
-  if (robot.model.empty()) return refuse("no model is named");
+  if (robot.model.empty()) return refuse("the model is missing");
   if (at == std::string::npos) return robot;
   const auto parts = SplitAtCommas(std::string_view(text).substr(at + 1));
   if (parts.size() < 2 || parts.size() > 3) return refuse("a place has two or three numbers");
   const auto x = ParseNumber(parts[0]);
   const auto y = ParseNumber(parts[1]);
   const auto yaw = parts.size() == 3 ? ParseAngle(parts[2]) : 0.0;
-  if (!x || !y || !yaw) return refuse("the place is not made of numbers");
+  if (!x || !y || !yaw) return refuse("the place must consist of numbers");
   robot.start = Place{*x, *y, {}, *yaw};
   return robot;
 }
@@ -81,7 +81,7 @@ base::Result<model::PedestrianGroup> ParsePedestrians(const std::string& text) {
     if (parts.size() < 2 || parts.size() > 3) return refuse("a goal has two or three numbers");
     const auto x = ParseNumber(parts[0]), y = ParseNumber(parts[1]);
     const auto radius = parts.size() == 3 ? ParseNumber(parts[2]) : 0.0;
-    if (!x || !y || !radius) return refuse("a goal is not made of numbers");
+    if (!x || !y || !radius) return refuse("a goal must consist of numbers");
     group.route.push_back({*x, *y, *radius});
     if (end == std::string_view::npos) break;
     rest.remove_prefix(end + 1);

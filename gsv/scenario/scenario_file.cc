@@ -119,8 +119,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
     // yaml-cpp reads each of these escapes as one byte, 0x85 or 0xa0, which is not UTF-8.
     const bool has_them = text.find("\\N") != text.npos || text.find("\\_") != text.npos;
     if (has_them && LineThatIsNotUtf8(ToYaml(scenario))) {
-      return refuse("\\N and \\_ are not read rightly in quoted texts; write \\u0085 and \\u00a0",
-                    file);
+      return refuse("\\N and \\_ are misread in quoted texts; write \\u0085 and \\u00a0", file);
     }
     return scenario;
   } catch (const YAML::Exception& error) {

@@ -168,22 +168,23 @@ TEST(ScenarioFile, EachErrorHasLineAndColumn) {
                  "  - {name: Ann, behaviour: wander}\n"
                  "record_topics: /clock\n"
                  "world: yard\n"),
-      ElementsAre("room.yaml:15:1: the key \"world\" comes twice",
-                  "room.yaml:4:7: seed must be a whole number from 0 to 18446744073709551615, "
-                  "found \"-1\"",
-                  "room.yaml:3:7: mode must be real_time or lockstep, found \"fast\"",
-                  "room.yaml:5:9: factor must be a number from 1e-06 to 1e+06, found \"0\"",
-                  "room.yaml:7:5: a place needs both x and y",
-                  "room.yaml:8:30: y must be a number from -1e+06 to 1e+06, found \"far\"",
-                  "room.yaml:9:5: a robot needs a model, or the name of a robot in the world file",
-                  "room.yaml:10:5: a robot without a model is in the world file, which defines "
-                  "where it starts and how it moves",
-                  "room.yaml:11:5: expected a mapping (key: value), found \"pebble\"",
-                  "room.yaml:13:5: an avatar needs a model",
-                  "room.yaml:13:17: there is no key \"behaviour\" here; known are name, model, x, "
-                  "y, z, yaw",
-                  "room.yaml:14:16: record_topics must be a list, found \"/clock\"",
-                  HasSubstr("room.yaml:2:1: there is no key \"wrold\" here; known are world, ")));
+      ElementsAre(
+          "room.yaml:15:1: the key \"world\" occurs twice",
+          "room.yaml:4:7: seed must be a whole number from 0 to 18446744073709551615, "
+          "found \"-1\"",
+          "room.yaml:3:7: mode must be real_time or lockstep, found \"fast\"",
+          "room.yaml:5:9: factor must be a number from 1e-06 to 1e+06, found \"0\"",
+          "room.yaml:7:5: a place needs both x and y",
+          "room.yaml:8:30: y must be a number from -1e+06 to 1e+06, found \"far\"",
+          "room.yaml:9:5: a robot needs a model, or the name of a robot in the world file",
+          "room.yaml:10:5: a robot without a model is in the world file, which defines "
+          "where it starts and how it moves",
+          "room.yaml:11:5: expected a mapping (key: value), found \"pebble\"",
+          "room.yaml:13:5: an avatar needs a model",
+          "room.yaml:13:17: there is no key \"behaviour\" here; the known keys are name, model, x, "
+          "y, z, yaw",
+          "room.yaml:14:16: record_topics must be a list, found \"/clock\"",
+          HasSubstr("room.yaml:2:1: there is no key \"wrold\" here; the known keys are world, ")));
 }
 
 TEST(ScenarioFile, ReportsErrorsOfPedestrians) {

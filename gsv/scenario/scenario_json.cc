@@ -42,7 +42,7 @@ Place ParsePlaceJson(const std::string& json, base::Problems& problems) {
   return ReadJson(json, problems, [](const YAML::Node& node, const YamlPlace& place) {
     YamlMapping mapping(node, "", place);
     const auto read = ReadPlaceKeys(mapping);
-    if (!mapping.Has("x") && !mapping.Has("y")) mapping.AddProblem("x", "it is needed");
+    if (!mapping.Has("x") && !mapping.Has("y")) mapping.AddProblem("x", "it is missing");
     return read.value_or(Place());
   });
 }

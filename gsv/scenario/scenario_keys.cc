@@ -30,7 +30,7 @@ std::string ReadDrive(YamlMapping& mapping) {
 void CheckRobot(const RobotEntry& robot, bool is_avatar, const YamlMapping& mapping) {
   if (!robot.behaviour.empty() && !robot.behaviour_constraint.empty()) {
     mapping.AddProblem("behaviour_constraint",
-                       "a behaviour is chosen by name or by constraint, not both");
+                       "choose a behaviour by name or by constraint, not by both");
   }
   if (!mapping.is_mapping() || !robot.model.empty()) return;
   if (is_avatar) {

@@ -61,12 +61,12 @@ YamlMapping::YamlMapping(const YAML::Node& node, std::string field, const YamlPl
   for (const auto& entry : node) {
     const YAML::Mark mark = entry.first.Mark();
     if (!entry.first.IsScalar()) {
-      place_.AddProblem(mark, field_, "a key is a word, found " + KindOf(entry.first));
+      place_.AddProblem(mark, field_, "a key must be a word, found " + KindOf(entry.first));
       continue;
     }
     const std::string& key = entry.first.Scalar();
     const bool is_new = unread_.try_emplace(key, Entry{mark, entry.second}).second;
-    if (!is_new) place_.AddProblem(mark, FieldOf(key), "the key " + Quoted(key) + " comes twice");
+    if (!is_new) place_.AddProblem(mark, FieldOf(key), "the key " + Quoted(key) + " occurs twice");
   }
 }
 
@@ -76,7 +76,7 @@ YamlMapping::~YamlMapping() {
   for (const std::string& key : known_) known += (known.empty() ? "" : ", ") + key;
   for (const auto& [key, entry] : unread_) {
     place_.AddProblem(entry.mark, FieldOf(key.substr(0, kMaxQuoteLength)),
-                      "there is no key " + Quoted(key) + " here; known are " + known +
+                      "there is no key " + Quoted(key) + " here; the known keys are " + known +
                           base::DidYouMean(key, known_));
   }
 }

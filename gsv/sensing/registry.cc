@@ -11,7 +11,7 @@ base::Status SensorRegistry::Add(SensorType type) {
     if (name.empty() || types_.contains(name)) {
       return base::Fail(base::ErrorCode::kInvalidArgument,
                         fmt::format("the sensor type {} cannot take the name \"{}\": {}", type.name,
-                                    name, name.empty() ? "it is empty" : "it is taken"));
+                                    name, name.empty() ? "it is empty" : "another type has it"));
     }
   }
   const auto shared = std::make_shared<const SensorType>(std::move(type));

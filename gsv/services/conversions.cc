@@ -147,7 +147,7 @@ void RefuseUnknown(const model::Parameters& options,
                    std::initializer_list<std::string_view> known) {
   for (const auto& [name, value] : options) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    std::string reason = name + ": there is no such option; there are:";
+    std::string reason = name + ": there is no such option; the options are:";
     for (const std::string_view each : known) {
       reason += (each == *known.begin() ? " " : ", ") + std::string(each);
     }

@@ -38,7 +38,7 @@ void ServantGroup::DeactivateId(const std::string& id) {
 CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant, const char* type) {
   const PortableServer::ServantBase_var owned(servant);  // the POA keeps a reference
   const base::MutexLock lock(mutex_);
-  if (closed_) throw sba::Ended("the robot is gone");
+  if (closed_) throw sba::Ended("the robot does not exist any more");
   const PortableServer::ObjectId_var id = poa_->activate_object(servant);
   ids_.insert(Key(id));
   return type == nullptr ? poa_->id_to_reference(id) : poa_->create_reference_with_id(id, type);

@@ -65,7 +65,7 @@ TEST(Actuators, RefuseAnInvalidCommandWithASentence) {
                      "robot/lamp: the brightness is 2; it must lie between 0 and 1",
                      "robot/front: a sensor accepts no commands",
                      "robot: the robot has no sensor \"siren\"",
-                     "robot/speaker: there is no sound \"song\"; there are tone, buzz, chirp, "
+                     "robot/speaker: there is no sound \"song\"; the sounds are tone, buzz, chirp, "
                      "noise"}));
   EXPECT_EQ(simulation->snapshot()->state.devices, nullptr);
 }

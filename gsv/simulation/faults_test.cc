@@ -115,7 +115,7 @@ TEST(Faults, MissingJointFailsTheRunWithItsPlace) {
   ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0)));
   ASSERT_TRUE(simulation->Resume());
   EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished, Phase::kFailed}, 20s), Phase::kFailed);
-  EXPECT_THAT(simulation->status().failure, HasSubstr("the joint is gone: hinge"));
+  EXPECT_THAT(simulation->status().failure, HasSubstr("the joint does not exist any more: hinge"));
 }
 
 TEST(Faults, AFaultOfAMissingRobotPreventsTheStart) {

@@ -54,7 +54,9 @@ base::Error CannotRead(const fs::path& file, const char* what) {
 }
 
 // The error for an internal failure of OpenSSL, such as no memory or no entropy.
-base::Status Failed() { return base::Fail(ErrorCode::kUnavailable, "OpenSSL does not work here"); }
+base::Status Failed() {
+  return base::Fail(ErrorCode::kUnavailable, "OpenSSL cannot be initialised");
+}
 
 File CreateFile(const fs::path& path, mode_t mode) {
   const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);

@@ -39,7 +39,7 @@ std::string MeasuredText(const MeasuredAtom& measured) {
   if (quantity.kind == QuantityKind::kContact || quantity.kind == QuantityKind::kEnded) {
     return what + (measured.last > 0 ? ": yes" : ": no");
   }
-  if (!measured.was_measured) return what + " could not be had";
+  if (!measured.was_measured) return what + " could not be measured";
   const std::string unit = UnitOf(quantity);
   return what + " was " + InWords(measured.last) + unit + " (" + Bounds(measured.atom) +
          "; it ranged from " + InWords(measured.lowest) + " at " + InWords(measured.lowest_at) +

@@ -38,9 +38,9 @@ std::string Describe(const scenario::Quantity& quantity) {
     case QuantityKind::kSpeed:
       return "the speed of " + first;
     case QuantityKind::kTurning:
-      return "the turning of " + first;
+      return "the turn rate of " + first;
     case QuantityKind::kTravelled:
-      return "the way of " + first;
+      return "the distance travelled by " + first;
     case QuantityKind::kDistance:
       return "the distance between " + first + " and " + quantity.second;
     case QuantityKind::kContact:

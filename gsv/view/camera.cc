@@ -155,7 +155,7 @@ base::Status Check(const Camera& camera) {
   if (!camera.sensor.empty()) {
     if (has_place || camera.field_of_view) {
       return Fail(ErrorCode::kInvalidArgument,
-                  "the camera of a robot has its own place and field of view; leave out eye, "
+                  "the camera of a robot has its own pose and field of view; leave out eye, "
                   "target, follow and fov");
     }
     const std::size_t slash = camera.sensor.rfind('/');

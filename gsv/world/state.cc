@@ -116,14 +116,13 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
     return base::Fail(ErrorCode::kInvalidArgument, "the joints of this body cannot move", place);
   }
   if (IsOfDrive(*body.model, joint)) {
-    return base::Fail(ErrorCode::kInvalidArgument, "this joint is turned by the robot's drive",
-                      place);
+    return base::Fail(ErrorCode::kInvalidArgument, "the robot's drive controls this joint", place);
   }
   if (command.kind == JointCommand::Kind::kEffort) {
     return base::Fail(
         ErrorCode::kInvalidArgument,
-        "only joints of a robot with rigid-body dynamics can be pushed: run it with --movement " +
-            body.name + "=rigid",
+        "effort commands require rigid-body dynamics: run the robot with --movement " + body.name +
+            "=rigid",
         place);
   }
   return {};

@@ -80,9 +80,10 @@ void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
           },
           py::arg("frequency") = 880.0, py::arg("duration") = 0.2)
       .def("silence", [](Speaker& self) { RunCommand([&] { return self.Silence(); }); })
-      .def("playing", &Speaker::Playing, LetOthersRun(), "what it plays");
+      .def("playing", &Speaker::Playing, LetOthersRun(), "the sound that is playing");
   BindReading<Speaker::Sound>(speaker, "Sound");
-  auto microphone = BindKind<Microphone>(module, "Microphone", sensor, "Hears what sounds.");
+  auto microphone =
+      BindKind<Microphone>(module, "Microphone", sensor, "Measures the loudest sound.");
   microphone.def("listen", &Microphone::Listen, LetOthersRun());
   BindReading<Microphone::Hearing>(microphone, "Hearing");
 }

@@ -66,7 +66,7 @@ auto Calling(base::Result<T> (RemoteSimulation::*member)(Arguments...)) {
 }
 
 void BindState(py::module_& module) {
-  py::class_<RobotState>(module, "RobotState", "A robot as the simulation sees it.")
+  py::class_<RobotState>(module, "RobotState", "The state of a robot in the simulation.")
       .def_readonly("name", &RobotState::name)
       .def_readonly("model", &RobotState::model)
       .def_readonly("behaviour", &RobotState::behaviour)
@@ -151,23 +151,23 @@ void BindApplications(py::module_& module) {
       .def("resume", Calling(&RemoteSimulation::Resume), LetOthersRun())
       .def("stop", Calling(&RemoteSimulation::Stop), LetOthersRun())
       .def("reset", Calling(&RemoteSimulation::Reset), LetOthersRun(),
-           "Back to the start, with the same robots.")
+           "Resets the simulation to its start, with the same robots.")
       .def("set_factor", Calling(&RemoteSimulation::SetRealTimeFactor), py::arg("factor"),
            LetOthersRun(),
-           "Set the target real-time factor from the next step on. Lockstep refuses.")
+           "Set the target real-time factor from the next step on. Raises an error in lockstep.")
       .def("command", &Command, py::arg("name"),
-           "Any command of the simulator by its name, with its arguments by theirs: "
+           "Executes a command of the simulator with named arguments: "
            "command(\"step\", count=10).")
       .def("run_until", &RunUntil, py::arg("instant"), py::kw_only(), py::arg("patience") = 600.0,
-           "Runs to that simulated second and freezes there; blocks until then, for `patience` "
-           "seconds of wall time at most.")
+           "Runs until that simulated time in seconds and pauses. Blocks until then, but at most "
+           "`patience` seconds of wall-clock time.")
       .def("state", Calling(&RemoteSimulation::State), LetOthersRun())
       .def("state_hash", Calling(&RemoteSimulation::StateHash), LetOthersRun(),
-           "equal for equal runs, to the bit")
+           "hash of the state; equal runs have equal hashes")
       .def("viewer_url", Calling(&RemoteSimulation::ViewerUrl), LetOthersRun(),
-           "where a browser watches; empty: nowhere")
+           "address of the viewer; empty: the server has no viewer")
       .def("start_recording", Calling(&RemoteSimulation::StartRecording), py::arg("path"),
-           LetOthersRun(), "to a file on the simulator's machine")
+           LetOthersRun(), "starts recording to a file on the simulator's machine")
       .def("stop_recording", Calling(&RemoteSimulation::StopRecording), LetOthersRun())
       .def("destroy", &PythonSimulation::Destroy, LetOthersRun());
 }

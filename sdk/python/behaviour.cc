@@ -81,7 +81,7 @@ void BindBehaviours(py::module_& module) {
       .def("withdraw", &Offer::Withdraw, LetOthersRun());
   module.def(
       "end_with_parent", [] { prctl(PR_SET_PDEATHSIG, SIGTERM); },
-      "Has this process end when the one that started it does.");
+      "Ends this process when the process that started it ends.");
 }
 
 }  // namespace gsv::python

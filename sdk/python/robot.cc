@@ -86,12 +86,12 @@ void BindRing(py::module_& module) {
                     "rad, counter-clockwise from straight ahead")
       .def_readonly("distance", &SonarRing::Echo::distance, "m from the robot's origin")
       .def_readonly("in_reach", &SonarRing::Echo::in_reach,
-                    "False: nothing up to the sonar's maximum");
+                    "False: no echo up to the sonar's maximum range");
   ring.def(py::init(&OpenRing), py::arg("robot"), py::arg("count"), py::keep_alive<1, 2>(),
            LetOthersRun())
-      .def("read", &SonarRing::Read, LetOthersRun(), "Reads them one after the other.")
+      .def("read", &SonarRing::Read, LetOthersRun(), "Reads the sonars one after the other.")
       .def("from_readings", &EchoesFrom, py::arg("readings"),
-           "Those of an exchange's readings that are the ring's.");
+           "Returns the readings of the ring from the readings of an exchange.");
   module.def("nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
              "The distance to the nearest echo within half_angle of bearing; inf without an echo.");
 }
@@ -140,7 +140,7 @@ void BindRobot(py::module_& module) {
            py::arg("update_rate") = 0.0, py::keep_alive<0, 1>(),
            "A further sensor, mounted on the base. `type` is a class or a name; its parameters are "
            "those of docs/sensors.md.")
-      .def("joints", &RemoteRobot::Joints, LetOthersRun(), "those that take commands")
+      .def("joints", &RemoteRobot::Joints, LetOthersRun(), "the joints that accept commands")
       .def(
           "open_joint",
           [](RemoteRobot& robot, const std::string& name) {
@@ -153,8 +153,8 @@ void BindRobot(py::module_& module) {
             robot.Command({linear, angular, lateral});
           },
           py::arg("linear"), py::arg("angular"), py::arg("lateral") = 0.0, LetOthersRun(),
-          "m/s and rad/s; acts until the next command. `lateral` is to the left, of bases that "
-          "can.")
+          "m/s and rad/s; applies until the next command. `lateral` is to the left, for "
+          "bases that can move sideways.")
       .def(
           "now", [](RemoteRobot& robot) { return SecondsOf(robot.Now()); }, LetOthersRun(),
           "simulated seconds")
@@ -169,7 +169,7 @@ void BindRobot(py::module_& module) {
       .def("exchange", &Exchange, py::arg("linear"), py::arg("angular"), py::arg("until"),
            py::arg("lateral") = 0.0,
            "One control cycle in one round trip: drives, sleeps until that instant, then reads "
-           "every open sensor. A dict of Reading by the sensors' names, or None when the run has "
+           "every open sensor. Returns a dict of Reading by sensor name, or None when the run has "
            "ended.")
       .def_property_readonly("is_running", &RemoteRobot::IsRunning)
       .def_property_readonly(

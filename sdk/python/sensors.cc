@@ -152,11 +152,12 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
       },
       "numpy.uint8 of the shape (height, width, 3): RGB, rows from the top");
   Deprecate(camera, "take_picture", "take_image");
-  BindKind<DepthCamera>(module, "DepthCamera", sensor, "Measures how far each pixel is.")
+  BindKind<DepthCamera>(module, "DepthCamera", sensor, "Measures the depth of each pixel.")
       .def("take_depth", &TakeDepth,
            "numpy.float64 of the shape (height, width): m along the view, infinite where nothing "
            "is");
-  BindKind<ThermalCamera>(module, "ThermalCamera", sensor, "Measures how warm each pixel is.")
+  BindKind<ThermalCamera>(module, "ThermalCamera", sensor,
+                          "Measures the temperature of each pixel.")
       .def("take_temperatures", &TakeTemperatures,
            "numpy.float64 of the shape (height, width): K, whole steps of the resolution");
   BindKind<NormalsCamera>(module, "NormalsCamera", sensor,
@@ -164,7 +165,8 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
       .def("take_normals", &TakeNormals,
            "numpy.float64 of the shape (height, width, 3): unit vectors towards the camera in the "
            "sensor frame; NaN where the normal is unknown");
-  BindKind<SegmentationCamera>(module, "SegmentationCamera", sensor, "Says what each pixel shows.")
+  BindKind<SegmentationCamera>(module, "SegmentationCamera", sensor,
+                               "Labels each pixel with the model that it shows.")
       .def("segment", &Segment,
            "(labels, names): numpy.uint32 of the shape (height, width); a pixel of label n shows "
            "names[n - 1], one of label 0 nothing");
@@ -217,12 +219,14 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
                                           "Reads the positions of the robot's joints.");
   encoders.def("joints", &JointEncoders::Joints, LetOthersRun());
   BindReading<JointEncoders::Joint>(encoders, "Joint", "rad and rad/s, or m and m/s.");
-  auto battery = BindKind<Battery>(module, "Battery", sensor, "Says how much is left.");
+  auto battery =
+      BindKind<Battery>(module, "Battery", sensor, "Measures the charge of the battery.");
   battery.def("level", &Battery::Level, LetOthersRun());
   BindReading<Battery::Charge>(battery, "Charge", "V, A drawn, Ah.");
   BindKind<Ranging>(module, "Ranging", sensor, "Measures the distance to one radio anchor.")
       .def("distance", &Ranging::Distance, LetOthersRun(), "m; infinite if it is not received");
-  auto radio = BindKind<Radio>(module, "Radio", sensor, "Sends to other robots and hears them.");
+  auto radio = BindKind<Radio>(module, "Radio", sensor,
+                               "Sends messages to other robots and receives theirs.");
   const auto send = [](Radio& from, const std::string& receiver, const std::string& content) {
     base::Status sent;
     {

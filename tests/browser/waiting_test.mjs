@@ -51,7 +51,7 @@ test("a stopped behaviour is named until it continues", async () => {
     assert.equal(await waiting.isVisible(), true);
     await page.keyboard.press("h");
     const diagnostics = page.getByRole("region", { name: "Diagnostics" });
-    await diagnostics.getByText(/running, held up by pebble/).waitFor();
+    await diagnostics.getByText(/running, waits for pebble/).waitFor();
     await diagnostics.getByText("viewers", { exact: true }).waitFor();
     await page.waitForFunction(() => /updates dropped for this page\d/.test(document.querySelector(".diagnostics").textContent));
     await settled(page);

@@ -86,9 +86,10 @@ TEST_F(ScenarioService, RejectsScenariosThatItMustNotRun) {
   EXPECT_THAT(Refusal("world: playground\nduration: 1\nwolrd: 2\n"), HasSubstr("\"wolrd\""));
   EXPECT_THAT(Refusal("world: playground\nduration: 1\nrecord: /tmp/x.mcap\n"),
               HasSubstr("remove record"));
-  EXPECT_EQ(Refusal(kStands, Option("timeout", "3")),
-            "timeout: there is no such option; there are: abandoned_after_s, timeout_s. Did you "
-            "mean timeout_s?");
+  EXPECT_EQ(
+      Refusal(kStands, Option("timeout", "3")),
+      "timeout: there is no such option; the options are: abandoned_after_s, timeout_s. Did you "
+      "mean timeout_s?");
   EXPECT_EQ(Refusal(kStands, Option("timeout_s", "soon")),
             "timeout_s must be a number from 1 to 1e6");
 }
@@ -100,9 +101,10 @@ TEST_F(Served, UnknownOptionsOfSimulationAndRobotAreRejected) {
     const sba::Simulation_var simulation = service_->create_simulation(specification);
     FAIL() << "it was created";
   } catch (const sba::Refused& refused) {
-    EXPECT_STREQ(refused.reason,
-                 "deadlines: there is no such option; there are: abandoned_after_s, deadline_s, "
-                 "on_failure. Did you mean deadline_s?");
+    EXPECT_STREQ(
+        refused.reason,
+        "deadlines: there is no such option; the options are: abandoned_after_s, deadline_s, "
+        "on_failure. Did you mean deadline_s?");
   }
   const sba::Simulation_var simulation = service_->create_simulation(Playground(sba::LOCKSTEP));
   sba::RobotSpecification robot;

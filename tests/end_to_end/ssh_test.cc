@@ -125,8 +125,9 @@ TEST_F(SshCampaign, InvalidInputIsReportedInOneSentence) {
   WriteCampaign(hosts, "[n1]", 2);
   const Outcome no_wait = RunProgram("gsv", {"campaign", "run", file_, "--no-wait"});
   EXPECT_EQ(no_wait.ending, "exit code 2");
-  EXPECT_EQ(no_wait.err,
-            "gsv: --no-wait: the engine ssh ends its tasks with this command; remove --no-wait\n");
+  EXPECT_EQ(
+      no_wait.err,
+      "gsv: --no-wait: the tasks of the engine ssh end with this command; remove --no-wait\n");
   WriteCampaign(hosts, "[]", 2);
   const Outcome none = RunProgram("gsv", {"campaign", "run", file_});
   EXPECT_EQ(none.ending, "exit code 3");

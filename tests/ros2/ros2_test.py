@@ -223,7 +223,7 @@ class ForeignPeer(unittest.TestCase):
                                   env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
                                   capture_output=True, text=True, check=False)
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn(f"all UDP ports of ROS 2 domain {domain} are taken. Choose another domain with ROS_DOMAIN_ID",
+        self.assertIn(f"all UDP ports of ROS 2 domain {domain} are in use. Choose another domain with ROS_DOMAIN_ID",
                       done.stderr)
 
     def test_refuses_to_start_while_loopback_is_down(self):

@@ -76,13 +76,13 @@ class SnapshotWatch final : public simulation::Observer {
 class ImageCheck {
  public:
   base::Status Check(const Images& images) {
-    if (std::all_of(images.begin(), images.end(), IsBlank)) return Fail("pictures are blank");
+    if (std::all_of(images.begin(), images.end(), IsBlank)) return Fail("images are blank");
     for (std::size_t i = 0; i < images.size(); ++i) {
       if (IsBlank(images[i])) continue;  // if an image is blank, a robot is close to a wall
       if (i < last_.size() && last_[i]->pixels == images[i]->pixels)
-        return Fail("a moving camera's picture is the same as the one before");
+        return Fail("a moving camera's image equals the previous one");
       if (i > 0 && images[i]->pixels == images[i - 1]->pixels)
-        return Fail("two cameras' pictures are the same");
+        return Fail("two cameras have equal images");
     }
     last_ = images;
     return {};
@@ -127,7 +127,7 @@ base::Status Save(const std::string& folder, const Images& images) {
                static_cast<std::streamsize>(jpeg->size()));
     if (!file.flush()) {
       return base::Fail(base::ErrorCode::kUnavailable,
-                        "cannot be written; name a folder that is there", path);
+                        "cannot be written; choose an existing folder", path);
     }
   }
   return {};
@@ -175,7 +175,8 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
     if (round == 0) watch->Forget();
     const auto snapshot = watch->Next();
     if (snapshot == nullptr)
-      return base::Fail(base::ErrorCode::kTimeout, "the simulation stands still", "bench camera");
+      return base::Fail(base::ErrorCode::kTimeout, "the simulation does not advance",
+                        "bench camera");
     const auto asked = Clock::now();
     const double processor_asked = ProcessorTime();
     const auto images = draw(snapshot);

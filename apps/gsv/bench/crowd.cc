@@ -218,7 +218,8 @@ int Crowd(const CrowdArguments& arguments) {
   if (arguments.json) {
     std::printf("%s\n", result.dump().c_str());
   } else if (rows.size() > 1) {
-    std::printf("time a step grows as robots to the power of %.2f\n", GrowthExponent(rows));
+    std::printf("the time of a step grows with the number of robots to the power of %.2f\n",
+                GrowthExponent(rows));
   }
   return is_right ? kOk : kAssertionFailed;
 }

@@ -111,8 +111,8 @@ void CrowdCheck::TakeReadings(const world::Snapshot& snapshot, const std::string
         NearestByBruteForce(snapshot, index, {std::cos(bearing), std::sin(bearing)});
     ++readings_checked_;
     if (std::abs(expected - readings[ray]) <= kReadingTolerance) continue;
-    Report(fmt::format("step {}, {}, ray {}: read {} m, by brute force {} m", snapshot.state.step,
-                       robot, ray, readings[ray], expected));
+    Report(fmt::format("step {}, {}, ray {}: the sensor reads {} m, brute force gives {} m",
+                       snapshot.state.step, robot, ray, readings[ray], expected));
   }
 }
 

@@ -46,14 +46,14 @@ class ScanCheck {
       if (hits * 10 < static_cast<std::ptrdiff_t>(scans[i].values.size()))
         return Fail("a scan is blank");
       if (i > 0 && scans[i].values == scans[i - 1].values)
-        return Fail("two lidars' scans are the same");
+        return Fail("two lidars have equal scans");
       const bool has_moved = i < last_.size() && !(poses[i] == poses_[i]);
       moved += has_moved;
       if (has_moved && last_[i].values == scans[i].values)
-        return Fail("a moving lidar's scan is the same as the one before");
+        return Fail("a moving lidar's scan equals the previous one");
     }
     if (!last_.empty() && 2 * moved < scans.size())
-      return Fail("more than half of the robots stand still; place fewer of them");
+      return Fail("more than half of the robots do not move; use fewer robots");
     last_ = scans;
     poses_ = std::move(poses);
     return {};
@@ -119,7 +119,7 @@ base::Result<std::shared_ptr<const world::Snapshot>> NextSnapshot(
   const auto phase = simulation.WaitForPhase(
       {simulation::Phase::kPaused, simulation::Phase::kFailed}, std::chrono::seconds(10));
   if (phase == simulation::Phase::kPaused) return simulation.snapshot();
-  return base::Fail(base::ErrorCode::kTimeout, "the simulation stands still", "bench lidar");
+  return base::Fail(base::ErrorCode::kTimeout, "the simulation does not advance", "bench lidar");
 }
 
 base::Result<ScanFigures> MeasureScans(const LidarArguments& arguments) {
@@ -191,7 +191,7 @@ void AddLidarBench(const CommandLine& bench) {
       "lidar", "Lidar scans of driving robots: rays and scans per second, processor time per ray");
   auto arguments = std::make_shared<LidarArguments>();
   arguments->scene.mode = simulation::Mode::kLockstep;
-  command->add_option("--rays", arguments->rays, "rays of a scan, all around")
+  command->add_option("--rays", arguments->rays, "rays per scan, in a full circle")
       ->type_name("N")
       ->capture_default_str()
       ->check(Between(8, 100'000));

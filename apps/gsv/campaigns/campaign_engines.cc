@@ -169,7 +169,7 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
   if (!options.waits && !type.outlives_driver) {
     return PrintError(
         {base::ErrorCode::kInvalidArgument,
-         "the engine " + type.name + " ends its tasks with this command; remove --no-wait",
+         "the tasks of the engine " + type.name + " end with this command; remove --no-wait",
          "--no-wait"});
   }
   auto spool = Spool::Make(SpoolOf(results_file), campaign);
@@ -194,7 +194,7 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
   if (auto ok = driver.Run(*spool, results); !ok) return PrintError(ok.error());
   if (!is_interrupted) return kOk;
   Say("interrupted; " + type.after_interrupt +
-      (type.outlives_driver ? ", and so does the same command"
+      (type.outlives_driver ? "; run the same command again to continue to wait for them"
                             : ". Run the same command again to continue"));
   return kInterrupted;
 }

@@ -84,7 +84,7 @@ void AddBrokerCommand(const CommandLine& line) {
       ->capture_default_str();
   command
       ->add_option("--exit-with-parent", arguments->command.parent,
-                   "PID of the process with which this broker ends")
+                   "end the broker when the process with this PID ends")
       ->group("");
   command->callback([arguments, line] {
     arguments->command.broker.port = static_cast<std::uint16_t>(arguments->port);

@@ -65,8 +65,7 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
       ->envname("GSV_BROKER");
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   const std::string which(one);
-  arguments->list = command->add_subcommand(
-      "list", "List all; this is also what the command does without a subcommand");
+  arguments->list = command->add_subcommand("list", "List all (default)");
   arguments->add = command->add_subcommand("add", "Add " + which);
   arguments->remove = command->add_subcommand("remove", "Remove " + which);
   for (CLI::App* sub : {arguments->list, arguments->add, arguments->remove}) sub->fallthrough();
@@ -229,7 +228,7 @@ void AddLinksCommand(const CommandLine& line) {
       ->default_str("always");
   arguments->add
       ->add_option("--limit", arguments->limit,
-                   "limit of the link policies with which this link is followed")
+                   "strongest link policy that queries through this link may use")
       ->transform(CLI::CheckedTransformer(rules))
       ->type_name("local_only|if_no_local|always")
       ->default_str("always");

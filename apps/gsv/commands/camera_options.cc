@@ -52,7 +52,7 @@ void AddCameraOptions(CLI::App& command, view::Camera& camera) {
       ->type_name("ROBOT");
   command
       .add_option("--camera", camera.sensor,
-                  "camera of a robot, whose view the image shows, without noise and distortion")
+                  "robot's camera from which to draw, without noise and distortion")
       ->type_name("ROBOT/CAMERA");
   command
       .add_option_function<std::string>(

@@ -160,8 +160,8 @@ int ShowRun(const CampaignArguments& arguments) {
     return code;
   if (arguments.run < 0 || arguments.run >= static_cast<std::int64_t>(campaign.runs())) {
     return PrintError({base::ErrorCode::kInvalidArgument,
-                       fmt::format("there is no run {}: the runs are 0 to {}", arguments.run,
-                                   campaign.runs() - 1),
+                       fmt::format("there is no run {}; the runs have the numbers 0 to {}",
+                                   arguments.run, campaign.runs() - 1),
                        arguments.file});
   }
   const auto scenario =
@@ -192,7 +192,7 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
     }
   }
   run->add_option("--runs-per-task,--runs-a-task", engine.runs_per_task,
-                  "runs of one task, one after another (default: enough for 1,000 tasks)\n"
+                  "runs per task, executed in sequence (default: at most 1,000 tasks are made)\n"
                   "--runs-a-task is the former name of this option.")
       ->type_name("N")
       ->check(Between(0, static_cast<int>(campaign::kMaxRuns)))
@@ -201,7 +201,8 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       ->type_name("SECONDS")
       ->check(Between(0.1, 3600.0))
       ->group("Job queues");
-  run->add_flag("!--no-wait", options.waits, "submit the runs to the queue and end")
+  run->add_flag("!--no-wait", options.waits,
+                "submit the runs to the queue and do not wait for them")
       ->group("Job queues");
   return run
       ->add_option("--engine", engine.name, help + " (default: the campaign's engine, else local)")
@@ -210,11 +211,12 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
 
 void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine& line) {
   EngineOptions& options = arguments->options;
-  run->add_option("-j,--jobs", options.jobs,
-                  "runs at the same time (default: one per processor, or all the servers take)")
+  run->add_option(
+         "-j,--jobs", options.jobs,
+         "runs to execute in parallel (default: one per processor; servers: all that they accept)")
       ->check(Between(0, 256))
       ->type_name("N");
-  run->add_option("--timeout", options.timeout, "wall-clock time of a run")
+  run->add_option("--timeout", options.timeout, "limit of the wall-clock time of a run")
       ->check(Between(1.0, 1e6))
       ->capture_default_str()
       ->type_name("SECONDS");
@@ -252,8 +254,9 @@ void AddCampaignCommand(const CommandLine& line) {
     sub->add_option("file", arguments->file, "campaign file, NAME.yaml")->required();
     return sub;
   };
-  AddRunOptions(add("run", "Do all runs that are not done yet; exit code 1 if one does not pass"),
-                arguments, line);
+  AddRunOptions(
+      add("run", "Execute all runs that have no result yet; exit code 1 if a run does not pass"),
+      arguments, line);
   CLI::App* status = add("status", "Print how many runs are done and how many passed");
   status->callback([=] { line.exit_code = PrintStatusOf(*arguments); });
   CLI::App* report = add("report", "Print the results by parameters");
@@ -271,14 +274,15 @@ void AddCampaignCommand(const CommandLine& line) {
   CLI::App* show = add("show", "Print the scenario of one run, for `gsv run`");
   show->add_option("run", arguments->run, "number of the run, from 0")->required();
   show->callback([=] { line.exit_code = ShowRun(*arguments); });
-  CLI::App* task = command->add_subcommand("task", "Do one task of a batch; job queues start it");
+  CLI::App* task =
+      command->add_subcommand("task", "Execute one task of a batch; job queues call this command");
   task->group("");
   TaskArguments& its = arguments->task;
   task->add_option("file", its.batch_file, "file of the batch")->required();
   task->add_option("--task", its.task, "number of the task, from 0")->required();
   task->add_option("--job", its.job, "name of the job in the queue");
   task->add_option("--node", its.node, "name of this machine");
-  task->add_option("--jobs", its.jobs, "runs at the same time")->check(Between(1, 256));
+  task->add_option("--jobs", its.jobs, "runs to execute in parallel")->check(Between(1, 256));
   task->add_flag("--until-stdin-closes", its.until_stdin_closes, "end when stdin is closed");
   task->callback([=] { line.exit_code = RunTask(arguments->task, line.signals); });
   CLI::App* run = command->get_subcommand("run");

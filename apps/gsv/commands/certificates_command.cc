@@ -74,7 +74,7 @@ void AddCertificatesCommand(const CommandLine& line) {
       ->type_name("NAME");
   command
       ->add_option("--days", arguments->days,
-                   "days for which a certificate is valid; the authority ten times as long")
+                   "validity of a certificate in days; the authority is valid ten times as long")
       ->check(Between(1, 3650))
       ->type_name("N")
       ->capture_default_str();

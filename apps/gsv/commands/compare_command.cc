@@ -34,7 +34,7 @@ base::Status SetParameter(const std::string& text, model::Parameters& parameters
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "--set takes NAME=VALUE, such as roughness=0.1; it was given " + text);
+                      "--set takes NAME=VALUE, such as roughness=0.1, found " + text);
   }
   const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
   char* end = nullptr;
@@ -183,7 +183,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->type_name("WORLD");
   command
       .add_flag("--update-world", arguments->options.update_world,
-                "update the walls of --world by half of a laser's log")
+                "correct the walls of --world with half of the log's laser scans")
       ->needs(command.get_option("--world"));
   command
       .add_option("--start", arguments->start,
@@ -197,7 +197,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->type_name("NAME=VALUE");
   command
       .add_option("--wheel-distance", arguments->options.wheel_distance,
-                  "distance of the wheels of a log with wheel encoders, m")
+                  "distance between the wheels, m, for a log with wheel encoders")
       ->capture_default_str()
       ->check(Between(1e-3, 100.0));
   command.add_option("--mount-height", arguments->options.height, "height of the scanner, m")
@@ -206,11 +206,11 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
   command
       .add_option(
           "--mount-forward", arguments->mount_forward,
-          "distance of the scanner ahead of the robot's frame, m (default: the log's, or 0)")
+          "forward position of the scanner in the robot's frame, m (default: the log's, or 0)")
       ->check(Between(-100.0, 100.0));
   command.add_option("--seed", arguments->options.seed, "seed of the simulated devices")
       ->capture_default_str();
-  command.add_option("--model-path", arguments->model_path, "folder to look for models in")
+  command.add_option("--model-path", arguments->model_path, "folder to search for models")
       ->type_name("FOLDER");
   command.add_flag("--json", arguments->json, "one JSON object");
   return arguments;

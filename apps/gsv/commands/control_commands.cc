@@ -138,7 +138,7 @@ int PrintOutput(const Arguments& arguments) {
   const auto printed = orb::Call(simulation->server.Describe(), [&] {
     sba::OutputLines_var lines = simulation->reference->output(arguments.robot.c_str());
     if (lines->length() == 0 && !arguments.json) {
-      std::fprintf(stderr, "gsv: nothing was printed by %s\n",
+      std::fprintf(stderr, "gsv: %s has printed no output\n",
                    arguments.robot.empty() ? "any behaviour" : arguments.robot.c_str());
     }
     for (CORBA::ULong i = 0; i < lines->length(); ++i) {
@@ -280,13 +280,13 @@ void AddControlCommands(const CommandLine& line) {
   CLI::App* list = line.app.add_subcommand("ps", "List running simulations and their robots");
   list->group(kControlGroup);
   auto arguments = AddSelection(*list);
-  list->add_option("simulation", arguments->selection.simulation, "only simulations of this name");
+  list->add_option("simulation", arguments->selection.simulation,
+                   "list only the simulations with this name");
   list->add_flag("-a,--all", arguments->lists_all,
-                 "list all robots of a crowd, not only the 20 worst");
+                 "list all robots (default: the 20 with the most serious states)");
   list->callback([arguments, line] { line.exit_code = List(*arguments); });
 
-  CLI::App* output =
-      line.app.add_subcommand("output", "Print the last lines that behaviours have printed");
+  CLI::App* output = line.app.add_subcommand("output", "Print the last output lines of behaviours");
   output->group(kControlGroup);
   auto of_output = AddSelection(*output);
   output->add_option("--robot", of_output->robot, "only the output of this robot's behaviour")
@@ -316,7 +316,7 @@ void AddControlCommands(const CommandLine& line) {
       },
       &AddFactor);
   line.app.get_subcommand("real-time-factor")->alias("factor");
-  AddSteering(line, "stop", "Stop a simulation for good",
+  AddSteering(line, "stop", "Stop a simulation permanently",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->stop(); });
   AddSteering(line, "reset", "Reset a simulation to its start; `gsv resume` starts it again",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->reset(); });

@@ -34,7 +34,7 @@ base::Status WriteFiles(const formats::Urdf& urdf, const fs::path& output) {
       return {};
     }
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the model has meshes, which become files. Use --output FILE");
+                      "the model has meshes, which are written as files. Use --output FILE");
   }
   if (!urdf.meshes.empty()) {
     const fs::path folder = output.parent_path() / MeshFolderOf(output);

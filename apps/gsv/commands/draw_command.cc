@@ -140,7 +140,7 @@ void AddDrawCommand(const CommandLine& line) {
       ->type_name("PIXELS")
       ->capture_default_str()
       ->check(Between(16, rendering::kMaxImageSide));
-  command->add_flag("--json", arguments->json, "print what was read as one JSON object");
+  command->add_flag("--json", arguments->json, "print a summary of the file as one JSON object");
   command->callback([arguments, line] {
     if (arguments->image.empty()) throw CLI::RequiredError("--output");
     line.exit_code = Run(*arguments);

@@ -77,7 +77,7 @@ int ToMap(const ToMapArguments& arguments) {
 
 void AddMapCommands(const CommandLine& line) {
   CLI::App* const group = line.app.get_subcommand("world");
-  CLI::App* from = group->add_subcommand("from-map", "Make a world of an occupancy map");
+  CLI::App* from = group->add_subcommand("from-map", "Make a world from an occupancy map");
   auto source = std::make_shared<FromMapArguments>();
   from->add_option("map", source->map, "map_server's YAML file, or a map of CMU's .dat format")
       ->required();
@@ -89,19 +89,20 @@ void AddMapCommands(const CommandLine& line) {
 
   CLI::App* to = group->add_subcommand("to-map", "Make an occupancy map of a world");
   auto target = std::make_shared<ToMapArguments>();
-  to->add_option("world", target->world, "its file, folder or name")->required();
+  to->add_option("world", target->world, "file, folder or name of the world")->required();
   to->add_option("map", target->map,
                  "the YAML file to write, with a PGM beside it (default: WORLD.yaml)");
-  to->add_option("--resolution", target->slice.resolution, "side of a cell, m")
+  to->add_option("--resolution", target->slice.resolution, "cell size, m")
       ->capture_default_str()
       ->check(Between(1e-3, 100.0));
-  to->add_option("--height", target->slice.height, "height at which the world is cut, m")
+  to->add_option("--height", target->slice.height,
+                 "height of the horizontal section through the world, m")
       ->capture_default_str()
       ->check(Between(-1e4, 1e4));
-  to->add_option("--margin", target->slice.margin, "free space around the world, m")
+  to->add_option("--margin", target->slice.margin, "margin of free cells around the world, m")
       ->capture_default_str()
       ->check(Between(0.0, 1e3));
-  to->add_option("--model-path", target->model_path, "a folder to look for models in");
+  to->add_option("--model-path", target->model_path, "folder to search for models");
   AddLimitOption(*to, target->limits);
   to->callback([target, line] { line.exit_code = ToMap(*target); });
 }

@@ -48,10 +48,10 @@ std::vector<Row> RowsOf(const simulation::SimulationStatus& status,
 
 std::string LineOf(const Row& row, std::size_t name_width) {
   const simulation::RobotStatus& robot = *row.robot;
-  const std::string& text = row.health == nullptr ? robot.detail : row.health->sentence;
-  return fmt::format("  {:{}} {:16} {}{}{}\n", robot.name, name_width,
-                     robot.behaviour.empty() ? "-" : robot.behaviour, ToString(robot.phase),
-                     text.empty() ? "" : ": ", text);
+  const std::string text = row.health == nullptr ? (robot.detail.empty() ? "" : ": " + robot.detail)
+                                                 : "; the robot " + row.health->sentence;
+  return fmt::format("  {:{}} {:16} {}{}\n", robot.name, name_width,
+                     robot.behaviour.empty() ? "-" : robot.behaviour, ToString(robot.phase), text);
 }
 
 // Returns a line such as "  and 30 more robots: 29 move, 1 stands (--all lists them)".

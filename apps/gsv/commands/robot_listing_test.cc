@@ -37,7 +37,8 @@ TEST_F(RobotListingTest, FewRobotsAreListedInTheirOrder) {
   Make(20);
   healths_["cart_19"] = {"dead", "has been dead for 2 s", 2, {}};
   const std::string text = Listing();
-  EXPECT_THAT(text, StartsWith("  cart_00              wander           waiting: has been moving"));
+  EXPECT_THAT(text,
+              StartsWith("  cart_00              wander           waiting; the robot has been"));
   EXPECT_THAT(text, HasSubstr("cart_19"));
   EXPECT_THAT(text, Not(HasSubstr("more")));
 }

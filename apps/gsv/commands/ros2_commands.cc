@@ -296,8 +296,8 @@ void AddRos2Commands(const CommandLine& line) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   AddOne(*ros2, line, arguments, "hz", "Measure the rate of a topic", true, &Hz);
-  AddOne(*ros2, line, arguments, "doctor", "Find types and QoS that keep nodes apart", false,
-         &Examine);
+  AddOne(*ros2, line, arguments, "doctor",
+         "Find types and QoS that prevent nodes from communicating", false, &Examine);
 }
 
 }  // namespace gsv::app

@@ -67,7 +67,7 @@ int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, S
       return kInterrupted;
     }
     if (options.wall_timeout > 0 && Clock::now() > give_up) {
-      std::fprintf(stderr, "gsv: given up after %g s of wall time (--wall-timeout)\n",
+      std::fprintf(stderr, "gsv: aborted after %g s of wall-clock time (--wall-timeout)\n",
                    options.wall_timeout);
       runtime.EndSoon();
       (void)simulation.Stop();
@@ -260,7 +260,8 @@ void AddRunCommand(const CommandLine& line) {
   });
   // This command is for `gsv test` and campaigns, and is hidden in lists of commands.
   CLI::App* server =
-      line.app.add_subcommand("run-server", "Run simulations as stdin asks for them")->group("");
+      line.app.add_subcommand("run-server", "Run the simulations that are requested on stdin")
+          ->group("");
   server->allow_extras();  // the arguments are space for the command line of a run
   server->callback([line] { line.exit_code = ServeRuns(line.signals); });
 }

@@ -85,7 +85,7 @@ base::Status WriteSaved(const SaveArguments& arguments) {
 
 void AddSaveCommand(const CommandLine& line) {
   CLI::App* command = line.app.get_subcommand("world")->add_subcommand(
-      "save", "Save the world of a running simulation, as it stands now, as SDFormat");
+      "save", "Save the current world of a running simulation as SDFormat");
   auto arguments = std::make_shared<SaveArguments>();
   command->add_option("simulation", arguments->selection.simulation,
                       "running simulation (default: your newest)");

@@ -78,13 +78,15 @@ void AddServeCommand(const CommandLine& line) {
   command->add_option("--model-path", arguments->model_path, "folder to search for models")
       ->type_name("FOLDER")
       ->group(kServiceGroup);
-  command->add_option("--drive", arguments->drives, "drive of robots of a model")
+  command
+      ->add_option("--drive", arguments->drives,
+                   "drive of the robots of a model, such as husky=skid,radius=0.16")
       ->type_name("MODEL=KIND[,KEY=VALUE]")
       ->group(kServiceGroup);
   AddSensorPluginOption(*command, arguments->sensor_plugins)->group(kServiceGroup);
   command
       ->add_option("--scenarios", arguments->scenarios,
-                   "scenarios of campaigns to run here in parallel\n"
+                   "number of campaign scenarios to run in parallel\n"
                    "`gsv campaign run --broker` sends them. They run with the behaviours that are "
                    "installed here.")
       ->check(Between(0, 256))

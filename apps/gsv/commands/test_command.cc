@@ -272,7 +272,7 @@ void AddTestCommand(const CommandLine& line) {
       ->group(kResultGroup);
   command
       ->add_flag("--no-record", arguments->no_record,
-                 "record nothing: faster, but no recording of failures")
+                 "do not record: faster, but failures have no recording")
       ->group(kResultGroup);
   command->add_flag("--json", arguments->json, "print the results as one JSON object only")
       ->group(kResultGroup);

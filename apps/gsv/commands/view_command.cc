@@ -58,7 +58,7 @@ void AddViewCommand(const CommandLine& line) {
                       "newest)");
   command
       ->add_option("--broker", arguments->broker,
-                   "broker to search (default: of your own instances)")
+                   "broker to search (default: those of your running instances)")
       ->type_name("ADDRESS")
       ->envname("GSV_BROKER")
       ->group(kOtherGroup);

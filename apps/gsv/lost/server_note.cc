@@ -209,7 +209,8 @@ NotesFound ReadNotes(const fs::path& folder) {
       found.notes.push_back({file, *std::move(note)});
     } else if (fs::exists(fs::symlink_status(file, gone))) {
       found.problems.push_back({base::Problem::Severity::kWarning,
-                                "it is not a note of a server and is ignored", file.string()});
+                                "the file is not a note of a server; it is ignored",
+                                file.string()});
       found.broken.push_back(file);
     }
   }

@@ -32,7 +32,7 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--place", a.place,
-                  "put N robots of the --robot without a pose: grid:N or random:N\n"
+                  "add N robots of the --robot without a pose, on a grid or at random places\n"
                   "The grid has cells of 1 m. Random places follow --seed. The model is pebble if "
                   "there is no --robot.")
       ->type_name("WHERE")
@@ -93,14 +93,14 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--on-failure", a.mode_on_failure,
-                  "after a crash or hang: continue, or fail the run")
+                  "reaction to a crash or hang of a behaviour: continue, or fail the run")
       ->check(OneOf({"go_on", "fail"}))
       ->default_str("go_on")
       ->type_name("go_on|fail")
       ->group(kGroup);
   command
       .add_option("--stuck-after", a.stuck_after,
-                  "simulated time after which a robot is stuck that does not move as commanded")
+                  "simulated time without the commanded motion after which a robot is stuck")
       ->default_str("5")
       ->check(Between(0.1, 1e9))
       ->type_name("SECONDS")

@@ -171,7 +171,8 @@ void ScenarioServers::Release(Server& server, Ending ending) {
   if (ending == Ending::kNoRoom) server.avoided_until = Clock::now() + kRefreshPeriod;
   if (ending == Ending::kLost) {
     if (Clock::now() >= server.avoided_until) {
-      std::fprintf(stderr, "gsv: warning: lost the connection to %s; other servers do its runs\n",
+      std::fprintf(stderr,
+                   "gsv: warning: lost the connection to %s; other servers execute its runs\n",
                    server.name.c_str());
     }
     server.avoided_until = Clock::now() + kAvoidLost;

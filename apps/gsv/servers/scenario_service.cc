@@ -184,7 +184,7 @@ sba::ScenarioRun_ptr ScenarioServiceServant::run(const char* scenario,
   const double abandoned = SecondsOption(values, "abandoned_after_s", kDefaultAbandoned);
   RefuseUnlessRunnable(scenario);
   const base::MutexLock lock(mutex_);
-  if (closing_) throw sba::Failed("the server is ending");
+  if (closing_) throw sba::Failed("the server is shutting down");
   const auto busy = std::count_if(runs_.begin(), runs_.end(),
                                   [](const auto* run) { return run->is_under_way(); });
   if (busy >= capacity_ || runs_.size() >= kMaxKept) return sba::ScenarioRun::_nil();
@@ -221,7 +221,7 @@ void ScenarioServiceServant::EndAbandoned() {
     }
     lock.unlock();
     for (HeldRun& run : abandoned) {
-      spdlog::warn("aborted a scenario: its campaign did not ask for it in time");
+      spdlog::warn("aborted a scenario: its campaign has not called for too long");
       run->Cancel();
       Forget(run.in());
     }

@@ -294,7 +294,7 @@ base::Status Ros2Access::Publish(const SimulationPointer& simulation, ros2::Opti
   if (published != nullptr && published != simulation) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the simulation " + published->specification().name +
-                          " is published, and ROS 2 has one clock in a domain. Remove it first");
+                          " is published, and a ROS 2 domain has only one clock. Remove it first");
   }
   if (auto ok = Join(); !ok) return ok;
   if (!is_on() && ros2::IsExposed(reach_)) spdlog::warn("{}", Exposure());

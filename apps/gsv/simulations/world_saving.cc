@@ -62,8 +62,9 @@ void TakeSavedRobots(const Standing& standing, std::vector<scenario::RobotEntry>
         const auto& [p, q] = pose->second;
         robot.start = scenario::Place{p.x, p.y, p.z, geometry::Yaw(q)};
       }
-      warnings.push_back(robot.name +
-                         " is saved in the scenario only: a world file cannot hold how it moves");
+      warnings.push_back(
+          robot.name +
+          " is saved in the scenario only, because a world file cannot contain its movement");
       continue;
     }
     robot.model.clear();

@@ -75,8 +75,8 @@ std::string JUnitCase(const TestResult& result) {
   const std::string first = result.message.substr(0, result.message.find('\n'));
   std::string body = result.message;
   if (!result.health.empty()) body += "\n\nAt the end:\n" + result.health;
-  body += "\n\nAgain: " + result.command;
-  if (!result.folder.empty()) body += "\nLeft: " + result.folder;
+  body += "\n\nTo repeat the run: " + result.command;
+  if (!result.folder.empty()) body += "\nFiles: " + result.folder;
   return xml + fmt::format(">\n    <{0} message=\"{1}\">{2}</{0}>\n  </testcase>\n", element,
                            Escaped(first), Escaped(body));
 }

@@ -56,8 +56,9 @@ TEST(TestReport, JUnitCountsAndEscapes) {
   EXPECT_THAT(xml, HasSubstr("<testcase classname=\"s\" name=\"a\" time=\"1.250\"/>"));
   EXPECT_THAT(xml, HasSubstr("<testcase classname=\"scenarios\" name=\"b\""));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"&quot;x&quot; &lt; 1 &amp; &lt;y&gt;\">"));
-  EXPECT_THAT(xml,
-              HasSubstr("second line&#10;&#10;Again: gsv run b.yaml&#10;Left: /f/b</failure>"));
+  EXPECT_THAT(
+      xml, HasSubstr(
+               "second line&#10;&#10;To repeat the run: gsv run b.yaml&#10;Files: /f/b</failure>"));
   EXPECT_THAT(xml, HasSubstr("<skipped message=\"stopped\">"));
   EXPECT_THAT(xml, Not(HasSubstr("\x01"))) << "XML 1.0 cannot hold it";
 }

@@ -186,7 +186,8 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
   result.about = RobotIn(outcome.report, result.message);
   std::string text =
       result.message + "\n\nState hash: " + outcome.report.value("state_hash", "none") +
-      "\nThe seed is in scenario.yaml, a copy.\n\nAgain:\n  " + result.command + "\n";
+      "\nscenario.yaml is a copy of the scenario and contains the seed.\n\nTo repeat the run:\n  " +
+      result.command + "\n";
   if (!result.health.empty()) text += "\nAt the end:\n" + result.health + "\n";
   if (fs::exists(folder / "run.mcap", ignored)) {
     text += KeepClips(folder / "run.mcap", kept, options, violations, result.about);

@@ -91,7 +91,7 @@ TEST(BrokerAdministration, ReportsTheErrorOfALink) {
   EXPECT_EQ(add("1st", FollowOption::kAlways, FollowOption::kAlways),
             "\"1st\" is not a valid name of a link");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kLocalOnly),
-            "a link cannot pass on more than it may follow itself");
+            "the default policy of the link exceeds its limiting policy");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways), "");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways),
             "the link north exists already");

@@ -108,9 +108,10 @@ Error OfLink(const std::string& where) {
   } catch (const CosTrading::Link::UnknownLinkName& e) {
     return {kMissing, fmt::format("the broker has no link {}", e.name.in()), where};
   } catch (const CosTrading::Link::DefaultFollowTooPermissive&) {
-    return {kWrong, "a link cannot pass on more than it may follow itself", where};
+    return {kWrong, "the default policy of the link exceeds its limiting policy", where};
   } catch (const CosTrading::Link::LimitingFollowTooPermissive&) {
-    return {kWrong, "a link cannot follow more than the broker's max_link_follow_policy", where};
+    return {kWrong, "the limiting policy of the link exceeds the broker's max_link_follow_policy",
+            where};
   } catch (const CosTrading::InvalidLookupRef&) {
     return {kWrong, "the target of the link is not a broker, or does not respond", where};
   } catch (const CORBA::UserException&) {

@@ -107,10 +107,11 @@ bool LivenessMonitor::Judge(const Service& service, Liveness pulse) {
 void LivenessMonitor::Withdraw(const Service& service, Liveness pulse) {
   const std::size_t count = trader_.WithdrawAll(service.offers);
   if (count == 0) return;
-  std::fprintf(stderr, "broker: withdrew %zu offer%s of a service at %s: it %s\n", count,
-               count == 1 ? "" : "s",
-               service.address.empty() ? "an unknown address" : service.address.c_str(),
-               pulse == Liveness::kGone ? "is gone" : "has not responded for too long");
+  std::fprintf(
+      stderr, "broker: withdrew %zu offer%s of a service at %s: it %s\n", count,
+      count == 1 ? "" : "s",
+      service.address.empty() ? "an unknown address" : service.address.c_str(),
+      pulse == Liveness::kGone ? "does not exist any more" : "has not responded for too long");
 }
 
 }  // namespace gsv::broker

@@ -62,7 +62,7 @@ base::Status AttachedLayout::Check(const Attachment& attachment) const {
     return refuse("cannot attach: the holder is static or attached itself", holder.name);
   }
   if (!held.is_rigid() || IsHeld(attachment.held_body) || IsHolder(attachment.held_body)) {
-    return refuse("cannot attach: only a rigid body that neither holds nor is held can be held",
+    return refuse("cannot attach: only a rigid body without attachments can be attached",
                   held.name);
   }
   return {};

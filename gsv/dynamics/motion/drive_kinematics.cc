@@ -34,7 +34,8 @@ base::Status CheckJoints(const model::Model& model, const std::vector<int>& join
   for (const int joint : joints) {
     if (joint < 0 || joint >= static_cast<int>(model.joints.size())) {
       return base::Fail(ErrorCode::kBadModel,
-                        fmt::format("the drive turns joint {}, of {}", joint, model.joints.size()));
+                        fmt::format("the drive names joint {}, but the model has {} joints", joint,
+                                    model.joints.size()));
     }
   }
   return {};

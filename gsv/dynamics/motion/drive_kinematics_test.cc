@@ -165,7 +165,7 @@ TEST(DriveKinematics, RejectsInvalidDrives) {
   EXPECT_EQ(message([](model::Drive& d) { d.wheel_base = NAN; }),
             "cart: the drive's wheel base is nan; it must be above 0");
   EXPECT_EQ(message([](model::Drive& d) { d.left_wheels = {9}; }),
-            "cart: the drive turns joint 9, of 6");
+            "cart: the drive names joint 9, but the model has 6 joints");
   EXPECT_EQ(message([](model::Drive& d) {
               d.linear_acceleration = {1, 2};
             }),

@@ -237,7 +237,7 @@ base::Result<fs::path> ResourceFinder::Find(std::string_view name,
                                             const fs::path& naming_file) const {
   std::string path = Trimmed(name);
   if (path.empty() || path.size() > kMaxNameLength || path.find('\0') != std::string::npos) {
-    return Fail(ErrorCode::kNotFound, "the name of a file is empty or too long");
+    return Fail(ErrorCode::kNotFound, "the file name is empty or too long");
   }
   if (IsWebAddress(path)) {
     const std::string model = ModelOfWebAddress(path);

@@ -105,7 +105,7 @@ class FaultFinder {
     if (at_ >= text_.size() || text_[at_] != '>') {
       FaultAt(begin, "the tag </" + Shortened(name) + " does not end. Add >");
     } else if (open_.empty()) {
-      FaultAt(begin, "</" + Shortened(name) + "> closes nothing. Remove it");
+      FaultAt(begin, "</" + Shortened(name) + "> has no opening tag. Remove it");
     } else if (open_.back().name != name) {
       FaultAt(begin, "expected </" + Shortened(open_.back().name) + ">, found </" +
                          Shortened(name) + ">. Close " + Tag(open_.back().name) + " of line " +
@@ -126,7 +126,7 @@ class FaultFinder {
     ++at_;
     const std::string_view name = TakeName();
     if (name.empty()) {
-      FaultAt(begin, "\"<\" begins no tag. In text, write &lt;");
+      FaultAt(begin, "\"<\" does not start a tag. In text, write &lt;");
       return;
     }
     has_root_ = true;

@@ -247,7 +247,7 @@ class GlbModelReader {
     const auto index = [&](std::size_t i) {
       std::uint32_t value = 0;
       std::memcpy(&value, data.data() + i * width, width);
-      if (value >= limit - first) throw Flaw{"a triangle names a vertex that does not exist"};
+      if (value >= limit - first) throw Flaw{"a triangle refers to a vertex that does not exist"};
       return first + value;
     };
     for (std::size_t i = 0; (i + 3) * width <= data.size(); i += 3) {

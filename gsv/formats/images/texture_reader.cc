@@ -69,7 +69,7 @@ base::Status CheckSize(int width, int height, const std::string& source, const R
   return Fail(ErrorCode::kBadModel,
               "the image declares " + std::to_string(width) + " x " + std::to_string(height) +
                   " pixels; the limit is " + std::to_string(limits.texture_side) +
-                  " a side, and larger ones are scaled down up to " +
+                  " a side; larger images are scaled down, up to " +
                   std::to_string(kMaxPixelsBeforeScaling >> 20) + " million",
               source);
 }

@@ -243,7 +243,7 @@ base::Result<std::shared_ptr<model::Image>> DecodeTiff(const unsigned char* data
   std::vector<std::uint32_t> raster(count);
   if (TIFFReadRGBAImageOriented(tiff.get(), pixels->width, pixels->height, raster.data(),
                                 ORIENTATION_TOPLEFT, 0) != 1) {
-    return Fail(ErrorCode::kBadModel, "the TIFF file is damaged or of a kind that is not read",
+    return Fail(ErrorCode::kBadModel, "the TIFF file is damaged, or its format is not supported",
                 source);
   }
   const bool is_opaque = std::all_of(raster.begin(), raster.end(),
@@ -280,10 +280,11 @@ base::Result<HeightGrid> ReadTiffHeights(const std::filesystem::path& path,
   if (!size) return Fail(size.error());
   const Sample sample = SampleOf(tiff.get());
   if (!sample.IsKnown()) {
-    return Fail(ErrorCode::kBadModel,
-                "the heights are written in a way that is not read; whole numbers of 8, 16 or 32 "
-                "bits and floating-point numbers are",
-                path.string());
+    return Fail(
+        ErrorCode::kBadModel,
+        "the format of the heights is not supported; use whole numbers of 8, 16 or 32 bits, "
+        "or floating-point numbers",
+        path.string());
   }
   HeightGrid grid{static_cast<int>(size->width), static_cast<int>(size->height), {}, {}};
   const bool is_read = TIFFIsTiled(tiff.get()) != 0 ? ReadTiles(tiff.get(), sample, grid)

@@ -284,8 +284,8 @@ class DocumentRepair {
             child != nullptr && child->GetText() != nullptr && name == child->GetText();
         if (!has_child && (attribute == nullptr || name != attribute)) return;
         Warn(tree, element,
-             "there is no frame \"" + name + "\" to place " + NameIn(element) +
-                 " by; its own is used");
+             "there is no frame \"" + name + "\" for the pose of " + NameIn(element) +
+                 "; its own frame is used");
         element.DeleteAttribute("placement_frame");
         if (has_child) element.DeleteChild(child);
         tree.is_changed = true;
@@ -437,8 +437,8 @@ bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& p
     if (!tree.is_changed) continue;
     problems.push_back(
         {base::Problem::Severity::kWarning,
-         "names with \"::\" cannot be taken apart, since poses there are relative to "
-         "what lies outside; they are read with \".\" instead",
+         "names with \"::\" are read with \".\" instead, because poses there are relative "
+         "to elements outside",
          tree.text->path.string()});
   }
   return WriteChanged(trees);

@@ -43,10 +43,10 @@ class MimicReader {
         at = &model_.joints[static_cast<std::size_t>(at->mimic->leader)];
       }
       if (followed <= model_.joints.size()) continue;
-      problems_.push_back(
-          {base::Problem::Severity::kWarning,
-           "the joint \"" + joint.name + "\" follows itself by <mimic>; it moves by itself instead",
-           file_.string()});
+      problems_.push_back({base::Problem::Severity::kWarning,
+                           "the joint \"" + joint.name +
+                               "\" follows itself by <mimic>; it moves independently instead",
+                           file_.string()});
       joint.mimic.reset();
     }
   }
@@ -65,7 +65,7 @@ class MimicReader {
       problems_.push_back({base::Problem::Severity::kWarning,
                            "<mimic> needs a joint that moves, and the name of another one; the "
                            "joint \"" +
-                               scope + name + "\" moves by itself",
+                               scope + name + "\" moves independently",
                            PlaceOf(file_, *mimic)});
       return;
     }

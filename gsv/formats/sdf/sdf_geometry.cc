@@ -82,7 +82,8 @@ std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
       layer.image = *image;
       any = true;
     } else {
-      context.Warn("the terrain is grey in place of a texture: " + image.error().Sentence(), place);
+      context.Warn("the terrain is drawn in grey instead of a texture: " + image.error().Sentence(),
+                   place);
     }
     layers.push_back(std::move(layer));
   }
@@ -201,7 +202,7 @@ base::Result<SdfShape> ReadGeometry(const sdf::Geometry& geometry, const sdf::El
   }
   if (element->HasElement("polyline")) return ReadPolyline(element);
   if (element->HasElement("cone")) return ReadCone(element);
-  return Fail(ErrorCode::kBadModel, "the geometry is of no kind that this program knows");
+  return Fail(ErrorCode::kBadModel, "the type of the geometry is unknown");
 }
 
 }  // namespace gsv::formats

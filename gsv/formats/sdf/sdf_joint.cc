@@ -127,7 +127,7 @@ void AddJoint(const sdf::Joint& source, Joint joint, const std::string& place,
   if (joint.kind == JointKind::kScrew) {
     joint.thread_pitch = ThreadPitch(source);
     if (!std::isfinite(joint.thread_pitch)) {
-      context.Warn("a screw's thread must have a pitch; the joint is fixed", place);
+      context.Warn("the pitch of a screw joint must not be 0; the joint is fixed", place);
       joint.kind = JointKind::kFixed;
       joint.thread_pitch = 0;
     }

@@ -107,14 +107,7 @@ class MaterialOfVisual {
   // A mesh has one set of texture coordinates here, so only the first one can be used.
   void ReadLightMap(const sdf::PbrWorkflow& flow) {
     if (flow.LightMap().empty()) return;
-    if (flow.LightMapTexCoordSet() != 0) {
-      context_.Warn("light map " + flow.LightMap() +
-                        " is not drawn: it uses texture coordinate set " +
-                        std::to_string(flow.LightMapTexCoordSet()) +
-                        ", and only set 0 is read; bake the map for set 0",
-                    place_);
-      return;
-    }
+    if (flow.LightMapTexCoordSet() != 0) return;  // the element audit warns
     material_.light_map = Texture(flow.LightMap());
   }
 

@@ -263,7 +263,7 @@ class ModelReader {
     for (const std::string& name : model::CollisionNamesOf(sensor)) {
       if (model::FindCollision(model_, sensor.link, name)) continue;
       context_.Warn("the contact sensor " + sensor.name + " names the collision \"" + name +
-                        "\", which the model does not have; it feels nothing there",
+                        "\", which the model does not have; it detects no contacts there",
                     place);
     }
   }

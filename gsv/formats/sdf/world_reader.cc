@@ -412,7 +412,7 @@ class WorldReader {
     if (it != framed.model_from_frame.end()) return geometry::Inverse(it->second);
     if (placement.placement_frame == "__model__") return {};
     context_.Warn(
-        "there is no frame \"" + placement.placement_frame + "\" in the model to place it by",
+        "there is no frame \"" + placement.placement_frame + "\" in the model for its pose",
         placement.place);
     return {};
   }

@@ -261,7 +261,7 @@ class NamingRules {
     do {
       const XMLElement& element = *scope.Find(at);
       if (reported.insert(at).second) {
-        Report("the frames of \"" + at + "\" lead back to itself", element);
+        Report("the frames that \"" + at + "\" is attached to form a cycle", element);
       }
       at = Next(element, attachment);
     } while (at != start);

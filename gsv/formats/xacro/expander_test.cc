@@ -56,7 +56,7 @@ TEST_F(ExpanderTest, PutsPropertiesIntoAttributesAndTexts) {
 TEST_F(ExpanderTest, RejectsRecursiveProperties) {
   EXPECT_THAT(Expanded("<xacro:property name='a' value='${b}'/>\n"
                        "<xacro:property name='b' value='${a + 1}'/><x a='${a}'/>"),
-              HasSubstr("robot.xacro:1: the property \"a\" needs itself"));
+              HasSubstr("robot.xacro:1: the property \"a\" is defined by itself"));
 }
 
 TEST_F(ExpanderTest, EscapesDoubledDollars) {

@@ -22,7 +22,8 @@ base::Result<std::optional<Value>> Scope::Find(const std::string& name) {
   Property& property = it->second;
   if (!property.is_lazy) return property.value;
   if (property.is_resolving) {
-    return base::Fail(base::ErrorCode::kBadModel, "the property \"" + name + "\" needs itself",
+    return base::Fail(base::ErrorCode::kBadModel,
+                      "the property \"" + name + "\" is defined by itself",
                       property.defined_at->place());
   }
   property.is_resolving = true;

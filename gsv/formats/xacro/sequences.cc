@@ -141,7 +141,7 @@ base::Result<Value> Formatted(const std::string& text, const List& arguments) {
       const auto number = ParseInteger(field.substr(0, colon));
       if (colon > 0 && !number) return Misfit("format() takes values by position only");
       const std::size_t index = number ? static_cast<std::size_t>(*number) : next++;
-      if (index >= arguments.size()) return Misfit("format() misses a value");
+      if (index >= arguments.size()) return Misfit("format() lacks a value");
       const auto value =
           Field(arguments[index], colon < field.size() ? field.substr(colon + 1) : "");
       if (!value) return base::Fail(value.error());

@@ -245,7 +245,7 @@ TEST_F(ApiTest, ListsTheJointsOfABodyWithTheirState) {
   EXPECT_EQ(wheel["unit"], "rad");
   EXPECT_DOUBLE_EQ(wheel["position"], 2);  // wheels turn at 1 rad/s
   EXPECT_FALSE(wheel.contains("minimum"));
-  EXPECT_EQ(wheel["refusal"], "this joint is turned by the robot's drive");
+  EXPECT_EQ(wheel["refusal"], "the robot's drive controls this joint");
   EXPECT_EQ(AskJson("GET", path_ + "/bodies/crate_0/joints", 200)["joints"], json::array());
   AskJson("GET", path_ + "/bodies/nobody/joints", 404);
 }

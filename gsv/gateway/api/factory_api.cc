@@ -71,7 +71,7 @@ std::vector<Route> FactoryApi::Routes(const std::shared_ptr<SimulationDirectory>
                     [this](const auto& simulation, const Request& request) {
                       return SaveWorld(simulation, request.target);
                     }),
-       "Get the world as it stands now as SDFormat, and its scenario"},
+       "Get the current world as SDFormat, and its scenario"},
   };
 }
 

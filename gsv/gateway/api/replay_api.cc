@@ -60,7 +60,7 @@ constexpr ReplayCommand kReplayCommands[]{
      [](ReplayPlayer& player, const std::string&) { return player.Pause(); }},
     {"resume", "Resume a paused simulation",
      [](ReplayPlayer& player, const std::string&) { return player.Resume(); }},
-    {"stop", "Stop a simulation for good", &Rewind},
+    {"stop", "Stop a simulation permanently", &Rewind},
     {"reset", "Reset a simulation to its start", &Rewind},
     {"step", "Take some steps, then pause", &StepBy},
     {"seek", "Go to a time of the recording (replays only)", &SeekTo},
@@ -132,7 +132,7 @@ Response TopicsOf(const Replay& replay, const Request& request) {
   const std::string& robot = request.Parameter("robot");
   const std::vector<std::string> topics = replay.player->ListTopicsOf(robot);
   if (!topics.empty()) return JsonResponse(200, TopicsJson(topics));
-  return ErrorResponse(404, "there are no sensors of a robot '" + robot + "' are recorded");
+  return ErrorResponse(404, "the recording has no sensors of a robot '" + robot + "'");
 }
 
 Response EventsOf(const Replay& replay, const Request&) {

@@ -69,7 +69,7 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
   for (const auto& [name, value] : json.items()) {
     if (name != kFormer &&
         std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
-      std::string sentence = "unknown field; known are:";
+      std::string sentence = "unknown field; the known fields are:";
       for (const std::string_view known : kKnown) {
         sentence += (known == kKnown[0] ? " " : ", ") + std::string(known);
       }

@@ -98,7 +98,8 @@ TEST(ScenarioJson, AnUnknownFieldIsRefusedWithAListOfTheKnown) {
   const auto request = ParseSimulationRequest(R"({"world": "w", "wolrd": 1})");
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().error.message,
-            "unknown field; known are: name, world, mode, real_time_factor, step, duration, seed, "
+            "unknown field; the known fields are: name, world, mode, real_time_factor, step, "
+            "duration, seed, "
             "robots, avatars, pedestrians, ros2, record");
 }
 

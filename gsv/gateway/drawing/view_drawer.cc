@@ -152,7 +152,8 @@ bool ViewDrawer::Serve(const std::string& name) {
   }
   base::Result<ViewInstant> instant =
       source ? source->Now()
-             : base::Result<ViewInstant>(Fail(ErrorCode::kEnded, "the simulation is gone"));
+             : base::Result<ViewInstant>(
+                   Fail(ErrorCode::kEnded, "the simulation does not exist any more"));
   Seen seen;
   if (instant) {
     const base::MutexLock lock(mutex_);

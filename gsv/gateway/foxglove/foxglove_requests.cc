@@ -198,7 +198,7 @@ base::Result<ClientMessage> ParsePlaybackControl(BytesReader reader) {
 
 base::Result<ClientMessage> ParseClientMessage(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return Malformed("a text must be a JSON object");
+  if (!json.is_object()) return Malformed("a text message must be a JSON object");
   const Json& op = Member(json, "op");
   if (!op.is_string()) return Malformed("the string 'op' is missing");
   const auto& name = op.get_ref<const std::string&>();

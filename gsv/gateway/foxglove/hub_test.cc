@@ -142,9 +142,9 @@ TEST_F(HubTest, AWithdrawnChannelFreesTheSubscriptionAndItsNumberIsNotUsedAgain)
 
 TEST_F(HubTest, AClosedHubRefusesNewClients) {
   const auto before = Join();
-  hub_.Close(CloseCode::kGoingAway, "the simulation is gone");
-  EXPECT_EQ(before->close_reason(), "the simulation is gone");
-  EXPECT_EQ(Join()->close_reason(), "the simulation is gone");
+  hub_.Close(CloseCode::kGoingAway, "the simulation does not exist any more");
+  EXPECT_EQ(before->close_reason(), "the simulation does not exist any more");
+  EXPECT_EQ(Join()->close_reason(), "the simulation does not exist any more");
 }
 
 }  // namespace

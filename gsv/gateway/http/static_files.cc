@@ -165,7 +165,8 @@ Response StaticFiles::Explain() const {
                                 : "there is no index.html in " + EscapedHtml(given_.string());
   return PageResponse(
       404,
-      "<h1>The viewer is not here</h1><p>gsv is running, but its viewer cannot be shown: " + place +
+      "<h1>The viewer is not installed</h1><p>gsv is running, but its viewer cannot be shown: " +
+          place +
           ". Build it with <code>npm ci &amp;&amp; npm run build</code> in <code>web/</code>, then "
           "load "
           "this page again.</p><p>The simulations can be reached without it: "

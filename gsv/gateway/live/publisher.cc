@@ -120,7 +120,7 @@ void Publisher::DropEnded() {
     const std::shared_ptr<simulation::Simulation> simulation = entry.simulation.lock();
     if (simulation && directory_->Find(entry.name) == simulation) continue;
     entry.stream->hub()->Close(CloseCode::kGoingAway,
-                               "the simulation '" + entry.name + "' is gone");
+                               "the simulation '" + entry.name + "' does not exist any more");
     const base::MutexLock lock(mutex_);
     std::erase_if(entries_, [&](const Entry& other) { return other.stream == entry.stream; });
   }

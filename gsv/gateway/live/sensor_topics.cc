@@ -196,11 +196,11 @@ void SensorTopics::Advertise(Sensors& found) {
     hub_->SetPublishers(ids[i], {sensor->robot});
   }
   if (!is_all && !std::exchange(limit_reported_, true)) {
-    hub_->SendStatus(foxglove::StatusLevel::kInfo,
-                     "there are more sensors than can be listed: the first " +
-                         std::to_string(kMaxSensorTopics) +
-                         " have a topic of their own, the others when their robot is asked for "
-                         "(docs/formats/live.md)");
+    hub_->SendStatus(
+        foxglove::StatusLevel::kInfo,
+        "there are more sensors than topics: the first " + std::to_string(kMaxSensorTopics) +
+            " have a topic of their own, the others get one when a viewer selects their robot "
+            "(docs/formats/live.md)");
   }
 }
 

@@ -102,8 +102,8 @@ class ManySensorsTest : public LiveStreamTest {
   }
 
   const std::string complaint_ =
-      "there are more sensors than can be listed: the first 2000 have a topic of their own, the "
-      "others when their robot is asked for (docs/formats/live.md)";
+      "there are more sensors than topics: the first 2000 have a topic of their own, the "
+      "others get one when a viewer selects their robot (docs/formats/live.md)";
 };
 
 TEST_F(ManySensorsTest, TwoThousandSensorsHaveATopicAndTheRestIsReported) {

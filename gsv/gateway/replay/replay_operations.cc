@@ -85,8 +85,8 @@ base::Status ReplayOperations::Set(const foxglove::Parameter& parameter) {
   }
   return base::Fail(ErrorCode::kInvalidArgument,
                     "the parameter '" + parameter.name.substr(0, 100) +
-                        "' cannot be set to this; of a replay /gsv/speed, a number, and "
-                        "/gsv/loop, true or false, can be set");
+                        "' cannot be set to this; a replay has the parameters /gsv/speed (a "
+                        "number) and /gsv/loop (true or false)");
 }
 
 std::optional<PlaybackState> ReplayOperations::playback() const {

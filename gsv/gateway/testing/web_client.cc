@@ -149,7 +149,7 @@ nlohmann::json Viewer::ReceiveText(const std::string& op) {
       return frame->json();
     }
   }
-  throw std::runtime_error("the connection ended before a text '" + op + "'");
+  throw std::runtime_error("the connection ended before a text message with op '" + op + "'");
 }
 
 std::string Viewer::ReceiveBytes(char opcode) {

@@ -28,12 +28,12 @@ std::optional<std::uint32_t> ChannelIdOf(const Json& json) {
 
 base::Result<ServerText> ParseAdvertise(const Json& json) {
   const auto list = json.find("channels");
-  if (list == json.end() || !list->is_array()) return Malformed("'advertise' without 'channels'");
+  if (list == json.end() || !list->is_array()) return Malformed("'advertise' has no 'channels'");
   Advertise message;
   for (const Json& entry : *list) {
-    if (!entry.is_object() || !entry.contains("id")) return Malformed("a channel without 'id'");
+    if (!entry.is_object() || !entry.contains("id")) return Malformed("a channel has no 'id'");
     const std::optional<std::uint32_t> id = ChannelIdOf(entry["id"]);
-    if (!id) return Malformed("a channel's 'id' that is not a number");
+    if (!id) return Malformed("a channel's 'id' is not a number");
     message.channels.push_back({*id, TextOf(entry, "topic"), TextOf(entry, "encoding"),
                                 TextOf(entry, "schemaName"), TextOf(entry, "schemaEncoding"),
                                 TextOf(entry, "schema")});
@@ -44,12 +44,12 @@ base::Result<ServerText> ParseAdvertise(const Json& json) {
 base::Result<ServerText> ParseUnadvertise(const Json& json) {
   const auto list = json.find("channelIds");
   if (list == json.end() || !list->is_array()) {
-    return Malformed("'unadvertise' without 'channelIds'");
+    return Malformed("'unadvertise' has no 'channelIds'");
   }
   Unadvertise message;
   for (const Json& entry : *list) {
     const std::optional<std::uint32_t> id = ChannelIdOf(entry);
-    if (!id) return Malformed("a channel's number that is invalid");
+    if (!id) return Malformed("a channel's number is invalid");
     message.channels.push_back(*id);
   }
   return message;
@@ -77,7 +77,7 @@ Number Read(std::string_view bytes, std::size_t at) {
 
 base::Result<ServerText> ParseServerText(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return Malformed("a text that is not a JSON object");
+  if (!json.is_object()) return Malformed("a text message is not a JSON object");
   const std::string op = TextOf(json, "op");
   if (op == "advertise") return ParseAdvertise(json);
   if (op == "unadvertise") return ParseUnadvertise(json);
@@ -87,14 +87,14 @@ base::Result<ServerText> ParseServerText(std::string_view text) {
 
 base::Result<ServerData> ParseServerData(std::string_view bytes) {
   constexpr std::size_t kDataHeader = 13, kTimeHeader = 9;
-  if (bytes.empty()) return Malformed("an empty binary message");
+  if (bytes.empty()) return Malformed("a binary message is empty");
   switch (bytes[0]) {
     case 1:
-      if (bytes.size() < kDataHeader) return Malformed("a message that ends in its header");
+      if (bytes.size() < kDataHeader) return Malformed("a message ends in its header");
       return MessageData{Read<std::uint32_t>(bytes, 1), Read<std::uint64_t>(bytes, 5),
                          bytes.substr(kDataHeader)};
     case 2:
-      if (bytes.size() < kTimeHeader) return Malformed("a time that ends too early");
+      if (bytes.size() < kTimeHeader) return Malformed("a time ends too early");
       return Time{Read<std::uint64_t>(bytes, 1)};
     default:
       return Other{};

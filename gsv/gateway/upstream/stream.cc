@@ -178,7 +178,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     const bool is_refused = error == websocket::error::upgrade_declined;
     if (is_refused && answer.result() == beast::http::status::not_found) return End();
     if (is_refused) {
-      return TryAgain("it answers " + std::to_string(answer.result_int()) + " " +
+      return TryAgain("it returns " + std::to_string(answer.result_int()) + " " +
                       std::string(answer.reason()));
     }
     if (error) return TryAgain(error.message());
@@ -281,9 +281,10 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   void End() {
     Disconnect();
     has_ended_ = true;
-    hub_->Close(CloseCode::kGoingAway, simulation_.empty()
-                                           ? "there is no simulation at " + address_.Url()
-                                           : "the simulation '" + simulation_ + "' is gone");
+    hub_->Close(CloseCode::kGoingAway,
+                simulation_.empty()
+                    ? "there is no simulation at " + address_.Url()
+                    : "the simulation '" + simulation_ + "' does not exist any more");
   }
 
   // kPausing: waits until the next attempt. kIdle: there are no viewers.

@@ -44,15 +44,15 @@ std::string Reason(long verdict) {
   const std::string detail = text != nullptr ? std::string(" (") + text + ")" : "";
   const int reason = ERR_GET_REASON(error);
   if (ERR_GET_LIB(error) != ERR_LIB_SSL || reason == SSL_R_UNEXPECTED_EOF_WHILE_READING) {
-    return "it hung up";
+    return "it closed the connection";
   }
-  if (reason == SSL_R_PEER_DID_NOT_RETURN_A_CERTIFICATE) return "it shows no certificate";
+  if (reason == SSL_R_PEER_DID_NOT_RETURN_A_CERTIFICATE) return "it sends no certificate";
   if (reason >= SSL_AD_REASON_OFFSET) {
     return IsAboutCertificate(reason - SSL_AD_REASON_OFFSET)
-               ? "it does not take this program's certificate" + detail
+               ? "it rejects this program's certificate" + detail
                : "it ended the connection" + detail;
   }
-  return "it does not speak TLS as it should" + detail;
+  return "it violates the TLS protocol" + detail;
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ TlsChannel::Step TlsChannel::StepAfter(int result) {
     case SSL_ERROR_WANT_WRITE:
       return Step::kWantsToWrite;
     case SSL_ERROR_ZERO_RETURN:
-      failure_ = "it hung up";
+      failure_ = "it closed the connection";
       return Step::kFailed;
     default:
       failure_ = Reason(SSL_get_verify_result(session_));

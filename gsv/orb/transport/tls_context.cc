@@ -19,7 +19,7 @@ base::Result<std::shared_ptr<const TlsContext>> TlsContext::Read(const CorbaCert
   const std::shared_ptr<TlsContext> made(new TlsContext(SSL_CTX_new(TLS_method())));
   SSL_CTX* const context = made->get();
   if (context == nullptr)
-    return base::Fail(base::ErrorCode::kUnavailable, "OpenSSL does not work here");
+    return base::Fail(base::ErrorCode::kUnavailable, "OpenSSL cannot be initialised");
   SSL_CTX_set_min_proto_version(context, TLS1_2_VERSION);
   SSL_CTX_set_options(context, SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_TICKET);
   SSL_CTX_set_num_tickets(context, 0);
@@ -33,7 +33,7 @@ base::Result<std::shared_ptr<const TlsContext>> TlsContext::Read(const CorbaCert
       SSL_CTX_load_verify_locations(context, files.authority.c_str(), nullptr) != 1) {
     const char* const why = ERR_reason_error_string(ERR_get_error());
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      std::string("OpenSSL does not take it: ") + (why != nullptr ? why : "?"),
+                      std::string("OpenSSL rejects it: ") + (why != nullptr ? why : "?"),
                       files.certificate);
   }
   SSL_CTX_set_client_CA_list(context, SSL_load_client_CA_file(files.authority.c_str()));

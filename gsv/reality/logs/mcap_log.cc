@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -63,6 +64,7 @@ class McapLog {
       if (!*next) break;
       Add(**next);
     }
+    ReportIgnoredTopics();
     if (warnings_ > kMaxSentences) {
       Keep(fmt::format("{} more messages have problems", warnings_ - kMaxSentences));
     }
@@ -76,13 +78,23 @@ class McapLog {
   }
 
  private:
-  // Returns whether the topic is the first one of its kind. Others are not read, with a warning.
+  // Returns whether the topic is the first one of its kind. Other topics are not read.
   bool IsOfFirstTopic(const std::string& kind, const std::string& topic) {
     const auto [known, is_new] = topics_.emplace(kind, topic);
-    if (!is_new && known->second != topic && noted_.emplace(topic, "").second) {
-      Keep(fmt::format("{} is not read; {} has the {}", topic, known->second, kind));
-    }
+    if (!is_new && known->second != topic) ignored_[kind].insert(topic);
     return known->second == topic;
+  }
+
+  // Adds one warning for each kind of data that several topics have.
+  void ReportIgnoredTopics() {
+    for (const auto& [kind, topics] : ignored_) {
+      const std::string& first = *topics.begin();
+      const std::string what = topics.size() == 1
+                                   ? first + " is"
+                                   : fmt::format("{} and {} other topic{} are", first,
+                                                 topics.size() - 1, topics.size() == 2 ? "" : "s");
+      Keep(fmt::format("{} not read: the {} are read from {} only", what, kind, topics_.at(kind)));
+    }
   }
 
   // Reports a gap between two messages. Call it with ascending times.
@@ -200,7 +212,7 @@ class McapLog {
       log_.max_range = max;
     }
     if (log_.beam_angles.size() != ranges->size()) {
-      return Warn(Where(time) + "the scan has another number of beams than the first one");
+      return Warn(Where(time) + "the number of beams differs from that of the first scan");
     }
     RangeScan read;
     read.time = time;
@@ -222,7 +234,8 @@ class McapLog {
   const std::filesystem::path path_;
   base::Problems& problems_;
   Log log_;
-  std::map<std::string, std::string> topics_, noted_;
+  std::map<std::string, std::string> topics_;             // by kind of data
+  std::map<std::string, std::set<std::string>> ignored_;  // by kind of data
   std::size_t warnings_ = 0;
   std::optional<double> last_time_;
 };

@@ -79,7 +79,7 @@ base::Status WriteBagMetadata(const std::string& file) {
              1, ' ', false, ordered_json::error_handler_t::replace)
       << '\n'
       << std::flush;
-  if (!out) return base::Fail(CannotWrite(path, "the disk is full or does not take it"));
+  if (!out) return base::Fail(CannotWrite(path, "the disk is full or cannot be written"));
   return {};
 }
 

@@ -178,7 +178,7 @@ base::Result<std::unique_ptr<McapReader>> ChunkRing::Open() const {
     const base::MutexLock lock(mutex_);
     if (chunks_.empty()) {
       return base::Fail(base::ErrorCode::kNotFound,
-                        "nothing of this simulation is kept yet; let it run for a moment");
+                        "no history of this simulation is stored yet; let it run for a moment");
     }
     summary.profile = "ros2";
     summary.library = "gsv";

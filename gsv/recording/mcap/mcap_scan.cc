@@ -118,7 +118,7 @@ class Scanner {
     if (!record) return Problem("a schema or channel is damaged");
     const auto [known, added] = map.try_emplace(record->id, *record);
     if (!added && known->second != *record) {
-      Problem("a schema or channel is defined twice, differently; the first counts");
+      Problem("a schema or channel has two different definitions; the first one is used");
     }
   }
 
@@ -143,7 +143,7 @@ class Scanner {
 
   void TakeChunk() {
     const auto chunk = Parse<ChunkRecord>(Content());
-    if (!chunk) return Problem("a chunk is damaged, or larger than is read");
+    if (!chunk) return Problem("a chunk is damaged, or exceeds the size limit");
     const MessageBlock block{offset_,      length_,   true, chunk->uncompressed_size,
                              chunk->start, chunk->end};
     const base::Result<Bytes> records = ReadRecords(source_, block, limits_);

@@ -22,7 +22,7 @@ base::Result<std::vector<std::uint8_t>> EncodeJpeg(const model::Image& image, in
                   &size, TJSAMP_420, quality, TJFLAG_NOREALLOC) != 0) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "an image of " + std::to_string(image.width) + " by " +
-                          std::to_string(image.height) + " pixels cannot become a JPEG");
+                          std::to_string(image.height) + " pixels cannot be encoded as a JPEG");
   }
   jpeg.resize(size);
   return jpeg;

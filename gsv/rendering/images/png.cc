@@ -21,7 +21,7 @@ Result<Bytes> Encode(int width, int height, png_uint_32 format, const void* pixe
       png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr) == 0) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "an image of " + std::to_string(width) +
                                                              " by " + std::to_string(height) +
-                                                             " pixels cannot become a PNG");
+                                                             " pixels cannot be encoded as a PNG");
   }
   bytes.resize(size);
   return bytes;

@@ -426,7 +426,7 @@ class FastParticipant final : public Participant {
     if (index_->value() < 0) {
       return base::Fail(base::ErrorCode::kUnavailable,
                         "all UDP ports of ROS 2 domain " + std::to_string(options.domain) +
-                            " are taken. Choose another domain with ROS_DOMAIN_ID");
+                            " are in use. Choose another domain with ROS_DOMAIN_ID");
     }
     qos.name(options.name.c_str());
     qos.wire_protocol().participant_id = index_->value();

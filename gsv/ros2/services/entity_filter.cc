@@ -44,7 +44,7 @@ class Expression {
     }
     char message[200];
     regerror(code, &expression->compiled_, message, sizeof message);
-    return wrong(std::string("is no regular expression: ") + message);
+    return wrong(std::string("is not a regular expression: ") + message);
   }
   ~Expression() {
     if (is_compiled_) regfree(&compiled_);

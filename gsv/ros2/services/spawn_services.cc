@@ -49,7 +49,8 @@ std::string FreeName(const Simulation& simulation, const std::string& wanted) {
 SpawnResponse Spawn(ServedSimulation& served, Simulation& simulation,
                     const interfaces::SpawnEntityRequest& request) {
   if (served.spawner == nullptr) {
-    return NotSpawned(interfaces::Result::kResultFeatureUnsupported, "nothing can be added here");
+    return NotSpawned(interfaces::Result::kResultFeatureUnsupported,
+                      "this program cannot add entities");
   }
   if (request.entity_resource.uri.empty()) {
     return request.entity_resource.resource_string.empty()
@@ -92,7 +93,7 @@ interfaces::GetSpawnablesResponse GetSpawnables(ServedSimulation& served,
   response.result = Succeeded();
   if (!request.sources.empty()) {
     response.result = Failed(interfaces::Result::kResultFeatureUnsupported,
-                             "further sources are not searched. Start gsv with --model-path");
+                             "additional sources are not supported. Start gsv with --model-path");
     return response;
   }
   if (served.spawner == nullptr) return response;

@@ -28,7 +28,7 @@ interfaces::GetCurrentWorldResponse CurrentWorld(const Simulation& simulation,
 interfaces::GetAvailableWorldsResponse AvailableWorlds(
     const ServedSimulation& served, const interfaces::GetAvailableWorldsRequest& request) {
   if (served.spawner == nullptr) return {NotSupported("this program lists no worlds"), {}};
-  if (!request.sources.empty()) return {NotSupported("further sources are not searched"), {}};
+  if (!request.sources.empty()) return {NotSupported("additional sources are not supported"), {}};
   if (!request.filter.tags.empty()) return {NotSupported("worlds have no tags"), {}};
   interfaces::GetAvailableWorldsResponse response;
   response.result = Succeeded();

@@ -28,7 +28,8 @@ class Battery final : public SensorOf<readings::Battery, messages::sensor_msgs::
         voltage_noise_(ReadNoise(reader, "voltage.noise", 1e5)),
         current_noise_(ReadNoise(reader, "current.noise", 1e5)) {
     if (empty_ > full_) {
-      reader.Refuse(fmt::format("voltage_empty is {} and above voltage_full, {}", empty_, full_));
+      reader.Refuse(
+          fmt::format("voltage_empty ({}) is larger than voltage_full ({})", empty_, full_));
     }
   }
 

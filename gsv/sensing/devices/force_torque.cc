@@ -42,7 +42,7 @@ class ForceTorque final
     const int joint = JointAbove(model, description().link);
     if (joint < 0) {
       return base::Fail(base::ErrorCode::kNotFound,
-                        "the sensor's link hangs from no joint; a force_torque sensor belongs into "
+                        "the sensor's link has no parent joint; put a force_torque sensor into "
                         "the <joint> that it measures",
                         sampling.robot().name + "/" + description().name);
     }

@@ -185,7 +185,7 @@ TEST_F(ForceTorqueTest, LinkWithoutAJointAndWrongParametersAreRefused) {
   const auto sensor = BuiltInSensors().Find("force_torque")->create(description_);
   const auto reading = (*sensor)->Sample(Sampling(snapshot_, body_, 1, rays_));
   ASSERT_FALSE(reading);
-  EXPECT_NE(reading.error().Sentence().find("hangs from no joint"), std::string::npos);
+  EXPECT_NE(reading.error().Sentence().find("has no parent joint"), std::string::npos);
   for (const char* name : {"frame", "measure_direction"}) {
     description_.parameters = {{name, std::string("sideways")}};
     EXPECT_FALSE(BuiltInSensors().Find("force_torque")->create(description_)) << name;

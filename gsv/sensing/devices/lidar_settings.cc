@@ -29,8 +29,8 @@ Angles ReadAngles(ParameterReader& reader, const std::string& name, int samples,
   fan.first = reader.Number(name + ".min_angle", min_angle, -furthest, furthest);
   fan.last = reader.Number(name + ".max_angle", max_angle, -furthest, furthest);
   if (fan.first > fan.last) {
-    reader.Refuse(fmt::format("{0}.min_angle is {1} and above {0}.max_angle, {2}", name, fan.first,
-                              fan.last));
+    reader.Refuse(fmt::format("{0}.min_angle ({1}) is larger than {0}.max_angle ({2})", name,
+                              fan.first, fan.last));
   }
   return fan;
 }
@@ -50,7 +50,7 @@ LidarSettings ReadLidarSettings(ParameterReader& reader) {
   settings.max = reader.Number("range.max", 10, 1e-3, 1e4);
   if (settings.min > settings.max) {
     reader.Refuse(
-        fmt::format("range.min is {} and above range.max, {}", settings.min, settings.max));
+        fmt::format("range.min ({}) is larger than range.max ({})", settings.min, settings.max));
   }
   const NoiseModel noise = ReadNoise(reader, "noise", 1e3);
   NoiseModel white;

@@ -53,7 +53,7 @@ class LogicalCamera final
         half_height_(half_width_ / frustum_.aspect_ratio),
         hides_(reader.Flag("occlusion", true)),
         robots_only_(reader.Flag("robots_only", false)) {
-    if (near_ > far_) reader.Refuse(fmt::format("near is {} and above far, {}", near_, far_));
+    if (near_ > far_) reader.Refuse(fmt::format("near ({}) is larger than far ({})", near_, far_));
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {

@@ -26,7 +26,7 @@ class RangingSensor final : public SensorOf<readings::Ranging, messages::sensor_
         max_walls_(reader.Count("max_walls", 8, 0, 1000)) {
     if (anchor_.empty())
       reader.Refuse("anchor is missing; set it to the name of the anchor's model");
-    if (min_ > max_) reader.Refuse("min is above max");
+    if (min_ > max_) reader.Refuse("min is larger than max");
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {

@@ -342,7 +342,7 @@ TEST(SensorRegistry, RejectsADuplicateName) {
   const auto status = registry.Add(type);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().message,
-            "the sensor type scanner cannot take the name \"ray\": it is taken");
+            "the sensor type scanner cannot take the name \"ray\": another type has it");
   EXPECT_EQ(registry.Find("scanner"), nullptr);
 }
 

@@ -45,7 +45,7 @@ class Speaker final : public SensorOf<readings::Speaker, messages::gsv_msgs::Spe
     if (auto ok = CheckRange("duration", command.values[1], 0, 3600); !ok) return ok;
     if (auto ok = CheckRange("volume", command.values[2], 0, 1); !ok) return ok;
     if (std::find(kSounds.begin(), kSounds.end(), command.word) == kSounds.end()) {
-      return Refuse(fmt::format("there is no sound \"{}\"; there are {}",
+      return Refuse(fmt::format("there is no sound \"{}\"; the sounds are {}",
                                 command.word.substr(0, 64), fmt::join(kSounds, ", ")));
     }
     return {};

@@ -22,7 +22,7 @@ std::span<const Command> Commands() {
        {},
        [](Simulation& s, const Arguments&) { return s.Resume(); }},
       {"stop",
-       "Stop a simulation for good",
+       "Stop a simulation permanently",
        {},
        [](Simulation& s, const Arguments&) { return s.Stop(); }},
       {"reset",

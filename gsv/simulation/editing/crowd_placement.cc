@@ -16,7 +16,7 @@ namespace {
 using geometry::Vector2;
 
 constexpr double kGap = 0.05;  // minimum gap between two pedestrians, m
-constexpr double kCell = 2;  // side of a cell, m; larger than two pedestrians of the largest radius
+constexpr double kCell = 2;    // cell size, m; larger than two pedestrians of the largest radius
 constexpr double kOverlap = 1e-3;  // overlap that is tolerated, m
 constexpr std::uint32_t kAttempts = 400;
 constexpr int kRounds = 40;

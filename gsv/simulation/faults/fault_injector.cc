@@ -24,9 +24,9 @@ const char* WhatHappens(FaultKind kind) {
     case FaultKind::kMotorFails:
       return "the motor fails";
     case FaultKind::kBodyMoves:
-      return "it is moved elsewhere";
+      return "the scenario moves it";
     case FaultKind::kJointMoves:
-      return "the joint is moved";
+      return "the scenario moves the joint";
   }
   return "";
 }
@@ -42,13 +42,14 @@ base::Status FaultInjector::CheckOne(const Fault& fault, const world::Layout& la
     return RefuseFault(base::ErrorCode::kBadModel, fault, message);
   };
   const int index = layout.Find(fault.body);
-  if (index < 0) return refuse("there is nothing called \"" + fault.body + "\"");
+  if (index < 0) return refuse("there is no body with the name \"" + fault.body + "\"");
   if (fault.kind == FaultKind::kBodyMoves) return {};
   const bool is_of_joint =
       fault.kind == FaultKind::kJointMoves || (!fault.part.empty() && !IsOfSensor(fault.kind));
   const world::Body& body = layout.bodies[static_cast<std::size_t>(index)];
   if (is_of_joint && (!body.is_rigid() || model::FindJoint(body.model->joints, fault.part) < 0)) {
-    return refuse("\"" + fault.body + "\" has no joint \"" + fault.part + "\" that forces move");
+    return refuse("\"" + fault.body + "\" has no joint \"" + fault.part +
+                  "\" that rigid-body dynamics moves");
   }
   if (fault.kind == FaultKind::kJointMoves) return {};
   const AgentPopulation::AgentPtr agent = agents_.Find(fault.body);
@@ -82,14 +83,15 @@ base::Status FaultInjector::Apply(const Fault& fault) {
   SimulationLock lock(*shared_);
   const AgentPopulation::AgentPtr agent = agents_.Find(fault.body);
   if (agent == nullptr) {
-    return RefuseFault(base::ErrorCode::kNotFound, fault, "the robot is gone: " + fault.body);
+    return RefuseFault(base::ErrorCode::kNotFound, fault,
+                       "the robot does not exist any more: " + fault.body);
   }
   if (IsOfSensor(fault.kind)) {
     lock.unlock();
     return FailSensor(fault, *agent);
   }
   if (fault.kind == FaultKind::kBehaviourDies) {
-    agent->ReportDeath("the scenario has it die");
+    agent->ReportDeath("the scenario contains this fault");
   } else if (fault.part.empty()) {
     agent->LoseMotor();
   } else {
@@ -98,7 +100,8 @@ base::Status FaultInjector::Apply(const Fault& fault) {
     // model.
     const int joint = model::FindJoint(body.model->joints, fault.part);
     if (joint < 0 || !body.is_rigid()) {
-      return RefuseFault(base::ErrorCode::kNotFound, fault, "the joint is gone: " + fault.part);
+      return RefuseFault(base::ErrorCode::kNotFound, fault,
+                         "the joint does not exist any more: " + fault.part);
     }
     agent->LoseJoint(joint);
     world::CommandJoint(*world_.layout(), agent->body(), joint, {}, world_.state());
@@ -119,7 +122,8 @@ base::Status FaultInjector::FailSensor(const Fault& fault, RobotAgent& agent) {
 base::Status FaultInjector::MoveBody(const Fault& fault) {
   const int index = world_.layout()->Find(fault.body);
   if (index < 0) {
-    return RefuseFault(base::ErrorCode::kNotFound, fault, "it is gone: " + fault.body);
+    return RefuseFault(base::ErrorCode::kNotFound, fault,
+                       "it does not exist any more: " + fault.body);
   }
   const world::Body before = world_.layout()->bodies[static_cast<std::size_t>(index)];
   // Faults may also move a part of the world, such as a door.
@@ -140,7 +144,8 @@ base::Status FaultInjector::MoveJoint(const Fault& fault) {
       index < 0 ? nullptr : &layout.bodies[static_cast<std::size_t>(index)];
   const int joint = body == nullptr ? -1 : model::FindJoint(body->model->joints, fault.part);
   if (joint < 0) {
-    return RefuseFault(base::ErrorCode::kNotFound, fault, "it is gone: " + fault.body);
+    return RefuseFault(base::ErrorCode::kNotFound, fault,
+                       "it does not exist any more: " + fault.body);
   }
   constexpr world::JointCommand::Kind kKinds[]{world::JointCommand::Kind::kPosition,
                                                world::JointCommand::Kind::kVelocity,

@@ -24,7 +24,7 @@ base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
   if (!(latency >= 0 && latency <= 10)) return refuse("the latency must lie between 0 and 10 s");
   if (latency > 0 && rate == 0) return refuse("a sensor with a latency needs an update rate");
   if (latency * rate > kMaxUnderWay) {
-    return refuse("the latency must not be longer than 100 readings take");
+    return refuse("the latency must not exceed 100 update periods");
   }
   if (rate == 0) return Cadence{};
   return Cadence{base::FromSeconds(1 / rate), base::FromSeconds(latency)};
@@ -83,7 +83,8 @@ base::Result<sensing::Reading> MountedSensor::Read(const sensing::Sampling& samp
     return base::Fail(base::ErrorCode::kUnavailable, "the sensor has failed", name());
   }
   const int body = silent_since_->layout->Find(sampling.robot().name);
-  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", name());
+  if (body < 0)
+    return base::Fail(base::ErrorCode::kEnded, "the robot does not exist any more", name());
   return SampleOnce(sampling.At(silent_since_, body));
 }
 

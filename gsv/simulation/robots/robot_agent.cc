@@ -227,7 +227,8 @@ base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
   }
   const auto snapshot = shared_->history.latest();
   const int body = snapshot->layout->Find(robot_);
-  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
+  if (body < 0)
+    return base::Fail(base::ErrorCode::kEnded, "the robot does not exist any more", robot_);
   if (joint < 0 || joint >= static_cast<int>(model_->joints.size())) {
     return base::Fail(base::ErrorCode::kNotFound,
                       "there is no joint number " + std::to_string(joint), robot_);
@@ -311,7 +312,8 @@ base::Status RobotAgent::Send(const std::string& radio, const std::string& recei
 base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
   const auto snapshot = shared_->history.At(sensor.design().cadence);
   const int body = snapshot->layout->Find(robot_);
-  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
+  if (body < 0)
+    return base::Fail(base::ErrorCode::kEnded, "the robot does not exist any more", robot_);
   return sensor.Watch({snapshot, body, shared_->seed, shared_->rays});
 }
 

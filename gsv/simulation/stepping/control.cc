@@ -70,7 +70,7 @@ base::Status SteppingSimulation::AwaitCalls() {
     if (world_.lock().is_stuck()) return RefuseStuck();
     if (agents_.has_hosted() && WallNow() > deadline) {
       return base::Fail(base::ErrorCode::kEnded,
-                        "a behaviour in process has not returned from stop; the simulation can "
+                        "an in-process behaviour has not returned from stop; the simulation can "
                         "only be destroyed",
                         specification_.name);
     }

@@ -263,8 +263,8 @@ base::Status SteppingSimulation::CommandJoint(const std::string& body, const std
   const world::Body* const moved =
       index < 0 ? nullptr : &layout.bodies[static_cast<std::size_t>(index)];
   if (moved == nullptr || !(moved->is_rigid() || moved->is_robot())) {
-    return base::Fail(base::ErrorCode::kNotFound, "nothing moves a body \"" + body + "\"",
-                      specification_.name);
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "the simulation has no movable body \"" + body + "\"", specification_.name);
   }
   const int number = model::FindJoint(moved->model->joints, joint);
   if (number < 0) {

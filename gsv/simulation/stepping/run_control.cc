@@ -74,7 +74,7 @@ base::Result<RunControl::Change> RunControl::RunUntil(SimTime until, SimTime now
   }
   if (until <= now) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the time to run until lies " + std::to_string(base::ToSeconds(now - until)) +
+                      "the time to run until is " + std::to_string(base::ToSeconds(now - until)) +
                           " s in the past",
                       simulation_);
   }
@@ -87,7 +87,7 @@ base::Result<RunControl::Change> RunControl::RunThrough(SimTime until, SimTime n
   if (auto ok = Require({Phase::kCreated, Phase::kPaused}, "run"); !ok)
     return base::Fail(ok.error());
   if (until < now) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "the time to run through is over",
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the time to run through is in the past",
                       simulation_);
   }
   const Change change = Run(SimTime(0), -1);

@@ -128,7 +128,7 @@ SteppingSimulation::~SteppingSimulation() {
     const SimulationLock lock(*shared_);
     const Phase phase = run_.phase();
     if (phase != Phase::kStopped && phase != Phase::kFinished)
-      life_cycle_.EndBehaviours("the simulation is gone");
+      life_cycle_.EndBehaviours("the simulation does not exist any more");
     agents_.DestroyBehaviours();
     step_loop_.Quit();
   }
@@ -153,13 +153,12 @@ void SteppingSimulation::Dispose(SteppingSimulation* simulation) {
   if (destroyed.wait_for(timeout) == std::future_status::ready) return thread.join();
   ++left_to_themselves;
   thread.detach();
-  spdlog::warn("{}: a behaviour in process does not return; the simulation is left to itself",
-               name);
+  spdlog::warn("{}: an in-process behaviour does not return; gsv abandons the simulation", name);
 }
 
 base::Status SteppingSimulation::RefuseStuck() const {
   return base::Fail(base::ErrorCode::kEnded,
-                    "a behaviour in process does not return, so the simulation is stuck; it can "
+                    "an in-process behaviour does not return, so the simulation is stuck; it can "
                     "only be destroyed",
                     specification_.name);
 }

@@ -55,7 +55,7 @@ void Watchdog::CheckTurnDeadlines() {
     if (!since || *since > deadline) continue;
     const std::string detail = "has not returned from its turn within " +
                                std::to_string(deadline_.count()) +
-                               " ms; a behaviour in process cannot be interrupted, so run it as a "
+                               " ms; an in-process behaviour cannot be interrupted, so run it as a "
                                "separate program, without --in-process";
     agent->MarkUnresponsive(detail);
     events_.Emit("agent_unresponsive", name, agent->DescribeInEvents() + " " + detail);

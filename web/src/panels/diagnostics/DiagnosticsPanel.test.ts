@@ -24,12 +24,12 @@ test("the behaviour that delays the simulation is shown with late steps and fact
   const simulation: Diagnosis = {
     name: "simulation",
     health: "warning",
-    message: "running, held up by <b>x</b>",
+    message: "running, waits for <b>x</b>",
     values: [["late steps", "7"]],
   };
   const { panel, texts } = open({ simulation });
   expect(texts("Simulation")).toEqual([
-    ["state", "running, held up by <b>x</b>"],
+    ["state", "running, waits for <b>x</b>"],
     ["late steps", "7"],
   ]);
   expect(panel.querySelector("dt.warning")).not.toBeNull();
