@@ -6,13 +6,14 @@ endif()
 
 add_compile_options(
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-  # Members that a designated initialiser leaves out keep their defaults; that is what they are for.
+  # Designated initialisers may omit members, which then keep their defaults.
   -Wno-missing-field-initializers
-  # Fused multiply-adds appear only where the source asks for them: the promise of equal
-  # bits on every machine hangs on it.
+  # The compiler must not create fused multiply-adds by itself, because results must be
+  # bit-identical on every machine.
   -ffp-contract=off)
 
-# GCC collects its garbage when it has 128 MiB of it, again and again in files that need a gigabyte.
+# GCC collects its garbage when it has 128 MiB of it. Files that need a gigabyte would collect it
+# again and again.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 
 # Checks stay on in release builds (GSV_CHECK), so -DNDEBUG only affects libraries.
@@ -20,7 +21,8 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
 set(GSV_SANITIZE "" CACHE STRING "Value of -fsanitize= for every target; empty for none")
 if(GSV_SANITIZE)
-  # What is found ends the program, so that its test fails. At -O1, as the sanitizers' own documents have it.
+  # A finding ends the program, so that its test fails. The documentation of the sanitizers
+  # recommends -O1.
   set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1 -DNDEBUG")
   set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O1 -g1 -DNDEBUG")
   add_compile_definitions(GSV_SANITIZED)  # gsv/base/sanitizer.h
@@ -30,7 +32,7 @@ endif()
 
 option(GSV_COVERAGE "Count which lines run: the preset coverage, and `make coverage`")
 if(GSV_COVERAGE)
-  # Several threads count at once, and several processes add to one file.
+  # Several threads count at the same time, and several processes add to one file.
   add_compile_options(--coverage -fprofile-update=prefer-atomic)
   add_compile_definitions(GSV_COVERAGE)  # programs end as they should, and write what they counted
   add_link_options(--coverage)

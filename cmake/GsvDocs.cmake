@@ -1,5 +1,5 @@
-# The documentation site, built into share/gsv/docs, where gsv finds it and serves it at /docs/. Without
-# mkdocs and doxygen the target `docs` only says what is missing.
+# Builds the documentation site in share/gsv/docs, where gsv finds it and serves it at /docs/.
+# Without mkdocs and doxygen, the target `docs` only prints what is missing.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_program(MKDOCS mkdocs)
 find_program(DOXYGEN doxygen)

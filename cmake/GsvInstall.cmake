@@ -1,15 +1,16 @@
-# What `cmake --install` puts where, and the Debian packages that `make deb` makes of it. Programs find
-# their worlds, models, plug-ins and pages from where they lie, so a prefix may be moved as a whole:
+# What `cmake --install` puts where, and the Debian packages that `make deb` makes of it. Programs
+# find their worlds, models, plug-ins and pages from where they lie, so a prefix may be moved as a
+# whole:
 #
 #   bin/                programs                     lib/gsv/       plug-ins
 #   share/gsv/          worlds, models, the viewer, the documentation   share/idl/gsv  the contracts
-#   lib/libgsv.so       the SDK                      lib/libgsv-behaviour.a  what plug-ins need of it
-#   include/gsv/        headers, by the paths they have here
+#   lib/libgsv.so       the SDK                      lib/libgsv-behaviour.a  what plug-ins need of
+#   it include/gsv/        headers, by the paths they have here
 #   lib/cmake/gsv/, lib/pkgconfig/gsv.pc             for find_package and pkg-config
 include(CMakePackageConfigHelpers)
 set(GSV_LIBRARY_VERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-# The SDK as one shared library: what behaviours and applications outside of this tree link to.
+# The SDK as one shared library, to which behaviours and applications outside of this tree link.
 add_library(gsv_shared_sdk SHARED
   $<TARGET_OBJECTS:gsv_sdk> $<TARGET_OBJECTS:gsv_sdk_behaviour> $<TARGET_OBJECTS:gsv_orb>
   $<TARGET_OBJECTS:gsv_readings> $<TARGET_OBJECTS:gsv_base> $<TARGET_OBJECTS:gsv_idl>)
@@ -18,7 +19,7 @@ set_target_properties(gsv_shared_sdk PROPERTIES
   VERSION ${PROJECT_VERSION} SOVERSION ${GSV_LIBRARY_VERSION}
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 target_link_libraries(gsv_shared_sdk PRIVATE gsv::sdk)
-# What plug-ins link to: gsv itself has the rest.
+# The library to which plug-ins link. gsv itself contains everything else.
 add_library(gsv_plugin_sdk STATIC
   $<TARGET_OBJECTS:gsv_sdk_behaviour> $<TARGET_OBJECTS:gsv_readings> $<TARGET_OBJECTS:gsv_base>)
 set_target_properties(gsv_plugin_sdk PROPERTIES
@@ -30,7 +31,7 @@ foreach(TARGET gsv_shared_sdk gsv_plugin_sdk)
   target_compile_options(${TARGET} INTERFACE -ffp-contract=off)  # equal bits on every machine
 endforeach()
 
-# gsv: programs, and what they need to run.
+# The package gsv: the programs, and what they need to run.
 set(GSV_PROGRAMS gsv gsv-wander gsv-cruise gsv-fetch gsv-follow-wall gsv-goto)
 set(GSV_PLUGINS behaviour_wander behaviour_cruise behaviour_fetch behaviour_follow-wall behaviour_goto)
 if(TARGET gsv-ros2)
@@ -42,13 +43,13 @@ install(DIRECTORY assets/models assets/worlds ${CMAKE_BINARY_DIR}/share/gsv/web
   DESTINATION share/gsv COMPONENT gsv)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/share/gsv/docs DESTINATION share/gsv COMPONENT gsv OPTIONAL)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/gsv COMPONENT gsv)
-# The manual pages, made from the help texts of the program that is installed.
+# The manual pages, made from the help texts of the installed program.
 set(GSV_MAN ${CMAKE_BINARY_DIR}/share/man/man1)
 install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY
   COMMAND \"${CMAKE_SOURCE_DIR}/tools/make_man_pages\" \"${CMAKE_BINARY_DIR}/bin/gsv\"
     \"${CMAKE_SOURCE_DIR}/docs/gsv.1.in\" \"${GSV_MAN}\")" COMPONENT gsv)
 install(DIRECTORY ${GSV_MAN} DESTINATION share/man COMPONENT gsv)
-# The shells' completion, likewise, in the folders in which they look below /usr.
+# The completion scripts, made in the same way, in the folders below /usr in which shells search.
 set(GSV_COMPLETION ${CMAKE_BINARY_DIR}/share/completion)
 foreach(COMPLETION bash:bash-completion/completions/gsv zsh:zsh/vendor-completions/_gsv
     fish:fish/vendor_completions.d/gsv.fish)
@@ -61,7 +62,7 @@ foreach(COMPLETION bash:bash-completion/completions/gsv zsh:zsh/vendor-completio
   install(FILES ${GSV_COMPLETION}/${FILE} DESTINATION share/${FOLDER} COMPONENT gsv)
 endforeach()
 
-# libgsv: the shared library alone. libgsv-dev: what compiles against it.
+# The package libgsv has only the shared library. libgsv-dev has the files for compiling against it.
 install(TARGETS gsv_shared_sdk EXPORT gsvTargets
   LIBRARY DESTINATION lib COMPONENT libgsv NAMELINK_COMPONENT libgsv-dev)
 install(TARGETS gsv_plugin_sdk EXPORT gsvTargets ARCHIVE DESTINATION lib COMPONENT libgsv-dev)
@@ -83,8 +84,8 @@ install(DIRECTORY examples/horn examples/infrared examples/out_of_tree examples/
   PATTERN __pycache__ EXCLUDE PATTERN horn_test.cc EXCLUDE)
 file(GLOB IDL_FILES CONFIGURE_DEPENDS idl/*.idl)
 install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
-# Behaviours and applications need sdk/, gsv/readings and gsv/base; what implements hardware, gsv/orb, the
-# broker's client and the stubs; a sensor from outside, the rest.
+# Behaviours and applications need sdk/, gsv/readings and gsv/base. Implementations of hardware also
+# need gsv/orb, the broker's client and the stubs. Sensor plug-ins need the rest.
 foreach(FOLDER sdk sdk/behaviour gsv/base gsv/readings gsv/broker/client gsv/broker/language gsv/broker/offers
     gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing/rays gsv/sensing gsv/simulation/pace
     gsv/simulation/robots gsv/simulation/commands gsv/simulation gsv/health gsv/services)
@@ -105,7 +106,7 @@ configure_file(cmake/package/METADATA.in ${CMAKE_BINARY_DIR}/package/METADATA @O
 install(FILES ${CMAKE_BINARY_DIR}/package/METADATA
   DESTINATION ${GSV_PYTHON_DIR}/gsv-${PROJECT_VERSION}.dist-info COMPONENT python3-gsv)
 
-# Everything above, and nothing of the tests.
+# Installs the targets above, and no tests.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 add_custom_target(installed DEPENDS docs ${GSV_PROGRAMS} ${GSV_PLUGINS} gsv_web gsv_shared_sdk gsv_plugin_sdk gsv_python)
 
@@ -126,7 +127,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib/gsv)
 set(CPACK_DEBIAN_GSV_PACKAGE_NAME gsv)
 set(CPACK_DEBIAN_GSV_DESCRIPTION "Simulator of robots: server, broker, recorder, viewer and behaviours")
-# Loaded at the first call, so that dpkg-shlibdeps does not see them.
+# These libraries are loaded at the first call, so dpkg-shlibdeps does not detect them.
 set(LATE_IN_PROGRAMS "libssl3, libsqlite3-0")
 set(CPACK_DEBIAN_GSV_PACKAGE_DEPENDS "libsdformat12-12, libassimp5, libembree3-3, libtiff6, ${LATE_IN_PROGRAMS}")
 set(CPACK_DEBIAN_LIBGSV_PACKAGE_DEPENDS "${LATE_IN_PROGRAMS}")

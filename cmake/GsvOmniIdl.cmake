@@ -2,9 +2,9 @@
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4 omniDynamic4)
 pkg_check_modules(OMNIORB_COS REQUIRED omniCOS4 omniCOSDynamic4)
-# Of the COS stubs only those of the Trading Service are used. libCOS4.so has those of all services, and linking
-# them at start takes 10 ms; so programs take what they need from the archives. These are no position-independent
-# code as shared libraries need it.
+# Only the COS stubs of the Trading Service are used. libCOS4.so has those of all services, and
+# linking it at the start takes 10 ms. So programs take the stubs that they need from the archives.
+# The archives are not position-independent code, which shared libraries require.
 find_library(OMNIORB_COS_ARCHIVE libCOS4.a)
 find_library(OMNIORB_COS_DYNAMIC_ARCHIVE libCOSDynamic4.a)
 if(OMNIORB_COS_ARCHIVE AND OMNIORB_COS_DYNAMIC_ARCHIVE)

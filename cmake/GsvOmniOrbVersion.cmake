@@ -1,5 +1,5 @@
-# gsv/orb/transport builds on internal classes of omniORB, which no release promises to keep. They were
-# read in this release; with another one a build may pass and the programs fail.
+# gsv/orb/transport uses internal classes of omniORB, which may change with any release. It was
+# written for this release. With another one, the build may succeed and the programs may fail.
 set(GSV_OMNIORB_VERSION 4.2.5)
 option(GSV_OMNIORB_VERSION_UNCHECKED
   "Build with another omniORB than ${GSV_OMNIORB_VERSION}, at your own risk" OFF)

@@ -1,14 +1,14 @@
 # gsv_precompile(TARGET KIND) gives a target the headers that nearly every file of its kind includes
-# (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", "program", or "test" for programs made of
-# tests. The target links to gsv::base.
+# (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", "program", or "test" for
+# programs made of tests. The target links to gsv::base.
 function(gsv_precompile TARGET KIND)
   set(OWNER gsv_precompiled_${KIND})
   if(NOT TARGET ${OWNER})
     set(HEADER ${CMAKE_SOURCE_DIR}/cmake/precompiled_${KIND}.h)
     set(SOURCE ${CMAKE_BINARY_DIR}/precompiled_${KIND}.cc)
     file(CONFIGURE OUTPUT ${SOURCE} CONTENT "int main() {}\n")
-    # A precompiled header serves only files that are compiled with the same options and macros, and
-    # programs' options differ from libraries'.
+    # A precompiled header works only for files with the same options and macros. The options of
+    # programs differ from those of libraries.
     if(KIND STREQUAL "library")
       add_library(${OWNER} OBJECT EXCLUDE_FROM_ALL ${SOURCE})
     else()
@@ -23,24 +23,26 @@ function(gsv_precompile TARGET KIND)
     target_precompile_headers(${OWNER} PRIVATE ${HEADER})
   endif()
   target_precompile_headers(${TARGET} REUSE_FROM ${OWNER})
-  # Not to use it costs nothing but time, which nobody would notice.
+  # Without this error, a precompiled header that is not used would only cost time, and nobody would
+  # notice.
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Werror=invalid-pch>)
 endfunction()
 
-# All builds but dev compile the sources of a target a few at a time, as one file each: most of the time that a
-# file takes is that of the headers and templates it shares with its neighbours. The unnamed namespaces of
-# neighbours are then one, so their names must differ. dev compiles file by file, which shows a missing
-# include and rebuilds sooner.
+# All builds but dev compile the sources of a target a few at a time, as one file each: most of the
+# time that a file takes is that of the headers and templates it shares with its neighbours. The
+# unnamed namespaces of neighbours are then one, so their names must differ. dev compiles file by
+# file, which shows a missing include and rebuilds sooner.
 #
-# gsv_compile_in_groups(TARGET FILE[@GROUP] …) has the target's sources go together in the order in which they are
-# listed, but for those with a group: @json and the like make a group of those that share what takes longest
-# (libsdformat, Boost.Beast, nlohmann::json, CLI11). gsv_library and gsv_test call it with their SOURCES.
+# gsv_compile_in_groups(TARGET FILE[@GROUP] …) has the target's sources go together in the order in
+# which they are listed, but for those with a group: @json and the like make a group of those that
+# share what takes longest (libsdformat, Boost.Beast, nlohmann::json, CLI11). gsv_library and
+# gsv_test call it with their SOURCES.
 function(gsv_compile_in_groups TARGET)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug")
     return()
   endif()
   set(FILES_A_GROUP 20)
-  # A file's unnamed namespace seems a header's to GCC there.
+  # In a precompiled header, GCC treats a file's unnamed namespace as that of a header.
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   set(SOURCES ${ARGN})
@@ -62,19 +64,21 @@ function(gsv_without_groups OUT)
   set(${OUT} ${FILES} PARENT_SCOPE)
 endfunction()
 
-# ctest begins what costs most first; only the browser's programs (tests/browser) cost more.
+# ctest starts the most expensive tests first. Only the browser tests (tests/browser) are more
+# expensive.
 set(GSV_EARLY 50)
 
-# Tests need not be fast, only what they test: without optimising they compile in half of the time.
+# Tests need not be fast, only the code that they test. Without optimisation they compile in half of
+# the time.
 set(GSV_TEST_OPTIONS $<$<CONFIG:Release,RelWithDebInfo>:-O0>)
 
-# gsv_compile_sooner(TARGET): for code of large templates whose own speed nobody notices. At -O1 Boost.Beast takes half
-# of the time to compile, the command line three quarters.
+# gsv_compile_sooner(TARGET): for code with large templates whose speed does not matter. With -O1,
+# Boost.Beast compiles in half of the time, and the command line in three quarters.
 function(gsv_compile_sooner TARGET)
   target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# gsv_test_helper(TARGET …): what only tests link to or start, and nobody else waits for.
+# gsv_test_helper(TARGET …): for targets that only tests link to or start.
 function(gsv_test_helper)
   foreach(TARGET IN LISTS ARGN)
     target_compile_options(${TARGET} PRIVATE "${GSV_TEST_OPTIONS}")
@@ -107,9 +111,10 @@ function(gsv_library NAME)
   set_target_properties(gsv_${NAME} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
-# gsv_late_library(TARGET INSTEAD_OF IMPORTED LIBRARIES FILE … [WITHOUT FUNCTION …]) makes the library TARGET, to link to in place of the
-# target IMPORTED, whose functions are in the shared libraries FILE. These are then loaded at the first call of one
-# of their functions; see tools/make_late_library. On processors that it cannot write for, TARGET links to IMPORTED.
+# gsv_late_library(TARGET INSTEAD_OF IMPORTED LIBRARIES FILE … [WITHOUT FUNCTION …]) makes the
+# library TARGET, to link to in place of the target IMPORTED, whose functions are in the shared
+# libraries FILE. These are then loaded at the first call of one of their functions; see
+# tools/make_late_library. On processors that it cannot write for, TARGET links to IMPORTED.
 function(gsv_late_library TARGET)
   cmake_parse_arguments(ARG "" "INSTEAD_OF" "LIBRARIES;WITHOUT" ${ARGN})
   if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
@@ -143,10 +148,11 @@ endfunction()
 
 # gsv_test(NAME SOURCES FILE[@GROUP] … [DEPENDS …] [LABEL …] [TIMEOUT seconds] [EARLY])
 #
-# Adds the GoogleTest program NAME; each of its tests becomes one ctest test, whose report GoogleTest
-# leaves in test-reports of the build folder. GSV_REAL_DIR (other people's worlds and robots, may be
-# absent), GSV_SOURCE_DIR and GSV_BUILD_DIR reach every test as environment. EARLY: they wait for most of
-# their time, and are begun before others, so that nothing waits for them in the end.
+# Adds the GoogleTest program NAME; each of its tests becomes one ctest test, whose report
+# GoogleTest leaves in test-reports of the build folder. GSV_REAL_DIR (other people's worlds and
+# robots, may be absent), GSV_SOURCE_DIR and GSV_BUILD_DIR reach every test as environment. EARLY:
+# they wait for most of their time, and are begun before others, so that nothing waits for them in
+# the end.
 function(gsv_test NAME)
   cmake_parse_arguments(ARG "EARLY" "TIMEOUT;LABEL" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -217,13 +223,13 @@ if(NOT GSV_REAL_DIR)
   get_filename_component(GSV_REAL_DIR ${CMAKE_SOURCE_DIR}/../shared/real ABSOLUTE)
 endif()
 
-# Every test finds its way by these variables of its environment. CTest reads the file as it starts.
+# Every test has these environment variables. CTest reads the file when it starts.
 file(WRITE ${CMAKE_BINARY_DIR}/gsv_test_environment.cmake
   "set(ENV{GSV_SOURCE_DIR} [==[${CMAKE_SOURCE_DIR}]==])\n"
   "set(ENV{XDG_STATE_HOME} [==[${CMAKE_BINARY_DIR}/state]==])\n"
   "set(ENV{GSV_BUILD_DIR} [==[${CMAKE_BINARY_DIR}]==])\n"
   "set(ENV{GSV_REAL_DIR} [==[${GSV_REAL_DIR}]==])\n"
-  # What other people's libraries do is left out; sanitizers alone read these.
+  # Suppresses findings in other people's libraries. Only sanitizers read these variables.
   "set(ENV{LSAN_OPTIONS} [==[suppressions=${CMAKE_SOURCE_DIR}/cmake/sanitizers/lsan.supp:print_suppressions=0]==])\n"
   "set(ENV{TSAN_OPTIONS} [==[suppressions=${CMAKE_SOURCE_DIR}/cmake/sanitizers/tsan.supp:print_suppressions=0]==])\n")
 set_property(DIRECTORY ${CMAKE_SOURCE_DIR}

@@ -15,8 +15,8 @@ LINE_COMMENT = re.compile(r"//.*")
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 TEST_SOURCE = re.compile(r"_(test|testing|benchmark|fuzz)\.(h|cc)$|(^|/)testing/")
 
-# Code that the core must not use: its name in docs/layers.txt, and a pattern that recognises it in the
-# path of an include or in a line of code.
+# Code that the core must not use: its name in docs/layers.txt, and a pattern that recognises it in
+# the path of an include or in a line of code.
 FORBIDDEN_INCLUDES = {
     "corba": re.compile(r"^(omniORB4|omnithread|omniconfig|COS|idl)(/|\.|$)"),
     "sockets": re.compile(r"^(boost/(asio|beast)|sys/(socket|un)\.h|netinet/|arpa/|netdb\.h)"),

@@ -297,7 +297,8 @@ def texts_of_openapi(source):
             yield Text(number, "docs", without_code(words))
 
 
-# The files that contain texts for readers, as patterns below the root, and the function that finds the texts.
+# The files that contain texts for readers, as patterns below the root, and the function that finds
+# the texts.
 SOURCES = (
     ("*.md", texts_of_markdown),
     ("docs/**/*.md", texts_of_markdown),

@@ -10,9 +10,9 @@ constexpr std::size_t kMinNameLength = 3;
 // names with at least this many letters may differ by two letters
 constexpr std::size_t kLongName = 8;
 
-// Returns the only known name of which `written` is the beginning, or that is the beginning of
-// `written` but for one letter: "comple" for completion, "pss" for ps. Empty if there is none, or
-// if there are several.
+// Returns the only known name that begins with `written`, or that is `written` without its last
+// letter: "comple" gives completion, and "pss" gives ps. Empty if there is none, or if there are
+// several.
 std::string OnlyContinuation(std::string_view written, const std::vector<std::string>& known) {
   std::string only;
   for (const std::string& name : known) {
@@ -51,7 +51,7 @@ int SpellingDistance(std::string_view a, std::string_view b, int limit) {
 bool LooksLike(std::string_view written, std::string_view known) {
   const std::size_t shorter = std::min(written.size(), known.size());
   if (shorter < kMinNameLength || written == known) return false;
-  // Three letters suffice to name another thing: "ksh" is not a misspelt "zsh".
+  // Three letters are enough to name something else: "ksh" is not a misspelt "zsh".
   if (shorter == kMinNameLength && written.size() == known.size() &&
       !std::is_permutation(written.begin(), written.end(), known.begin())) {
     return false;

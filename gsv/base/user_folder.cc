@@ -21,8 +21,8 @@ std::filesystem::path Place() {
 
 Result<std::filesystem::path> UserFolder() {
   std::filesystem::path folder = Place();
-  mkdir(folder.c_str(), 0700);  // fails if the folder exists; the check below is the one that
-                                // counts
+  // fails if the folder exists already; the check below detects all other problems
+  mkdir(folder.c_str(), 0700);
   struct stat status {};
   if (lstat(folder.c_str(), &status) != 0)
     return Fail(ErrorCode::kUnavailable, std::strerror(errno), folder);

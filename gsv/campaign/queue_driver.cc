@@ -18,8 +18,10 @@ constexpr auto kSilence = std::chrono::seconds(30);
 constexpr std::size_t kFewTasks = 1000;
 // a run becomes an error after tasks have ended this many times during the run
 constexpr std::size_t kMaxAttempts = 3;
-constexpr int kGone = 2;  // how many consecutive queries must miss a task before it counts as gone
-constexpr std::size_t kMaxLogBytes = 1000;  // how many bytes of a task's log an error message shows
+// number of consecutive queries that must not list a task before it counts as lost
+constexpr int kGone = 2;
+// maximum number of bytes of a task's log in an error message
+constexpr std::size_t kMaxLogBytes = 1000;
 
 std::string EndOf(const std::filesystem::path& file) {
   std::ostringstream text;

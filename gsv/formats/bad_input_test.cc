@@ -100,7 +100,7 @@ TEST_F(BadInputTest, SkipsTheIncludeThatClosesACycle) {
 }
 
 // Without a link outside of the cycle nothing is left of the model.
-TEST_F(BadInputTest, NamesTheCycleOfModelsThatHoldNothingElse) {
+TEST_F(BadInputTest, NamesTheCycleOfModelsThatContainOnlyEachOther) {
   const auto including = [](const std::string& other) {
     return "<sdf version='1.9'><model name='m'><include><uri>model://" + other +
            "</uri></include></model></sdf>";
@@ -140,14 +140,14 @@ TEST_F(BadInputTest, ExpandsEntitiesInNamesAndValues) {
   EXPECT_EQ(world->models[0].world_from_model.position.x, 1.5);
 }
 
-TEST_F(BadInputTest, ReportsAQuaternionOfNoLength) {
+TEST_F(BadInputTest, ReportsAQuaternionOfLengthZero) {
   EXPECT_THAT(
       WarningsIn("<link name='l'><pose rotation_format='quat_xyzw'>1 2 3 0 0 0 0</pose></link>"),
       ElementsAre(
           HasSubstr("a rotation needs a quaternion of a length above 0; 1 2 3 0 0 0 1 is used")));
 }
 
-TEST_F(BadInputTest, ReportsAnExtensionOfNoPartOfTheRobot) {
+TEST_F(BadInputTest, ReportsAnExtensionOfAMissingPart) {
   const auto file = folder_.Write("r.urdf",
                                   "<robot name='r'><link name='base'/>\n"
                                   "<gazebo reference='base'><mu1>1</mu1></gazebo>\n"

@@ -25,7 +25,8 @@ class RealFilesTest : public testing::Test {
   }
 };
 
-// Missing files, elements that gsv does not support, and one stray character; nothing in these files is misspelt.
+// Missing files, elements that gsv does not support, and one stray character; nothing in these
+// files is misspelt.
 bool IsKnownToBeAbsent(const base::Problem& problem) {
   if (problem.severity != base::Problem::Severity::kWarning) return false;
   for (const char* absent :

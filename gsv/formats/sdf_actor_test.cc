@@ -1,4 +1,4 @@
-// Actors in worlds, and in their own files.
+// Tests actors in worlds and in their own files.
 #include <memory>
 
 #include <gmock/gmock.h>
@@ -86,7 +86,7 @@ TEST_F(SdfActor, ShowsItsSkinAndHasCollisions) {
   EXPECT_NEAR(link.collisions[0].link_from_collision.position.z, 1.8, 1e-6);
 }
 
-TEST_F(SdfActor, IsAFigureOnTheGroundWhenItsSkinIsAbsent) {
+TEST_F(SdfActor, IsASimpleFigureIfItsSkinIsMissing) {
   const auto world = World(R"(<actor name='a'><skin><filename>walk.dae</filename></skin><script>
       <trajectory id='0' type='walk'><waypoint><time>0</time><pose>0 0 1.1 0 0 0</pose></waypoint>
       </trajectory></script></actor>)");

@@ -1,4 +1,4 @@
-// Joints, their controllers, and the parameters of surfaces and links for forces.
+// Tests joints, their controllers, and the parameters of surfaces and links for forces.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"

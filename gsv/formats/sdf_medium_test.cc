@@ -226,7 +226,7 @@ TEST_F(SdfMedium, AMimicJointIsReadFromUrdf) {
   EXPECT_EQ(mimic->offset, 1);
 }
 
-TEST_F(SdfMedium, AMimicJointWithoutALeaderMovesByItself) {
+TEST_F(SdfMedium, AMimicJointWithoutALeaderMovesIndependently) {
   for (const char* leader : {"absent", "follower"}) {
     problems_.clear();
     const auto model =

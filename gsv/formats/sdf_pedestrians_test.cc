@@ -1,4 +1,4 @@
-// <gsv:pedestrians> of a world.
+// Tests <gsv:pedestrians> of a world.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -56,7 +56,7 @@ TEST_F(SdfPedestrians, InvalidGroupsAreSkipped) {
   }
 }
 
-TEST_F(SdfPedestrians, NamesWhatIsNoPartOfAGroup) {
+TEST_F(SdfPedestrians, ReportsElementsThatDoNotBelongToAGroup) {
   const auto world = World(
       "<gsv:pedestrians crowd='1'><gsv:goal>1 2</gsv:goal><gsv:count>3</gsv:count>"
       "<goal>3 4</goal></gsv:pedestrians>");

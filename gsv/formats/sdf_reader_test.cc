@@ -130,7 +130,7 @@ TEST_F(SdfReaderTest, InlineModelsAreReadOnceAndPlacedByFramesOfTheWorld) {
   ExpectNear(world.models[1].world_from_model.position, {0, 1, 5});
 }
 
-TEST_F(SdfReaderTest, RenamesTheSecondOfTwoModelsOfOneName) {
+TEST_F(SdfReaderTest, RenamesTheSecondModelWithTheSameName) {
   const std::string model = "<model name='a'><link name='l'/></model>";
   const auto world = World("<world name='w'>" + model + model + "</world>");
   ASSERT_THAT(world.models, SizeIs(2));

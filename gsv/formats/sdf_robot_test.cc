@@ -1,4 +1,4 @@
-// Drives and sensors in the files of robots.
+// Tests drives and sensors in the files of robots.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -333,7 +333,7 @@ TEST_F(SdfRobotTest, AContactSensorNamesItsCollisions) {
   EXPECT_THAT(problems_[0].Sentence(), HasSubstr("numb names the collision \"nose\""));
 }
 
-TEST_F(SdfRobotTest, GivesSensorsOfOneNameDifferentNames) {
+TEST_F(SdfRobotTest, MakesDuplicateSensorNamesUnique) {
   const auto model = Read(
       "<sdf version='1.9'><model name='r'><link name='a'><sensor name='s' type='imu'/></link>"
       "<link name='b'><sensor name='s' type='imu'/></link></model></sdf>");

@@ -1,4 +1,4 @@
-// The textures of a <heightmap>.
+// Tests the textures of a <heightmap>.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"

@@ -1,4 +1,4 @@
-// The <state> of a world.
+// Tests the <state> of a world.
 #include <numbers>
 
 #include <gmock/gmock.h>

@@ -33,7 +33,7 @@ SensorTraits TraitsOf(const model::SensorDescription& description,
 constexpr std::size_t kMinSweep = 3;
 
 // The readings of the behaviour whose turn a thread executes. If the next behaviour has the same
-// plan, it finds the names in place, and the memory in the cache.
+// plan, its names are already in place, and the memory is in the cache.
 struct ThreadReadings {
   std::shared_ptr<const SweepPlan> plan;
   std::vector<Reading> readings;

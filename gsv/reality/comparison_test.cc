@@ -55,7 +55,7 @@ Log InARoom(bool is_lost) {
   return log;
 }
 
-TEST(Comparison, DoubtsPosesThatDoNotFitTheWorld) {
+TEST(Comparison, WarnsAboutPosesThatDoNotFitTheWorld) {
   const auto right = Compare(InARoom(false), {}), lost = Compare(InARoom(true), {});
   ASSERT_TRUE(right && lost);
   EXPECT_EQ(right->warning, "");
@@ -130,7 +130,7 @@ TEST(Comparison, WritesAFitAsOneElementForEachGroup) {
             "</sensor>\n");
 }
 
-TEST(WorldFit, OpensAWallThatBeamsPassAndAddsOneWhereTheyEnd) {
+TEST(WorldFit, RemovesAWallThatBeamsPassAndAddsOneWhereTheyEnd) {
   OccupancyMap map;
   map.width = map.height = 20, map.resolution = 0.1;
   map.cells.assign(400, Cell::kFree);

@@ -147,7 +147,7 @@ std::vector<double> PanelErrors(const BeamTest& test, std::size_t first, double 
 
 // The parameters are fitted to the panel at nine distances and to the sheet. They are validated
 // with the panel at the eight distances in between, and with the rule.
-TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
+TEST_F(Reality, ASonarDetectsAPanelOverTheAnglesOfAnHcSr04) {
   double best = kInfinity, threshold = 0, gain_range = 0;
   for (const double t : {0.06, 0.08, 0.1, 0.12, 0.14, 0.16, 0.19, 0.22}) {
     for (const double g : {0.9, 1.1, 1.3, 1.5, 1.7, 2.0, 2.4}) {
@@ -189,7 +189,7 @@ TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
 
 // --- Robots with motion capture: the parameters are fitted to two and validated with a third.
 
-TEST_F(RealLog, OdometryDriftsAsThatOfARobotItWasNotFittedTo) {
+TEST_F(RealLog, OdometryDriftEqualsThatOfARobotThatWasNotFitted) {
   std::vector<MotionWindow> fitted;
   for (const char* robot : {"Robot1", "Robot2"}) {
     const Log log = Read(folder_ / "mrclam" / (std::string(robot) + "_Odometry.dat"), "mrclam");
@@ -239,7 +239,7 @@ TEST_F(RealLog, OdometryDriftsAsThatOfARobotItWasNotFittedTo) {
 
 // --- A ring of sonars along a corridor.
 
-TEST_F(RealLog, ASonarRingHearsAsManyEchoes) {
+TEST_F(RealLog, ASonarRingDetectsAsManyEchoesAsARealOne) {
   const Log log = Read(folder_ / "sonar_ring" / "measurement.txt", "sonar-ring");
   CompareOptions options;
   options.preset = "polaroid_6500";
@@ -268,7 +268,7 @@ TEST_F(RealLog, ASonarRingHearsAsManyEchoes) {
 
 // --- A laser in a mapped building.
 
-TEST_F(RealLog, ALaserScattersAndMissesAsInAMappedBuilding) {
+TEST_F(RealLog, ALaserHasTheNoiseAndLostEchoesOfARealOne) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("gsv-wean-{}", ::getpid());
   fs::create_directories(folder);
   const std::string unpack =

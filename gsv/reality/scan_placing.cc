@@ -15,8 +15,7 @@ namespace gsv::reality {
 namespace {
 
 constexpr double kCell = 0.1, kUpdatedCell = 0.05, kFineCell = 0.02;  // m
-constexpr double kSmallWorld = 10;  // if a world is smaller than this (m), poses are searched in a
-                                    // fine
+constexpr double kSmallWorld = 10;  // m; in a smaller world, poses are searched in a fine map
 
 std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
   const std::size_t stride = std::max<std::size_t>(1, (scans.size() + most - 1) / most);

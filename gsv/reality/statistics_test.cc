@@ -61,7 +61,8 @@ TEST(OdometryComparison, FitsTheDriftThatMadeTheLog) {
   EXPECT_WITHIN_PERCENT(std::hypot(fit.angular_per_radian, fit.angular_per_metre), 0.06, 30);
 }
 
-// Errors of +-10 cm on ways of 30 cm: the inverse of the regression on the estimate would give 1.17.
+// The errors are ±10 cm for distances of 30 cm. The inverse of the regression on the estimate would
+// give 1.17.
 TEST(OdometryComparison, FitsTheScaleWithoutBias) {
   std::vector<MotionWindow> windows;
   for (int i = 0; i < 40; ++i) {

@@ -209,7 +209,7 @@ class Killing {
   int started_ = 0, again_ = 0, judged_ = 0, with_a_promise_ = 0;
 };
 
-TEST(Promise, KillingLosesASecondOfARecordingAtMost) {
+TEST(Promise, KillingLosesAtMostASecondOfARecording) {
   const auto folder = base::TemporaryFolder::Make("gsv-kill");
   ASSERT_TRUE(folder);
   Killing killing(folder->path());

@@ -29,7 +29,7 @@ constexpr int kRooms = 5;  // rooms along a side of the building
 constexpr double kRoom = 4, kHalf = kRooms * kRoom / 2;
 constexpr double kStep = 0.05;  // simulated time between instants, in s
 
-// A chequered texture, so that textures cost as much as in realistic worlds.
+// A chequered texture, so that textures are as expensive as in realistic worlds.
 std::shared_ptr<const model::Image> Tiles() {
   auto image = std::make_shared<model::Image>();
   image->width = image->height = 256;

@@ -112,7 +112,8 @@ messages::Bytes ArrayBytes(const std::vector<double>& values) {
   return bytes;
 }
 
-// Sends `arrays` of positions for the two joints, one after the other. Returns the positions after 1 s.
+// Sends `arrays` of positions for the two joints, one after the other. Returns the positions after
+// 1 s.
 std::vector<double> PositionsAfter(const std::vector<std::vector<double>>& arrays) {
   const auto simulation = simulation::Make(simulation::Lockstep(std::chrono::seconds(1)));
   EXPECT_TRUE(simulation->AddRobot(TwoSliders()));
@@ -133,14 +134,14 @@ TEST(CommandInput, CommandsEachJointByAnArray) {
   EXPECT_NEAR(positions[1], 0.5, 1e-9);
 }
 
-TEST(CommandInput, CommandsNoJointByAnArrayWithABadNumber) {
+TEST(CommandInput, IgnoresAnArrayWithANonFiniteNumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(PositionsAfter({{0.25, nan}, {0.25, -infinity}, {nan, 0.5}, {0.25}, {0.1, 0.2, 0.3}}),
             (std::vector<double>{0, 0}));
 }
 
-TEST(CommandInput, ForgetsARobotThatIsGone) {
+TEST(CommandInput, ForgetsARemovedRobot) {
   CommandedRobot robot;
   robot.simulation.reset();
   robot.input->TakeTwist(TwistBytes(0.5));

@@ -26,7 +26,7 @@ TEST(RosNames, ReplaceCharactersThatRosDoesNotAllow) {
   EXPECT_EQ(RosName(""), "_");
 }
 
-TEST(RosNames, KnowNamespaces) {
+TEST(RosNames, ValidateNamespaces) {
   for (const char* good : {"/", "/a", "/a/b_2", "/_"}) EXPECT_TRUE(IsNamespace(good)) << good;
   for (const char* bad : {"", "a", "/a/", "//", "/2", "/a-b", "/a//b"}) {
     EXPECT_FALSE(IsNamespace(bad)) << bad;

@@ -1,4 +1,4 @@
-// The keys `faults` and `expect`.
+// Tests the keys `faults` and `expect`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

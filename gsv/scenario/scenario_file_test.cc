@@ -213,7 +213,7 @@ TEST(ScenarioFile, NumberInQuotesIsAText) {
                           "\"true\""));
 }
 
-TEST(ScenarioFile, TrueIsNoNameOfARecording) {
+TEST(ScenarioFile, RejectsTrueAsTheNameOfARecording) {
   EXPECT_THAT(ProblemsIn("record: true\n"),
               ElementsAre("room.yaml:1:9: record must be a file, NAME.mcap, or a folder, found "
                           "\"true\""));

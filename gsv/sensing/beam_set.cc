@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Pose;
 
-// For fewer rays, gathering the candidate set does not pay off.
+// For fewer rays, gathering the candidate set takes longer than it saves.
 constexpr std::size_t kMinPacket = 3;
 
 // The operations are those of world_from_link * link_from_sensor and of the product of its

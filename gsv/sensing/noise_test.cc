@@ -139,9 +139,9 @@ TEST_F(NoiseTest, ReadingsAreMultiplesOfThePrecision) {
   }
 }
 
-// A deviation below the precision makes readings that stay. Over all true values, two readings with
-// the deviation d that are rounded to steps of s are equal with the probability 1 - 2 d / (sqrt(pi)
-// s), for d well below s.
+// If the deviation is below the precision, readings stay the same. Two readings with the deviation
+// d, rounded to steps of s, are equal with the probability 1 - 2 d / (sqrt(pi) s) over all true
+// values, for d well below s.
 TEST_F(NoiseTest, ReadingsStayIfTheDeviationIsBelowThePrecision) {
   const double deviation = 0.0012, step = 0.01;
   const int values = 400, pairs = 10;

@@ -3,7 +3,7 @@
 namespace gsv::sensing {
 namespace {
 
-// For fewer rays, gathering the candidate set does not pay off.
+// For fewer rays, gathering the candidate set takes longer than it saves.
 constexpr std::size_t kFewRays = 3;
 
 // The typical distance between the sensors of a robot.

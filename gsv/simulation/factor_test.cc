@@ -1,4 +1,4 @@
-// Changes of the real-time factor during a run.
+// Tests changes of the real-time factor during a run.
 #include <cmath>
 #include <limits>
 

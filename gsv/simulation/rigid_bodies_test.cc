@@ -1,4 +1,4 @@
-// Rigid-body dynamics in a simulation.
+// Tests rigid-body dynamics in a simulation.
 #include <gtest/gtest.h>
 
 #include "gsv/simulation/testing/test_simulation.h"

@@ -38,7 +38,7 @@ void ExpectNear(const Vector3& a, const Vector3& b) {
   EXPECT_NEAR(a.z, b.z, 1e-12);
 }
 
-TEST(LinkPoses, EqualTheDescriptionAtJointZero) {
+TEST(LinkPoses, AtZeroJointPositionsAreThoseOfTheModel) {
   const auto poses = LinkPoses(Arm(), std::vector<double>{0, 0});
   ExpectNear(poses[1].position, {1, 0, 0});
   ExpectNear(poses[2].position, {2, 0, 0});

@@ -206,8 +206,8 @@ class BadDisk(Attack):
         image = laboratory.folder / "disk"
         with open(image, "wb") as file:
             file.truncate(self.SIZE)
-        # A separate disk can be frozen. If it cannot be mounted, the recordings are in a file system
-        # in memory, which can also be full or read-only.
+        # A separate disk can be frozen. If it cannot be mounted, the recordings are in a file
+        # system in memory, which can also be full or read-only.
         self.may_freeze = (run(["mkfs.ext4", "-q", str(image)]) is None
                            and run(["mount", "-o", "loop", str(image), self.folder]) is None)
         if not self.may_freeze:

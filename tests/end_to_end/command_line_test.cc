@@ -213,8 +213,8 @@ TEST(CommandLine, BenchTypicalReportsARowForEachNumberOfRobots) {
   ASSERT_EQ(rows.size(), 2u) << outcome.out;
   EXPECT_EQ(rows[0]["robots"], 1);
   EXPECT_EQ(rows[1]["robots"], 5);
-  // This tests what was done. The speed is tested by `gsv bench`, which has a median of 20 ms as
-  // its limit.
+  // This test checks which work was done. `gsv bench` measures the speed; its limit for the median
+  // is 20 ms.
   for (const auto& row : rows) {
     EXPECT_GT(row["update_interval_ms"]["median"], 0.0) << row;
     EXPECT_LE(row["update_interval_ms"]["median"], row["update_interval_ms"]["p99"]) << row;
@@ -285,7 +285,7 @@ TEST(CommandLine, DrawWritesAnImageOfAWorldAndPrintsItsContent) {
   ASSERT_EQ(outcome.ending, "exit code 0") << outcome.err;
   EXPECT_GT(outcome.LastLine()["triangles"], 100);
   std::ifstream file(image, std::ios::binary);
-  EXPECT_EQ(file.get(), 0xff);  // a JPEG file begins so
+  EXPECT_EQ(file.get(), 0xff);  // a JPEG file begins with these bytes
   EXPECT_EQ(file.get(), 0xd8);
   const std::string png = folder.path() / "office.png";
   ASSERT_EQ(RunProgram("gsv", {"world", "draw", "office", "-o", png}).ending, "exit code 0");

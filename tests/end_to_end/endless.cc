@@ -1,5 +1,5 @@
-// For tests: a behaviour that never returns from its turn after 200 ms. This fault is only possible
-// in process.
+// For tests: a behaviour that, after 200 ms, never returns from its turn. Only an in-process
+// behaviour can have this fault.
 #include <CLI/CLI.hpp>
 
 #include "sdk/behaviour/module.h"

@@ -52,7 +52,7 @@ TEST_F(HealthRun, PsPrintsWhyARobotStandsAndOffersFindsTheBroker) {
   EXPECT_THAT(offers.out, HasSubstr("SimulationService"));
 }
 
-TEST_F(HealthRun, TheCommandOffersWithoutABrokerIsAnErrorWithAHint) {
+TEST_F(HealthRun, ListingOffersWithoutABrokerIsAnErrorWithAHint) {
   const Outcome offers = Gsv({"offers"});
   EXPECT_EQ(offers.ending, "exit code 5");
   EXPECT_THAT(offers.err, HasSubstr("give its address with --broker"));

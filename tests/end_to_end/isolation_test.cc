@@ -53,7 +53,7 @@ class Isolation : public Served {
     return flooded._retn();
   }
   // A program that has died would send no calls.
-  void ExpectFloodGoesOn(sba::Simulation_ptr flooded) {
+  void ExpectFloodContinues(sba::Simulation_ptr flooded) {
     const sba::SimulationState_var state = flooded->state();
     EXPECT_EQ(CountOf(state.in(), sba::AGENT_DEAD) + CountOf(state.in(), sba::AGENT_FINISHED), 0);
     EXPECT_EQ(bad_->process().Ending(), "") << bad_->errors();
@@ -135,7 +135,7 @@ TEST_F(HashBesideAnotherSimulation, IsUnchangedInAFloodOfCalls) {
     const sba::SimulationState_var state = flooded->state();
     return asking.count() > 100 && CountOf(state.in(), sba::AGENT_INITIALISED) == 0;
   });
-  ExpectFloodGoesOn(flooded);
+  ExpectFloodContinues(flooded);
 }
 
 TEST_F(HashBesideAnotherSimulation, IsUnchangedIfSimulationsAreDestroyedDuringAStep) {
@@ -214,7 +214,7 @@ class StepTimeBesideAnotherSimulation : public Isolation {
 
 TEST_F(StepTimeBesideAnotherSimulation, IsMeasuredAlone) { RunAndRecord("nothing"); }
 
-TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideLockstepAtFullSpeed) {
+TEST_F(StepTimeBesideAnotherSimulation, IsKeptBesideLockstepAtFullSpeed) {
   // There are so many simulations that no processor is idle.
   std::vector<sba::Simulation_var> rushing(std::thread::hardware_concurrency());
   for (sba::Simulation_var& each : rushing) each = Rush();
@@ -226,15 +226,15 @@ TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideLockstepAtFullSpeed) {
   }
 }
 
-TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideAFloodOfCalls) {
+TEST_F(StepTimeBesideAnotherSimulation, IsKeptBesideAFloodOfCalls) {
   const sba::Simulation_var flooded = Flood();
   const Repeatedly asking(4, [&] { const sba::SimulationState_var state = flooded->state(); });
   RunAndRecord("a flood of calls");
-  ExpectFloodGoesOn(flooded);
+  ExpectFloodContinues(flooded);
   std::cout << "of which " << asking.count() << " asked for the state\n";
 }
 
-TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideABehaviourThatNeverWaits) {
+TEST_F(StepTimeBesideAnotherSimulation, IsKeptBesideABehaviourThatNeverWaits) {
   bad_ = StartBad(broker_.reference(), "never-wait");
   auto specification = Playground(sba::LOCKSTEP);
   SetOption(specification, "deadline_s", "1");
@@ -244,7 +244,7 @@ TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideABehaviourThatNeverWaits) {
   RunAndRecord("a behaviour that never waits");
 }
 
-TEST_F(StepTimeBesideAnotherSimulation, IsMetWhileSimulationsAreDestroyed) {
+TEST_F(StepTimeBesideAnotherSimulation, IsKeptWhileSimulationsAreDestroyed) {
   const Repeatedly destroying(2, [&] {
     sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
     AddPebble(other, 0, "wander");

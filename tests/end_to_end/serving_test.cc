@@ -90,7 +90,7 @@ TEST(Limits, LimitsOfRequestsAndUploadsApplyAndCanBeSet) {
   EXPECT_EQ(server.Ask("PUT", "/api/uploads/1/b", std::string(1000, 'b')).status, 201);
 }
 
-TEST(Limits, UnknownLimitsAreRejectedWithAListOfTheKnown) {
+TEST(Limits, UnknownLimitsAreRejectedWithAListOfKnownLimits) {
   for (const char* limit : {"robots=0", "robots=many", "simulations=10001"}) {
     const Outcome refused = RunProgram("gsv", {"serve", "--limit", limit});
     EXPECT_EQ(refused.ending, "exit code 2") << limit;

@@ -47,12 +47,13 @@ KEPT_ATTRIBUTES = ["def_search_card", "max_search_card", "def_match_card", "max_
                    "max_return_card", "max_list", "supports_modifiable_properties", "supports_dynamic_properties",
                    "supports_proxy_offers", "def_hop_count", "max_hop_count", "def_follow_policy",
                    "max_follow_policy", "max_link_follow_policy"]
-# Valid calls that a trader or a simulation refuses, by the exception that it raises.
+# Valid calls that a trader or a simulation refuses, ordered by the exception that it raises.
 REFUSED = {
     "CosTrading::Register::resolve": "UnknownTraderName", "CosTrading::Admin::set_type_repos": "system exception",
     "sba::SensorFactory::open": "Refused", "sba::JointActuator::apply": "Refused",
     "sba::ScenarioRun::outcome": "NotRunning",
-    # It is closed at once, and its object with it: on the base, which has no joint, it cannot be read.
+    # The sensor is on the base, which has no joint, so the sensor cannot be read. It is closed at
+    # once.
     **{f"sba::ForceTorque::{name}": "OBJECT_NOT_EXIST"
        for name in ("wrench", "measure", "traits", "close", "_is_a", "_non_existent")}}
 

@@ -52,7 +52,8 @@ ROBOT = """<sdf version="1.11"><model name="arm"><link name="base_link">
 <mimic joint="lift_joint"><multiplier>-2</multiplier></mimic></axis></joint>
 <plugin filename="gz-sim-velocity-control-system" name="gz::sim::systems::VelocityControl"/></model></sdf>
 """
-# A box of 2 kg that carries a mast of 0.5 kg. It rests on the ground, by rigid-body dynamics, and has no drive.
+# A box of 2 kg that carries a mast of 0.5 kg. It rests on the ground, by rigid-body dynamics, and
+# has no drive.
 PROBE = """<sdf version="1.9"><model name="probe"><link name="base_link">
 <inertial><pose>0 0 0.1 0 0 0</pose><mass>2</mass><inertia><ixx>0.03</ixx><iyy>0.03</iyy><izz>0.05</izz></inertia></inertial>
 <collision name="body"><pose>0 0 0.1 0 0 0</pose><geometry><box><size>0.4 0.4 0.2</size></box></geometry></collision>

@@ -1,30 +1,37 @@
-// A ROS 2 peer that shares no code with GSV: Cyclone DDS, with types that its idlc generated from IDL.
+// A ROS 2 peer that shares no code with GSV: Cyclone DDS, with types that its idlc generated from
+// IDL.
 //
-//   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each topic as JSON, one per line
-//   ros2_peer count --seconds S TYPE:TOPIC…      prints the time to the first sample of each topic, and the number
-//                                                of samples in the next S seconds
-//                                                (--reliable: for reliable readers;
+//   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each topic as JSON, one per
+//   line ros2_peer count --seconds S TYPE:TOPIC…      prints the time to the first sample of each
+//                                                topic, and the number of samples in the next S
+//                                                seconds (--reliable: for reliable readers;
 //                                                --receive-buffer BYTES: buffer of each socket)
-//   ros2_peer latency ROBOT                      sends --count commands to turn left and right, and prints after how many
-//                                                milliseconds ROBOT/imu showed each of them, and how late the sleeps
+//   ros2_peer latency ROBOT                      sends --count commands to turn left and right, and
+//                                                prints after how many milliseconds ROBOT/imu
+//                                                showed each of them, and how late the sleeps
 //                                                before them ended
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
-//   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its time, until S seconds of
-//                                                simulated time are over
-//   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel, NaN and
-//                                                infinities, and 20,000 commands from a second publisher, 10,000 a second
-//   ros2_peer call                               calls the services in the lines of its standard input (ros2_calls.h)
-//   ros2_peer call-many ENTITY                   calls get_entity_state --count times, --window at a time
-//   ros2_peer joint ROBOT position|velocity VALUE  commands the robot's only joint until joint_states
-//                                                shows the value; arrays without it come first
-//   ros2_peer malformed ROBOT                    sends truncated samples, and samples with huge counts, to its command
-//                                                topics and to a service of /gsv
-//   ros2_peer endpoints TOPIC…                   prints endpoints of other participants until each topic (rt/clock)
-//                                                was among them: topic, type, QoS, user data
+//   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its
+//                                                time, until S seconds of simulated time are over
+//   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel,
+//                                                NaN and infinities, and 20,000 commands from a
+//                                                second publisher, 10,000 a second
+//   ros2_peer call                               calls the services in the lines of its standard
+//   input (ros2_calls.h) ros2_peer call-many ENTITY                   calls get_entity_state
+//   --count times, --window at a time ros2_peer joint ROBOT position|velocity VALUE  commands the
+//                                                robot's only joint until joint_states shows the
+//                                                value; arrays without it come first
+//   ros2_peer malformed ROBOT                    sends truncated samples, and samples with huge
+//                                                counts, to its command topics and to a service of
+//                                                /gsv
+//   ros2_peer endpoints TOPIC…                   prints endpoints of other participants until each
+//                                                topic (rt/clock) was among them: topic, type, QoS,
+//                                                user data
 //
-// All commands take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves Cyclone DDS its default
-// settings; without it, it stays on loopback and uses no multicast. TYPE is "sensor_msgs/msg/LaserScan", TOPIC is
-// "/pebble/scan". Exits with 0 if all came, 1 after the time limit, 2 for a usage error.
+// All commands take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves
+// Cyclone DDS its default settings; without it, it stays on loopback and uses no multicast. TYPE is
+// "sensor_msgs/msg/LaserScan", TOPIC is "/pebble/scan". Exits with 0 if all came, 1 after the time
+// limit, 2 for a usage error.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

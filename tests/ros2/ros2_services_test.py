@@ -121,7 +121,8 @@ def resets_spawned(call):
 
 
 WORLD_LOADING, WORLD_UNLOADING = 40, 43
-# Trials of the features of simulation_interfaces 2 that gsv has, in an order in which each can succeed.
+# Tests of the features of simulation_interfaces 2 that gsv has, in an order in which each can
+# succeed.
 FEATURES = {
     45: gets("get_available_worlds", lambda reply: "office" in reply["names"]),                   # AVAILABLE_WORLDS
     44: gets("get_current_world", lambda reply: reply["name"] == "office"),                       # WORLD_INFO_GETTING

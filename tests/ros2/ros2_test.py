@@ -18,7 +18,8 @@ import unittest
 from xml.etree import ElementTree
 
 GSV, PEER = sys.argv[1:3]
-# Fast DDS 2.9 deletes objects through a type of another size, at which the address sanitizer would stop.
+# Fast DDS 2.9 deletes objects through a type of another size, at which the address sanitizer would
+# stop.
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
 DOMAIN = 60 + os.getpid() % 40  # apart from others on this machine
 PUBLISHED = {  # by ROS 2's packages

@@ -1,5 +1,5 @@
-# CMake refuses another omniORB than the one whose internals gsv/orb/transport uses, unless it is told
-# not to check.
+# CMake accepts only the version of omniORB whose internals gsv/orb/transport uses, unless the check
+# is disabled.
 set(CHECK ${CMAKE_CURRENT_LIST_DIR}/../../cmake/GsvOmniOrbVersion.cmake)
 
 # expect(RESULT OPTIONS …): whether the check passes with these options.

@@ -10,7 +10,8 @@ import unittest
 from ctypes.util import find_library
 
 GSV = sys.argv.pop(1)
-# The functions of libstdc++ that compile a regular expression; gsv/formats/sdf/shared_regex.cc defines them.
+# The functions of libstdc++ that compile a regular expression; gsv/formats/sdf/shared_regex.cc
+# defines them.
 COMPILERS = {
     "_ZNSt8__detail13__compile_nfaINSt7__cxx1112regex_traitsIcEEPKcEENSt9enable_ifIXsrNS_20__is_contiguous_"
     "iterIT0_EE5valueESt10shared_ptrIKNS_4_NFAIT_EEEE4typeES8_S8_RKNSC_11locale_typeENSt15regex_constants18syntax_"

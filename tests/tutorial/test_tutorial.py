@@ -12,7 +12,8 @@ SOURCE = Path(os.environ["GSV_SOURCE_DIR"])
 BUILD = Path(os.environ["GSV_BUILD_DIR"])
 TUTORIAL = SOURCE / "docs" / "tutorial"
 PAGES = sorted(TUTORIAL.glob("*.md"))
-# ```language [what]: `what` is the file of a listing, or "setup" of commands that a test does not need.
+# ```language [what]: `what` is the file of a listing, or "setup" of commands that a test does not
+# need.
 BLOCK = re.compile(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

@@ -32,13 +32,14 @@ struct Ends {
   dup2(ends.output, STDOUT_FILENO);
   if (quiet) dup2(nothing, STDERR_FILENO);
   if (ends.errors >= 0) dup2(ends.errors, STDERR_FILENO);
-  // In a process group of its own, the child does not get Ctrl-C of the terminal. The parent gets
-  // it and ends its children in order.
+  // In a separate process group, the child does not get Ctrl-C of the terminal. The parent gets it
+  // and ends its children in order.
   setpgid(0, 0);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  // Sockets of libraries would else stay open in the child, and their ports taken if the parent ends first.
+  // Otherwise, sockets of libraries would stay open in the child. Their ports would stay in use if
+  // the parent ended first.
   close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   execve(arguments[0], arguments, environment);
   _exit(127);

@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::size_t kMaxScenarioServers = 1000;
-// how many servers may be lost one after the other with the same run
+// number of servers that may be lost, one after the other, during the same run
 constexpr int kMaxLostServers = 5;
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
 // the server answers a wait for the end after two seconds

@@ -22,7 +22,8 @@ using base::ErrorCode;
 using Repository = CosTradingRepos::ServiceTypeRepository;
 
 constexpr unsigned long kPingMs = 1000;
-constexpr std::uint32_t kAskedAtOnce = 16;  // how many links' targets are called at the same time
+// number of links whose targets are called at the same time
+constexpr std::uint32_t kAskedAtOnce = 16;
 
 template <typename Interface>
 typename Interface::_var_type Resolve(CORBA::ORB_ptr orb, const std::string& reference,

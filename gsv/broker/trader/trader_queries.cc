@@ -125,7 +125,8 @@ class Trader::Search {
     return candidates_.cardinalities.match - matches_.offers.size() - matches_.proxies.size();
   }
 
-  // Takes the chosen offers of a plain chunk, all of which are admitted. Does not access the offers.
+  // Takes the chosen offers of a plain chunk, all of which are admitted. Does not access the
+  // offers.
   void TakeChosen(const OfferChunk& chunk, const std::vector<Choice>& choices,
                   const PropertyColumn* order) {
     for (std::size_t i = 0; i < choices.size(); ++i) {

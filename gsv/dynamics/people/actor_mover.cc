@@ -8,7 +8,7 @@ namespace {
 
 using geometry::Vector3;
 
-// The angular velocity (world axes) that rotates `from` into `to` in `seconds`.
+// Returns the angular velocity (world axes) that rotates `from` into `to` in `seconds`.
 Vector3 RateBetween(const geometry::Quaternion& from, const geometry::Quaternion& to,
                     double seconds) {
   geometry::Quaternion turn = to * Inverse(from);

@@ -1,4 +1,4 @@
-// Actors among robots and dynamic bodies.
+// Tests actors among robots and dynamic bodies.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"

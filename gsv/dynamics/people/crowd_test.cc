@@ -1,4 +1,4 @@
-// Pedestrians in a world: alone, in pairs, among walls and robots, in a crowd.
+// Tests pedestrians in a world: alone, in pairs, among walls and robots, in a crowd.
 #include "gsv/dynamics/people/crowd.h"
 
 #include <gtest/gtest.h>

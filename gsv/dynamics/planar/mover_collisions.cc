@@ -5,17 +5,18 @@
 namespace gsv::dynamics {
 namespace {
 
-// The distance (m) that a mover with a small reach may move before candidates are searched for
-// again. With a larger value, each step has more candidates to check.
+// Distance (m) that a mover with a small reach may move before the search for candidates is
+// repeated. With a larger value, each step has more candidates to check.
 constexpr double kRoom = 0.25;
 
-// With this number of pairs, another thread pays off.
+// With this number of pairs, a further thread saves time.
 constexpr std::size_t kPairsAtOnce = 32;
 
 // Pieces whose height ranges overlap by no more than this do not touch.
 constexpr double kSameHeight = 1e-9;
 
-// Far larger than the rounding errors of distances, and far smaller than distances that matter.
+// This is far larger than the rounding errors of distances, and far smaller than distances that
+// matter.
 constexpr double kPairRounding = 1e-6;
 
 // The range of heights that two pieces share; empty (low above high) if they share none.
@@ -161,7 +162,7 @@ std::optional<Impact> MoverCollisions::PairImpact(const Motions& motions,
   std::optional<Impact> impact;
   if (both > 0) impact = FirstImpact(pair, a, b, both);
   if (impact || end <= both) return impact;
-  // One of the two has reached its end and stays there; the other continues.
+  // One of the two has reached its end and stays there. The other one continues.
   a.start = Advance(a.start, a.twist, both);
   b.start = Advance(b.start, b.twist, both);
   (first_time <= both ? a : b).twist = geometry::Twist{};

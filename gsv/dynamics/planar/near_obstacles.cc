@@ -7,7 +7,8 @@
 namespace gsv::dynamics {
 namespace {
 
-// Far larger than the rounding errors of distances, and far smaller than distances that matter.
+// This is far larger than the rounding errors of distances, and far smaller than distances that
+// matter.
 constexpr double kRounding = 1e-6;
 
 }  // namespace

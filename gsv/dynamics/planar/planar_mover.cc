@@ -15,7 +15,7 @@ namespace {
 // Movers are processed in chunks with their own lists, so that results do not depend on the number
 // of threads.
 constexpr std::size_t kChunk = 128;
-// With this number of chunks, another thread pays off.
+// With this number of chunks, a further thread saves time.
 constexpr std::size_t kChunksAtOnce = 4;
 
 // A step has up to three legs: the commanded arc; after a contact, a slide along the obstacle; then

@@ -94,7 +94,7 @@ TEST(PlanarMover, DoesNotTunnelThroughAThinWall) {
   }
 }
 
-TEST(PlanarMover, ReportsTheBeginOfAContactOnce) {
+TEST(PlanarMover, ReportsTheStartOfAContactOnce) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {0.1, 4, 1}, 0.3, 0);  // The wall is 5 cm ahead.

@@ -181,7 +181,7 @@ Vector3 ContactFinder::PointOnFirst(const Contact& contact) const {
   return TransposeTimes(tree.rotation(first.part), contact.on_first() - tree.position(first.part));
 }
 
-// Whether the drive of one of the two moves it over the body that carries it.
+// Whether the drive of one body moves it over the other body, which carries it.
 bool ContactFinder::GlidesOn(const Collider& first, const Collider& second,
                              const Vector3& normal) const {
   const auto is_held = [&](const Collider& collider) {
@@ -204,7 +204,7 @@ std::optional<SlippingContact> ContactFinder::SlippingOf(const Collider& collide
                          rate * wheel->PerRateAcross(ground.wheel_slip)};
 }
 
-// The slip is that of the whole force between two solids, which all their points share.
+// The slip belongs to the whole force between two solids, which all their contact points share.
 void ContactFinder::SetSoftness(double substep) {
   slipping_.clear();
   const auto slips = [](const Contact& contact) {

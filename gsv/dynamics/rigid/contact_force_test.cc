@@ -1,4 +1,4 @@
-// The forces of contacts, against the laws of equilibrium and impact.
+// Tests the forces of contacts against the laws of equilibrium and impact.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
@@ -64,7 +64,7 @@ TEST(ContactForce, SlidingBoxPullsTheGroundAlong) {
   ASSERT_TRUE(world.Start());
   world.body("box").linear_velocity = {1.6, 1.2, 0};
   world.Run(0.1, 0.001);
-  // The box trembles on its front edge by micrometres, so that the force of one step varies.
+  // The box vibrates on its front edge by micrometres, so the force differs from step to step.
   Vector3 mean;
   for (int i = 0; i < 20; ++i) {
     const Vector3 force = ForceOf(world.Step(0.01), 0.01);
@@ -85,7 +85,7 @@ TEST(ContactForce, ImpactTransmitsTheMomentumOfTheStep) {
   EXPECT_WITHIN_PERCENT(-force.z, 2 * 3 / 0.05 + 2 * kG, 0.1);
 }
 
-// To the solver, the links of a robot are another kind of body than a single solid.
+// The solver treats the links of a robot differently from a single solid.
 TEST(ContactForce, WheelsCarryTheWeightOfTheirRobot) {
   auto model = SolidOf(geometry::Box{{0.4, 0.2, 0.1}}, 3);
   for (const double x : {-0.2, 0.2}) {

@@ -21,7 +21,7 @@ Vector3 DirectionOf(const PlacedPiece& piece) {
   return piece.rotation * direction;
 }
 
-// The contact has less friction across `direction` than along it, or more.
+// Whether the friction across `direction` differs from that along it.
 void TakeDirections(const Vector3& direction, double along, double across, Contact& contact) {
   constexpr double kShortest = 1e-6;
   const double most = std::max(along, across);

@@ -136,7 +136,8 @@ int ContactSweeps::LevelOf(int contact) const {
   return std::max(levels_[AsIndex(of.first)], levels_[AsIndex(of.second)]);
 }
 
-// Level by level. Within a level, the next few contacts may go before one that has to wait for a body.
+// Processes the contacts level by level. Within a level, some of the next contacts may precede a
+// contact that waits for a body.
 void ContactSweeps::MakeBatches() {
   constexpr std::size_t kOpen = 12;
   batches_.clear();
@@ -207,7 +208,7 @@ __attribute__((always_inline)) inline double ContactSweeps::Solve(Batch& batch, 
   const FourDoubles normal = wanted > zero ? wanted : zero;
   change[0] = normal - impulse[0];
   const FourDoubles radius = batch.friction * normal;
-  // Friction that stops the slip, or if it is too large, a step against the slip.
+  // Computes the friction that stops the slip or, if that is too large, a step against the slip.
   const FourDoubles slip_a =
       missing[1] - batch.coupling[0] * change[0] - batch.softness[0] * impulse[1];
   const FourDoubles slip_b =

@@ -1,4 +1,4 @@
-// Heaps of contacts against closed forms.
+// Tests heaps of contacts against closed forms.
 #include "gsv/dynamics/rigid/contact_sweeps.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ ContactSweeps::Body Cube(double mass, const Vector3& velocity) {
 }
 
 TEST(ContactSweeps, TowerRestsWhicheverBodyComesFirst) {
-  // Ten cubes of 1 kg, one on the other, each of which falls at 1 m/s: the ground takes 10 N s.
+  // Ten stacked cubes of 1 kg fall at 1 m/s, so the impulse of the ground is 10 N s.
   for (const bool upwards : {true, false}) {
     ContactSweeps sweeps;
     for (int i = 0; i < 10; ++i) sweeps.AddBody(Cube(1, {0, 0, -1}));
@@ -41,7 +41,8 @@ TEST(ContactSweeps, StartFromTheSolutionTakesOneSweep) {
 }
 
 TEST(ContactSweeps, FrictionIsOppositeToTheSlipAndBounded) {
-  // A point mass: no arm. It slides at 5 m/s and is slowed by friction times the impulse, 0.5 m/s.
+  // The body is a point mass, so the contact has no lever arm. It slides at 5 m/s. Friction slows
+  // it by the coefficient times the impulse, 0.5 m/s.
   ContactSweeps sweeps;
   sweeps.AddBody(Cube(1, {3, 4, -1}));
   sweeps.AddContact({0, {}}, {}, kUpright, {0, 0, 0}, 0.5, {0, 0}, {0, 0, 0});

@@ -23,14 +23,14 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
   if (contact.restitution > 0 && std::abs(meeting) >= kBounces) {
     wanted = std::max(0.0, -contact.restitution * meeting);
   }
-  // A gap may close by the end of the step. An overlap is removed over several steps; of bodies
-  // without joints by velocities of its own (RigidStep).
+  // A gap may close by the end of the step. An overlap is removed over several steps. For bodies
+  // without joints, separate velocities remove it (RigidStep).
   const double gap = contact.point.distance + kSlop;
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
-  // The share of the slip that friction takes in this substep. A contact that closes during the
-  // substep keeps a part of its closing speed: as much as takes the bodies together by the end. The
-  // next substep takes that part. Friction may not be faster than that: one point that sticks
-  // before it touches would throw a body that lands on two edges at once to one side.
+  // The fraction of the slip that friction removes in this substep. A contact that closes during
+  // the substep keeps a part of its closing speed, so that the bodies meet at the end of the
+  // substep. The next substep removes the rest. Friction must not be faster than that: if one point
+  // stuck before it touched, a body that lands on two edges at once would be thrown to one side.
   const double kept = gap / substep, taken = wanted - free[0];
   const double share = kept > kImpact && taken > 0 ? taken / (taken + kept) : 1;
   return {wanted, (1 - share) * free[1], (1 - share) * free[2]};

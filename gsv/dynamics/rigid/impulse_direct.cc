@@ -42,7 +42,8 @@ void ImpulseRows::CoupleAll() {
   }
 }
 
-// Rows strictly within their bounds or at a bound that they might leave, and cones that stick.
+// Lists the rows that are strictly within their bounds or at a bound that they might leave, and the
+// cones that stick.
 void ImpulseRows::ChooseFree() {
   constexpr double kSticks = 1 - 1e-9, kMightLeave = 1e-6;  // m/s
   free_.clear();
@@ -94,7 +95,7 @@ std::array<double, 2> ImpulseRows::MissingOf(const Cone& cone) const {
   return {a.target - VelocityOf(a) - give_a, b.target - VelocityOf(b) - give_b};
 }
 
-// Returns the velocity by which a cone's rows yield to their impulses.
+// Returns the velocity that the softness of a cone's rows permits for their impulses.
 std::array<double, 2> ImpulseRows::GiveOf(const Cone& cone) const {
   const Row &a = rows_[static_cast<std::size_t>(cone.first_row)],
             &b = rows_[static_cast<std::size_t>(cone.first_row) + 1];
@@ -220,8 +221,8 @@ bool ImpulseRows::SolveFree(bool shares_loads) {
   return true;
 }
 
-// Rows that may have any impulse, contacts that close, and friction of those that do not move along
-// their surface. Returns whether there are few enough of them, and no impulses yet.
+// Lists the rows that may have any impulse, the contacts that close, and the friction of contacts
+// that do not slip. Returns whether there are few enough of them and none has an impulse yet.
 bool ImpulseRows::ChooseLikely() {
   constexpr double kSlips = 1e-3;  // m/s
   constexpr std::size_t kMaxGuess = 60;
@@ -255,13 +256,14 @@ bool ImpulseRows::ChooseLikely() {
   return !free_.empty() && free_.size() <= kMaxGuess;
 }
 
-// The friction of a contact that slips is in proportion to its normal impulse: against the slip.
+// The friction of a contact that slips opposes the slip and is proportional to the normal impulse.
 // Returns whether the guess is within all bounds.
 bool ImpulseRows::Guess() {
   if (!ChooseLikely()) return false;
   Remember();
   CoupleAll();
-  // WriteEquations() takes the direction of friction from the impulses for a unit normal impulse.
+  // WriteEquations() takes the direction of friction from the impulses that belong to a unit normal
+  // impulse.
   for (std::size_t i = 0; i < cones_.size(); ++i) {
     if (!slips_[i]) continue;
     const Cone& cone = cones_[i];

@@ -10,10 +10,10 @@
 namespace gsv::dynamics {
 namespace {
 
-// The impulses of least energy within a circle. For (a0, a1), both above 0, and pulls (b0, b1), it
-// is the x with a x = b. If that is outside of the circle, it is the x on the circle with (a +
-// shift) x = b. Newton's method on 1 / |x(shift)| is monotonic from below (Moré and Sorensen 1983).
-// It begins at `shift`.
+// Returns the impulses with the least energy within a circle. For (a0, a1), both above 0, and the
+// right side (b0, b1), they are the x with a x = b. If this x is outside of the circle, they are
+// the x on the circle with (a + shift) x = b. Newton's method on 1 / |x(shift)| approaches the
+// solution monotonically from below (Moré and Sorensen 1983). It begins at `shift`.
 [[gnu::always_inline]] inline std::array<double, 2> WithinCircle(double a0, double a1, double b0,
                                                                  double b1, double radius,
                                                                  double& shift) {
@@ -111,7 +111,7 @@ void ImpulseRows::Weigh(Row& row) const {
   row.mass_inverse = moved > kNothing ? moved + row.softness : 0;
 }
 
-// A joint's row changes one velocity of its tree, and none of the other side's tree.
+// A joint's row changes one velocity of its tree, and no velocity of the other side's tree.
 void ImpulseRows::Trim() {
   for (Row& row : rows_) {
     for (Block& side : row.sides) {
@@ -151,7 +151,7 @@ int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const A
                          const std::array<double, 2>& softness) {
   Combine(first_row, axes);
   const Row &a = At(first_row), &b = At(first_row + 1);
-  // The bodies and the softness together do not couple them.
+  // Neither the bodies nor the softness couple the rows.
   const Axes principal =
       PrincipalAxesOf(Coupling(a, a) + softness[0], Coupling(b, b) + softness[1], Coupling(a, b));
   Combine(first_row, principal);
@@ -267,7 +267,8 @@ void ImpulseRows::GoBack() {
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].impulse = impulses_before_[i];
 }
 
-// The change of energy by all rows in the last iteration: it measures the distance from the solution.
+// The change of energy by all rows in the last iteration: it measures the distance from the
+// solution.
 double ImpulseRows::ChangeOfEnergy() const {
   double energy = 0;
   for (const Row& row : rows_) energy += row.mass_inverse * row.change * row.change;
@@ -275,9 +276,9 @@ double ImpulseRows::ChangeOfEnergy() const {
 }
 
 int ImpulseRows::Solve(int max_iterations, double tolerance) {
-  // Iterations between two direct solutions, which cost little for few rows. One that leads away
-  // from the solution, since other rows come to their bounds, is taken back, and the next one tried
-  // later. The first shares loads.
+  // Number of iterations between two direct solutions, which are cheap for few rows. Other rows may
+  // reach their bounds, so that a direct solution leads away from the result. It is then undone,
+  // and the next one is tried later. The first direct solution distributes loads.
   constexpr std::size_t kFew = 60;
   const int sweeps = rows_.size() <= kFew ? 1 : 6;
   Trim();

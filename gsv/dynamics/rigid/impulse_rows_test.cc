@@ -108,9 +108,9 @@ TEST(ImpulseRows, FrictionHoldsUpToItsLimit) {
   EXPECT_NEAR(y, 0, 1e-12);
 }
 
-// A sliding body on two feet, whose centre of mass is above them: friction presses the foot in front
-// to the ground and lifts the other one. Its degrees of freedom are x, y, z and the pitch.
-TEST(ImpulseRows, ASlidingBodyOnTwoFeetIsGuessedFromItsSlip) {
+// A sliding body on two feet, whose centre of mass is above them: friction presses the foot in
+// front to the ground and lifts the other one. Its degrees of freedom are x, y, z and the pitch.
+TEST(ImpulseRows, SolvesASlidingBodyOnTwoFeetFromItsSlip) {
   constexpr double kMass = 3, kInertia = 0.2, kHeight = 0.1, kHalf = 0.25, kFriction = 0.5;
   ImpulseRows rows;
   const std::array<double, 4> moved{2, 0, -1, 0};
@@ -128,7 +128,8 @@ TEST(ImpulseRows, ASlidingBodyOnTwoFeetIsGuessedFromItsSlip) {
     cones[i] = rows.AddCone(normals[i], along, kFriction, {{{1, 0}, {0, 1}}});
   }
   EXPECT_LE(rows.Solve(80, 1e-8), 2);
-  // The moments about the centre of mass: half * (front - rear) = height * friction * (front + rear).
+  // The moments about the centre of mass: half * (front - rear) = height * friction * (front +
+  // rear).
   const double shift = kFriction * kHeight / kHalf;
   EXPECT_NEAR(rows.impulse(normals[0]), kMass / 2 * (1 + shift), 1e-7);
   EXPECT_NEAR(rows.impulse(normals[1]), kMass / 2 * (1 - shift), 1e-7);

@@ -14,8 +14,8 @@ std::size_t Of(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-// Rows that may have any impulse, contacts that close, and friction of those that do not move along
-// their surface.
+// Lists the rows that may have any impulse, the contacts that close, and the friction of contacts
+// that do not slip.
 void IslandSolver::Guess() {
   constexpr double kSlips = 1e-3;  // m/s
   for (Row& row : rows_) {
@@ -59,8 +59,8 @@ void IslandSolver::AddRow(const Row& row) {
   for (int i = 0; i < row.count; ++i) unknown_[Of(columns[i])] += values[i] * known;
 }
 
-// The velocity across the direction of a contact that slips, by which its softness gives way to a
-// unit impulse along the normal.
+// The velocity, across the direction of a contact that slips, that its softness permits for a unit
+// impulse along the normal.
 double IslandSolver::CouplingOf(const ContactRows& rows) {
   const auto [x, y] = rows.direction;
   return rows.friction * x * y * (rows.softness[1] - rows.softness[0]);
@@ -186,7 +186,7 @@ double IslandSolver::ChooseMode(ContactRows& rows) const {
     rows.direction = {x / length, y / length};
     const double turning = std::min(scale / (1 - scale) * rows.stiffness,
                                     1 / std::max(rows.compliance[0], rows.compliance[1]));
-    // The impulse across the direction also yields by the softness.
+    // The softness also permits a velocity for the impulse across the direction.
     const auto [a, b] = rows.direction;
     rows.turning = turning / (1 + turning * (rows.softness[0] * b * b + rows.softness[1] * a * a));
   }

@@ -10,8 +10,8 @@ namespace {
 
 using geometry::Vector3;
 
-// How far a contact yields under its robot's weight: about a micrometre. So wheels and casters on
-// one floor share the load, even if their heights differ slightly.
+// The distance by which a contact gives way under its robot's weight: about a micrometre. So wheels
+// and casters on one floor share the load, even if their heights differ slightly.
 constexpr double kGive = 0.02;
 // The compliance of an impulse in one iteration of Newton's method, relative to the inverse mass.
 constexpr double kCompliance = 1e-6;

@@ -90,7 +90,7 @@ LinkTree::Link LinkTree::LinkOf(int index) const {
   link.inertia = part.inertia;
   link.heaviness = part.heaviness;
   if (parts.size() == 1) {
-    // A body without inertia hardly rotates.
+    // A body without inertia rotates very little.
     constexpr double kHardly = 1e3;  // m²
     for (double* moment : {&link.inertia.x, &link.inertia.y, &link.inertia.z}) {
       if (!(*moment > 0)) *moment = kHardly * part.mass;
@@ -234,8 +234,8 @@ void LinkTree::WriteMass() {
   Factorise();
 }
 
-// The momentum of what hangs from the part, as `velocity` moves it, along the velocities of all
-// that carries it.
+// Returns the momentum of all parts that hang from this part, due to `velocity`, along the
+// velocities of all parts that carry it.
 void LinkTree::WriteMassesOf(int part, int velocity) {
   const Inertia& inertia = inertias_[Index(part)];
   const auto& [turning, moving] = motions_[Index(velocity)];
@@ -247,10 +247,10 @@ void LinkTree::WriteMassesOf(int part, int velocity) {
   }
 }
 
-// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. Two velocities that
-// move all parts alike (parallel axes of a universal joint) and masses that differ by more digits
-// than a double has leave nothing but rounding errors in D. A least pivot then acts as the inertia
-// of a motor would: the velocities stay finite, and all others keep their accuracy.
+// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. D contains only
+// rounding errors if two velocities move all parts alike, as with parallel axes of a universal
+// joint. The same happens if masses differ by more digits than a double has. A minimum pivot then
+// acts like the inertia of a motor: the velocities stay finite, and all others keep their accuracy.
 void LinkTree::Factorise() {
   factors_ = masses_;
   const auto at = [&](int row, int column) -> double& {

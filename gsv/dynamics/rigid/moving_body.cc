@@ -134,7 +134,7 @@ void MovingBody::Drive(double seconds) {
   servo_->kinematics().TurnJoints({}, motion, seconds, wanted_positions_, wanted_rates_);
 }
 
-// Returns the present command of a joint: that of the drive if the joint belongs to it, else the
+// Returns the current command of a joint: that of the drive if the joint belongs to it, else the
 // joint's own.
 world::JointCommand MovingBody::CommandOf(int joint) const {
   const auto index = static_cast<std::size_t>(joint);
@@ -254,8 +254,8 @@ void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
   }
 }
 
-// Like gears: the joint moves at its leader's rate times the multiplier, and towards its correct
-// position. The reaction acts on the leader.
+// Works like gears: the joint moves at its leader's rate times the multiplier, and towards its
+// correct position. The reaction acts on the leader.
 void MovingBody::Follow(const Motor& motor, const model::Mimic& mimic, double seconds) {
   const auto leader = std::find_if(motors_.begin(), motors_.end(),
                                    [&](const Motor& other) { return other.joint == mimic.leader; });

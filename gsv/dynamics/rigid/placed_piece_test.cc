@@ -49,7 +49,7 @@ TEST(PlacedPiece, BoxStandsOnItsFourCorners) {
   }
 }
 
-TEST(PlacedPiece, OrderOfAPairOnlyTurnsTheNormal) {
+TEST(PlacedPiece, SwappingAPairReversesTheNormal) {
   std::vector<TouchPoint> points;
   const auto placed = Place(PieceOf(PieceKind::kSphere, {0.5, 0.5, 0}), {0, 0, 0.4}, {});
   ASSERT_TRUE(AddTouchPoints(Place(kGroundPlane, {}, {}), placed, kTouchMargin, points));

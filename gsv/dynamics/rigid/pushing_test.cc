@@ -57,8 +57,8 @@ TEST(Pushing, AHeavyBoxStopsARobot) {
 }
 
 TEST(Pushing, ABoxAgainstAWallStopsARobot) {
-  // Two boxes are found to touch once they overlap: at most by the way of one substep. The robot
-  // then closes up behind the box and holds it there.
+  // The contact of two boxes is detected once they overlap, by at most the distance of one substep.
+  // The robot then stays in contact behind the box.
   constexpr double kSpeed = 0.5, kSubstep = 1e-3;  // m/s, s
   for (const double wall : {0.85, 0.8501, 0.8503, 0.852, 0.8575}) {
     TestWorld world = WorldOnGround();

@@ -176,8 +176,8 @@ TEST(RigidFidelity, ABallRollsDownAnInclineAtFiveSeventhsOfTheSlope) {
   EXPECT_WITHIN_PERCENT((Inverse(incline) * world.position("ball")).x, expected, 0.5);
 }
 
-// The plane of Inclined() as triangles: strips across the slope, of which each square is cut along
-// another diagonal than the one before.
+// The plane of Inclined() as triangles: strips of squares across the slope. The diagonals of
+// consecutive squares alternate.
 std::shared_ptr<model::Model> InclineOfTriangles() {
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   constexpr std::uint32_t kColumns = 40;
@@ -217,7 +217,7 @@ TEST(RigidFidelity, BallsAndWheelsRollDownTrianglesAsDownAPlane) {
 }
 
 TEST(RigidFidelity, ACollisionKeepsMomentum) {
-  const double speed = 2, e = 0.7 * 0.7;  // the product of both surfaces'
+  const double speed = 2, e = 0.7 * 0.7;  // the product of the restitutions of both surfaces
   const model::Surface bouncy = SurfaceOf(0, 0.7);
   base::testing::Table table("momentum");
   for (const double mass : {0.25, 0.5, 1.0, 2.0, 3.0, 4.0}) {

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vector3;
 
-// If the sine of the angle between two triangles is below this, they count as one plane.
+// Two triangles count as one plane if the sine of the angle between them is below this.
 constexpr double kOnePlane = 1e-4;
 // Tolerance of the cosine by which a direction may lie outside of the region of an edge or vertex.
 constexpr double kBeyond = 1e-4;
@@ -164,8 +164,8 @@ bool TriangleSurface::MayTouchVertex(int vertex, const Vector3& normal) const {
 
 namespace {
 
-// Collects the points at which a piece touches a mesh. They are in the frame of the mesh until
-// Finish().
+// Collects the points at which a piece touches a mesh. Until Finish(), the points are in the frame
+// of the mesh.
 class PointList {
  public:
   PointList(double margin, double near, std::vector<TouchPoint>& points)
@@ -287,12 +287,13 @@ class TriangleSurface::CylinderContacts {
     }
   }
 
-  // Contacts of neighbours that are in one plane but for this angle are this close.
+  // If two neighbouring triangles are in one plane up to a small angle, their contacts are this
+  // close to each other.
   static double SameDistance(double radius) { return 2 * kOnePlane * radius; }
 
  private:
-  // From the axis to the triangle, seen along the axis. Below 0: how far the triangle must move so
-  // that the axis is outside.
+  // Returns the distance from the axis to the triangle, seen along the axis. If it is negative, the
+  // triangle must move by that distance for the axis to be outside.
   double RadialDistance() const {
     const double area = Cross2(corners_[1] - corners_[0], corners_[2] - corners_[0]);
     const double sign = area < 0 ? -1 : 1;
@@ -404,9 +405,9 @@ class TriangleSurface::CylinderContacts {
     if (MayTouch(triangle, edge, normal)) Add(at, normal, from_axis - radius_);
   }
 
-  // The rim at height `end` touches the edge at right angles to both, near the point `at` of the edge.
+  // The rim at height `end` touches the edge, near the point `at`, at right angles to both.
   void AddRim(const Triangle& triangle, std::size_t edge, const Vector3& at, double end) {
-    // Of the normal's part that leads away from the rim.
+    // Uses the part of the normal that points away from the rim.
     constexpr double kAway = 0.1;
     const double from_axis = std::sqrt(at.x * at.x + at.y * at.y);
     if (!(from_axis > 0)) return;

@@ -157,7 +157,7 @@ TEST(TriangleSurface, WheelOnARidgeTouchesItAcrossItsWidth) {
   }
 }
 
-// Of a point outside of it, or a little inside.
+// Returns the distance of the piece from a point that is outside, or slightly inside.
 double DistanceFrom(const PlacedPiece& piece, const Vector3& point) {
   const Vector3 at = TransposeTimes(piece.rotation, point - piece.position);
   if (piece.piece->kind == Piece::Kind::kSphere) return Norm(at) - piece.piece->half.x;
@@ -211,7 +211,7 @@ void ExpectNearestPoints(const Piece& piece, double largest_lean, double bound) 
                              MatrixOf(geometry::FromAxisAngle({1, 0, 0}, lean(random))) *
                              kAxleAlongY;
     Vector3 at{place(random), place(random), 0.5};
-    // Lowers it until it is at a hundredth of a millimetre from the triangles.
+    // Lowers the piece until it is a hundredth of a millimetre from the triangles.
     double distance = LeastDistance(Place(piece, at, rotation), mesh);
     for (int k = 0; k < 60 && distance > 1e-5; ++k) {
       at.z -= distance - 0.9e-5;
@@ -256,7 +256,7 @@ TEST(TriangleSurface, BallRollsOverInnerEdgesAndIsNotCaught) {
   const TriangleMesh level = Grid([](double, double) { return 0.0; });
   for (const TriangleMesh& mesh : {level, WithBacks(level)}) {
     for (double x = -0.3; x < 0.3; x += 0.003) {
-      // It penetrates the ground, so that the triangles ahead of it are nearer than its radius.
+      // The ball penetrates the ground, so the triangles ahead of it are nearer than its radius.
       const auto points = Touch(kBall, {x, 0.4 * x, 0.0995}, {}, mesh);
       ASSERT_EQ(points.size(), 1u);
       EXPECT_NEAR(points[0].normal.z, 1, 1e-12);

@@ -94,7 +94,8 @@ double TurnOf(const model::Slip& slip) {
   return world.body("rover").angular_velocity.z;
 }
 
-// Each wheel drives along by (1 - w) B / 2 and slides aside by w L / 2; the torques of both balance.
+// Each wheel drives along by (1 - w) B / 2 and slides aside by w L / 2; the torques of both
+// balance.
 TEST(WheelSlip, SkidSteeredRobotTurnsMoreSlowlyThanItsWheels) {
   for (const auto& [along, across] : {std::pair{2.0, 2.0}, {2.0, 6.0}, {3.0, 1.5}}) {
     const double b2 = kTrack * kTrack, l2 = kWheelbase * kWheelbase;
@@ -103,7 +104,7 @@ TEST(WheelSlip, SkidSteeredRobotTurnsMoreSlowlyThanItsWheels) {
   }
 }
 
-// <slip1> of a surface: its velocity does not depend on how many points share the force.
+// With <slip1> of a surface, the velocity does not depend on how many points share the force.
 TEST(WheelSlip, BoxOnASlipperySurfaceCreepsInProportionToItsWeight) {
   const double angle = 0.2, slip = 0.02;
   const geometry::Quaternion turn = geometry::FromAxisAngle({0, 1, 0}, angle);

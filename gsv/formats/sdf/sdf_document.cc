@@ -92,9 +92,9 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
   }
 }
 
-// The schema without elements of many descriptions that the text does not have. For each element that
-// libsdformat reads, it copies the list of descriptions below it. None of these elements is required, and
-// libsdformat makes none of them from others, except from URDF.
+// The schema without elements of many descriptions that the text does not have. For each element
+// that libsdformat reads, it copies the list of descriptions below it. None of these elements is
+// required, and libsdformat makes none of them from others, except from URDF.
 sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex()) {
   // schemas by the set of omitted elements
   static std::map<std::set<std::string>, sdf::ElementPtr> schemas;

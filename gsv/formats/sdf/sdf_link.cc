@@ -194,7 +194,7 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
     link.inertial = {};
     return;
   }
-  // If there is also a <mass>, it scales the inertia, as in SDFormat 1.12.
+  // If there is also a <mass>, the inertia is scaled to this mass, as in SDFormat 1.12.
   const double scale =
       element->HasElement("mass") && link.inertial.mass > 0 ? link.inertial.mass / made->mass : 1;
   link.inertial = *made;

@@ -37,7 +37,7 @@ void ReadNumber(const XMLElement& parent, const char* name, double& value) {
   }
 }
 
-// Names what is no part of a group, such as a count that is an element.
+// Names elements that do not belong to a group, such as a count that is an element.
 void ReportUnknownParts(const XMLElement& element, const ReadingContext& context) {
   static constexpr std::string_view kAttributes[] = {"name", "count"};
   static constexpr std::string_view kElements[] = {"gsv:goal",   "gsv:z",     "gsv:speed_deviation",

@@ -40,8 +40,8 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   } else {
     context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is used", place);
   }
-  // A factor that is not positive means "as fast as possible". The caller of this function decides
-  // that.
+  // A factor that is not positive means "as fast as possible". The caller of this function handles
+  // this case.
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
 }
 

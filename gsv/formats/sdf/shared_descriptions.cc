@@ -24,8 +24,8 @@ sdf::ParamPtr CloneFor(const sdf::ElementPtr& owner, const sdf::Param& original)
 
 }  // namespace
 
-// As in libsdformat 12, except that the descriptions are not cloned. libsdformat changes none: it fills clones,
-// and Element::Reset(), which clears descriptions, is never called.
+// As in libsdformat 12, except that the descriptions are not cloned. libsdformat changes none: it
+// fills clones, and Element::Reset(), which clears descriptions, is never called.
 sdf::ElementPtr sdf::Element::Clone() const {
   const ElementPrivate& from = *dataPtr;
   const ElementPtr clone = std::make_shared<Element>();
@@ -55,8 +55,8 @@ sdf::ElementPtr sdf::Element::Clone() const {
   return clone;
 }
 
-// libsdformat calls this for each file of the schema, each <include> in these files, and each nested
-// model. It would parse the file and all files that it includes.
+// libsdformat calls this for each file of the schema, each <include> in these files, and each
+// nested model. It would parse the file and all files that it includes.
 bool sdf::initFile(const std::string& file, ElementPtr element) {
   const ElementPtr description = gsv::formats::DescriptionInFile(file);
   if (description == nullptr) return false;

@@ -244,7 +244,7 @@ class ElementAudit {
 
   void VisitKnown(const XMLElement& element, const ElementSupport& support) {
     if (support.support == Support::kNoEffect) return;
-    // An element with a name is a thing, even if it gives no values.
+    // An element with a name is an object of its own, even if it contains no values.
     const bool is_thing = support.support == Support::kNone && element.Attribute("name") != nullptr;
     if (support.support != Support::kFull && (is_thing || !SaysNothing(element, support))) {
       Report(

@@ -82,8 +82,8 @@ constexpr std::string_view kParameters[] = {
     "angular_velocity",
 };
 
-// GSV's own elements of worlds and models, and the parameters of its sensors (docs/sensors.md, docs/actuators.md,
-// docs/people.md).
+// GSV's own elements of worlds and models, and the parameters of its sensors (docs/sensors.md,
+// docs/actuators.md, docs/people.md).
 constexpr std::string_view kOurs[] = {
     "ambient",
     "anchor",
@@ -209,7 +209,8 @@ constexpr std::string_view kOurs[] = {
     "z",
 };
 
-// The types of docs/sensors.md and docs/actuators.md that SDFormat does not define, with their further names.
+// The types of docs/sensors.md and docs/actuators.md that SDFormat does not define, with their
+// further names.
 constexpr std::string_view kOurSensorTypes[] = {
     "positioning",
     "odometry",

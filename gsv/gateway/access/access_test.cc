@@ -1,4 +1,4 @@
-// Permissions over HTTP and WebSocket: tokens, and control.
+// Tests permissions over HTTP and WebSocket: tokens, and control.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

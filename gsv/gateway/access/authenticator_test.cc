@@ -81,7 +81,7 @@ TEST_F(AuthenticatorTest, RequestsWaitForItsAnswerAndOthersDoNot) {
   EXPECT_EQ(reply->body, "PUT /api/simulations abc");
 }
 
-TEST_F(AuthenticatorTest, ARefusalIsItsSentence) {
+TEST_F(AuthenticatorTest, RefusalReturnsItsSentence) {
   const auto registry = std::make_shared<Desk>();
   StartWith(registry);
   for (const bool showed_credentials : {true, false}) {

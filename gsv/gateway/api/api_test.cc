@@ -268,7 +268,7 @@ TEST_F(ApiTest, AJointIsCommanded) {
   }
 }
 
-TEST_F(ApiTest, UnknownAddressesAndMethods) {
+TEST_F(ApiTest, UnknownAddressesAndMethodsAreRefused) {
   for (const char* target :
        {"/api", "/api/robots", "/api/simulations/other", "/api/simulations/first%20light/fly",
         "/api/simulations/first%20light/robots/avatar/fly",

@@ -94,7 +94,7 @@ TEST(ScenarioJson, AnErrorIsRefusedWithItsField) {
   }
 }
 
-TEST(ScenarioJson, AnUnknownFieldIsRefusedWithAListOfTheKnown) {
+TEST(ScenarioJson, AnUnknownFieldIsRefusedWithAListOfKnownFields) {
   const auto request = ParseSimulationRequest(R"({"world": "w", "wolrd": 1})");
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().error.message,

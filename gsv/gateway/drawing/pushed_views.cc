@@ -19,12 +19,12 @@ constexpr std::chrono::milliseconds kPushTimeout{5000};
 constexpr std::chrono::milliseconds kFast{100};
 
 struct Detail {
-  double scale = 1;   // factor of both sides of the image
+  double scale = 1;   // the factor for both sides of the image
   int quality = 100;  // at most
 };
 constexpr std::array<Detail, 5> kDetails{{{1, 100}, {1, 55}, {0.75, 45}, {0.5, 40}, {0.35, 30}}};
-// The time that an image may take a slow connection, in seconds. A finer image follows one that
-// takes less than a quarter of it.
+// The time in seconds that the transfer of an image over a slow connection may take. If the
+// transfer takes less than a quarter of it, the next image has a higher resolution.
 constexpr double kImageTime = 0.4;
 constexpr std::chrono::seconds kFirstCoarse{5}, kLongestCoarse{300}, kBetweenSteps{1};
 
@@ -102,7 +102,7 @@ void PushedViews::Take(const std::shared_ptr<Client>& client,
 
 void PushedViews::Take(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) {
   const WatchedPtr watched = Find({client.get(), request.id});
-  if (watched == nullptr) return;  // it ended while the report was under way
+  if (watched == nullptr) return;  // the view ended while the report was in transit
   {
     const base::MutexLock lock(mutex_);
     if (watched->unshown == 0) return;
@@ -174,7 +174,7 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   if (seat == nullptr) {
     auto taken = drawer_.Take(view);
     if (!taken && detail > 0) {
-      // There is no place for another camera: the image keeps the size that other viewers have.
+      // No further camera can be drawn, so the image keeps the size that other viewers have.
       {
         const base::MutexLock lock(mutex_);
         watched->detail = 0;
@@ -186,7 +186,7 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
     if (!taken) return base::Fail(taken.error());
     seat = *std::move(taken);
     const base::MutexLock lock(mutex_);
-    // Another camera came meanwhile: this image is still drawn, and the next one is of that camera.
+    // Another camera came meanwhile. This image is still drawn, and the next one shows that camera.
     if (watched->sequence == sequence && !watched->client.expired()) watched->seat = seat;
   }
   drawer_.SetSource(world->name, world->identity, world->make);
@@ -249,7 +249,7 @@ void PushedViews::ChooseDetail(Watched& watched, double slow_rate, std::size_t b
   }
   if (detail == watched.detail) return;
   watched.detail = detail;
-  watched.seat = nullptr;  // the next image is of another size
+  watched.seat = nullptr;  // the next image has another size
   watched.last = 0;
 }
 

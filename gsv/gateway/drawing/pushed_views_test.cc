@@ -1,4 +1,5 @@
-// Images that are sent to the clients of a hub as the world and their cameras change.
+// Tests images that a server sends to the clients of a hub while the world and their cameras
+// change.
 #include "gsv/gateway/drawing/pushed_views.h"
 
 #include <algorithm>

@@ -190,7 +190,7 @@ TEST_F(LiveStreamTest, ASlowReadingIsTakenLessOften) {
   const WallTime asked = now_;
   RoundUntil(1, 1);
   simulation_->Advance(milliseconds(10));
-  // A reading is due by the sensor's rate, but readings may use only a tenth of the time.
+  // A reading is due by the sensor's rate, but readings may use only a tenth of the processor time.
   now_ = asked;
   Round(9 * kLong);
   simulation_->Advance(milliseconds(10));

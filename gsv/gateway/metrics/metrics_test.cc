@@ -1,4 +1,4 @@
-// GET /metrics and /healthz.
+// Tests GET /metrics and /healthz.
 #include <map>
 #include <memory>
 #include <regex>

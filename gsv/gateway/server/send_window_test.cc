@@ -90,7 +90,7 @@ class Link {
   bool is_slow_ = false;
 };
 
-TEST(SendWindow, HoldsNothingBackOnAFastConnection) {
+TEST(SendWindow, SendsAllMessagesOnAFastConnection) {
   Link link(10e6, milliseconds(1), 10'000);  // 1 MB/s is offered
   link.Run(milliseconds(1000));
   link.TakeReceived();
@@ -100,7 +100,7 @@ TEST(SendWindow, HoldsNothingBackOnAFastConnection) {
   EXPECT_FALSE(link.window().slow_rate());
 }
 
-TEST(SendWindow, GrowsUntilALongWayIsFilled) {
+TEST(SendWindow, GrowsUntilItFillsAConnectionWithALongDelay) {
   Link link(10e6, milliseconds(280), 10'000);
   link.Run(milliseconds(10'000));
   link.TakeReceived();
@@ -164,7 +164,7 @@ TEST(SendWindow, ControlMessagesDoNotCloseIt) {
   EXPECT_TRUE(window.is_open());
 }
 
-TEST(SendWindow, AConnectionIsSlowIfEachPongTakesLongerThanTheTimeAfterWhichItCountsAsFast) {
+TEST(SendWindow, ConnectionIsSlowIfAllPongsAreLate) {
   SendWindow window;
   Time now{std::chrono::seconds(100)};
   for (int i = 0; i < 3; ++i) {

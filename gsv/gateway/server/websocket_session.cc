@@ -25,7 +25,8 @@ using HttpRequest = beast::http::request<beast::http::string_body>;
 constexpr std::size_t kReadSize = 16u << 10;
 // Time limit for a client to receive pending messages before the connection is closed.
 constexpr std::chrono::seconds kFarewell{2};
-// Time between two looks at a slow connection, which may be fast again without messages.
+// Time between two checks of a slow connection, which may become fast again without further
+// messages.
 constexpr std::chrono::seconds kSlowLook{1};
 constexpr std::string_view kSlowSentence =
     "The connection is slow: the server leaves out older updates, so that the newest ones arrive "
@@ -218,14 +219,15 @@ class WebSocketSession final : public Client,
     });
   }
 
-  // Called after everything that may close the window without a ping under way: else it stays closed.
+  // Call this after everything that may close the window while no ping is in transit. Otherwise the
+  // window stays closed.
   void PingIfWanted(SendWindow::Time started) {
     if (window_.WantsPing(SendWindow::Clock::now())) Ping(started);
   }
 
   void Ping(SendWindow::Time started) {
-    // During a write, the ping would stand behind bytes that it does not count; the write's end asks
-    // again.
+    // During a write, the ping would wait behind bytes that it does not count. The end of the write
+    // asks again.
     if (is_pinging_ || is_writing_ || !is_open_ || close_reason_) return;
     is_pinging_ = true;
     const std::string number = std::to_string(window_.Ping(SendWindow::Clock::now(), started));

@@ -104,8 +104,8 @@ TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
 TEST_F(ServerTest, StalledReaderLosesTheOldestDataAndDelaysNoOther) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
-  options.limits.idle_time = std::chrono::minutes(10);  // the client reads nothing, so it does not
-                                                        // answer pings
+  // the client reads nothing, so it does not answer pings
+  options.limits.idle_time = std::chrono::minutes(10);
   Start(options);
   Viewer stalled(port()), healthy(port());
   stalled.Subscribe(1, "/numbers");

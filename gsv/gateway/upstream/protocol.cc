@@ -56,7 +56,7 @@ base::Result<ServerText> ParseUnadvertise(const Json& json) {
 }
 
 base::Result<ServerText> ParseStatus(const Json& json) {
-  // It is about the connection of the relay, and is taken back later.
+  // The message is about the connection of the relay, and is withdrawn later.
   if (TextOf(json, "id") == foxglove::kSlowConnectionId) return Other{};
   const auto level = json.find("level");
   const bool has_level = level != json.end() && level->is_number_unsigned();

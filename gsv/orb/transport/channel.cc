@@ -13,8 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A wait below this limit is short. To sleep and to be woken takes 10 to 20 µs; a call of a behaviour
-// is answered in less.
+// A wait below this limit is short. Falling asleep and waking up take 10 to 20 µs. A call of a
+// behaviour is answered in less time.
 constexpr std::chrono::microseconds kShortWait{50};
 
 // Returns the time that is left, rounded up; 0 after the deadline; -1 if there is no deadline.
@@ -65,7 +65,7 @@ int PlainChannel::PollForBytes(void* buffer, std::size_t size, Clock::time_point
     const ssize_t received = TryReceive(buffer, size);
     if (received > 0) return static_cast<int>(received);
     if (!IsInterrupted()) return -1;
-    sched_yield();  // to the peer, if it shares the processor
+    sched_yield();  // yields to the peer, if it shares the processor
   } while (Clock::now() < until);
   return 0;
 }

@@ -123,7 +123,7 @@ TEST_F(LogReaderTest, TakesTheMountOfTheScannerFromACarmenLog) {
   EXPECT_EQ(log.scans[0].base->y, 2);
 }
 
-TEST_F(LogReaderTest, NamesTheLineOfWhatIsNoNumber) {
+TEST_F(LogReaderTest, NamesTheLineOfAnInvalidNumber) {
   std::string text = kOdometry;
   for (int i = 2; i < 20; ++i) text += "ODOM 0 0 0 0 0 0 0 host " + std::to_string(i) + "\n";
   text += "ODOM nan 0 0 0 0 0 0 host 20\n";

@@ -35,7 +35,7 @@ bool IsTaken(const Simulation& simulation, const std::string& name) {
   return simulation.snapshot()->layout->Find(name) >= 0;
 }
 
-// Returns `wanted`, with a number appended if that name is taken. Returns an empty text if no
+// Returns `wanted`, with a number appended if that name is in use. Returns an empty text if no
 // number is free.
 std::string FreeName(const Simulation& simulation, const std::string& wanted) {
   if (!IsTaken(simulation, wanted)) return wanted;

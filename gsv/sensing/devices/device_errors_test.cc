@@ -203,8 +203,8 @@ TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
       changes.push_back(RateAt(*imu, 50 + seconds, run) - RateAt(*imu, 50, run));
     }
     const double expected = walk * std::sqrt(seconds);
-    // The walk is a drift of a correlation time of an hour, which takes 0.3 % off the variance
-    // after 20 s.
+    // The walk is a drift with a correlation time of an hour. This reduces the variance after 20 s
+    // by 0.3 %.
     EXPECT_WITHIN(Spread(changes).deviation, expected,
                   (0.01 + 3 / std::sqrt(2.0 * kRuns)) * expected, "rad/s")
         << seconds;

@@ -43,7 +43,8 @@ std::vector<Part> MakeParts(const model::Model& model) {
 }  // namespace
 
 LayoutSolids::LayoutSolids(std::shared_ptr<const world::Layout> of) : layout(std::move(of)) {
-  std::map<const model::Model*, int> known;  // used only for lookups, never iterated
+  // The number of parts that a thread positions at a time.
+  std::map<const model::Model*, int> known;
   std::vector<BodyPart> endless;
   std::vector<std::pair<int, int>> bodies;  // moving bodies and the numbers of their models
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {

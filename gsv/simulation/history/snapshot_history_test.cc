@@ -20,7 +20,7 @@ TEST(SnapshotHistory, ASensorWithoutAPeriodReadsTheLatest) {
   EXPECT_EQ(history.At({})->state.step, 1);
 }
 
-TEST(SnapshotHistory, AnInstantIsTakenAtTheFirstStepAtOrAfterIt) {
+TEST(SnapshotHistory, SampleIsTakenAtTheFirstStepAtOrAfterItsInstant) {
   // With steps of 10 ms, the samples of the instants 0, 25, 50, 75 and 100 ms are taken at 0, 30,
   // 50, 80 and 100 ms.
   SnapshotHistory history(At(0, 10ms));

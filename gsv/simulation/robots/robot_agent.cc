@@ -431,7 +431,7 @@ RobotAgent::UsualEnd RobotAgent::ApplyUsualTurn(SimTime now) {
   const auto* const waiting = std::get_if<Turn::Waiting>(&turn_.end_);
   if (waiting == nullptr || waiting->until <= now) return {};
   if (is_removed_ || fate_ != Fate::kAlive || death_reported_ || has_given_up_) return {};
-  // With a second clock, the agent may still run.
+  // If the agent has a second clock, it may still run.
   if (clocks_.count() != 1 || !clocks_.IsOpen(clock) || clocks_.IsWaiting(clock)) return {};
   UsualEnd end{.is_usual = true, .until = waiting->until};
   clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);

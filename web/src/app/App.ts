@@ -150,8 +150,8 @@ export class App {
     this.edits.choose(known.name);
   }
 
-  // Selects an object, or a link, joint or sensor of any body, for the inspector. Its robot, avatar or station is
-  // selected too.
+  // Selects an object, or a link, joint or sensor of any body, for the inspector. Its robot, avatar
+  // or station is selected too.
   inspect(part: WorldPart): void {
     const { scene, editing } = this.store.get();
     const body = scene?.bodies.find(({ name }) => name === part.body);

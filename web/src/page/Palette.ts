@@ -1,4 +1,5 @@
-// The command palette (Ctrl K): finds commands, panels, layouts, robots, objects, sensors and topics by text.
+// The command palette (Ctrl K): finds commands, panels, layouts, robots, objects, sensors and
+// topics by text.
 import type { App } from "../app/App";
 import { element } from "../ui/element";
 import type { Command } from "./commandList";

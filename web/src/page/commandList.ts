@@ -1,4 +1,5 @@
-// Everything that the command palette finds: commands, panels, layouts, robots, objects, sensors and topics.
+// Everything that the command palette finds: commands, panels, layouts, robots, objects, sensors
+// and topics.
 import type { App } from "../app/App";
 import { PANELS } from "../panels/registry";
 import { hasAgent } from "../api/scene";

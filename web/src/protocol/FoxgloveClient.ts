@@ -152,8 +152,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     });
   }
 
-  // The images of a view that the server draws. Call show() of the result when the reader's callback
-  // reports that the stream is open.
+  // The images of a view that the server draws. Call show() of the result when the reader's
+  // callback reports that the stream is open.
   openView(reader: ViewReader): LiveView {
     return this.views.openView(reader);
   }

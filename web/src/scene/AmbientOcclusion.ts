@@ -1,7 +1,7 @@
 // Draws ambient occlusion: darkens corners and the ground below bodies, which less ambient light
 // reaches. The method is "Scalable Ambient Obscurance" (McGuire, Mara, Luebke 2012). The depths of
-// the bodies are drawn once more at half the resolution, and each pixel is compared with some pixels
-// around it. The result is smoothed and multiplied with the image.
+// the bodies are drawn once more at half the resolution, and each pixel is compared with some
+// pixels around it. The result is smoothed and multiplied with the image.
 import type { Matrix4, PerspectiveCamera, Scene, Texture, WebGLRenderer } from "three";
 import {
   CustomBlending,

@@ -1,5 +1,5 @@
-// Draws one frame of the view: moves what has moved, renews the shadows when they are due, and draws
-// the scene, or draws over an image of the server.
+// Draws one frame of the view: moves what has moved, renews the shadows when they are due, and
+// draws the scene, or draws over an image of the server.
 import type { Object3D, PerspectiveCamera, Scene } from "three";
 import type { Shown } from "../state/overlays";
 import type { Arranger } from "./Arranger";

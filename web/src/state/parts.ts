@@ -6,7 +6,8 @@ export function bodyPart(body: string): WorldPart {
   return { body, kind: "body", name: body };
 }
 
-// The part that inspectors and the tree show: the selected part, or else the edited object or the selected robot.
+// The part that inspectors and the tree show: the selected part, or else the edited object or the
+// selected robot.
 export function shownPart({ part, editing, selection }: Pick<State, "part" | "editing" | "selection">): WorldPart | null {
   if (part) return part;
   const body = editing?.chosen ?? selection;

@@ -43,7 +43,7 @@ function keyOf({ time, event, robot, detail }: RecordedEvent): string {
 
 // Returns the marks of notes of the recording, and of the first difference from another
 // recording.
-export function furtherEvents(notes: readonly RecordingNote[], difference: Difference | null): RecordedEvent[] {
+export function noteAndDifferenceEvents(notes: readonly RecordingNote[], difference: Difference | null): RecordedEvent[] {
   const events = notes.map(({ time, text }) => ({ time, event: NOTE, robot: "", detail: text }));
   if (difference?.time == null) return events;
   return [...events, { time: difference.time, event: DIFFERENCE, robot: "", detail: difference.text }];
@@ -99,7 +99,7 @@ type Marked = Pick<State, "replay" | "kept" | "time" | "events" | "notes" | "com
 export function allMarks({ replay, kept, time, events, notes, comparison }: Marked): Mark[] {
   const span = spanOf(replay, kept, time);
   if (!span) return [];
-  const further = furtherEvents(notes, comparison?.difference ?? null);
+  const further = noteAndDifferenceEvents(notes, comparison?.difference ?? null);
   const all = further.length > 0 ? [...events, ...further].sort((a, b) => a.time - b.time) : events;
   return marksOf(all, span);
 }

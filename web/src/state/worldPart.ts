@@ -1,4 +1,5 @@
-// A part of the world that the user has selected: an object, or a link, joint or sensor of any body.
+// A part of the world that the user has selected: an object, or a link, joint or sensor of any
+// body.
 export interface WorldPart {
   body: string;
   kind: "body" | "link" | "joint" | "sensor";

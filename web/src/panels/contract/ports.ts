@@ -80,7 +80,8 @@ export interface ControlPort {
 
 // The shapes of models. Promises reject with a sentence.
 export interface ShapesPort {
-  // The visuals of the model with this identifier. The identifier of its collision shapes gives those.
+  // The visuals of the model with this identifier. The identifier of its collision shapes gives
+  // those.
   visuals(model: string, links: readonly string[]): Promise<readonly VisualFacts[]>;
 }
 
