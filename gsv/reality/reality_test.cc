@@ -214,7 +214,7 @@ TEST_F(RealLog, OdometryDriftEqualsThatOfARobotThatWasNotFitted) {
   ASSERT_TRUE(comparison) << comparison.error().Sentence();
   Plot(*comparison);
   for (const Row& row : comparison->rows) {
-    const bool is_target = row.what.starts_with("true over") || row.what.starts_with("scatter");
+    const bool is_target = row.what.starts_with("true ") || row.what.starts_with("scatter");
     if (!is_target) continue;
     const bool is_met = std::abs(row.simulated / row.real - 1) <= 0.1;
     AddResult(row.what + " (within 10 %)", row.unit, row.real, row.simulated, row.confidence,
