@@ -116,7 +116,8 @@ class SimulationProxy final : public RemoteSimulation {
     orb::LimitCalls(waiting_, kWaitTimeout);
   }
   ~SimulationProxy() override {
-    (void)Ask([this] { simulation_->destroy(); });  // this may fail, because the server may be gone
+    (void)Ask(
+        [this] { simulation_->destroy(); });  // this may fail, because the server may have ended
   }
 
   base::Result<std::string> AddRobot(const RobotRequest& request) override {
@@ -249,7 +250,7 @@ class SimulationProxy final : public RemoteSimulation {
       return Lose("no program accepts connections at this address any more");
     return answer;
   }
-  // Whether the server refuses connections. A broken connection is no proof that it is gone, and
+  // Whether the server refuses connections. A broken connection is no proof that it has ended, and
   // there may be several.
   bool IsServerGone() {
     for (int i = 0; i < kConnectionsTried; ++i) {

@@ -25,7 +25,7 @@ class ExportedBehaviour final : public OfferedBehaviour {
   ~ExportedBehaviour() override {
     if (!offer_.empty()) {
       if (auto ok = client_.Withdraw(offer_); !ok) {
-        // The broker may have ended before, and then the offer is gone as well.
+        // The broker may have ended before, and then the offer does not exist either.
         spdlog::debug("{}", ok.error().Sentence());
       }
     }

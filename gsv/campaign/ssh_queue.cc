@@ -93,9 +93,9 @@ class SshQueue final : public JobQueue {
  private:
   struct Host {
     SshOptions::Host settings;
-    std::size_t running = 0, connecting = 0;  // number of tasks, and how many of them have not
-                                              // begun
-    int failures = 0;                         // consecutive failures
+    std::size_t running = 0,
+                connecting = 0;  // numbers of tasks: all, and those that have not begun
+    int failures = 0;            // consecutive failures
     SshClock::time_point rests_until{};
     std::string reason;
   };

@@ -173,10 +173,10 @@ TEST_F(Reality, ASonarDetectsAPanelOverTheAnglesOfAnHcSr04) {
   AddResult("fitted: the same at the other 9 distances (at most 3)", "°", 0, fitted.mean,
             1.96 * fitted.deviation / 3, fitted.mean <= 3);
   const double rule = test.FurthestHeard(0.025, 2), sheet = test.FurthestHeard(0.033, 0.038);
-  AddResult("judged: furthest a rule of 25 mm is heard (within 20 %)", "m", kRule, rule, 0.02,
-            std::abs(rule / kRule - 1) < 0.2);
-  AddResult("fitted: furthest a sheet of 33 by 38 mm is heard (within 20 %)", "m", kSheet, sheet,
-            0.02, std::abs(sheet / kSheet - 1) < 0.2);
+  AddResult("judged: maximum distance at which a rule of 25 mm is detected (within 20 %)", "m",
+            kRule, rule, 0.02, std::abs(rule / kRule - 1) < 0.2);
+  AddResult("fitted: maximum distance at which a sheet of 33 by 38 mm is detected (within 20 %)",
+            "m", kSheet, sheet, 0.02, std::abs(sheet / kSheet - 1) < 0.2);
   EXPECT_LE(judged.mean, 5);
   Comparison comparison;
   comparison.series.push_back({"half angle", "°", {}, {}});

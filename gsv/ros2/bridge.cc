@@ -37,7 +37,7 @@ using messages::tf2_msgs::TFMessage;
 using simulation::Simulation;
 
 constexpr base::SimTime kTransformPeriod = std::chrono::milliseconds(20);
-// The period, in wall time, of diagnostics and of checks for other publishers.
+// The period, in wall-clock time, of diagnostics and of checks for other publishers.
 constexpr std::chrono::milliseconds kRefreshPeriod{1000};
 // The period of checks for changes of robots and sensors that no event reports.
 constexpr std::chrono::milliseconds kFollowPeriod{3000};

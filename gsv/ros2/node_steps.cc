@@ -7,7 +7,7 @@
 namespace gsv::ros2 {
 namespace {
 
-// Wall time.
+// Wall-clock time.
 constexpr std::chrono::milliseconds kRepeatPeriod{100};
 constexpr std::chrono::milliseconds kStepLease{1000};
 

@@ -91,8 +91,8 @@ void RemoteBehaviour::Destroy() {
   const bool is_of_no_use = has_not_stopped_ && stop_timeout_->is_shortened();
   if (!is_of_no_use) {
     orb::LimitCalls(behaviour_, stop_timeout_->limit());
-    (void)Call("destroy", [this] { behaviour_->destroy(); });  // may fail, because the behaviour
-                                                               // may be gone
+    // may fail, because the behaviour may have ended
+    (void)Call("destroy", [this] { behaviour_->destroy(); });
   }
   ReplaceHardware(nullptr);
 }

@@ -48,7 +48,7 @@ const std::map<std::string, Curve>& Curves() {
       {"log10", [](double x) { return std::log10(x); }},
       {"log2", [](double x) { return std::log2(x); }},
       {"fabs", [](double x) { return std::abs(x); }},
-      // Uses the same operations as CPython, so that the results are equal to the last bit.
+      // Uses the same operations as CPython, so that the results are bit-identical.
       {"radians", [](double x) { return x * (std::numbers::pi / 180); }},
       {"degrees", [](double x) { return x * (180 / std::numbers::pi); }},
   };
