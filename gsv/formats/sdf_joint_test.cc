@@ -107,7 +107,7 @@ TEST_F(SdfJointTest, AScrewHasItsPitchInMetresPerRadian) {
       ReadJoint("screw", "<thread_pitch>0</thread_pitch><axis><xyz>0 0 1</xyz></axis>");
   EXPECT_EQ(none->joints.at(0).kind, JointKind::kFixed);
   ASSERT_THAT(problems_, SizeIs(1));
-  EXPECT_THAT(problems_[0].message, HasSubstr("must have a pitch"));
+  EXPECT_THAT(problems_[0].message, HasSubstr("the pitch of a screw joint must not be 0"));
 }
 
 // SDFormat defines: seen from the reference body, the child rotates by -ratio times the angle of

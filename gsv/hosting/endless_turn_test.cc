@@ -98,8 +98,8 @@ INSTANTIATE_TEST_SUITE_P(Modes, EndlessTurn, ::testing::Values(Mode::kLockstep, 
 TEST_P(EndlessTurn, FailsTheSimulationAndNamesTheBehaviour) {
   GetStuck();
   EXPECT_EQ(simulation_->status().failure,
-            "robot_20 (endless) has not returned from its turn within 300 ms; a "
-            "behaviour in process cannot be interrupted, so run it as a separate program, without "
+            "robot_20 (endless) has not returned from its turn within 300 ms; an "
+            "in-process behaviour cannot be interrupted, so run it as a separate program, without "
             "--in-process");
   EXPECT_EQ(StatusOf(*simulation_, "robot_20").phase, simulation::AgentPhase::kUnresponsive);
   EXPECT_NE(StatusOf(*simulation_, "robot_19").phase, simulation::AgentPhase::kUnresponsive);

@@ -225,7 +225,7 @@ TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
       Parsed("robots: [{model: pebble, behaviour_constraint: \"name == 'wander'\"}]");
   EXPECT_EQ(scenario.robots.at(0).behaviour_constraint, "name == 'wander'");
   EXPECT_THAT(ProblemsIn("robots: [{model: m, behaviour: a, behaviour_constraint: b}]"),
-              ElementsAre("room.yaml:1:57: a behaviour is chosen by name or by constraint, not "
+              ElementsAre("room.yaml:1:57: choose a behaviour by name or by constraint, not by "
                           "both"));
 }
 
@@ -263,7 +263,7 @@ TEST(ScenarioFile, ATextThatIsNotUtf8IsRefused) {
 // written scenario could not be read back.
 TEST(ScenarioFile, EscapesThatYamlCppReadsWronglyAreRefused) {
   for (const char* text : {R"(world: "a\_b")", R"(world: "a\Nb")"}) {
-    EXPECT_THAT(ProblemsIn(text), ElementsAre(HasSubstr("are not read rightly")));
+    EXPECT_THAT(ProblemsIn(text), ElementsAre(HasSubstr("are misread in quoted texts")));
   }
   EXPECT_EQ(Parsed(R"(world: "a\u00a0b")").world,
             "a\xc2\xa0"

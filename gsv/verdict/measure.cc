@@ -34,7 +34,7 @@ std::string Describe(const scenario::Quantity& quantity) {
       return "the distance of " + first + " from (" + Number(quantity.x) + ", " +
              Number(quantity.y) + ")";
     case QuantityKind::kYawOff:
-      return "the angle of " + first + " off " + Number(quantity.yaw) + " rad";
+      return "the yaw of " + first + " relative to " + Number(quantity.yaw) + " rad";
     case QuantityKind::kSpeed:
       return "the speed of " + first;
     case QuantityKind::kTurning:

@@ -91,7 +91,7 @@ test("while a simulation is published, another one is refused", { skip: !hasRos2
   });
   const refused = await answer.json();
   assert.equal(refused.field, "ros2");
-  assert.match(refused.error, /is published, and ROS 2 has one clock in a domain\. Remove it first/);
+  assert.match(refused.error, /is published, and a ROS 2 domain has only one clock\. Remove it first/);
   const { published, reach } = await (await fetch(new URL("api/ros2", server.url))).json();
   assert.notEqual(published, "");
   assert.match(reach, /^domain 1\d\d, this machine only$/);

@@ -490,7 +490,7 @@ TEST(CommandLine, InProcessBehaviourThatNeverReturnsFailsTheRun) {
   EXPECT_EQ(outcome.ending, "exit code 4");
   EXPECT_THAT(outcome.err, HasSubstr("the run failed: pebble (endless) has not returned from "
                                      "its turn within 100 ms"));
-  EXPECT_THAT(outcome.err, HasSubstr("the simulation is left to itself"));
+  EXPECT_THAT(outcome.err, HasSubstr("gsv abandons the simulation"));
   EXPECT_EQ(outcome.LastLine()["phase"], "failed");
   EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 0.2);
   // The recording is closed, and not just truncated.

@@ -176,7 +176,7 @@ TEST_F(CorbaTls, ClientWithoutACertificateIsRejected) {
   const Outcome cut = RunProgram("gsv", {"offers", "--broker", plain + "/TradingService"});
   EXPECT_EQ(cut.ending, "exit code 5");
   EXPECT_THAT(cut.err, HasSubstr("If the broker requires TLS"));
-  EXPECT_THAT(AwaitErrors(broker.program(), "refused"), HasSubstr("it does not speak TLS"));
+  EXPECT_THAT(AwaitErrors(broker.program(), "refused"), HasSubstr("it violates the TLS protocol"));
 }
 
 TEST_F(CorbaTls, PlainClientOfATlsServiceGetsAnExplanation) {

@@ -91,7 +91,7 @@ TEST(Servers, CampaignSurvivesAKilledAndADisconnectedServer) {
   second.Mend();
   EXPECT_THAT(outcome.err, HasSubstr("killed (elsewhere:"));
   EXPECT_THAT(outcome.err, HasSubstr("cut (elsewhere:"));
-  EXPECT_THAT(outcome.err, HasSubstr("other servers do its runs"));
+  EXPECT_THAT(outcome.err, HasSubstr("other servers execute its runs"));
   EXPECT_EQ(outcome.LastLine()["done"], 14) << outcome.err;
   EXPECT_EQ(outcome.LastLine()["errors"], 0) << outcome.err;
 

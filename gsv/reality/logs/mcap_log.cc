@@ -93,7 +93,7 @@ class McapLog {
                                    ? first + " is"
                                    : fmt::format("{} and {} other topic{} are", first,
                                                  topics.size() - 1, topics.size() == 2 ? "" : "s");
-      Keep(fmt::format("{} not read: the {} are read from {} only", what, kind, topics_.at(kind)));
+      Keep(fmt::format("{} not read: {} is used for the {}", what, topics_.at(kind), kind));
     }
   }
 
