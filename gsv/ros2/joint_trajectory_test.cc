@@ -91,8 +91,8 @@ TEST(JointTrajectory, RefusesBadMessagesWithASentence) {
   EXPECT_THAT(WhyNot({"elbow"}, {PointAt(1, {1, 2})}), HasSubstr("needs 1 positions"));
   EXPECT_THAT(WhyNot({"elbow"}, {PointAt(1, {1}, {1, 2})}), HasSubstr("1 velocities or none"));
   EXPECT_THAT(WhyNot({"elbow"}, {PointAt(1, {nan})}), HasSubstr("must be finite"));
-  EXPECT_THAT(WhyNot({"elbow"}, {PointAt(-1, {1})}), HasSubstr("must grow"));
-  EXPECT_THAT(WhyNot({"elbow"}, {PointAt(1, {1}), PointAt(1, {2})}), HasSubstr("must grow"));
+  EXPECT_THAT(WhyNot({"elbow"}, {PointAt(-1, {1})}), HasSubstr("must increase"));
+  EXPECT_THAT(WhyNot({"elbow"}, {PointAt(1, {1}), PointAt(1, {2})}), HasSubstr("must increase"));
 }
 
 TEST(JointTrajectory, RefusesTruncatedBytes) {

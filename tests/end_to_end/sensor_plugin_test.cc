@@ -105,7 +105,7 @@ TEST_F(SensorPlugin, InvalidLibraryIsRejectedWithASentence) {
   EXPECT_THAT(no_library.err, HasSubstr("cannot be loaded as a sensor plug-in"));
   const Outcome twice = RunWith({"--sensor-plugin", plugin_, "--sensor-plugin", plugin_});
   EXPECT_NE(twice.ending, "exit code 0");
-  EXPECT_THAT(twice.err, HasSubstr("it is taken"));
+  EXPECT_THAT(twice.err, HasSubstr("another type has it"));
 }
 
 // A behaviour that reads the sensor through the plug-in's interface, which is not compiled into

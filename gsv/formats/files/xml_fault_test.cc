@@ -29,7 +29,7 @@ TEST(XmlFault, NamesTheElementThatIsNotClosed) {
   ExpectFault("<sdf>\n  <world>\n  </world>\n", 1, 1, "<sdf> is not closed. Add </sdf>");
   ExpectFault("<sdf>\n  <world>\n</sdf>", 3, 1,
               "expected </world>, found </sdf>. Close <world> of line 2 first");
-  ExpectFault("<sdf></sdf></world>", 1, 12, "</world> closes nothing");
+  ExpectFault("<sdf></sdf></world>", 1, 12, "</world> has no opening tag");
 }
 
 TEST(XmlFault, NamesTagsThatDoNotEnd) {
