@@ -37,6 +37,24 @@ double DistanceOf(const Nearest& nearest) {
   return nearest.body < 0 ? kInfinity : nearest.distance;
 }
 
+// Returns an upper bound of the distance from the place to the points of the packet's rays. It is not
+// finite if a ray or the place is not sound; see IsSound().
+double ReachOf(const RayPacket& packet, const Vector3& place) {
+  double reach = 0, unsound = 0;
+  for (std::size_t i = 0; i < packet.count; ++i) {
+    const double length = packet.max_distance[i];
+    const double away = std::abs(packet.origin_x[i] - place.x) +
+                        std::abs(packet.origin_y[i] - place.y) +
+                        std::abs(packet.origin_z[i] - place.z);
+    reach = std::max(reach, away + length);
+    // A product with zero is NaN for numbers that are not finite.
+    unsound += 0 * (away + length + std::abs(packet.direction_x[i]) +
+                    std::abs(packet.direction_y[i]) + std::abs(packet.direction_z[i]));
+    unsound += length >= 0 ? 0 : kInfinity;
+  }
+  return reach + unsound;
+}
+
 Bounds Around(const Ray& ray) {
   const Vector3& a = ray.origin;
   const Vector3 b = ray.origin + ray.max_distance * ray.direction;
@@ -321,47 +339,41 @@ bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
 void PlacedSolids::Ranges(const RayPacket& packet, const Vector3& place, int ignored_body,
                           std::span<double> ranges) const {
   GSV_CHECK(ranges.size() == packet.count);
-  std::array<Ray, RayPacket::kMax> rays;
-  double reach = 0;
-  bool is_sound = true;
-  for (std::size_t i = 0; i < packet.count; ++i) {
-    rays[i] = packet.At(i);
-    is_sound = is_sound && IsSound(rays[i]);
-    reach = std::max(reach, Norm(rays[i].origin - place) + rays[i].max_distance);
-  }
+  const double reach = ReachOf(packet, place);
   TouchedSpheres moving, standing;
   const auto find_touched = [&] {
     const PacketSearch search(packet, place, reach);
     return grid_.FindTouched(search, moving) && solids_->standing.FindTouched(search, standing);
   };
-  if (!is_sound || !IsFinite(place) || !find_touched()) {
-    for (std::size_t i = 0; i < packet.count; ++i) ranges[i] = Range(rays[i], ignored_body);
+  if (!std::isfinite(reach) || !find_touched()) {
+    for (std::size_t i = 0; i < packet.count; ++i) ranges[i] = Range(packet.At(i), ignored_body);
     return;
   }
   std::array<Nearest, RayPacket::kMax> nearest;
-  for (std::size_t i = 0; i < packet.count; ++i) nearest[i].distance = rays[i].max_distance;
-  CastAtTouched(moving, standing, rays, ignored_body, nearest);
+  for (std::size_t i = 0; i < packet.count; ++i) nearest[i].distance = packet.max_distance[i];
+  CastAtTouched(moving, standing, packet, ignored_body, nearest);
   const bool has_unindexed = parts_.size() > solids_->bounded || solids_->standing.HasOthers();
   for (std::size_t i = 0; i < packet.count; ++i) {
-    if (has_unindexed) CastAtUnindexed(rays[i], ignored_body, nearest[i]);
+    if (has_unindexed) CastAtUnindexed(packet.At(i), ignored_body, nearest[i]);
     ranges[i] = DistanceOf(nearest[i]);
   }
 }
 
 void PlacedSolids::CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
-                                 std::span<const Ray> rays, int ignored_body,
+                                 const RayPacket& packet, int ignored_body,
                                  std::span<Nearest> nearest) const {
   const auto for_rays = [](unsigned mask, const auto& cast) {
     for (; mask != 0; mask &= mask - 1) cast(static_cast<std::size_t>(std::countr_zero(mask)));
   };
   for (const TouchedSpheres::Touched& each : moving.all()) {
     if (BodyOf(each.number) == ignored_body) continue;
-    for_rays(each.rays, [&](std::size_t i) { CastAtPart(each.number, rays[i], nearest[i]); });
+    for_rays(each.rays, [&](std::size_t i) { CastAtPart(each.number, packet.At(i), nearest[i]); });
   }
   for (const TouchedSpheres::Touched& each : standing.all()) {
     for_rays(each.rays, [&](std::size_t i) {
-      if (!solids_->standing.ShapeReaches(each.number, Around(rays[i]))) return;
-      solids_->standing.CastAtShape(each.number, rays[i], ignored_body, nearest[i]);
+      const Ray ray = packet.At(i);
+      if (!solids_->standing.ShapeReaches(each.number, Around(ray))) return;
+      solids_->standing.CastAtShape(each.number, ray, ignored_body, nearest[i]);
     });
   }
 }

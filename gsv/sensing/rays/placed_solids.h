@@ -57,7 +57,7 @@ class PlacedSolids final : public RayScene {
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
   // Casts the rays of a packet at the solids whose spheres they touch.
   void CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
-                     std::span<const Ray> rays, int ignored_body, std::span<Nearest> nearest) const;
+                     const RayPacket& packet, int ignored_body, std::span<Nearest> nearest) const;
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;

@@ -237,10 +237,11 @@ bool SphereGrid::FindTouched(const PacketSearch& search, TouchedSpheres& found) 
   const unsigned* mask = masks.data();
   for (const Run& run : in_reach) {
     for (std::uint32_t at = run.first; at < run.first + run.count; ++at) {
-      const unsigned touching = *mask++ & search.used_;
-      if (touching == 0) continue;
       if (found.count == TouchedSpheres::kMax) return false;
-      found.touched[found.count++] = {numbers_[at], touching};
+      // Which spheres are touched is hard to predict, so they are written without a branch.
+      const unsigned touching = *mask++ & search.used_;
+      found.touched[found.count] = {numbers_[at], touching};
+      found.count += touching != 0;
     }
   }
   return true;
