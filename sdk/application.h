@@ -50,7 +50,7 @@ struct RobotState {
 };
 
 struct SimulationState {
-  // "created", "running", "paused", …, or "lost" if the server is gone. Time and robots of a lost
+  // "created", "running", "paused", …, or "lost" if the server has ended. Time and robots of a lost
   // simulation are the last known ones.
   std::string phase;
   SimTime time{0};
@@ -63,8 +63,8 @@ struct SimulationState {
 
 // A simulation on a server. The destructor destroys the simulation.
 //
-// If the server is gone, the simulation is lost permanently, and every call except State() fails
-// with kUnavailable. A server is gone if its port refuses connections, or if it does not answer for
+// If the server has ended, the simulation is lost permanently, and every call except State() fails
+// with kUnavailable. A server has ended if its port refuses connections, or if it does not answer for
 // half a minute during RunUntil().
 class RemoteSimulation {
  public:

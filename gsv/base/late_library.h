@@ -1,4 +1,5 @@
-// Calls functions of shared libraries that are loaded at the first call; see tools/make_late_library.
+// Calls functions of shared libraries that are loaded at the first call; see
+// tools/make_late_library.
 //
 // Threads  any.
 #pragma once

@@ -10,7 +10,8 @@
 #define GSV_THREAD_ATTRIBUTE(x)
 #endif
 
-// GSV_CAPABILITY marks a class of mutexes. The next macro marks a class that locks a mutex for its lifetime.
+// GSV_CAPABILITY marks a class of mutexes. The next macro marks a class that locks a mutex for its
+// lifetime.
 #define GSV_CAPABILITY(name) GSV_THREAD_ATTRIBUTE(capability(name))
 #define GSV_SCOPED_CAPABILITY GSV_THREAD_ATTRIBUTE(scoped_lockable)
 

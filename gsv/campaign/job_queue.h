@@ -47,7 +47,8 @@ struct TaskCommand {
   std::string Text() const;
 };
 
-// When a task's journal exists, and before the first run, the task prints this text and the journal's name.
+// When a task's journal exists, and before the first run, the task prints this text and the
+// journal's name.
 inline constexpr std::string_view kTaskBegins = "gsv campaign task: begins ";
 
 }  // namespace gsv::campaign

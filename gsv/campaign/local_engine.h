@@ -26,7 +26,8 @@ struct LocalEngine {
   // Blocks until the results contain all runs, or until the user interrupts it. An interrupt
   // cancels the runs in progress and keeps the results. Fails if the results cannot be written.
   base::Status Run(Results& results) const;
-  // Executes these runs, and calls `keep` once for each. `progress` is the progress of the campaign before these runs.
+  // Executes these runs, and calls `keep` once for each. `progress` is the progress of the campaign
+  // before these runs.
   base::Status Take(std::vector<std::int64_t> runs, Progress progress,
                     const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;
 };

@@ -1,9 +1,10 @@
 // The engine of a whole world: planar kinematics for wheeled bases and people, and an engine of
 // rigid-body dynamics for bodies that fall, tip over or have joints driven by forces.
 //
-// Together    Rigid bodies stop planar ones, and planar ones push rigid bodies at their target speed
-//             with a force of at most their own weight (traction 1). A rigid body that hits a planar
-//             robot bounces off and does not move the robot. A body that lies on a robot moves with it.
+// Together    Rigid bodies stop planar ones, and planar ones push rigid bodies at their target
+//             speed with a force of at most their own weight (traction 1). A rigid body that hits a
+//             planar robot bounces off and does not move the robot. A body that lies on a robot
+//             moves with it.
 // Cost        A world without rigid bodies costs as much as the planar mover alone.
 // Determinism as for Engine.
 #pragma once

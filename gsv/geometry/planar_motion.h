@@ -23,7 +23,8 @@ struct SineCosine {
       return;
     }
     const double q = angle * angle;
-    // The nested form of the series: 1 - q / (2·3) (1 - q / (4·5) (…)) and 1 - q / (1·2) (1 - q / (3·4) (…)).
+    // The nested form of the series: 1 - q / (2·3) (1 - q / (4·5) (…)) and 1 - q / (1·2) (1 - q /
+    // (3·4) (…)).
     double s = 1 - q * (1.0 / 110);
     s = 1 - q * (1.0 / 72) * s;
     s = 1 - q * (1.0 / 42) * s;

@@ -50,7 +50,8 @@ using Shape = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone, Plan
 // maximum deviation is radius * (1 - cos(pi / segments)), or twice that if doubly curved.
 TriangleMesh Tessellate(const Shape& shape, int segments = 32);
 
-// Returns the smallest box around the shape along its frame's axes. The box of a Plane is that of its rectangle.
+// Returns the smallest box around the shape along its frame's axes. The box of a Plane is that of
+// its rectangle.
 Bounds BoundsOf(const Shape& shape);
 
 }  // namespace gsv::geometry

@@ -41,7 +41,8 @@ struct Limit {
 struct RobotHealth {
   std::string robot;
   State state = State::kMoving;
-  // kWarning if the robot is stuck, in contact or late, or if its behaviour has run for 10 s without motion.
+  // kWarning if the robot is stuck, in contact or late, or if its behaviour has run for 10 s
+  // without motion.
   Level level = Level::kFine;
   base::SimTime since{0};  // start of `state`
   world::DriveCommand command;
@@ -71,7 +72,8 @@ void SetLimit(std::optional<Limit> limit, RobotHealth& health);
 
 // Returns a sentence such as "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".
 std::string Sentence(const RobotHealth& health, base::SimTime now);
-// Returns a sentence for the end of a run, such as "stood still from 15.7 s: …"; empty for a robot that moves.
+// Returns a sentence for the end of a run, such as "stood still from 15.7 s: …"; empty for a robot
+// that moves.
 std::string FinalSentence(const RobotHealth& health);
 // Returns a summary such as "3 move, 1 stands, 1 is stuck".
 std::string Summary(const Report& report);

@@ -79,8 +79,8 @@ class LocalRobot final : public Robot {
   simulation::Turn* turn_ = nullptr;
   Suspend suspend_;
   void PlanSweeps();
-  // Reads all beams together, if that is allowed. Returns whether they were read. `readings` must have
-  // the names of the sensors.
+  // Reads all beams together, if that is allowed. Returns whether they were read. `readings` must
+  // have the names of the sensors.
   bool SweepInto(std::vector<Reading>& readings);
   void ReadInto(std::vector<Reading>& readings);
 

@@ -48,7 +48,8 @@ struct Drive {
   std::vector<int> steered;       // kAckermann: steering joints
   double wheel_separation = 0.3;  // distance between the left and right contact points
   double wheel_radius = 0.1;
-  // kDifferential: the true radius of each wheel, as a factor of wheel_radius, which the drive assumes.
+  // kDifferential: the true radius of each wheel, as a factor of wheel_radius, which the drive
+  // assumes.
   double left_wheel_scale = 1, right_wheel_scale = 1;
   double wheel_base = 0;        // kAckermann, kMecanum: distance from front to rear axle
   double steering_limit = 0.5;  // kAckermann

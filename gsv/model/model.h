@@ -89,7 +89,8 @@ enum class JointKind {
   kRevolute,
   kContinuous,
   kPrismatic,
-  // one of three consecutive joints that together form a ball joint, see SplitJoint() in gsv/formats
+  // one of three consecutive joints that together form a ball joint, see SplitJoint() in
+  // gsv/formats
   kBall,
   kScrew,  // rotates, and slides by thread_pitch times the rotation
 };
@@ -99,8 +100,8 @@ inline bool TakesCommands(JointKind kind) {
   return kind != JointKind::kFixed && kind != JointKind::kBall;
 }
 
-// A joint that follows another one, as gears do: its position is multiplier * (leader - reference) +
-// offset. With rigid-body dynamics, the reaction acts on the leader.
+// A joint that follows another one, as gears do: its position is multiplier * (leader - reference)
+// + offset. With rigid-body dynamics, the reaction acts on the leader.
 struct Mimic {
   int leader = 0;  // index in Model::joints
   double multiplier = 1, offset = 0, reference = 0;

@@ -20,8 +20,8 @@ std::string WhyNotConnected(const CORBA::SystemException& exception);
 // Clears the reasons of earlier failures. Call it before a remote call, on the same thread.
 void ForgetConnectionFailure();
 
-// Returns whether the exception proves that the peer is gone: its port refuses connections, or the
-// object no longer exists. A time-out does not prove it.
+// Returns whether the exception proves that the peer has ended: its port refuses connections, or
+// the object no longer exists. A time-out does not prove it.
 bool MeansGone(const CORBA::SystemException& exception);
 
 // Calls `call` and converts its exceptions to an error about `where`.

@@ -22,7 +22,8 @@ struct OrbOptions {
   std::uint64_t max_message_bytes = 64u << 20;  // maximum size of a message, including its header
   std::chrono::seconds message_time{30};        // time limit for receiving a message
   std::chrono::milliseconds call_timeout{10'000};
-  // A function that removes arguments that crash omniORB, see broker::CheckRequest(). Null for no check.
+  // A function that removes arguments that crash omniORB, see broker::CheckRequest(). Null for no
+  // check.
   void (*check_request)(std::string& message) = nullptr;
   // The maximum number of connections to one server. A call in progress occupies its connection, so
   // use at least the number of agents that wait at the same time.

@@ -13,8 +13,9 @@ messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationS
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
 // Returns an event as a log message from the robot, or from "gsv" for the simulation. A line that a
-// behaviour prints becomes the message's text, with the stream in the field `file`: information for stdout,
-// a warning for stderr. Failures of a behaviour or the simulation are errors; failed requests are warnings.
+// behaviour prints becomes the message's text, with the stream in the field `file`: information for
+// stdout, a warning for stderr. Failures of a behaviour or the simulation are errors; failed
+// requests are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 
 // Returns the diagnostics: first those of the simulation, then those of each robot by name. The

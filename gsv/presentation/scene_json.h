@@ -19,7 +19,8 @@ struct SceneSource {
   // Returns the sensors of a robot, avatar or station in the snapshot.
   std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
   IdentifyModel identify;
-  // Returns the identifier of CollisionModel(). If the function is empty, the scene has no collisions.
+  // Returns the identifier of CollisionModel(). If the function is empty, the scene has no
+  // collisions.
   IdentifyModel identify_collisions;
 };
 std::string SceneJson(const SceneSource& source);
@@ -33,7 +34,8 @@ std::string SceneJson(const simulation::Simulation& simulation, const IdentifyMo
 model::Model CollisionModel(const model::Model& model);
 bool HasCollisions(const model::Model& model);
 
-// Returns the bounding box of all visuals except planes. Without visuals, it is a box of 10 m about the origin.
+// Returns the bounding box of all visuals except planes. Without visuals, it is a box of 10 m about
+// the origin.
 geometry::Bounds SceneBounds(const world::Snapshot& snapshot);
 
 }  // namespace gsv::presentation

@@ -1,4 +1,5 @@
-// Makes the messages about robots' sensors: topics of readings, transforms, and the lines that viewers draw.
+// Makes the messages about robots' sensors: topics of readings, transforms, and the lines that
+// viewers draw.
 //
 // Frames  see gsv/sensing/frames.h.
 #pragma once

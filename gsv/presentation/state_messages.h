@@ -51,7 +51,8 @@ messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& de
 messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
                                                      const world::Transmission& transmission);
 
-// Returns the last command of a robot's drive. `state` must be at least one step later than the command.
+// Returns the last command of a robot's drive. `state` must be at least one step later than the
+// command.
 messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world::DriveState& drive,
                                            const world::State& state);
 

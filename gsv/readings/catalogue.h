@@ -66,7 +66,8 @@ struct Lidar {
 
   // The name of the lidar parameter that enables intensities if its value is > 0.
   static constexpr const char* kIntensityParameter = "intensity_scale";
-  // Returns the decoded values of a lidar with intensities, with the intensities in their own member.
+  // Returns the decoded values of a lidar with intensities, with the intensities in their own
+  // member.
   Lidar WithIntensities() const {
     const std::size_t beams = ranges.size() / 2;
     return {ranges.first(beams), ranges.last(beams)};

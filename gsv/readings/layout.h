@@ -43,7 +43,8 @@ struct Layout {
 
   // Returns a text for users, such as "range (m)" or "each: point.x, .y, .z (m), … [other]".
   std::string Text() const;
-  // Returns the size of a reading as a text, such as "6 or 10 values" or "groups of 8 values and 1 label".
+  // Returns the size of a reading as a text, such as "6 or 10 values" or "groups of 8 values and 1
+  // label".
   std::string Sizes() const;
   // Returns units by path in the message. A path applies to all fields below it.
   std::map<std::string, std::string> Units() const;

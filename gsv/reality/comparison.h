@@ -43,7 +43,8 @@ struct CompareOptions {
   bool update_world = false;
   std::string preset;            // the preset of the log's scanner or odometer
   model::Parameters parameters;  // parameters that override the preset
-  // Parameters of single sonars in a ring, one entry per beam, which override `parameters`. May be empty.
+  // Parameters of single sonars in a ring, one entry per beam, which override `parameters`. May be
+  // empty.
   std::vector<model::Parameters> beam_parameters;
   std::optional<TimedPose> start;  // pose of the robot at the first scan, in the world
   double wheel_distance = 0.3;     // m

@@ -27,7 +27,8 @@ struct RadioGroup {
 // Groups errors by anchor, then by metres of distance. Groups of less than 20 ranges are omitted.
 std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);
 
-// Fits the bias and the scatter of a ranging sensor, both linear in the distance, to the even blocks.
+// Fits the bias and the scatter of a ranging sensor, both linear in the distance, to the even
+// blocks.
 FittedDevice FitRanging(const Log& log);
 
 }  // namespace gsv::reality

@@ -23,7 +23,8 @@ struct Mixture {
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
 
 // Returns a sentence if fewer than half of the readings are within `tolerance` of a surface: then
-// the poses or the world are wrong, and the device cannot be judged. Otherwise returns an empty text.
+// the poses or the world are wrong, and the device cannot be judged. Otherwise returns an empty
+// text.
 std::string DoubtAbout(const Mixture& real, double tolerance);
 
 // Returns the fraction of readings with an echo, for each beam of the real or the simulated device.

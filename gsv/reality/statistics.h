@@ -21,11 +21,13 @@ double Quantile(std::vector<double> values, double part);
 // is the standard deviation. A few outliers change the result little.
 double RobustDeviation(std::vector<double> values);
 
-// Returns half the width of the 95 % interval of an estimate, by the jackknife (Efron 1982). Each element
-// of `without` is the estimate without one of several equal parts of the data. Returns 0 for less than two.
+// Returns half the width of the 95 % interval of an estimate, by the jackknife (Efron 1982). Each
+// element of `without` is the estimate without one of several equal parts of the data. Returns 0
+// for less than two.
 double JackknifeInterval(const std::vector<double>& without);
 
-// Returns the largest difference of the two distribution functions, in [0, 1]; 1 if one sample is empty.
+// Returns the largest difference of the two distribution functions, in [0, 1]; 1 if one sample is
+// empty.
 double KolmogorovSmirnov(std::vector<double> first, std::vector<double> second);
 
 // Returns the autocorrelation of values that are `lag` apart, in [-1, 1]; 0 if they do not vary.

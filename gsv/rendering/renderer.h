@@ -73,7 +73,8 @@ class Renderer {
   // Profile) Mesa 22.3.6".
   const std::string& renderer_name() const { return renderer_name_; }
 
-  // Frees copies that nobody uses, and returns the number of the others. Waits for the batch in progress.
+  // Frees copies that nobody uses, and returns the number of the others. Waits for the batch in
+  // progress.
   DrawCopies CountCopies();
 
  private:

@@ -1,7 +1,8 @@
 // Applies the commands that ROS 2 nodes send to a robot's drive and joints.
 //
 // The bytes are untrusted input. A message that cannot be decoded, or contains a number that is not
-// finite, is rejected as a whole: no joint gets a command of it. The first rejected message of each topic is logged.
+// finite, is rejected as a whole: no joint gets a command of it. The first rejected message of each
+// topic is logged.
 //
 // Threads  Take…() on any threads; a command applies from the next step on.
 #pragma once
@@ -19,7 +20,8 @@ namespace gsv::ros2 {
 
 class CommandInput {
  public:
-  // `steps` may be null (then no node steps robots). While a node steps the robot, stamped commands go to `steps`.
+  // `steps` may be null (then no node steps robots). While a node steps the robot, stamped commands
+  // go to `steps`.
   explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent,
                         std::shared_ptr<NodeSteps> steps = nullptr);
 

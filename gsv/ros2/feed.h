@@ -2,8 +2,8 @@
 //
 // Threads  OnSnapshot() and OnEvent() as simulation::Observer; Next() from one thread; other
 //          functions from any thread.
-// Bounded  a few snapshots. If the publisher does not keep up, the oldest are dropped, or in lockstep the
-//          stepping thread waits.
+// Bounded  a few snapshots. If the publisher does not keep up, the oldest are dropped, or in
+//          lockstep the stepping thread waits.
 #pragma once
 
 #include <chrono>
@@ -35,7 +35,8 @@ class Feed final : public simulation::Observer {
     SnapshotPointer snapshot;  // null: none
     std::vector<simulation::Event> events;
   };
-  // Returns the new entries. Waits for one until `timeout` (wall-clock time) or until Wake() is called.
+  // Returns the new entries. Waits for one until `timeout` (wall-clock time) or until Wake() is
+  // called.
   News Next(std::chrono::milliseconds timeout);
   void Wake();
   // Closes the queue, and releases a stepping thread that waits.

@@ -26,7 +26,8 @@ class Frames {
   std::string odom() const { return prefix_ + "odom"; }
   const std::string& base() const { return base_; }
   std::string OfLink(const model::Model& model, int link) const;
-  // Returns the frame of a sensor: its link's frame if the sensor has the same pose, else its own frame.
+  // Returns the frame of a sensor: its link's frame if the sensor has the same pose, else its own
+  // frame.
   std::string OfSensor(const model::Model& model, const model::SensorDescription& sensor) const;
 
   // Appends the transforms base → fixed links and links → sensors (and optical frames, if any).

@@ -12,7 +12,8 @@ namespace gsv::ros2 {
 
 inline constexpr const char* kImageType = "sensor_msgs/msg/Image";
 
-// Encodes an image as rgb8 or rgba8, without its pixels. The caller appends the pixels to complete the message.
+// Encodes an image as rgb8 or rgba8, without its pixels. The caller appends the pixels to complete
+// the message.
 void EncodeImageHead(const model::Image& image, base::SimTime time, const std::string& frame,
                      messages::Bytes& out);
 // Encodes a depth image as 32FC1, in metres: rows from the top, width × height values.

@@ -34,7 +34,8 @@ struct NodeInfo {
 class Node {
  public:
   // `participant` must outlive the node. `on_match` is called when a reader of one of its topics is
-  // added or removed. Endpoints carry the hashes of their types, except in Humble, which has no hashes.
+  // added or removed. Endpoints carry the hashes of their types, except in Humble, which has no
+  // hashes.
   Node(dds::Participant& participant, Distro distro, std::string name_space, std::string name,
        std::function<void()> on_match);
 
@@ -42,7 +43,8 @@ class Node {
   const NodeInfo& info() const { return info_; }
 
   // `topic` is absolute or relative to the node's namespace, `type` as "std_msgs/msg/String". The
-  // writer exists as long as the node. Returns null, and logs the reason, if the participant refuses.
+  // writer exists as long as the node. Returns null, and logs the reason, if the participant
+  // refuses.
   dds::Writer* Advertise(std::string_view topic, std::string_view type, const dds::Qos& qos);
   // Returns null, and logs the reason, if the participant refuses.
   dds::Reader* Subscribe(std::string_view topic, std::string_view type, const dds::Qos& qos,

@@ -30,7 +30,8 @@ class RobotTopics {
     std::function<void()> on_match;
   };
 
-  // `name_space` is a name such as "/pebble", or "/". `takes_commands` is true if no behaviour drives the robot.
+  // `name_space` is a name such as "/pebble", or "/". `takes_commands` is true if no behaviour
+  // drives the robot.
   RobotTopics(const Context& context, const world::Body& body, std::string name_space,
               bool takes_commands);
 

@@ -29,7 +29,8 @@ struct SensorOutput {
   std::string topic;  // relative to the robot's namespace
   std::string type;   // "sensor_msgs/msg/LaserScan"
   dds::Qos qos;
-  // Encodes a reading's message into `out`, which is empty. Returns false if this reading has no such message.
+  // Encodes a reading's message into `out`, which is empty. Returns false if this reading has no
+  // such message.
   std::function<bool(const sensing::Reading& reading, EncodedMessage& out)> encode;
 };
 

@@ -1,4 +1,5 @@
-// Publishes slow sources, such as cameras, on a thread of its own, so that fast sources do not wait.
+// Publishes slow sources, such as cameras, on a thread of its own, so that fast sources do not
+// wait.
 //
 // Threads  Offer(), Drain() and the destructor from one thread.
 // Bounded  one snapshot is in work, and a few wait. If more come, the oldest is skipped.
@@ -19,7 +20,8 @@ class SlowLane {
   SlowLane();
   ~SlowLane();
 
-  // Enqueues sources, which must exist until the next Drain(). If `waits`, first waits until the queue is empty.
+  // Enqueues sources, which must exist until the next Drain(). If `waits`, first waits until the
+  // queue is empty.
   void Offer(std::vector<Source*> sources, const Moment& moment, bool waits);
   // Waits until all enqueued sources are published.
   void Drain();

@@ -9,7 +9,8 @@
 namespace gsv::ros2 {
 
 // Returns one sentence for each topic and cause, sorted. Causes: different types or type hashes, or
-// a subscription with a stricter QoS than the publisher offers. Ignores topics that are no ROS 2 topics.
+// a subscription with a stricter QoS than the publisher offers. Ignores topics that are no ROS 2
+// topics.
 std::vector<std::string> FindTopicProblems(const std::vector<dds::Endpoint>& endpoints);
 
 }  // namespace gsv::ros2

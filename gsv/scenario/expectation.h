@@ -16,7 +16,8 @@
 
 namespace gsv::scenario {
 
-// A number that is measured at one instant of the run. `first` and `second` are members of Quantity.
+// A number that is measured at one instant of the run. `first` and `second` are members of
+// Quantity.
 struct Quantity {
   enum class Kind {
     kX,

@@ -55,13 +55,15 @@ class YamlMapping {
   std::optional<double> Angle(const std::string& key);  // Reads an angle in radians.
   std::optional<std::uint64_t> Count(const std::string& key);
   std::optional<bool> Flag(const std::string& key);
-  // Reads one of two words, and returns whether it is the second one. Adds a problem for other words.
+  // Reads one of two words, and returns whether it is the second one. Adds a problem for other
+  // words.
   std::optional<bool> IsSecondOf(const std::string& key, const std::string& first,
                                  const std::string& second);
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
   std::optional<YAML::Node> Any(const std::string& key);
-  // Calls `read` with each element of a list, and with the element's field for messages, such as "robots[2]".
+  // Calls `read` with each element of a list, and with the element's field for messages, such as
+  // "robots[2]".
   template <typename Read>
   void Each(const std::string& key, std::size_t max, const Read& read) {
     const std::vector<YAML::Node> list = List(key);

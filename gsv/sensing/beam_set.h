@@ -20,7 +20,7 @@ class BeamSet {
   // Adds the sensor's beam, which it must have.
   void Add(const Sensor& sensor);
   std::size_t size() const { return size_; }
-  // Whether both sets have the same beams in the same order, to the bit.
+  // Whether both sets have the same beams in the same order, bit-identical.
   bool IsIdenticalTo(const BeamSet& other) const;
 
   // Sets values[i] to the value of a reading of the sensor that was added as number i.

@@ -51,7 +51,7 @@ class Sampling {
   // none within the ray's length.
   double Range(const Ray& ray) const;
 
-  // Announces `count` rays from near the robot, so that gathering a candidate set may pay off.
+  // Announces `count` rays from near the robot, so that gathering a candidate set may save time.
   void ExpectRays(std::size_t count) const { expected_rays_ += count; }
 
   geometry::Pose WorldFromSensor(const model::SensorDescription& description) const {

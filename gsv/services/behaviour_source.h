@@ -23,7 +23,8 @@ class BehaviourSource {
   virtual std::shared_ptr<StopTimeout> stop_timeout() const { return nullptr; }
 };
 
-// Returns the constraint for a behaviour's name, such as: name == 'wander'. Escapes quotes in the name.
+// Returns the constraint for a behaviour's name, such as: name == 'wander'. Escapes quotes in the
+// name.
 std::string ConstraintForName(const std::string& name);
 
 }  // namespace gsv::services

@@ -1,4 +1,5 @@
-// Creates behaviours from the broker's offers. Chooses the matching program that serves the fewest robots.
+// Creates behaviours from the broker's offers. Chooses the matching program that serves the fewest
+// robots.
 #pragma once
 
 #include <map>

@@ -22,7 +22,8 @@ struct BehaviourIdentity {
 
 class RemoteBehaviour final : public simulation::BehaviourPort {
  public:
-  // The robot's hardware objects are activated on `poa`. If `stop_timeout` is null, the normal limit applies.
+  // The robot's hardware objects are activated on `poa`. If `stop_timeout` is null, the normal
+  // limit applies.
   RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
                   PortableServer::POA_ptr poa,
                   std::shared_ptr<const StopTimeout> stop_timeout = nullptr);

@@ -38,7 +38,8 @@ class SensorServant : public Skeleton {
  protected:
   // Reads the sensor. Throws the exceptions that the IDL declares for sensors.
   sensing::Reading Read() { return orb::ValueOrThrow(agent_->Read(description_.name), kReading); }
-  // Reads the sensor as the struct of its type (gsv/readings/catalogue.h), which may refer to the reading.
+  // Reads the sensor as the struct of its type (gsv/readings/catalogue.h), which may refer to the
+  // reading.
   template <typename Values>
   Values In(const sensing::Reading& reading) const {
     return orb::ValueOrThrow(sensing::ValuesOf<Values>(reading, description_.name), kReading);

@@ -59,7 +59,8 @@ class SimulationServant final : public POA_sba::Simulation {
   void destroy() override;
 
   const std::shared_ptr<simulation::Simulation>& simulation() const { return simulation_; }
-  // Whether there was no call for too long. Always false for a simulation that was created with keep.
+  // Whether there was no call for too long. Always false for a simulation that was created with
+  // keep.
   bool IsAbandoned() const;
 
  private:
@@ -84,7 +85,8 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   sba::Simulation_ptr create_simulation(const sba::SimulationSpecification& specification) override;
   sba::Simulations* list() override;
 
-  // Adds a simulation that was not created through this service. Does nothing if it is already listed.
+  // Adds a simulation that was not created through this service. Does nothing if it is already
+  // listed.
   void Publish(std::shared_ptr<simulation::Simulation> simulation);
   // Releases every simulation and deactivates its references.
   void Close();
@@ -98,7 +100,8 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
  private:
   sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
                                sba::SimulationSpecification specification);
-  // The function of the janitor thread, which destroys abandoned simulations and returns memory to the system.
+  // The function of the janitor thread, which destroys abandoned simulations and returns memory to
+  // the system.
   void RunJanitor();
 
   PortableServer::POA_var poa_;

@@ -25,8 +25,9 @@ namespace gsv::simulation {
 
 using ClockId = int;
 
-// A wait has a time limit, the lease. If the lease ends before the instant, the wait returns kNotYet,
-// and the caller must repeat it with the same arguments. Meanwhile the agent counts as waiting.
+// A wait has a time limit, the lease. If the lease ends before the instant, the wait returns
+// kNotYet, and the caller must repeat it with the same arguments. Meanwhile the agent counts as
+// waiting.
 enum class Wait { kReached, kNotYet };
 
 struct NamedReading {
@@ -94,7 +95,8 @@ class Agent {
   virtual base::Status CommandJoint(int joint, const world::JointCommand& command) = 0;
   virtual base::Result<JointReading> ReadJoint(int joint) = 0;
 
-  // Sensors: the model's own sensors, which a behaviour opens by name, and sensors that the behaviour creates.
+  // Sensors: the model's own sensors, which a behaviour opens by name, and sensors that the
+  // behaviour creates.
   virtual std::vector<model::SensorDescription> Sensors() const = 0;
   virtual std::vector<std::string> SensorTypes() const = 0;
   virtual base::Status OpenSensor(const std::string& name) = 0;

@@ -1,4 +1,5 @@
-// The interface of objects that receive the snapshots and events of a simulation. See Simulation::AddObserver().
+// The interface of objects that receive the snapshots and events of a simulation. See
+// Simulation::AddObserver().
 //
 // Threads  snapshots come from the stepping thread, which holds no lock then, so const members of
 //          the simulation may be called. Events come from any thread with locks held, so no member
@@ -37,7 +38,8 @@ struct StepTimes {
 class Observer {
  public:
   virtual ~Observer() = default;
-  // Whether OnTimes() shall be called. The result must not change. Steps are timed while an observer requests it.
+  // Whether OnTimes() shall be called. The result must not change. Steps are timed while an
+  // observer requests it.
   virtual bool wants_times() const { return false; }
   // Receives the times of a step, after OnSnapshot(), on the stepping thread.
   virtual void OnTimes(const StepTimes&) {}

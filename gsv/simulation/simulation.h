@@ -119,8 +119,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Status Step(std::int64_t count) = 0;
   // Runs until the simulated time `until` and then pauses. No agent is woken at that instant.
   virtual base::Status RunUntil(SimTime until) = 0;
-  // Runs until `until`, which may be the current time. Agents whose waits end at that instant have their
-  // turns. Then the simulation pauses, before the next step. Allowed while it is paused or created.
+  // Runs until `until`, which may be the current time. Agents whose waits end at that instant have
+  // their turns. Then the simulation pauses, before the next step. Allowed while it is paused or
+  // created.
   virtual base::Status RunThrough(SimTime until) = 0;
   virtual base::Status Stop() = 0;
   // Resets bodies, time and behaviours. It blocks until the behaviours have answered.
@@ -160,7 +161,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Returns the events from number `first` on, counted from 0. Only a limited number is kept; the
   // oldest events are dropped.
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
-  // Returns the lines that behaviours' programs printed, in the same way. They have numbers of their own.
+  // Returns the lines that behaviours' programs printed, in the same way. They have numbers of
+  // their own.
   virtual std::vector<Event> outputs(std::uint64_t first) const = 0;
   // Emits an event at the current step. Must not be called from Observer::OnEvent().
   virtual void Emit(std::string_view kind, const std::string& robot, const std::string& detail) = 0;

@@ -24,9 +24,11 @@ namespace gsv::simulation {
 using base::SimTime;
 
 enum class Mode {
-  // Steps follow the wall clock, scaled by the real-time factor. The simulation does not wait for agents.
+  // Steps follow the wall clock, scaled by the real-time factor. The simulation does not wait for
+  // agents.
   kRealTime,
-  // The simulation runs as fast as possible. It takes a step when every agent waits, so runs are reproducible.
+  // The simulation runs as fast as possible. It takes a step when every agent waits, so runs are
+  // reproducible.
   kLockstep,
 };
 
@@ -101,8 +103,8 @@ struct RobotStatus {
   // number of readings that the behaviour received, by sensor type
   std::map<std::string, std::uint64_t> readings;
   Motion motion;
-  // The wall-clock time for which the behaviour has run without waiting. 0 while it waits, and if the
-  // simulation does not manage its time.
+  // The wall-clock time for which the behaviour has run without waiting. 0 while it waits, and if
+  // the simulation does not manage its time.
   std::chrono::nanoseconds running_for{0};
 };
 

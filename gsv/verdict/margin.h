@@ -15,7 +15,8 @@ namespace gsv::verdict {
 
 class Margin {
  public:
-  // `values` are the values of the formula's atoms at `now`, in the order in which Monitor numbers them.
+  // `values` are the values of the formula's atoms at `now`, in the order in which Monitor numbers
+  // them.
   void Note(base::SimTime now, const std::vector<std::optional<double>>& values);
   // Writes the margin, its unit and its instant into `state`.
   void Fill(simulation::ExpectationState& state) const;

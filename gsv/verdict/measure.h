@@ -31,7 +31,8 @@ class Measure {
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
   // Returns the value, or nullopt if the body was removed or the sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
-  // Returns the robot that did not move for the longest time although it was commanded to; empty if there is none.
+  // Returns the robot that did not move for the longest time although it was commanded to; empty if
+  // there is none.
   std::string stuck_longest() const;
 
  private:

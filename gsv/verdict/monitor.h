@@ -28,7 +28,8 @@ class Monitor {
   // Evaluates the state at `now`. The next state comes `step` later. Does nothing once the verdict
   // is known.
   void Step(base::SimTime now, base::SimTime step, const std::function<bool(int atom)>& holds);
-  // Ends the run. Pending "eventually" obligations become violated; pending "always" obligations hold.
+  // Ends the run. Pending "eventually" obligations become violated; pending "always" obligations
+  // hold.
   void End();
 
   // The verdict; nullopt while it is undecided.

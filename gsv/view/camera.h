@@ -43,7 +43,8 @@ base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::str
 base::Result<double> ParseFieldOfView(std::string_view text);
 // Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
 base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side);
-// Fails for an eye without a target unless a robot is followed, and for a sensor together with any of them.
+// Fails for an eye without a target unless a robot is followed, and for a sensor together with any
+// of them.
 base::Status Check(const Camera& camera);
 
 // The view of a camera sensor at an instant.

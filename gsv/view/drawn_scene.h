@@ -1,4 +1,5 @@
-// A scene of a recording that can be rendered. Messages of the recording give the poses of its bodies.
+// A scene of a recording that can be rendered. Messages of the recording give the poses of its
+// bodies.
 //
 // Links   a link that moves relative to its body is a separate body in the snapshots, because
 //         recordings have the poses of links and not the positions of joints.

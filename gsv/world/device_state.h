@@ -92,7 +92,8 @@ class DeviceState {
   // Returns the current command, or null for a device without commands, such as a radio.
   virtual const FollowedCommand* followed() const { return nullptr; }
 
-  // The device's light for cameras, its sound for microphones, and its grasped body (default: none).
+  // The device's light for cameras, its sound for microphones, and its grasped body (default:
+  // none).
   virtual std::optional<Glow> glow() const { return std::nullopt; }
   virtual std::optional<Sound> SoundAt(base::SimTime) const { return std::nullopt; }
   virtual const Grasp* grasp() const { return nullptr; }

@@ -24,8 +24,9 @@ class RayCaster {
  public:
   virtual ~RayCaster() = default;
 
-  // Returns the nearest point at which the ray crosses a collision surface, from either side. Surfaces of
-  // the body `ignored_body` are ignored (-1: none). A ray that starts inside a solid hits its far side.
+  // Returns the nearest point at which the ray crosses a collision surface, from either side.
+  // Surfaces of the body `ignored_body` are ignored (-1: none). A ray that starts inside a solid
+  // hits its far side.
   virtual std::optional<Hit> Cast(const Ray& ray, int ignored_body) const = 0;
 };
 

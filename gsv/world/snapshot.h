@@ -68,7 +68,8 @@ struct Snapshot {
   std::vector<Transmission> transmissions;
 };
 
-// Returns the mean force over the last step, computed from an impulse (N s); zero before the first step.
+// Returns the mean force over the last step, computed from an impulse (N s); zero before the first
+// step.
 geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse);
 
 // Called before and after a step: the first stores the velocities before the step, the second

@@ -36,7 +36,8 @@ struct DriveState {
   DriveCommand actual;            // the current velocity, within acceleration limits
 };
 
-// The pose of a base relative to its start, computed from its wheels (dead reckoning); see wheel_odometry.h.
+// The pose of a base relative to its start, computed from its wheels (dead reckoning); see
+// wheel_odometry.h.
 struct Odometry {
   geometry::PlanarPosition place;  // position of the reference point, in the frame at the start
   double linear = 0, angular = 0;  // linear and angular velocity over the last step, m/s, rad/s

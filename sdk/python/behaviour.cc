@@ -12,7 +12,7 @@ namespace {
 
 class PythonBehaviour final : public Behaviour {
  public:
-  explicit PythonBehaviour(Kept object) : object_(std::move(object)) {}
+  explicit PythonBehaviour(SharedObject object) : object_(std::move(object)) {}
 
   base::Status Init(Robot& robot) override {
     CallPython([&] { object_->attr("init")(ForPython(robot)); });
@@ -35,7 +35,7 @@ class PythonBehaviour final : public Behaviour {
     return py::cast(dynamic_cast<sdk::RemoteRobot&>(robot).shared_from_this());
   }
 
-  const Kept object_;
+  const SharedObject object_;
 };
 
 class Offer {
@@ -60,9 +60,9 @@ BehaviourFactory FactoryFrom(const py::object& make) {
   if (PyCallable_Check(make.ptr()) == 0) {
     throw py::type_error("expected a class of behaviours, or a callable that returns a behaviour");
   }
-  return [kept = Kept(make)]() -> std::unique_ptr<Behaviour> {
+  return [kept = SharedObject(make)]() -> std::unique_ptr<Behaviour> {
     std::unique_ptr<Behaviour> behaviour;
-    CallPython([&] { behaviour = std::make_unique<PythonBehaviour>(Kept((*kept)())); });
+    CallPython([&] { behaviour = std::make_unique<PythonBehaviour>(SharedObject((*kept)())); });
     return behaviour;
   };
 }

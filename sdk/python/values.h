@@ -38,9 +38,9 @@ base::SimTime TimeFrom(double seconds);
 inline double SecondsOf(base::SimTime time) { return static_cast<double>(time.count()) / 1e9; }
 
 // A Python object that threads may copy, keep and destroy without holding the GIL.
-class Kept {
+class SharedObject {
  public:
-  explicit Kept(py::object object)
+  explicit SharedObject(py::object object)
       : object_(new py::object(std::move(object)), [](py::object* last) {
           const py::gil_scoped_acquire gil;
           delete last;

@@ -8,14 +8,15 @@
 //         and Automation 5 (1989)).
 // Loads   a linear function of the contact point's position, such that the loads carry the weight
 //         at the centre of mass. Equal springs would have the same loads. If all points are on one
-//         line, as with a robot that rocks on its two wheels, the function is linear along this line.
+//         line, as with a robot that rocks on its two wheels, the function is linear along this
+//         line.
 // Wheels  a stiff wheel of width w stands on its two edges, which may share its load in any
-//         way. The edge with more load rolls, the other slips. Two wheels at a distance B thus turn a
-//         robot at B / (B + w) to B / (B - w) of the rate of thin wheels: outer or inner edges roll.
-//         If the left edges roll, or the right ones, its middle moves by w / 2 times the rate.
-//         The loads follow the edges: if the left wheels stand on their outer edges and the right
-//         wheels on their inner ones, moments about the centre of mass are in balance only if the
-//         right wheels carry more. Four wheels then turn the robot about a point on their side.
+//         way. The edge with more load rolls, the other slips. Two wheels at a distance B thus turn
+//         a robot at B / (B + w) to B / (B - w) of the rate of thin wheels: outer or inner edges
+//         roll. If the left edges roll, or the right ones, its middle moves by w / 2 times the
+//         rate. The loads follow the edges: if the left wheels stand on their outer edges and the
+//         right wheels on their inner ones, moments about the centre of mass are in balance only if
+//         the right wheels carry more. Four wheels then turn the robot about a point on their side.
 // Balls   a ball in a ball joint rolls in each direction: it carries load without friction.
 // Frame   the heading frame H: at the model's origin, x along its heading, z up.
 #pragma once

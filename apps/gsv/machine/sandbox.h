@@ -13,7 +13,7 @@ struct Sandbox {
   std::chrono::seconds processor_time{60};
 };
 
-// The exit code of a sandboxed process that exceeds its memory.
+// The exit code of a sandboxed process that exceeds its memory limit.
 inline constexpr int kWantsMoreMemory = 70;
 
 // Puts this process into a sandbox for the rest of its life. It ends if it exceeds its memory, and

@@ -34,7 +34,8 @@ std::vector<ListeningProcess> FindListeningProcesses();
 
 // Returns the listening sockets in a table of the form of /proc/net/tcp and tcp6, by inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_view table);
-// Returns the sockets at the ports of a DDS domain in a table of the form of /proc/net/udp, by inode.
+// Returns the sockets at the ports of a DDS domain in a table of the form of /proc/net/udp, by
+// inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table,
                                                                 std::uint32_t domain);
 

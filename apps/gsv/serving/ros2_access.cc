@@ -246,7 +246,7 @@ void Ros2Access::Publish(const SimulationPointer& simulation) {
 void Ros2Access::Follow() {
   const base::MutexLock lock(publishing_);
   follows_ = true;
-  spawner_->LoadWorldsBy([this](const SimulationPointer& next) { return Replace(next); });
+  spawner_->AllowLoadingWorlds([this](const SimulationPointer& next) { return Replace(next); });
   watcher_ = std::thread([this] { Watch(); });
 }
 

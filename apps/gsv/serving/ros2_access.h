@@ -109,7 +109,7 @@ class Ros2Access final : public Ros2Publisher {
         list_(std::move(list)) {}
   base::Status Join() GSV_REQUIRES(publishing_);
   void Show(const SimulationPointer& simulation, ros2::Options options) GSV_REQUIRES(publishing_);
-  // Publishes what the list of simulations asks for.
+  // Publishes the simulation that the list requests.
   void Update() GSV_REQUIRES(publishing_);
   // Publishes `next`, if it is not null, and removes the published simulation.
   base::Status Replace(const SimulationPointer& next);

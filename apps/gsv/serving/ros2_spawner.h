@@ -20,11 +20,11 @@ class Ros2Spawner final : public ros2::Spawner {
   Ros2Spawner(gateway::SimulationFactory& factory, formats::ModelLibrary& library, bool reads_files)
       : factory_(factory), library_(library), reads_files_(reads_files) {}
 
-  // Publishes a simulation in place of the present one, which ends. With null, none is published.
-  // Fails with kNotFound if that is so already.
+  // Publishes a simulation instead of the present one, which ends. With null, no simulation is
+  // published. Fails with kNotFound if none was published before.
   using Replace = std::function<base::Status(const std::shared_ptr<simulation::Simulation>&)>;
-  // Lets clients load worlds. To be called before there are clients.
-  void LoadWorldsBy(Replace replace) { replace_ = std::move(replace); }
+  // Lets clients load worlds. Call it before there are clients.
+  void AllowLoadingWorlds(Replace replace) { replace_ = std::move(replace); }
 
   std::vector<World> Worlds() override;
   std::vector<Spawnable> Spawnables() override;

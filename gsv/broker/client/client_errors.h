@@ -16,7 +16,7 @@ namespace gsv::broker {
 // the broker's address.
 base::Error ErrorOfCurrentException(const std::string& where);
 
-// The number of calls that this process has made, and how many of them failed. Any thread.
+// The number of calls that this process has made, and the number of failed ones. Any thread.
 struct CallCounts {
   std::atomic<std::uint64_t> made{0}, failed{0};
 };

@@ -1,4 +1,5 @@
-// Broad phase of discs: finds the pairs that may touch, with a uniform grid that each call rebuilds.
+// Broad phase of discs: finds the pairs that may touch, with a uniform grid that each call
+// rebuilds.
 //
 // Determinism  the pairs and their order depend on the discs alone.
 #pragma once

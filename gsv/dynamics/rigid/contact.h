@@ -11,8 +11,8 @@ struct Contact {
   int first = 0, second = 0;  // solids: indices in ContactFinder::colliders()
   TouchPoint point;
   double friction = 0, restitution = 0;
-  // Friction acts along these, at right angles to the normal. Where a surface has two frictions,
-  // the axis of the more slippery one is shorter than 1.
+  // Friction acts along these two axes, at right angles to the normal. If a surface has two
+  // friction coefficients, the axis of the lower one is shorter than 1.
   std::array<geometry::Vector3, 2> axes;
   // m/(s N): the velocity at which the solids slide along each axis, per friction force of all
   // their points.
@@ -29,17 +29,18 @@ struct SlippingContact {
   double along = 0, across = 0;  // m/(s N): slip along the rolling direction and the axle
 };
 
-// The friction, slip and restitution of two surfaces in contact: the smaller friction and the
-// product of the restitutions, as in DART, which Gazebo uses. If one surface has two frictions,
-// they act along its direction and across it; if both have, those of the more slippery one count.
-// The same holds for a surface with a slip. Else the axes are along and across the rolling
-// direction of `wheel`, which is null if no wheel slips.
+// The friction, slip and restitution of two surfaces in contact. The friction is the smaller one,
+// and the restitution is the product of both, as in DART, which Gazebo uses. If one surface has two
+// friction coefficients, they apply along its direction and across it. If both have two, those of
+// the more slippery surface apply. The same holds for a surface with a slip. Otherwise the axes are
+// along and across the rolling direction of `wheel`, which is null if no wheel slips.
 void SetSurfaces(const PlacedPiece& first, const PlacedPiece& second, const SlippingContact* wheel,
                  Contact& contact);
 
-// How fast the first is to move relative to the second at the end of a substep, along the normal
-// (at least) and the axes (if friction can). `meeting` is that speed along the normal when they
-// meet, and `free` are the speeds at the end of the substep without impulses.
+// The velocity that the first body must have relative to the second at the end of a substep: a
+// minimum along the normal, and values along the axes if friction can reach them. `meeting` is that
+// velocity along the normal when the bodies meet. `free` are the velocities at the end of the
+// substep without impulses.
 std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double meeting,
                                 const std::array<double, 3>& free, double substep);
 

@@ -59,13 +59,13 @@ class ContactFinder {
   void Bounds(int moving, geometry::Vector3& low, geometry::Vector3& high) const;
 
  private:
-  // All solids of one body, whose pieces are in a row.
+  // All solids of one body. Their pieces are consecutive.
   struct Group {
     int moving = -1;  // index of the rigid body, or -1 for a planar body
     int first_collider = 0, collider_count = 0;
     int first_piece = 0, piece_count = 0;
     geometry::Vector3 low, high;
-    double reach = 0;  // the farthest distance that it may move in the substep, m
+    double reach = 0;  // the maximum distance that it may move in the substep, m
   };
   struct StaticPiece {
     PlacedPiece placed;
@@ -97,7 +97,7 @@ class ContactFinder {
   std::vector<StaticPiece> statics_, planes_;
   BoxBvh static_bvh_;  // BVH of statics_
   std::vector<int> near_;
-  std::vector<int> order_;  // groups by their least x
+  std::vector<int> order_;  // groups ordered by their minimum x
   std::vector<std::pair<int, int>> group_pairs_;
   std::vector<Contact> contacts_;
   std::vector<TouchPoint> points_;

@@ -35,9 +35,9 @@ class ContactSweeps {
   void Clear();
   int AddBody(const Body& body);
   // `axes` are the normal, from the second side to the first, and two axes of friction. Along each,
-  // the first side is to move at `targets` relative to the second. `impulse`, along the axes, is
-  // where the solution starts; it has not been applied yet. Friction holds the targets but for
-  // `softness` times its impulse.
+  // the first side must move at `targets` relative to the second. `impulse`, along the axes, is the
+  // start of the solution; it is not applied yet. Friction reaches its targets up to `softness`
+  // times its impulse.
   void AddContact(const Side& first, const Side& second,
                   const std::array<geometry::Vector3, 3>& axes,
                   const std::array<double, 3>& targets, double friction,
@@ -67,7 +67,7 @@ class ContactSweeps {
     std::array<double, 2> softness;
     std::array<double, 3> impulse;
   };
-  // Four contacts, one in each value. Unused ones are of bodies that nothing moves.
+  // Four contacts, one in each value of a vector. Unused ones belong to bodies that nothing moves.
   struct alignas(sizeof(FourDoubles)) Batch {
     using Vectors = FourDoubles[3];
     Vectors arm_first, arm_second;
@@ -83,7 +83,7 @@ class ContactSweeps {
 
   void Apply(const Contact& contact, std::size_t axis, double impulse);
   void Order();
-  // The number of bodies between a contact and what does not move; -1: none.
+  // The number of bodies between a contact and a body that does not move; -1: there is none.
   int LevelOf(int contact) const;
   void MakeBatches();
   void Fill(Batch& batch, std::size_t value, const Contact& contact) const;
@@ -94,8 +94,8 @@ class ContactSweeps {
   std::vector<Body> bodies_;
   std::vector<Contact> contacts_;
   std::vector<Batch> batches_;
-  std::vector<int> open_;  // batches that take more contacts
-  // Of each body, and of one that nothing moves: velocity, inverse mass, angular velocity, 0.
+  std::vector<int> open_;  // batches with space for more contacts
+  // For each body, and for one that does not move: velocity, inverse mass, angular velocity, 0.
   std::vector<double> motions_;
   std::vector<int> order_, levels_, queue_, first_of_body_, contacts_of_body_;
 };

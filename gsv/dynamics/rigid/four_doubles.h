@@ -34,7 +34,7 @@ __attribute__((always_inline)) inline void AddTimes(double factor, const double*
   for (int i = 0; i < count; i += kFour) FourAt(changed + i) += FourAt(added + i) * factor;
 }
 
-// Makes the rows of four times four values its columns.
+// Transposes a matrix of four by four values.
 __attribute__((always_inline)) inline void Transpose(FourDoubles (&rows)[kFour]) {
   const FourDoubles even_low = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
   const FourDoubles odd_low = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);

@@ -33,7 +33,8 @@ namespace gsv::dynamics {
 
 class ImpulseRows {
  public:
-  // The effect of a row on one body: spans of equal size, one value a degree of freedom.
+  // The effect of a row on one body. The spans have equal sizes, with one value per degree of
+  // freedom.
   struct Side {
     int first = 0;                     // index of the body's velocities, from AddBody()
     std::span<const double> jacobian;  // empty for no body, or for a fixed body
@@ -48,11 +49,11 @@ class ImpulseRows {
   // Removes all.
   void Clear();
 
-  // A body with these changes of velocities so far; returns where they begin.
+  // Adds a body with these changes of velocities so far. Returns the index at which they begin.
   int AddBody(std::span<const double> velocities);
   std::span<const double> velocities(int first, int count) const;
 
-  // Adds a row and returns its index. `impulse` has been applied already: its effect is part of the
+  // Adds a row and returns its index. `impulse` is already applied: its effect is part of the
   // velocities.
   int AddRow(const Side& a, const Side& b, const Limits& limits, double impulse);
   // Multiplies the row's target by `share`. Call it only before AddCone().
@@ -60,10 +61,11 @@ class ImpulseRows {
   // A row that no impulse can move (J M⁻¹ Jᵀ = 0) keeps its impulse.
   double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
 
-  // Makes a cone of two rows, which were added one after the other. Before that, they become along
+  // Makes a cone of two rows that were added one after the other. The rows are first converted to
   // `axes`: each axis gives the weights of the two rows.
   using Axes = std::array<std::array<double, 2>, 2>;
-  // Along each axis, the velocity gives way by the softness times the impulse. Returns the cone.
+  // Along each axis, the velocity may differ from its target by the softness times the impulse.
+  // Returns the cone.
   int AddCone(int normal_row, int first_row, double friction, const Axes& axes,
               const std::array<double, 2>& softness = {});
 
@@ -145,7 +147,7 @@ class ImpulseRows {
   std::vector<double> velocities_before_, impulses_before_;
 };
 
-// They are inlined into the versions of a function for each processor.
+// These functions are inlined into each processor's version of their callers.
 [[gnu::always_inline]] inline double ImpulseRows::VelocityOf(const Row& row) const {
   double sum = 0;
   for (const Block& side : row.sides) {

@@ -1,16 +1,17 @@
 // The impulses and velocities of one island: bodies that act on each other, directly or through
 // others. Private to this folder: it includes Bullet.
 //
-// Method   the velocities v and the impulses f solve M v = momenta + Jᵀ f. Each contact has Coulomb's
-//          cone, each joint row its bounds (Alart and Curnier, "A mixed formulation for frictional
-//          contact problems prone to Newton like solution methods", 1991). A semismooth Newton method
-//          finds them: whether a contact is open, sticks or slips follows from the iteration before,
-//          its impulses are linear in the velocities, and linear equations in the velocities alone
-//          remain. Contacts begin as their velocities suggest. Most islands take two to four
-//          iterations.
+// Method   the velocities v and the impulses f solve M v = momenta + Jᵀ f. Each contact has
+//          Coulomb's cone, each joint row its bounds (Alart and Curnier, "A mixed formulation for
+//          frictional contact problems prone to Newton like solution methods", 1991). A semismooth
+//          Newton method finds them: whether a contact is open, sticks or slips follows from the
+//          iteration before, its impulses are linear in the velocities, and linear equations in the
+//          velocities alone remain. Contacts begin as their velocities suggest. Most islands take
+//          two to four iterations.
 // Loads    impulses grow from zero by a small compliance, in proportion to the inverse mass, which
 //          later iterations take back. So redundant contacts share the load as equal springs would.
-// Heaps    islands of more than kMaxVelocities in which no body has joints are left to ContactSweeps.
+// Heaps    islands of more than kMaxVelocities in which no body has joints are left to
+//          ContactSweeps.
 // Else     other islands of so many velocities, and the few in which Newton's method does not end,
 //          are left to ImpulseRows.
 // Threads  one thread at a time for each object.

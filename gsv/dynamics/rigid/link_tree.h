@@ -36,11 +36,12 @@ class LinkTree {
   void ClearForces();
   void AddForce(int part, const geometry::Vector3& force, const geometry::Vector3& torque);
   void AddEffort(int velocity, double effort) { efforts_[Index(velocity)] += effort; }
-  // The momenta after `seconds` of these forces and the motion itself without any impulse: mass
-  // matrix times the velocities that free() then returns. After WriteMass().
+  // Returns the momenta after `seconds` of these forces and of the motion itself, without any
+  // impulse. They are the mass matrix times the velocities that free() then returns. Call it after
+  // WriteMass().
   void Accelerate(double seconds);
 
-  // Moves by `velocities` for `seconds`.
+  // Moves the tree by `velocities` for `seconds`.
   void Move(std::span<const double> velocities, double seconds);
   // Translates and rotates the base.
   void Shift(const geometry::Vector3& shift, const geometry::Vector3& turn);
@@ -58,7 +59,7 @@ class LinkTree {
   double mass(int row, int column) const { return masses_[Index(row * size_ + column)]; }
 
   double part_mass(int part) const { return links_[Index(part)].mass; }
-  // The inverse inertia in the world, of a body without joints. Valid after WriteMass().
+  // Returns the inverse inertia, in the world, of a body without joints. Valid after WriteMass().
   const Matrix3& inverse_inertia() const { return inverse_inertia_; }
 
   const geometry::Vector3& position(int part) const { return positions_[Index(part)]; }
@@ -80,8 +81,8 @@ class LinkTree {
 
   // Returns the velocities that move a part, from its own to those of the base.
   std::span<const int> Chain(int part) const { return links_[Index(part)].chain; }
-  // For each velocity of the part's chain the velocity of a point of the part, and its angular
-  // velocity, by a unit of it.
+  // For each velocity of the part's chain: the velocity of a point of the part, and its angular
+  // velocity, due to a unit of that velocity.
   struct Motion {
     geometry::Vector3 turning, moving;
   };

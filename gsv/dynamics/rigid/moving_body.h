@@ -38,7 +38,7 @@ class MovingBody {
   LinkTree& tree() { return tree_; }
   const LinkTree& tree() const { return tree_; }
   const JointRows& rows() const { return rows_; }
-  // Whether it moves by its own velocity, whatever touches it.
+  // Whether the body moves at its own velocity, whatever it touches.
   bool is_kinematic() const { return is_kinematic_; }
   // Whether its drive controls the base directly.
   bool is_held() const { return servo_.has_value() && !rolls_; }
@@ -93,8 +93,8 @@ class MovingBody {
 };
 
 // m/s² and rad/s²: a body keeps its pose if its speed is below this value times the step, before
-// the step and after it. So bodies at rest keep their poses to the bit. The effect equals a rolling
-// resistance of one per cent: a body that would start to roll on a slope of half a degree stays.
+// and after the step. So bodies at rest keep bit-identical poses. The effect equals a rolling
+// resistance of one per cent: a body on a slope of half a degree does not start to roll.
 inline constexpr double kResting = 0.1;
 
 }  // namespace gsv::dynamics

@@ -2,9 +2,9 @@
 // them.
 //
 // Sides        both sides of a triangle are solid: a body is on the side on which its middle is.
-// Inner edges  a body that rolls over the edge between two triangles is not caught by it. An edge or
-//              vertex may be touched from those directions only in which no triangle beside it is
-//              nearer (Ericson, "Real-Time Collision Detection", 2005, 3.6: Voronoi regions).
+// Inner edges  a body that rolls over the edge between two triangles is not caught by it. An edge
+//              or vertex may be touched from those directions only in which no triangle beside it
+//              is nearer (Ericson, "Real-Time Collision Detection", 2005, 3.6: Voronoi regions).
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ class TriangleSurface {
   // touch, and adds nothing.
   //
   // Sphere    the nearest point of each face, edge or vertex.
-  // Cylinder  the lowest points of its rims above a face; of an edge the point nearest to its axis and
-  //           those at its rims; vertices.
+  // Cylinder  the lowest points of its rims above a face; of an edge the point nearest to its axis
+  //           and those at its rims; vertices.
   bool AddPoints(const PlacedPiece& piece, const PlacedPiece& mesh, double margin,
                  std::vector<TouchPoint>& points) const;
 
@@ -58,8 +58,8 @@ class TriangleSurface {
   const geometry::Vector3& CornerOf(const Triangle& triangle, std::size_t corner) const {
     return vertices_[static_cast<std::size_t>(triangle.vertices[corner])];
   }
-  // Whether something in the direction `normal` from the edge or the vertex is not nearer to a
-  // triangle or an edge beside it.
+  // Whether a point in the direction `normal` from the edge or vertex is not nearer to an adjacent
+  // triangle or edge.
   bool MayTouchEdge(const Triangle& triangle, std::size_t edge,
                     const geometry::Vector3& normal) const;
   bool MayTouchVertex(int vertex, const geometry::Vector3& normal) const;

@@ -1,7 +1,8 @@
 // Reads the GLB files of WriteGlb() (gltf_writer.h), to render models without their original files.
 //
 // Result   a model with links, visuals and materials only: no joints, collisions or sensors. A flat
-//          rectangle without a texture is a geometry::Plane again, so that it is rendered as ground.
+//          rectangle without a texture is a geometry::Plane again, so that it is rendered as
+//          ground.
 // Input    untrusted. kCorrupt with a sentence if the file is not one of WriteGlb(). Textures that
 //          cannot be decoded are left out.
 // Threads  any.

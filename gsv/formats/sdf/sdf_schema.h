@@ -16,8 +16,8 @@ namespace gsv::formats {
 // Threads  one at a time, as for all of libsdformat.
 sdf::ElementPtr MakeSdfSchema(const std::set<std::string>& without = {});
 
-// The description in a file of the schema, such as "model.sdf", with those of all elements below it.
-// "root.sdf" is that of <sdf>. It is made once. Null if there is no such file.
+// The description in a file of the schema, such as "model.sdf", with those of all elements below
+// it. "root.sdf" is that of <sdf>. It is made once. Null if there is no such file.
 sdf::ElementPtr DescriptionInFile(const std::string& file);
 
 }  // namespace gsv::formats

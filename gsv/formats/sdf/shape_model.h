@@ -6,7 +6,8 @@
 //   shape:sphere?radius=0.3&static=true
 //
 // Units    metres, kilograms; the colour is sRGB in six hexadecimal digits.
-// Options  mass (default: 1), static (default: false, and true for a wall), colour (default: b4b4b4).
+// Options  mass (default: 1), static (default: false, and true for a wall), colour (default:
+//          b4b4b4).
 // Bounded  lengths 1e-3 to 1000 m, masses 1e-6 to 1e6 kg, names 256 characters.
 #pragma once
 

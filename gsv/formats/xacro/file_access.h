@@ -22,7 +22,8 @@ class FileAccess {
   // Return the root of an included file, and the values of a YAML file. `in` is the file that
   // contains `name`. kNotFound: there is no such file or package. kBadModel: it cannot be used.
   base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
-  // The files whose names match a pattern with *, ? or [] in its last part, in the order of their names.
+  // The files whose names match a pattern with *, ? or [] in its last part, in the order of their
+  // names.
   std::vector<std::string> Matching(const std::string& pattern,
                                     const std::filesystem::path& in) const;
   base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);

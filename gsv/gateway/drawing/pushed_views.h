@@ -34,7 +34,7 @@ inline constexpr std::size_t kImageHeaderSize = 20;
 
 class PushedViews final : public Views, public std::enable_shared_from_this<PushedViews> {
  public:
-  // Returns the world of the hub, or an error if it is gone.
+  // Returns the world of the hub, or an error if it does not exist any more.
   using FindWorldOfHub = std::function<base::Result<ViewedWorld>()>;
 
   // `drawer` must outlive the clients of the hub.

@@ -205,7 +205,7 @@ void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<
                               std::make_move_iterator(others));
     due.erase(due.begin(), others);
     base::Result<DrawnImage> answer;
-    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const CachedImage& kept) {
       return kept.image.number == seen.number && kept.request == request;
     });
     if (known != kept_.end()) {
@@ -227,7 +227,7 @@ void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<
       }
     }
     if (answer && known == kept_.end()) {
-      std::erase_if(kept_, [&](const Kept& kept) { return kept.request == request; });
+      std::erase_if(kept_, [&](const CachedImage& kept) { return kept.request == request; });
       if (kept_.size() >= kKeptImages) kept_.erase(kept_.begin());
       kept_.push_back({request, *answer});
     }

@@ -94,7 +94,7 @@ class ViewDrawer {
     Clock::time_point earliest, deadline;
     Answer answer;
   };
-  struct Kept {
+  struct CachedImage {
     ViewRequest request;
     DrawnImage image;
   };
@@ -114,7 +114,7 @@ class ViewDrawer {
   const DrawingLimits limits_;
   std::shared_ptr<rendering::Renderer> renderer_;  // of the drawing thread; null at first
   std::uint64_t next_number_ = 0;                  // used by the drawing thread
-  std::vector<Kept> kept_;                         // used by the drawing thread: the last images
+  std::vector<CachedImage> kept_;                  // used by the drawing thread: the last images
 
   base::Mutex mutex_;
   base::ConditionVariable changed_;

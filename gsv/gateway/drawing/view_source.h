@@ -23,7 +23,8 @@ struct ViewInstant {
 class ViewSource {
  public:
   virtual ~ViewSource() = default;
-  // Fails with kEnded if the simulation is gone, with kNotFound if a recording has no scene.
+  // Fails with kEnded if the simulation does not exist any more, with kNotFound if a recording has
+  // no scene.
   virtual base::Result<ViewInstant> Now() = 0;
 };
 

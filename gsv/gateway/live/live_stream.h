@@ -46,7 +46,7 @@ class LiveStream {
   // See SensorTopics. From any thread.
   void WantSensorsOf(const std::string& robot) { sensors_->Want(robot); }
 
-  // Publishes the messages that are due. Encodes subscribed topics only.
+  // Publishes the messages that are due. Encodes only topics that have subscribers.
   void Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now);
 
  private:

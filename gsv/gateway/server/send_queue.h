@@ -3,8 +3,8 @@
 // Newest   data that have waited for kMaxWait are left out if they are state and a newer message of
 //          their subscription waits. So a slow connection gets fewer messages, and no old ones.
 // Bounded  control messages (advertisements, answers) are never dropped; if they exceed the limit,
-//          the client is disconnected. If data exceed their limit, state with a newer message of its
-//          subscription is dropped first, and the oldest data if there is none.
+//          the client is disconnected. If data exceed their limit, state with a newer message of
+//          its subscription is dropped first, and the oldest data if there is none.
 // Threads  any.
 #pragma once
 

@@ -1,7 +1,7 @@
 // How many bytes may be on their way to one client: as many as its connection passes in a fraction
-// of a second. Systems and proxies buffer megabytes, which a slow connection delivers seconds later.
-// The client confirms what it received by the pongs of WebSocket pings (RFC 6455, section 5.5.3),
-// which every client answers, and which stay behind the messages before them.
+// of a second. Systems and proxies buffer megabytes, which a slow connection delivers seconds
+// later. The client confirms what it received by the pongs of WebSocket pings (RFC 6455, section
+// 5.5.3), which every client answers, and which stay behind the messages before them.
 //
 // If the delay of a pong exceeds the minimum delay, the messages before its ping have waited in
 // buffers for the excess. Then the connection was busy, and its rate is the number of bytes that

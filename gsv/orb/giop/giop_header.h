@@ -30,7 +30,8 @@ struct GiopHeader {
   std::size_t body_bytes = 0;
 };
 
-// Returns nullopt if the bytes are not the header of a message of GIOP 1.0 to 1.2. Requires at least 12 bytes.
+// Returns nullopt if the bytes are not the header of a message of GIOP 1.0 to 1.2. Requires at
+// least 12 bytes.
 std::optional<GiopHeader> ReadGiopHeader(std::string_view bytes);
 // Sets the length in the header of `message` and clears its flag of fragments.
 void CompleteGiopHeader(std::string& message);

@@ -22,7 +22,8 @@ class IncomingMessage {
   bool has_begun() const {
     return assembly_.state() == MessageAssembly::State::kIncomplete && !assembly_.empty();
   }
-  // Copies up to `size` bytes of the message to `buffer`. Returns their number, or -1 if the message is refused.
+  // Copies up to `size` bytes of the message to `buffer`. Returns their number, or -1 if the
+  // message is refused.
   int HandOut(void* buffer, std::size_t size);
 
  private:

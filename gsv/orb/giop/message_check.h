@@ -54,7 +54,8 @@ class ReplyCheck {
   void Sending(std::string_view bytes);
   // Call this after the first `count` of these bytes were sent.
   void Sent(std::size_t count);
-  // Checks `message`, which must be complete, if it is a reply. A reply without a request is rejected.
+  // Checks `message`, which must be complete, if it is a reply. A reply without a request is
+  // rejected.
   void Check(std::string& message);
 
  private:

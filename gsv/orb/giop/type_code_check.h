@@ -1,5 +1,6 @@
 // Checks TypeCodes and the values that they describe before the ORB reads them. omniORB 4.2.5
-// crashes on some malformed TypeCodes, and for nested ones it needs memory that grows with the square of their depth.
+// crashes on some malformed TypeCodes, and for nested ones it needs memory that grows with the
+// square of their depth.
 //
 // Some valid CORBA is also rejected: recursive types, value types, and anything that exceeds the
 // limits below.

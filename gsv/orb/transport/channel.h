@@ -24,7 +24,8 @@ class Channel {
   // after `deadline`, or -1 if the connection has ended. A deadline of zero means no deadline.
   virtual int Receive(void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
   virtual int Send(const void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
-  // Whether bytes were received that are already read from the socket, so that poll() does not report them.
+  // Whether bytes were received that are already read from the socket, so that poll() does not
+  // report them.
   virtual bool HasBytes() { return false; }
   // Tells the peer that no more bytes follow, if the protocol supports that.
   virtual void Close() {}
@@ -33,8 +34,8 @@ class Channel {
 // Transfers bytes without encryption. The caller keeps the ownership of the socket.
 //
 // If the last bytes came within 50 µs, Receive() first polls for that time and yields the processor
-// between two polls. Only then does the thread sleep. Behaviours that make many short calls so avoid
-// two changes of threads per call (ADR 101).
+// between two polls. Only then does the thread sleep. Behaviours that make many short calls so
+// avoid two changes of threads per call (ADR 101).
 class PlainChannel final : public Channel {
  public:
   explicit PlainChannel(int socket) : socket_(socket) {}

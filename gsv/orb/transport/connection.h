@@ -36,7 +36,8 @@ class Connection : public omni::giopConnection,
                    public omni::SocketHolder,
                    public ConnectionControl {
  public:
-  // Makes a connection that a client has opened. The connection owns the socket. `collection` watches it.
+  // Makes a connection that a client has opened. The connection owns the socket. `collection`
+  // watches it.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              omni::SocketCollection& collection, const ConnectionPolicy& policy);
   ~Connection() override;

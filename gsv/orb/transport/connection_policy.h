@@ -1,10 +1,11 @@
 // The policy for the connections of a program's ORB: limits on messages, and hooks that see each
 // message before the ORB does.
 //
-// omniORB 4.2.5 assigns a fragment to the call with the same number, even if that call is complete. If
-// the last fragment of a call arrives twice, two threads work on the call, and the process crashes.
-// Therefore connections join fragments before the ORB sees them (ADR 023). A connection ends if it
-// receives bytes that are no message, or a message that is too long. Cancel requests are dropped.
+// omniORB 4.2.5 assigns a fragment to the call with the same number, even if that call is complete.
+// If the last fragment of a call arrives twice, two threads work on the call, and the process
+// crashes. Therefore connections join fragments before the ORB sees them (ADR 023). A connection
+// ends if it receives bytes that are no message, or a message that is too long. Cancel requests are
+// dropped.
 //
 // Threads  see each function.
 #pragma once
@@ -48,7 +49,8 @@ class ConnectionHooks {
   // Called when the ORB wants to read and no message has begun.
   virtual void OnWait() {}
   virtual void OnBytes() {}
-  // Called with a complete message. The hook may remove the end of the message before the ORB sees it.
+  // Called with a complete message. The hook may remove the end of the message before the ORB sees
+  // it.
   virtual void OnMessage(std::string& message) { (void)message; }
   // Called before the ORB sends `bytes`.
   virtual void OnSend(std::string_view bytes) { (void)bytes; }
@@ -68,7 +70,8 @@ struct ConnectionPolicy {
   MakeHooks made;
   // Decides whether the ORB shall read now; empty means always. The accepting thread calls it when
   // bytes arrive on an accepted connection for which no thread of the ORB waits. The ORB may have
-  // destroyed the connection meanwhile, so the function must recognise its connections by their hooks.
+  // destroyed the connection meanwhile, so the function must recognise its connections by their
+  // hooks.
   std::function<bool(ConnectionControl*)> shall_read;
 };
 

@@ -18,7 +18,8 @@ namespace gsv::orb {
 template <typename Base>
 class Endpoint final : public Base {
  public:
-  // `address`, "HOST:PORT" or a file, must outlive the endpoint. Without a context, the endpoint does not use TLS.
+  // `address`, "HOST:PORT" or a file, must outlive the endpoint. Without a context, the endpoint
+  // does not use TLS.
   explicit Endpoint(const char* address, std::shared_ptr<const TlsContext> context = nullptr)
       : Base(address), listener_(*this, std::move(context)) {}
 

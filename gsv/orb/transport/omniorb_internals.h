@@ -1,6 +1,7 @@
 // The internal classes of omniORB that this folder uses. They are not a documented interface and
 // may change with any release. Therefore CMake accepts only the release for which this code was
-// written (cmake/GsvOmniOrbVersion.cmake, ADR 029). No other file includes these headers of omniORB.
+// written (cmake/GsvOmniOrbVersion.cmake, ADR 029). No other file includes these headers of
+// omniORB.
 //
 // A target that includes this file needs omniORB's internal include folder, see ../CMakeLists.txt.
 #pragma once

@@ -53,7 +53,8 @@ class TextRows {
   void LeaveOut(const std::string& why) { LeaveOutLine(why, line_); }
   void Warn(const std::string& what);
 
-  // Call this after the last row. Fails with kCorrupt if too many rows were left out, or if no row was used.
+  // Call this after the last row. Fails with kCorrupt if too many rows were left out, or if no row
+  // was used.
   base::Status Finish(std::size_t used);
 
  private:

@@ -29,7 +29,8 @@ struct OccupancyMap {
   }
 };
 
-// Reads a map. The YAML file has the image, resolution, origin, negate, thresholds and optionally the mode.
+// Reads a map. The YAML file has the image, resolution, origin, negate, thresholds and optionally
+// the mode.
 base::Result<OccupancyMap> ReadMap(const std::filesystem::path& yaml, base::Problems& problems);
 
 // Reads a map in CMU's text format: "robot_specifications->resolution 10" (cm), "global_map[0]: 800

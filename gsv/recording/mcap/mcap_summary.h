@@ -31,7 +31,8 @@ struct Summary {
   base::Problems problems;  // missing or damaged parts
 };
 
-// Fails with kCorrupt if the file is not an MCAP file. Damage after its start is listed in `problems`.
+// Fails with kCorrupt if the file is not an MCAP file. Damage after its start is listed in
+// `problems`.
 [[nodiscard]] base::Result<Summary> LoadSummary(const ByteSource& source, const Limits& limits);
 
 // Makes the list from every record, and ignores the file's own summary.

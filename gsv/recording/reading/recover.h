@@ -1,4 +1,5 @@
-// Copies a truncated or damaged recording, or a part of a recording, to a complete one with an index.
+// Copies a truncated or damaged recording, or a part of a recording, to a complete one with an
+// index.
 #pragma once
 
 #include <string>

@@ -25,7 +25,8 @@
 
 namespace gsv::recording {
 
-// Rates in Hz of simulated time, > 0. If a sensor is faster, only every n-th of its readings is recorded.
+// Rates in Hz of simulated time, > 0. If a sensor is faster, only every n-th of its readings is
+// recorded.
 struct SensorRates {
   double readings = 20;
   double images = 1;
@@ -52,7 +53,8 @@ class SensorRecorder {
 
   // Sets the sensors that are recorded from now on.
   void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
-  // Writes the readings that are due at the snapshot's time. Several images are rendered at the same time.
+  // Writes the readings that are due at the snapshot's time. Several images are rendered at the
+  // same time.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:

@@ -54,7 +54,8 @@ class SimulationFeed final : public simulation::Observer {
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // Returns the next snapshot or event. Returns nullopt after `timeout` of wall-clock time, or at the end.
+  // Returns the next snapshot or event. Returns nullopt after `timeout` of wall-clock time, or at
+  // the end.
   std::optional<Occurrence> Next(std::chrono::milliseconds timeout);
 
   // Closes the feed, and wakes producers that wait. Queued entries remain. A reset of the

@@ -1,7 +1,7 @@
-// Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock, /tf,
-// /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status, events,
-// notes and state_hash. The first edit adds the topic /gsv/edits, even if that is not selected,
-// because resimulation needs it.
+// Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock,
+// /tf, /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status,
+// events, notes and state_hash. The first edit adds the topic /gsv/edits, even if that is not
+// selected, because resimulation needs it.
 #pragma once
 
 #include <map>
@@ -29,7 +29,8 @@ class StateTopics {
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
-  // Writes the expectations every second and, whenever a verdict changes, at the time of the change.
+  // Writes the expectations every second and, whenever a verdict changes, at the time of the
+  // change.
   void RecordExpectations(base::SimTime time,
                           const std::vector<simulation::ExpectationState>& states);
   void RecordEvent(const simulation::Event& event);

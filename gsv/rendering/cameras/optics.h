@@ -55,7 +55,8 @@ class Optics {
   };
 
   Optics(const CameraParameters& camera, Lens lens, double horizontal_fov);
-  // Returns the map of a lens. Cameras with equal parameters, such as those of all robots of one model, share one map.
+  // Returns the map of a lens. Cameras with equal parameters, such as those of all robots of one
+  // model, share one map.
   static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
   const LensMap& Map() const;
 

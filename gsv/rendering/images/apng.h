@@ -16,8 +16,9 @@ class ApngEncoder {
   // `frames_a_second` is from 0.1 to 240, and is rounded to hundredths. The animation plays once.
   ApngEncoder(std::uint32_t frames, double frames_a_second);
 
-  // Returns the bytes of the next frame. The bytes of the first frame begin the file. All frames must
-  // have the same size. Fails with kInvalidArgument for an image without pixels or of another size.
+  // Returns the bytes of the next frame. The bytes of the first frame begin the file. All frames
+  // must have the same size. Fails with kInvalidArgument for an image without pixels or of another
+  // size.
   base::Result<std::vector<std::uint8_t>> Add(const model::Image& image);
   // Returns the end of the file.
   static std::vector<std::uint8_t> End();

@@ -48,7 +48,8 @@ GlVertexArray CreateVertexArray();
 GlFramebuffer CreateFramebuffer();
 GlRenderbuffer CreateRenderbuffer();
 
-// Compiles a program. Inserts `defines` ("#define A\n…") after the #version line. The sources must be valid.
+// Compiles a program. Inserts `defines` ("#define A\n…") after the #version line. The sources must
+// be valid.
 GlProgram CreateProgram(std::string_view defines, std::string_view vertex_source,
                         std::string_view fragment_source);
 

@@ -3,8 +3,8 @@
 // First the visible triangle of each pixel: opaque items from near to far, with the ground last.
 // Then each pixel is shaded once, in tiles. Then transparent items are blended from far to near.
 //
-// A tile that shows only still bodies, on which no moving body casts a shadow, keeps its colours for
-// the next image of the same view. Such an image equals the one of a new ImageRenderer.
+// A tile that shows only still bodies, on which no moving body casts a shadow, keeps its colours
+// for the next image of the same view. Such an image equals the one of a new ImageRenderer.
 // Threads  one thread at a time; it shades on the threads of a team.
 #pragma once
 
@@ -20,7 +20,8 @@ namespace gsv::rendering::raster {
 class ImageRenderer {
  public:
   // Renders a posed render list, antialiased. `render_list_id` identifies it. `block` must be
-  // complete. If `shadow` is null, there are no shadows. If `team` is null, everything is done on the caller's thread.
+  // complete. If `shadow` is null, there are no shadows. If `team` is null, everything is done on
+  // the caller's thread.
   model::Image Draw(const CameraView& view, const RenderList& render_list,
                     std::uint64_t render_list_id, const FrameBlock& block, const SunShadow* shadow,
                     base::ThreadTeam* team = nullptr);

@@ -20,7 +20,8 @@ struct RasterMesh final : DrawMesh {
   // Properties of vertices, one element for each.
   std::vector<float> x, y, z, normal_x, normal_y, normal_z, u, v;
   std::vector<std::uint16_t> surface;
-  // Properties of triangles, one element for each. Corners are counted from the first vertex of the level.
+  // Properties of triangles, one element for each. Corners are counted from the first vertex of the
+  // level.
   std::vector<std::uint32_t> corners[3];
   // The levels of each chunk; the first level is the finest.
   std::vector<std::vector<Level>> levels;

@@ -12,7 +12,8 @@ namespace gsv::rendering::raster {
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 
-// Narrows a row of pixels to those where no q_i is negative. Pixels are counted from the first of the box.
+// Narrows a row of pixels to those where no q_i is negative. Pixels are counted from the first of
+// the box.
 inline void Narrow(const Triangle& t, const float (&row)[3], float& left, float& right) {
   for (int i = 0; i < 3; ++i) {
     if (t.a[i] > 0) {

@@ -34,7 +34,8 @@ class ShadowRegion {
   struct Rectangle {  // in texels, [min, max)
     int min_x, min_y, max_x, max_y;
   };
-  // Returns the parts of the map around the bodies of some items, or the whole map if that is cheaper.
+  // Returns the parts of the map around the bodies of some items, or the whole map if that is
+  // cheaper.
   std::vector<Rectangle> PartsOf(const RenderList& render_list,
                                  const std::vector<std::size_t>& items) const;
 

@@ -17,7 +17,8 @@ struct OutgoingSample {
   std::size_t size() const { return head.size() + rest.size(); }
 };
 
-// A writer sends an OutgoingSample. A reader fills a std::vector<std::byte> that begins with the encapsulation header.
+// A writer sends an OutgoingSample. A reader fills a std::vector<std::byte> that begins with the
+// encapsulation header.
 class RawType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   RawType(const std::string& name, std::size_t max_size);

@@ -1,4 +1,5 @@
-// Multicast on the loopback interface alone. The datagrams reach programs that joined the group on any interface.
+// Multicast on the loopback interface alone. The datagrams reach programs that joined the group on
+// any interface.
 //
 // Linux delivers it to each socket that is bound to the port and has joined any group
 // (IP_MULTICAST_ALL of ip(7)), provided that some program joined this group on loopback.

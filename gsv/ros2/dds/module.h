@@ -19,7 +19,8 @@ struct Module {
   base::Result<std::unique_ptr<Participant>> (*make)(const ParticipantOptions& options) = nullptr;
 };
 
-// Finds the plug-in in one of `folders`, without loading it. Fails with kUnavailable if no folder contains it.
+// Finds the plug-in in one of `folders`, without loading it. Fails with kUnavailable if no folder
+// contains it.
 base::Result<std::string> FindModule(const std::vector<std::string>& folders);
 
 // Loads the plug-in from one of `folders`; it stays loaded. Fails with kUnavailable if none of them

@@ -3,8 +3,8 @@
 // This header depends on no DDS library. The implementation is a plug-in (module.h), so that a
 // program without ROS 2 neither loads nor links one.
 //
-// Threads  any. `on_message`, `on_request` and `on_match` are called on threads of the DDS library; they return at once and
-//          do not call back.
+// Threads  any. `on_message`, `on_request` and `on_match` are called on threads of the DDS library;
+//          they return at once and do not call back.
 #pragma once
 
 #include <array>
@@ -56,7 +56,8 @@ struct ParticipantOptions {
   std::string name = "gsv";          // name of the participant, which others see
   std::string user_data{};           // "enclave=/;"
   bool watches_endpoints = false;    // endpoints() works
-  // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty for no security.
+  // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty for no
+  // security.
   std::string enclave_folder{};
   std::string insecure_reason{};  // why security is off, although the user asked for it if possible
 };

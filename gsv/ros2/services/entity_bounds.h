@@ -13,7 +13,8 @@ namespace gsv::ros2 {
 // a body without shapes, and for a body with a plane, which is infinite.
 std::optional<geometry::Bounds> BoundsOfBody(const world::Snapshot& snapshot, int body);
 
-// Returns the smallest box along the world's axes that contains `bounds`, a box along a body's axes.
+// Returns the smallest box along the world's axes that contains `bounds`, a box along a body's
+// axes.
 geometry::Bounds InWorld(const geometry::Bounds& bounds, const geometry::Pose& world_from_body);
 
 }  // namespace gsv::ros2

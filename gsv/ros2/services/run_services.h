@@ -18,8 +18,9 @@ std::uint8_t StateOfPhase(simulation::Phase phase);
 messages::simulation_interfaces::Result EnterState(simulation::Simulation& simulation,
                                                    std::uint8_t state);
 
-// Takes steps and waits for them. Fails with kNotRunning unless the simulation is paused or created.
-// Fails with kEnded if it was paused or ended before the last step, or if `stops` became true.
+// Takes steps and waits for them. Fails with kNotRunning unless the simulation is paused or
+// created. Fails with kEnded if it was paused or ended before the last step, or if `stops` became
+// true.
 base::Status TakeSteps(simulation::Simulation& simulation, std::uint64_t steps,
                        const std::function<bool()>& stops);
 

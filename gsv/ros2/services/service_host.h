@@ -40,7 +40,8 @@ class ServiceHost {
     kStepping,  // requests that wait for steps of the simulation
   };
   class Service;
-  // Sends the reply to one request, at most once. The object may be kept, and used on another thread.
+  // Sends the reply to one request, at most once. The object may be kept, and used on another
+  // thread.
   class Replier {
    public:
     // Sends a complete message. Returns at once. The reply is sent when discovery has found the
@@ -66,7 +67,8 @@ class ServiceHost {
   // Waits until no handler is running.
   ~ServiceHost();
 
-  // Offers a service, such as "/gsv/get_entities" of the type "simulation_interfaces/srv/GetEntities".
+  // Offers a service, such as "/gsv/get_entities" of the type
+  // "simulation_interfaces/srv/GetEntities".
   void OfferBytes(const std::string& service, const std::string& type, Lane lane, Handler handler);
 
   // `answer` is called with a Request and a Replier.

@@ -57,7 +57,8 @@ class Peer {
     readers_.push_back(*std::move(reader));
   }
 
-  // Waits for at least `count` messages and returns the newest. Fails the test if they do not arrive.
+  // Waits for at least `count` messages and returns the newest. Fails the test if they do not
+  // arrive.
   template <typename Message>
   Message Await(const std::string& topic, std::size_t count = 1) {
     base::MutexLock lock(mutex_);

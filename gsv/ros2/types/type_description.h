@@ -48,7 +48,8 @@ struct TypeDescription {
                                                             const messages::Schema& request,
                                                             const messages::Schema& response);
 
-// Returns the text whose hash is computed: JSON in the format of Python's json.dumps, without default values.
+// Returns the text whose hash is computed: JSON in the format of Python's json.dumps, without
+// default values.
 std::string CanonicalJson(const TypeDescription& description);
 
 }  // namespace gsv::ros2

@@ -11,16 +11,18 @@
 //             scan.vertical.* likewise (1 sample at 0). A single beam has min_angle. range.min
 //             (0.08), range.max (10). noise (m), see noise.h: each beam has its own bias, a dropout
 //             reads as no hit, and noise does not move a range beyond the limits. range.resolution
-//             has no effect, as in Gazebo. intensity_scale (0), intensity_range (0: any), see below.
-// Intensity   with an intensity_scale above 0, the reading has after all ranges an intensity for each
-//             beam: intensity_scale × reflectance × cosine of the angle of incidence (Lambert's law),
-//             and 0 without an echo. Without an intensity_range the device compensates for the
-//             distance. With one, the intensity falls as (intensity_range / distance)²: a surface
-//             that is larger than the beam (Höfle and Pfeifer, ISPRS Journal of Photogrammetry and
-//             Remote Sensing 62 (2007)). The reflectance follows from the colour (rays/echo.h).
-// Message     sensor_msgs/LaserScan for one fan, with its intensities. For several fans gsv_msgs/LidarScan, which has all
-//             ranges, and in addition (/ROBOT/SENSOR/points) a sensor_msgs/PointCloud2, see
-//             lidar_messages.h.
+//             has no effect, as in Gazebo. intensity_scale (0), intensity_range (0: any), see
+//             below.
+// Intensity   with an intensity_scale above 0, the reading has after all ranges an intensity for
+//             each beam: intensity_scale × reflectance × cosine of the angle of incidence
+//             (Lambert's law), and 0 without an echo. Without an intensity_range the device
+//             compensates for the distance. With one, the intensity falls as (intensity_range /
+//             distance)²: a surface that is larger than the beam (Höfle and Pfeifer, ISPRS Journal
+//             of Photogrammetry and Remote Sensing 62 (2007)). The reflectance follows from the
+//             colour (rays/echo.h).
+// Message     sensor_msgs/LaserScan for one fan, with its intensities. For several fans
+//             gsv_msgs/LidarScan, which has all ranges, and in addition (/ROBOT/SENSOR/points) a
+//             sensor_msgs/PointCloud2, see lidar_messages.h.
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -9,7 +9,8 @@
 //             noise (m; its mean is a bias), range_noise (0): m per metre, bias_per_metre (0),
 //             wall_delay (0): m per wall, wall_noise (0): m per root of a wall, max_walls (8): an
 //             anchor behind more walls is not received.
-// Readings    readings::Ranging. As a message: sensor_msgs/Range with an infinite range for no echo.
+// Readings    readings::Ranging. As a message: sensor_msgs/Range with an infinite range for no
+//             echo.
 // Errors      an anchor that is not in the world is not received.
 #pragma once
 

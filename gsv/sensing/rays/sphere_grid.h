@@ -1,6 +1,6 @@
-// A uniform grid of bounding spheres over the ground, for packets of rays. It finds the spheres that
-// the rays of a packet may touch. Spheres of one cell, and of the cells beside it, are side by side
-// in memory.
+// A uniform grid of bounding spheres over the ground, for packets of rays. It finds the spheres
+// that the rays of a packet may touch. Spheres of one cell, and of the cells beside it, are side by
+// side in memory.
 //
 // Exactness  spheres are tested in single precision. They are enlarged by more than its error, so
 //            that no sphere on a ray is omitted.

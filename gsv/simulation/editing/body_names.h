@@ -12,7 +12,8 @@ namespace gsv::simulation {
 
 base::Status CheckBodyName(const std::string& name);
 
-// Returns a name that no body in `layout` has: the model's name, with a number from 2 if it is taken.
+// Returns a name that no body in `layout` has: the model's name, with a number from 2 if it is
+// taken.
 std::string FreeName(const world::Layout& layout, const std::string& model);
 
 // Gives robots without a name the name of their model. Fails if a name is invalid, or if a body of

@@ -1,8 +1,8 @@
 // Adds, removes and moves the bodies of a simulated world, and sets its gravity. A failed change
 // leaves the world unchanged.
 //
-// Threads  any, with the world's lock (world_mutex). The history of snapshots is restarted with each
-//          change.
+// Threads  any, with the world's lock (world_mutex). The history of snapshots is restarted with
+//          each change.
 #pragma once
 
 #include <deque>
@@ -47,7 +47,8 @@ class WorldEditor {
   // index of the model's own body, which is ignored, or -1 if it has none yet.
   geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const
       GSV_REQUIRES(world_mutex);
-  // `placed` are the names of bodies that are new or moved. These bodies are at their initial poses.
+  // `placed` are the names of bodies that are new or moved. These bodies are at their initial
+  // poses.
   base::Status ChangeBodies(std::vector<world::Body> bodies, const std::vector<std::string>& placed)
       GSV_REQUIRES(world_mutex);
   base::Status ChangeWorld(std::vector<world::Body> bodies,

@@ -15,14 +15,14 @@ void EventLog::Emit(std::string kind, std::string robot, std::string detail,
   for (const auto& observer : observers_) observer->OnEvent(event);
 }
 
-void EventLog::Kept::Add(const Event& event) {
+void EventLog::BoundedLog::Add(const Event& event) {
   events.push_back(event);
   if (events.size() <= capacity) return;
   events.pop_front();
   ++dropped;
 }
 
-std::vector<Event> EventLog::Kept::Since(std::uint64_t first) const {
+std::vector<Event> EventLog::BoundedLog::Since(std::uint64_t first) const {
   const std::uint64_t skip = first > dropped ? first - dropped : 0;
   if (skip >= events.size()) return {};
   return {events.begin() + static_cast<std::ptrdiff_t>(skip), events.end()};

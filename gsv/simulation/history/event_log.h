@@ -32,7 +32,8 @@ class EventLog {
   std::vector<Event> Since(std::uint64_t first) const;
   // The number of events so far, including dropped ones.
   std::uint64_t count() const;
-  // The same for lines of output (IsOutput()). Since() does not return them, and count() does not count them.
+  // The same for lines of output (IsOutput()). Since() does not return them, and count() does not
+  // count them.
   std::vector<Event> OutputsSince(std::uint64_t first) const;
   std::uint64_t output_count() const;
 
@@ -48,7 +49,7 @@ class EventLog {
  private:
   static constexpr std::size_t kMaxOutputs = 2000;
 
-  struct Kept {
+  struct BoundedLog {
     std::size_t capacity = 0;
     std::deque<Event> events{};
     std::uint64_t dropped = 0;
@@ -64,8 +65,8 @@ class EventLog {
   std::atomic<bool> wants_times_ = false;
 
   mutable base::Mutex mutex_;
-  Kept events_ GSV_GUARDED_BY(mutex_);
-  Kept outputs_ GSV_GUARDED_BY(mutex_);
+  BoundedLog events_ GSV_GUARDED_BY(mutex_);
+  BoundedLog outputs_ GSV_GUARDED_BY(mutex_);
   std::vector<std::shared_ptr<Observer>> observers_ GSV_GUARDED_BY(mutex_);
 };
 

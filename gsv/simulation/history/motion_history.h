@@ -50,7 +50,8 @@ class MotionHistory {
   SimTime sampled_{0};
 };
 
-// Returns, for each body, the first other body that it touches, or -1. Bodies that carry it are ignored.
+// Returns, for each body, the first other body that it touches, or -1. Bodies that carry it are
+// ignored.
 std::vector<int> ContactPartners(const world::Snapshot& snapshot);
 
 }  // namespace gsv::simulation

@@ -10,7 +10,7 @@ SnapshotHistory::SnapshotPtr SnapshotHistory::latest() const {
 SnapshotHistory::SnapshotPtr SnapshotHistory::At(const Cadence& cadence) {
   const base::MutexLock lock(mutex_);
   if (cadence.period.count() <= 0) return latest_;
-  return kept_.try_emplace(cadence, Kept{latest_, {}}).first->second.arrived;
+  return kept_.try_emplace(cadence, Samples{latest_, {}}).first->second.arrived;
 }
 
 void SnapshotHistory::MakeFrame(Frame& frame) const {

@@ -66,7 +66,7 @@ class SnapshotHistory {
   void Restart(SnapshotPtr snapshot);
 
  private:
-  struct Kept {
+  struct Samples {
     SnapshotPtr arrived;
     // snapshots that are not available yet; at most the latency divided by the period
     std::deque<SnapshotPtr> coming;
@@ -74,7 +74,7 @@ class SnapshotHistory {
 
   mutable base::Mutex mutex_;
   SnapshotPtr latest_ GSV_GUARDED_BY(mutex_);
-  std::map<Cadence, Kept> kept_ GSV_GUARDED_BY(mutex_);
+  std::map<Cadence, Samples> kept_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::simulation

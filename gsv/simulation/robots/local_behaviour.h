@@ -36,7 +36,8 @@ class Turn {
     bool is_timed = false;  // whether the durations of turns are measured, see
                             // RobotAgent::turn_took()
 
-    // Builds the ray scene, on the threads of the team, if turns at the last instant have cast rays.
+    // Builds the ray scene, on the threads of the team, if turns at the last instant have cast
+    // rays.
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 

@@ -63,7 +63,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const std::shared_ptr<BehaviourPort>& behaviour() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_;
   }
-  // Whether the behaviour is in this process. Such a behaviour takes turns, and has no waiting thread.
+  // Whether the behaviour is in this process. Such a behaviour takes turns, and has no waiting
+  // thread.
   bool is_hosted() const GSV_REQUIRES(simulation_mutex) { return local_ != nullptr; }
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
@@ -80,7 +81,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   };
   // Ends waits for instants up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
-  // The event on which the agent's calls wait. After a signal, a call checks whether its wait is over.
+  // The event on which the agent's calls wait. After a signal, a call checks whether its wait is
+  // over.
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
   // Marks the agent as unresponsive, because it runs and does not wait.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
@@ -128,9 +130,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     bool was_counted = false;  // whether the agent no longer counts in SharedState::running
     SimTime until{0};          // the agent must be added to SharedState::sleepers for this instant
   };
-  // Applies the turn if it ended in a wait for a later instant, as almost all turns do. Changes only
-  // this agent, so calls for different agents may run concurrently while the stepping thread holds
-  // the mutex.
+  // Applies the turn if it ended in a wait for a later instant, as almost all turns do. Changes
+  // only this agent, so calls for different agents may run concurrently while the stepping thread
+  // holds the mutex.
   UsualEnd ApplyUsualTurn(SimTime now) GSV_REQUIRES(simulation_mutex);
   // Does the same as TakeCommands() and applies the command if the only one is for the drive. Else
   // does nothing and returns false. Concurrent calls are allowed as for ApplyUsualTurn().

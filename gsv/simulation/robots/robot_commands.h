@@ -48,8 +48,9 @@ class RobotCommands {
   void ForgetJoint(int joint);
   // Adds an action, and removes earlier actions that the new one replaces.
   void Add(DeviceAction action);
-  // Adds a message of a radio to the robot `receiver`, or to all robots if `receiver` is empty. Fails
-  // for a sensor that is not a radio, a message that is too long, and more than 64 messages in one step.
+  // Adds a message of a radio to the robot `receiver`, or to all robots if `receiver` is empty.
+  // Fails for a sensor that is not a radio, a message that is too long, and more than 64 messages
+  // in one step.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content,
                     const std::string& robot);
 

@@ -61,10 +61,12 @@ struct SharedState {
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);
   // Whether deaths of agents were reported. The dead agents may still count as running.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
-  // Whether steps are timed, and the robot whose behaviour the step waited for last (empty for none).
+  // Whether steps are timed, and the robot whose behaviour the step waited for last (empty for
+  // none).
   bool is_timed GSV_GUARDED_BY(simulation_mutex) = false;
   std::string held_up_by GSV_GUARDED_BY(simulation_mutex);
-  // The robots whose behaviours have given up, with a sentence each, which the stepping thread emits.
+  // The robots whose behaviours have given up, with a sentence each, which the stepping thread
+  // emits.
   std::vector<std::pair<std::string, std::string>> given_up GSV_GUARDED_BY(simulation_mutex);
 };
 

@@ -81,7 +81,8 @@ class RunControl {
 
   // How many times the run has started or resumed.
   std::uint64_t run() const { return run_; }
-  // When an edit that is made now happens, relative to turns. `all_wait` is true if no agent is in its turn.
+  // When an edit that is made now happens, relative to turns. `all_wait` is true if no agent is in
+  // its turn.
   Edit::Moment MomentOfEdit(bool all_wait) const;
   // Edits of bodies before the first start are part of the setup and do not count.
   void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }

@@ -1,5 +1,6 @@
-// The stepping thread of a simulation. For each step, it wakes agents and executes the turns of local behaviours.
-// Then it waits until all agents wait (lockstep) or until the step is due (real time), and takes the step.
+// The stepping thread of a simulation. For each step, it wakes agents and executes the turns of
+// local behaviours. Then it waits until all agents wait (lockstep) or until the step is due (real
+// time), and takes the step.
 //
 // Determinism  in lockstep no value depends on when calls arrive. Commands are applied from the
 //              instant at which their agent runs, and loops follow the order of names.
