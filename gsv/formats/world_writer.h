@@ -9,8 +9,8 @@
 //
 // Frames  ModelLibrary::ReadWorld() reads the poses back bit by bit if roll, pitch and yaw can
 //         express them, as they do for all poses that users set; else within rounding.
-// Errors  kBadModel if the file of the world cannot be read any more. What cannot be written is
-//         left out, each with a problem.
+// Errors  kBadModel if the file of the world cannot be read any more. Models that cannot be written
+//         are left out, each with a problem.
 #pragma once
 
 #include <string>

@@ -7,8 +7,8 @@
 MSG_ROOT holds PACKAGE/NAME.msg. PACKAGE/NAME.srv names a service, whose definition is
 MSG_ROOT/../srv/PACKAGE/NAME.srv: it becomes the types NAMERequest and NAMEResponse. PACKAGE/NAME.action names
 an action in MSG_ROOT/../action, which becomes NAMEGoal, NAMEResult, NAMEFeedback and the types of its
-services and topics (design.ros2.org, "Actions"). Every type that is used must be listed. What a definition
-may hold: fields of primitive and message types, arrays of them (fixed, bounded, unbounded), constants, and
+services and topics (design.ros2.org, "Actions"). Every type that is used must be listed. A definition may
+contain fields of primitive and message types, arrays of them (fixed, bounded, unbounded), constants, and
 defaults of numbers. Anything else is refused with its file and line. The bound of an array is in the
 definition only: the C++ type is a vector without one.
 """

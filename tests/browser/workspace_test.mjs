@@ -149,7 +149,7 @@ test("a panel is moved to its own window, and back", async () => {
   await page.getByRole("tab", { name: "Status", exact: true }).click();
   await press("Arrange status");
   const opened = page.waitForEvent("popup");
-  await press("Open in own window");
+  await press("Open in a separate window");
   const popup = await opened;
   await popup.locator(".panel.status tbody tr").first().waitFor();
   await popup.close();

@@ -1,4 +1,4 @@
-// Several simulations run in one server. What happens in one of them must not affect the others.
+// Several simulations run in one server. Events in one of them must not affect the others.
 #include <algorithm>
 #include <atomic>
 #include <functional>

@@ -39,7 +39,7 @@ export function createGroupHead(api: DockviewApi, group: DockviewGroupPanel, par
   const maximise = item("Maximise", () =>
     group.api.isMaximized() ? api.exitMaximizedGroup() : group.api.maximize(),
   );
-  const window = item("Open in own window", (panel) => {
+  const window = item("Open in a separate window", (panel) => {
     if (panel.api.location.type === "popout") panel.api.moveTo(besideView(api, "right"));
     else void api.addPopoutGroup(panel);
   });
@@ -72,7 +72,7 @@ export function createGroupHead(api: DockviewApi, group: DockviewGroupPanel, par
     menu.button.title = `Arrange ${title}`;
     const isOut = panel?.api.location.type === "popout";
     setText(maximise, group.api.location.type === "grid" && group.api.isMaximized() ? "Restore the size" : "Maximise");
-    setText(window, isOut ? "Return to the page" : "Open in own window");
+    setText(window, isOut ? "Return to the page" : "Open in a separate window");
     maximise.hidden = isOut;
     window.hidden = isView;
     for (const move of moves) move.hidden = isView || isOut || parts.isNarrow();

@@ -175,7 +175,7 @@ class Waterfall {
 
 function holdUpTable(select: (robot: string) => void) {
   const rows = element("tbody");
-  const empty = element("p", { class: "dim" }, "No behaviour holds the steps up.");
+  const empty = element("p", { class: "dim" }, "No behaviour delays the steps.");
   const head = ["Behaviour of", "Steps", "Mean", "Longest"].map((name) => element("th", { scope: "col" }, name));
   const table = element("table", { class: "panel-table" }, element("thead", {}, element("tr", {}, ...head)), rows);
   return {
