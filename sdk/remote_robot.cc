@@ -79,13 +79,7 @@ class RemotePort final : public SensorPort {
 
   const SensorTraits& traits() const override { return traits_; }
 
-  bool Measure(Reading& reading) override {
-    reading.values.clear(), reading.labels.clear();
-    return robot_.Try([&] {
-      const sba::Measurement_var measured = sensor_->measure();
-      Copy(measured.in(), reading);
-    });
-  }
+  bool Measure(Reading& reading) override { return robot_.Read(traits_.name, sensor_, reading); }
 
   Image TakeImage() override {
     Image image;
@@ -177,12 +171,15 @@ base::Status RemoteRobot::OpenClock() {
   return orb::Call(name_, [this] {
     clock_ = hardware_->open_clock();
     orb::LimitCalls(clock_, kCallTimeout);
+    batch_clock_ = sba::BatchClock::_narrow(clock_);
+    if (!CORBA::is_nil(batch_clock_)) orb::LimitCalls(batch_clock_, kCallTimeout);
   });
 }
 
 void RemoteRobot::End() { running_ = false; }
 
 void RemoteRobot::CloseClock() {
+  Flush();
   // The simulation may have ended, and then there is no clock to close.
   if (!CORBA::is_nil(clock_)) (void)orb::Call(name_, [this] { clock_->close(); });
 }
@@ -227,7 +224,25 @@ base::Result<std::unique_ptr<Joint>> RemoteRobot::OpenJoint(const std::string& j
   return orb::Call(name_, [&] { return OpenRemoteJoint(*this, hardware_, joint); });
 }
 
+bool RemoteRobot::Read(const std::string& sensor, sba::Sensor_ptr reference, Reading& reading) {
+  reading.values.clear(), reading.labels.clear();
+  if (!running_) return false;
+  if (held_.Read(sensor, reading)) return true;
+  return Try([&] {
+    const sba::Measurement_var measured = reference->measure();
+    Copy(measured.in(), reading);
+  });
+}
+
 void RemoteRobot::Command(const DriveCommand& command) {
+  if (running_ && !held_.Delay(command)) SendCommand(command);
+}
+
+void RemoteRobot::Flush() {
+  if (const auto command = held_.TakeCommand()) SendCommand(*command);
+}
+
+void RemoteRobot::SendCommand(const DriveCommand& command) {
   Try([&] {
     if (command.lateral == 0) {
       base_->drive(command.linear, command.angular);
@@ -238,12 +253,15 @@ void RemoteRobot::Command(const DriveCommand& command) {
 }
 
 SimTime RemoteRobot::Now() {
+  if (!running_) return SimTime(0);
+  if (const auto held = held_.now()) return *held;
   SimTime now{0};
   Try([&] { now = SimTime(clock_->now()); });
   return now;
 }
 
 bool RemoteRobot::SleepUntil(SimTime instant) {
+  if (!CORBA::is_nil(batch_clock_)) return SleepAndRead(instant);
   sba::WaitOutcome outcome = sba::NOT_YET;
   while (outcome == sba::NOT_YET) {
     if (!Try([&] { outcome = clock_->sleep_until(instant.count()); })) return false;
@@ -251,9 +269,41 @@ bool RemoteRobot::SleepUntil(SimTime instant) {
   return true;
 }
 
+bool RemoteRobot::SleepAndRead(SimTime instant) {
+  const HeldInstant::Wait wait = held_.End();
+  const DriveCommand command = wait.command.value_or(DriveCommand());
+  sba::BaseCommand given{wait.command.has_value(), command.linear, command.lateral,
+                         command.angular};
+  sba::Strings sensors;
+  sensors.length(static_cast<CORBA::ULong>(wait.sensors.size()));
+  for (CORBA::ULong i = 0; i < sensors.length(); ++i) sensors[i] = wait.sensors[i].c_str();
+  sba::WaitOutcome outcome = sba::NOT_YET;
+  CORBA::LongLong reached = 0;
+  CORBA::Boolean holds_time = false;
+  std::vector<Reading> readings;
+  while (outcome == sba::NOT_YET) {
+    const bool ok = Try([&] {
+      sba::Measurements_var measurements;
+      outcome = batch_clock_->sleep_and_read(given, instant.count(), sensors, reached, holds_time,
+                                             measurements.out());
+      readings = FromIdl(measurements.in());
+    });
+    if (!ok) return false;
+    given.given = false;
+  }
+  if (holds_time) {
+    held_.Begin(SimTime(reached), std::move(readings));
+  } else {
+    batch_clock_ = sba::BatchClock::_nil();  // a clock in real time never holds it
+  }
+  return true;
+}
+
 bool RemoteRobot::Exchange(const DriveCommand& command, SimTime instant,
                            std::vector<Reading>& readings) {
   const sba::BaseCommand given{true, command.linear, command.lateral, command.angular};
+  Flush();
+  (void)held_.End();
   ++cycle_;
   sba::WaitOutcome outcome = sba::NOT_YET;
   while (outcome == sba::NOT_YET) {

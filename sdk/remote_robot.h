@@ -9,8 +9,9 @@
 
 #include "gsv/base/mutex.h"
 #include "gsv/orb/errors.h"
-#include "idl/hardware.hh"
+#include "idl/clocks.hh"
 #include "sdk/behaviour/robot.h"
+#include "sdk/held_instant.h"
 
 namespace gsv::sdk {
 
@@ -54,6 +55,9 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   // Ends the run with an error.
   void Fail(const base::Error& error) { Note(error); }
 
+  // Takes a reading of the sensor.
+  bool Read(const std::string& sensor, sba::Sensor_ptr reference, Reading& reading);
+
   // Calls `call` unless the run is over. The caller handles kInvalidArgument. Any other failure
   // ends the run.
   template <typename Function>
@@ -75,12 +79,18 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
  private:
   RemoteRobot(std::string name, sba::Hardware_ptr hardware);
   void Note(const base::Error& error);
+  void SendCommand(const DriveCommand& command);
+  // Sends a command that was delayed.
+  void Flush();
+  bool SleepAndRead(SimTime instant);
 
   const std::string name_;
   sba::Hardware_var hardware_;
   sba::SensorFactory_var factory_;
   sba::ActuatorProxy_var base_;
   sba::Clock_var clock_;
+  sba::BatchClock_var batch_clock_;  // nil if the clock is none, or if it does not hold the time
+  HeldInstant held_;
   double footprint_radius_ = 0;
   std::uint64_t cycle_ = 0;
   std::atomic<bool> running_{true};

@@ -1,12 +1,15 @@
 #include "gsv/services/hardware_servants.h"
 
 #include <chrono>
+#include <optional>
+#include <set>
 
 #include "gsv/orb/errors.h"
 #include "gsv/services/conversions.h"
 #include "gsv/services/joint_servants.h"
 #include "gsv/services/sensor_servants.h"
 #include "gsv/simulation/robots/robot_commands.h"
+#include "idl/clocks.hh"
 
 namespace gsv::services {
 namespace {
@@ -119,7 +122,7 @@ class BaseServant final : public POA_sba::ActuatorProxy {
   const AgentPtr agent_;
 };
 
-class ClockServant final : public POA_sba::Clock {
+class ClockServant final : public POA_sba::BatchClock {
  public:
   ClockServant(AgentPtr agent, simulation::ClockId clock, GroupPtr group)
       : agent_(std::move(agent)), clock_(clock), group_(std::move(group)) {}
@@ -134,16 +137,24 @@ class ClockServant final : public POA_sba::Clock {
   sba::WaitOutcome exchange(CORBA::ULongLong cycle, const sba::BaseCommand& command,
                             CORBA::LongLong instant, CORBA::LongLong& reached_ns,
                             sba::Measurements_out readings) override {
-    std::optional<world::DriveCommand> given;
-    if (command.given) given = {command.linear_m_s, command.lateral_m_s, command.angular_rad_s};
-    const simulation::Exchanged exchanged =
-        orb::ValueOrThrow(agent_->Exchange(clock_, cycle, given, base::SimTime(instant), kLease));
+    const simulation::Exchanged exchanged = orb::ValueOrThrow(
+        agent_->Exchange(clock_, cycle, CommandOf(command), base::SimTime(instant), kLease));
     reached_ns = exchanged.now.count();
-    readings = new sba::Measurements;
-    readings->length(static_cast<CORBA::ULong>(exchanged.readings.size()));
-    for (CORBA::ULong i = 0; i < readings->length(); ++i) {
-      readings[i] = services::ToIdl(exchanged.readings[i].sensor, exchanged.readings[i].reading);
-    }
+    readings = ToIdl(exchanged.readings);
+    return ToIdl(exchanged.wait);
+  }
+
+  sba::WaitOutcome sleep_and_read(const sba::BaseCommand& command, CORBA::LongLong instant,
+                                  const sba::Strings& sensors, CORBA::LongLong& reached_ns,
+                                  CORBA::Boolean& holds_time,
+                                  sba::Measurements_out readings) override {
+    std::set<std::string> names;
+    for (CORBA::ULong i = 0; i < sensors.length(); ++i) names.emplace(sensors[i]);
+    const simulation::Exchanged exchanged = orb::ValueOrThrow(
+        agent_->SleepAndRead(clock_, CommandOf(command), base::SimTime(instant), kLease, names));
+    reached_ns = exchanged.now.count();
+    holds_time = exchanged.holds_time;
+    readings = ToIdl(exchanged.readings);
     return ToIdl(exchanged.wait);
   }
 
@@ -160,6 +171,18 @@ class ClockServant final : public POA_sba::Clock {
  private:
   static sba::WaitOutcome ToIdl(simulation::Wait wait) {
     return wait == simulation::Wait::kReached ? sba::REACHED : sba::NOT_YET;
+  }
+  static sba::Measurements* ToIdl(const std::vector<simulation::NamedReading>& from) {
+    auto* const readings = new sba::Measurements;
+    readings->length(static_cast<CORBA::ULong>(from.size()));
+    for (CORBA::ULong i = 0; i < readings->length(); ++i) {
+      (*readings)[i] = services::ToIdl(from[i].sensor, from[i].reading);
+    }
+    return readings;
+  }
+  static std::optional<world::DriveCommand> CommandOf(const sba::BaseCommand& command) {
+    if (!command.given) return std::nullopt;
+    return world::DriveCommand{command.linear_m_s, command.lateral_m_s, command.angular_rad_s};
   }
 
   const AgentPtr agent_;

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,8 +39,10 @@ struct NamedReading {
 struct Exchanged {
   Wait wait = Wait::kNotYet;
   base::SimTime now{0};
-  // the readings of all open sensors, by name, if `wait` is kReached
+  // the readings of the sensors, by name, if `wait` is kReached
   std::vector<NamedReading> readings;
+  // Whether simulated time stands still until this agent waits again. Only SleepAndRead() sets it.
+  bool holds_time = false;
 };
 
 struct JointReading {
@@ -86,6 +89,13 @@ class Agent {
                                            std::optional<world::DriveCommand> command,
                                            base::SimTime until,
                                            std::chrono::milliseconds lease) = 0;
+
+  // Commands the base like Command(), waits, then reads those of `sensors` that are open. Leaves out
+  // sensors that fail or take long, and reads none if the agent does not hold the time.
+  virtual base::Result<Exchanged> SleepAndRead(ClockId clock,
+                                               std::optional<world::DriveCommand> command,
+                                               base::SimTime until, std::chrono::milliseconds lease,
+                                               const std::set<std::string>& sensors) = 0;
 
   virtual base::Status Command(const world::DriveCommand& command) = 0;
 

@@ -162,7 +162,7 @@ class World:
         self.call("sba::Simulation", "start")
         self.targets["sba::JointedHardware"] = self.robot_side.hardware_of(self.simulation)
         for interface, operation in (("SensorFactory", "sensor_factory"), ("ActuatorProxy", "base"),
-                                     ("Clock", "open_clock")):
+                                     ("BatchClock", "open_clock")):
             self.targets[f"sba::{interface}"] = self.call("sba::JointedHardware", operation)[""]
         self.joint = self.call("sba::JointedHardware", "list_joints")[""][0]["name"]
         self.targets["sba::JointActuator"] = self.call("sba::JointedHardware", "open_joint", name=self.joint)[""]
@@ -246,6 +246,8 @@ class World:
             "create_positioning_system": {"name": f"positioning_{number}"},
             "create": {"type": "lidar", "description": self.traits(f"lidar_{number}", "lidar")},
             "exchange": {"cycle": 1, "instant": 0, "command": {
+                "given": 1, "linear_m_s": 0.1, "lateral_m_s": 0.0, "angular_rad_s": 0.0}},
+            "sleep_and_read": {"instant": 0, "sensors": ["ahead"], "command": {
                 "given": 1, "linear_m_s": 0.1, "lateral_m_s": 0.0, "angular_rad_s": 0.0}},
             "sleep_until": {"instant": 0}, "send": {"receiver": "", "content": b"hello"}, "receive": {"after": 0},
             "play": {"sound": "tone", "frequency_hz": 440.0, "duration_s": 0.1, "volume": 0.5},

@@ -56,6 +56,12 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
                                                std::chrono::milliseconds) override {
     return base::Fail(Refused().error());
   }
+  base::Result<simulation::Exchanged> SleepAndRead(simulation::ClockId,
+                                                   std::optional<world::DriveCommand>,
+                                                   base::SimTime, std::chrono::milliseconds,
+                                                   const std::set<std::string>&) override {
+    return base::Fail(Refused().error());
+  }
   base::Status Command(const world::DriveCommand& command) override {
     const std::lock_guard lock(mutex_);
     command_ = command;

@@ -161,11 +161,10 @@ base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
     const std::uint64_t last = clocks_.last_cycle(clock);
     if (cycle == last + 1) {
       if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
-      if (command && !world::IsFinite(*command)) {
-        return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
+      if (command) {
+        if (auto ok = OfferDrive(clock, *command); !ok) return base::Fail(ok.error());
       }
       clocks_.set_last_cycle(clock, cycle);
-      if (command) Commands().OfferDrive({clock, *command});
     } else if (cycle != last || cycle == 0) {
       return base::Fail(
           base::ErrorCode::kInvalidArgument,
@@ -196,14 +195,49 @@ base::Result<std::vector<NamedReading>> RobotAgent::ReadOpenSensors() {
   return readings;
 }
 
-base::Status RobotAgent::Command(const world::DriveCommand& command) {
+base::Result<Exchanged> RobotAgent::SleepAndRead(ClockId clock,
+                                                 std::optional<world::DriveCommand> command,
+                                                 SimTime until, std::chrono::milliseconds lease,
+                                                 const std::set<std::string>& sensors) {
+  Exchanged exchanged;
+  {
+    AgentCallLock lock(*shared_);
+    if (auto ok = CheckAlive(); !ok) return base::Fail(ok.error());
+    if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
+    if (command) {
+      if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
+      if (auto ok = OfferDrive(0, *command); !ok) return base::Fail(ok.error());
+    }
+    auto wait = WaitOn(lock, clock, until, lease);
+    if (!wait) return base::Fail(wait.error());
+    exchanged.wait = *wait;
+    exchanged.now = shared_->now;
+    exchanged.holds_time =
+        *wait == Wait::kReached && shared_->mode == Mode::kLockstep && BlocksStep();
+  }
+  if (!exchanged.holds_time || sensors.empty()) return exchanged;
+  for (const MountedSensorPtr& sensor : rack_.OpenSensors()) {
+    if (sensor->takes_long() || !sensors.contains(sensor->name())) continue;
+    auto reading = Sample(*sensor);
+    if (!reading) continue;
+    sensor->CountReading();
+    exchanged.readings.push_back({sensor->name(), *std::move(reading)});
+  }
+  return exchanged;
+}
+
+base::Status RobotAgent::OfferDrive(ClockId clock, const world::DriveCommand& command) {
   if (!world::IsFinite(command)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
   }
+  Commands().OfferDrive({clock, command});
+  return {};
+}
+
+base::Status RobotAgent::Command(const world::DriveCommand& command) {
   AgentCallLock lock(*shared_);
   if (auto ok = CheckCanCommand(); !ok) return ok;
-  Commands().OfferDrive({0, command});
-  return {};
+  return OfferDrive(0, command);
 }
 
 base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& command) {

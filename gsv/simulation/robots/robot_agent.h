@@ -36,6 +36,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Result<Exchanged> Exchange(ClockId clock, std::uint64_t cycle,
                                    std::optional<world::DriveCommand> command, SimTime until,
                                    std::chrono::milliseconds lease) override;
+  base::Result<Exchanged> SleepAndRead(ClockId clock, std::optional<world::DriveCommand> command,
+                                       SimTime until, std::chrono::milliseconds lease,
+                                       const std::set<std::string>& sensors) override;
   base::Status Command(const world::DriveCommand& command) override;
   const std::vector<model::Joint>& Joints() const override { return model_->joints; }
   base::Status CommandJoint(int joint, const world::JointCommand& command) override;
@@ -150,6 +153,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   enum class Fate { kAlive, kUnresponsive, kDead };
 
   base::Status CheckCanCommand() const GSV_REQUIRES(simulation_mutex);
+  base::Status OfferDrive(ClockId clock, const world::DriveCommand& command)
+      GSV_REQUIRES(simulation_mutex);
   base::Status CheckAlive() const GSV_REQUIRES(simulation_mutex);
   base::Status CheckClock(ClockId clock) const GSV_REQUIRES(simulation_mutex);
   // Waits on the clock. Releases `lock` while it waits.

@@ -1,0 +1,52 @@
+// Saves round trips of a behaviour in lockstep. While the behaviour runs, simulated time stands still.
+// So the readings that came with the end of its last wait stay valid, and a command of the base may
+// be sent with its next wait.
+//
+// Threads  any.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "sdk/behaviour/robot.h"
+
+namespace gsv::sdk {
+
+class HeldInstant {
+ public:
+  // A wait sends the delayed command, and the sensors that the behaviour has used since its last
+  // wait.
+  struct Wait {
+    std::optional<DriveCommand> command;
+    std::vector<std::string> sensors;
+  };
+
+  // Begins an instant, which holds until End().
+  void Begin(SimTime now, std::vector<Reading> readings);
+  Wait End();
+
+  // Returns nullopt if no instant is held.
+  std::optional<SimTime> now() const;
+  // Copies the reading of a sensor. Returns false if there is none. Notes that the behaviour uses
+  // the sensor.
+  bool Read(const std::string& sensor, Reading& reading);
+  // Delays the command. Returns false if it must be sent now.
+  bool Delay(const DriveCommand& command);
+  std::optional<DriveCommand> TakeCommand();
+
+ private:
+  struct Use {
+    bool is_used = false;
+    std::optional<Reading> reading;  // empty if none came with the wait
+  };
+
+  mutable base::Mutex mutex_;
+  std::optional<SimTime> now_ GSV_GUARDED_BY(mutex_);
+  std::map<std::string, Use> uses_ GSV_GUARDED_BY(mutex_);  // by sensor
+  std::optional<DriveCommand> command_ GSV_GUARDED_BY(mutex_);
+};
+
+}  // namespace gsv::sdk
