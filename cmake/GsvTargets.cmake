@@ -1,6 +1,6 @@
 # gsv_precompile(TARGET KIND) gives a target the headers that nearly every file of its kind includes
-# (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", "program", or "test" for
-# programs made of tests. The target links to gsv::base.
+# (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", or "test" for programs made of tests. The
+# target links to gsv::base. Programs have no such header: what it holds of CLI11 would be compiled again in each.
 function(gsv_precompile TARGET KIND)
   set(OWNER gsv_precompiled_${KIND})
   if(NOT TARGET ${OWNER})

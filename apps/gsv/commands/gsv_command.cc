@@ -1,0 +1,235 @@
+#include "apps/gsv/commands/gsv_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/help_formatter.h"
+#include "apps/gsv/process/option_values.h"
+#include "apps/gsv/process/program_end.h"
+#include "apps/gsv/process/standard_output.h"
+#include "gsv/base/log.h"
+#include "gsv/base/spelling.h"
+
+namespace gsv::app {
+namespace {
+
+struct LogArguments {
+  std::string level, format;
+  std::size_t lines = base::LogOptions{}.lines_per_second;
+};
+
+template <typename Parse>
+CLI::Validator ReadableBy(Parse parse) {
+  return CLI::Validator(
+      [parse](const std::string& text) {
+        const auto parsed = parse(text);
+        return parsed ? std::string() : parsed.error().Sentence();
+      },
+      "");
+}
+
+void AddLogOptions(CLI::App& app, LogArguments& log) {
+  app.add_option("--log-level", log.level, "lowest level to log on stderr (default: warning)")
+      ->type_name("trace|debug|info|warning|error|off")
+      ->check(ReadableBy(&base::ParseLogLevel))
+      ->envname("GSV_LOG_LEVEL");
+  app.add_option("--log-format", log.format, "format of log lines (default: text)")
+      ->type_name("text|json")
+      ->check(ReadableBy(&base::ParseLogFormat))
+      ->envname("GSV_LOG_FORMAT");
+  app.add_option("--log-rate", log.lines, "log lines per second; further lines are counted")
+      ->type_name("N")
+      ->check(Between(1, 1'000'000))
+      ->capture_default_str();
+}
+
+struct CorbaArguments {
+  std::string certificate, key, authority;
+  bool is_insecure = false;
+};
+
+void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
+  app.add_option(
+         "--corba-certificate", corba.certificate,
+         "certificate (PEM), with which CORBA uses TLS\n"
+         "Both sides need a certificate of the same authority. `gsv certificates make` makes "
+         "one.")
+      ->type_name("FILE")
+      ->envname("GSV_CORBA_CERTIFICATE");
+  app.add_option("--corba-key", corba.key, "private key (default: NAME-key.pem beside NAME.pem)")
+      ->type_name("FILE")
+      ->envname("GSV_CORBA_KEY");
+  app.add_option("--corba-authority", corba.authority,
+                 "authority to trust (default: ca.pem beside NAME.pem)")
+      ->type_name("FILE")
+      ->envname("GSV_CORBA_AUTHORITY");
+  app.add_flag("--insecure-corba", corba.is_insecure,
+               "accept CORBA calls without certificates\n"
+               "Everyone who can reach this machine may then control it. GSV_INSECURE_CORBA=1 does "
+               "the same.");
+}
+
+// Sets the variables for orb::PrepareAccess(), and for programs that this process starts.
+void UseCorbaOptions(const CorbaArguments& corba) {
+  const auto set = [](const char* name, const std::string& path) {
+    if (!path.empty()) setenv(name, std::filesystem::absolute(path).c_str(), 1);
+  };
+  set("GSV_CORBA_CERTIFICATE", corba.certificate);
+  set("GSV_CORBA_KEY", corba.key);
+  set("GSV_CORBA_AUTHORITY", corba.authority);
+  if (corba.is_insecure) setenv("GSV_INSECURE_CORBA", "1", 1);
+}
+
+// Programs that this process starts log in the same way.
+void StartLog(const LogArguments& log, bool verbose) {
+  if (!log.level.empty()) setenv("GSV_LOG_LEVEL", log.level.c_str(), 1);
+  if (!log.format.empty()) setenv("GSV_LOG_FORMAT", log.format.c_str(), 1);
+  base::LogOptions options = base::LogOptionsFromEnvironment(spdlog::level::warn);
+  options.lines_per_second = log.lines;
+  if (verbose && log.level.empty()) options.level = spdlog::level::debug;
+  base::InitLogging(options);
+}
+
+// Returns the first unknown option, or else the first unknown word. `words` are the words that the
+// command does not know; there is at least one.
+std::string UnknownWord(const CLI::App& command, const std::vector<std::string>& words) {
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const auto& word) { return word.starts_with('-'); });
+  std::vector<std::string> known;
+  if (option != words.end()) {
+    for (const CLI::Option* each : command.get_options()) {
+      for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
+    }
+    const std::string name = option->substr(0, option->find('='));
+    return "there is no option " + name + base::DidYouMean(name, known);
+  }
+  for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!each->get_group().empty()) known.push_back(each->get_name());
+  }
+  if (known.empty()) return "unexpected argument " + words.front();
+  return "there is no command " + words.front() + base::DidYouMean(words.front(), known);
+}
+
+// Returns one sentence, as for every error. CLI11 reports an unknown command as a missing one.
+std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
+  const CLI::App* typed = app;  // the command that the user typed
+  std::string words = app->get_name();
+  while (!typed->get_subcommands().empty()) {
+    typed = typed->get_subcommands().front();
+    words += " " + typed->get_name();
+  }
+  std::string what = error.what();
+  const bool is_required = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
+  if (is_required && typed->get_require_subcommand_min() > 0) {
+    const std::vector<std::string> unknown = typed->remaining();
+    what = unknown.empty() ? "a command is missing" : UnknownWord(*typed, unknown);
+  } else if (!typed->remaining().empty()) {
+    what = UnknownWord(*typed, typed->remaining());
+  } else if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExcludesError)) {
+    const std::string word = " excludes ";
+    if (const std::size_t at = what.find(word); at != std::string::npos) {
+      what.replace(at, word.size(), " and ");
+      what += " cannot be used together";
+    }
+  }
+  return "gsv: " + what + (what.ends_with('?') ? " See " : ". See ") + words + " --help\n";
+}
+
+// Sets the groups of commands that do not set one themselves.
+void GroupCommands(CLI::App& app) {
+  const std::pair<const char*, std::vector<const char*>> groups[]{
+      {"Commands to run simulations", {"run", "serve", "view", "test", "campaign"}},
+      {"Commands for recordings", {"rec", "replay", "snapshot", "film"}},
+      {"Commands for files", {"list", "world", "model"}},
+      {"Commands for logs of real robots", {"compare", "fit"}},
+      {"Commands for this machine", {"doctor", "completion", "bench", "certificates"}}};
+  for (const auto& [group, commands] : groups) {
+    for (const char* command : commands) app.get_subcommand(command)->group(group);
+  }
+}
+
+// Returns the arguments in reverse order, as CLI11 wants them. `gsv help run` is `gsv run --help`.
+// Without "--help", an unknown command is an error.
+std::vector<std::string> WordsOf(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    const auto is_named = [&](const CLI::App* command) {
+      return command->get_name() == words.front();
+    };
+    if (words.empty() || !app.get_subcommands(is_named).empty()) {
+      words.emplace_back("--help");
+    }
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+}  // namespace
+
+int RunGsv(int argc, char** argv) {
+  Signals signals;
+  int exit_code = kOk;
+  CLI::App app(
+      "GSV simulates robots in 3D worlds. Behaviours are separate programs, found\nthrough a "
+      "broker.",
+      "gsv");
+  UseHelpFormatter(app);
+  app.set_version_flag("--version", "gsv " GSV_VERSION, "print the version");
+  app.require_subcommand(1);
+  app.failure_message(UsageSentence);
+  bool verbose = false;
+  app.add_flag("-v,--verbose", verbose, "log more, as --log-level debug");
+  LogArguments log;
+  AddLogOptions(app, log);
+  CorbaArguments corba;
+  AddCorbaOptions(app, corba);
+  app.parse_complete_callback([&] {
+    StartLog(log, verbose);
+    UseCorbaOptions(corba);
+  });
+  const CommandLine line{app, signals, exit_code};
+  AddRunCommand(line);
+  AddServeCommand(line);
+  AddViewCommand(line);
+  AddTestCommand(line);
+  AddCampaignCommand(line);
+  AddControlCommands(line);
+  AddRecordingCommands(line);
+  AddRecordCommands(line);
+  AddSnapshotCommand(line);
+  AddFilmCommand(line);
+  AddCheckCommands(line);
+  AddConvertCommand(line);
+  AddDrawCommand(line);
+  AddListCommand(line);
+  AddCompletionCommand(line);
+  AddMapCommands(line);
+  AddSaveCommand(line);
+  AddCompareCommands(line);
+  AddBrokerCommands(line);
+  AddRos2Commands(line);
+  AddBenchCommands(line);
+  AddCertificatesCommand(line);
+  GroupCommands(app);
+  TakeOneValuePerOption(app);
+  try {
+    app.parse(WordsOf(app, argc, argv));
+  } catch (const CLI::ParseError& error) {
+    return EndOutput(stdout, app.exit(error) == 0 ? kOk : kUsage);
+  } catch (const std::exception& exception) {
+    return PrintError({base::ErrorCode::kUnavailable, exception.what(), "unexpected"});
+  }
+  return EndProgram(exit_code);
+}
+
+}  // namespace gsv::app
