@@ -23,8 +23,8 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
   if (contact.restitution > 0 && std::abs(meeting) >= kBounces) {
     wanted = std::max(0.0, -contact.restitution * meeting);
   }
-  // A gap may close by the end of the step. An overlap is removed over several steps. For bodies
-  // without joints, separate velocities remove it (RigidStep).
+  // A gap may close by the end of the step. An overlap with a tree of links is removed over several
+  // steps. An overlap of bodies without joints stays (ADR 099).
   const double gap = contact.point.distance + kSlop;
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
   // The fraction of the slip that friction removes in this substep. A contact that closes during

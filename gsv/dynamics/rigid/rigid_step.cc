@@ -17,10 +17,6 @@ constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
 constexpr double kPassable = 0.4;
 // m: planar bodies that are closer than this to the area of a rigid body take part in the step
 constexpr double kNear = 0.05;
-// m: penetration of bodies at rest
-constexpr double kRestingDepth = 1e-5;
-// The fraction of the rotation that would separate two bodies, which a substep applies.
-constexpr double kTurningShare = 0.1;
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
@@ -209,83 +205,15 @@ void RigidStep::MakeIslands() {
 void RigidStep::SolveIslands(double substep) {
   // Waking a thread costs as much as solving this number of islands of this size.
   constexpr std::size_t kGrain = 4;
-  shifts_.assign(bodies_.size(), {});
   const auto solve = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       islands_[i].Solve(finder_, bodies_, *contacts_, push_rows_, starts_, velocities_, substep);
-      PushApart(islands_[i], substep);
     }
   };
   if (team_ == nullptr) {
     solve(0, island_count_);
   } else {
     team_->ParallelFor(island_count_, kGrain, solve);
-  }
-}
-
-// Separates bodies without joints, by velocities that apply in this substep only.
-void RigidStep::PushApart(const IslandSolver& island, double substep) {
-  constexpr double kShare = 0.2;  // fraction of the overlap that a substep removes
-  constexpr int kMaxIterations = 50;
-  constexpr double kTolerance = 1e-6;  // m/s
-  struct Side {
-    int moving;
-    Vector3 linear, angular, linear_response, angular_response;
-  };
-  struct Row {
-    Side sides[2];
-    int count;
-    double target, inverse, impulse;
-  };
-  std::vector<Row> rows;
-  for (const int index : island.contacts()) {
-    const Contact& contact = (*contacts_)[At(index)];
-    const double depth = -(contact.point.distance + kRestingDepth);
-    if (!(depth > 0)) continue;
-    Row row{{}, 0, kShare * depth / substep, 0, 0};
-    double moved = 0;
-    bool has_tree = false;
-    for (const double sign : {1.0, -1.0}) {
-      const int moving = MovedBy(sign > 0 ? contact.first : contact.second);
-      if (moving < 0) continue;
-      const LinkTree& tree = bodies_[At(moving)]->tree();
-      has_tree = has_tree || !tree.is_single();
-      if (has_tree) break;
-      const Vector3 point = sign > 0 ? contact.on_first() : contact.point.on_second;
-      Side& side = row.sides[row.count++];
-      side.moving = moving;
-      side.linear = sign * contact.point.normal;
-      side.angular = Cross(point - tree.position(0), side.linear);
-      double response[] = {side.angular.x, side.angular.y, side.angular.z,
-                           side.linear.x,  side.linear.y,  side.linear.z};
-      tree.Respond(response);
-      side.angular_response = {response[0], response[1], response[2]};
-      side.linear_response = {response[3], response[4], response[5]};
-      moved += Dot(side.angular, side.angular_response) + Dot(side.linear, side.linear_response);
-    }
-    if (has_tree || row.count == 0) continue;
-    row.inverse = 1 / moved;
-    rows.push_back(row);
-  }
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    double most = 0;
-    for (Row& row : rows) {
-      double speed = 0;
-      for (int i = 0; i < row.count; ++i) {
-        const Shift& shift = shifts_[At(row.sides[i].moving)];
-        speed += Dot(row.sides[i].linear, shift.moving) + Dot(row.sides[i].angular, shift.turning);
-      }
-      const double after = std::max(0.0, row.impulse + (row.target - speed) * row.inverse);
-      const double change = after - row.impulse;
-      row.impulse = after;
-      for (int i = 0; i < row.count; ++i) {
-        Shift& shift = shifts_[At(row.sides[i].moving)];
-        shift.moving += change * row.sides[i].linear_response;
-        shift.turning += change * row.sides[i].angular_response;
-      }
-      most = std::max(most, std::abs(change) / row.inverse);
-    }
-    if (most <= kTolerance) break;
   }
 }
 

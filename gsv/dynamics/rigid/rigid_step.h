@@ -67,7 +67,6 @@ class RigidStep {
   void Join(int a, int b);
   int RootOf(int moving);
   void SolveIslands(double substep);
-  void PushApart(const IslandSolver& island, double substep);
   void KeepImpulses(double substep);
   void MoveBodies(double substep);
   int MovedBy(int collider) const;
@@ -92,10 +91,6 @@ class RigidStep {
   // state at the start of the step; may be null
   std::shared_ptr<const world::EngineState> kept_before_;
   std::shared_ptr<KeptImpulses> kept_;  // impulses of the last substep; may be null
-  struct Shift {
-    geometry::Vector3 moving, turning;
-  };
-  std::vector<Shift> shifts_;  // by moving body, m/s and rad/s
 };
 
 }  // namespace gsv::dynamics
