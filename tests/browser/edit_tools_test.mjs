@@ -51,6 +51,15 @@ async function type(label, value) {
   await field.blur();
 }
 
+test("a click on the floor clears the selection", async () => {
+  await page.locator('[data-robot="pebble"]').click();
+  await chosenAre("pebble");
+  await settled(page);
+  const at = await onScreen("pebble");
+  await page.mouse.click(at.x - 70, at.y + 25);
+  await chosenAre();
+});
+
 test("a box of 0.4 m is put before the selected robot", async () => {
   await press("Edit");
   await edit().waitFor();
@@ -104,6 +113,50 @@ test("a handle moves the body along one axis, in steps if snapping is on", async
   assert.ok(Math.abs(4 * now[0] - Math.round(4 * now[0])) < 1e-6, "on a multiple of 0.25 m");
   await settled(page);
   assert.equal(Number(await pose().getByLabel("x (m)").inputValue()), Number(now[0].toFixed(4)));
+});
+
+test("a drag of the selected body itself moves it over the floor", async () => {
+  await edit().getByLabel("Snap").uncheck();
+  await settled(page);
+  await ready();
+  const before = await place("box");
+  const at = await onScreen("box");
+  // The body's front, below its centre, where the handles meet.
+  const from = { x: at.x - 4, y: at.y + 9 };
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x - 30, from.y + 10, { steps: 5 });
+  await page.mouse.up();
+  await until(async () => Math.hypot((await place("box"))[0] - before[0], (await place("box"))[1] - before[1]) > 0.1, "the dragged box");
+  assert.ok(Math.abs((await place("box"))[2] - before[2]) < 1e-6, "at its height");
+  await settled(page);
+  await ready();
+  await press("Undo");
+  await until(async () => Math.abs((await place("box"))[0] - before[0]) < 1e-6, "the box at its old place");
+  await settled(page);
+});
+
+test("a click on a handle is no edit, and no handle takes a click that places", async () => {
+  await ready();
+  const before = await place("box");
+  const redo = page.locator('.edit [aria-label="Redo"]:enabled');
+  await redo.waitFor();
+  const at = await handle("x");
+  await page.mouse.click(at.x, at.y);
+  await settled(page);
+  await redo.waitFor(); // an edit would have cleared the list
+  await chosenAre("box");
+  await press("Place");
+  await page.getByText("Click the floor to place box there.").waitFor();
+  await settled(page);
+  assert.equal(await handle("x"), null);
+  await page.mouse.click(at.x, at.y);
+  await until(async () => Math.hypot((await place("box"))[0] - before[0], (await place("box"))[1] - before[1]) > 0.05, "the placed box");
+  await settled(page);
+  await ready();
+  await press("Undo");
+  await until(async () => Math.abs((await place("box"))[0] - before[0]) < 1e-6, "the box at its old place");
+  await settled(page);
 });
 
 test("typed numbers place the body exactly, and undo reverts each of them", async () => {

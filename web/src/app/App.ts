@@ -81,7 +81,11 @@ export class App {
       this.act("pause"),
     );
     this.pointing = new PointingControl(store, this.edits);
-    this.editActions = new EditActions(store, api.setUp, this.edits, this.setUp, (body) => placeIn(world(), body));
+    this.editActions = new EditActions(
+      ...[store, api.setUp, this.edits, this.setUp] as const,
+      (body) => placeIn(world(), body),
+      () => world()?.lookedAt ?? null,
+    );
     this.records = new RecordControl(store, api);
     this.people = new PeopleControl(store, session, api.viewers, browserStorage());
     this.panels = new PanelControl(store);

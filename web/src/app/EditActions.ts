@@ -22,6 +22,8 @@ export class EditActions {
     private readonly edits: EditControl,
     private readonly setUp: SetUpControl,
     private readonly placeOf: (body: string) => Required<BodyPlace> | null, // null: unknown
+    // the point that the camera looks at, in metres in the world; null: there is no view
+    private readonly lookedAt: () => { x: number; y: number } | null,
   ) {}
 
   // Moves a body to the pose to which the user dragged it. Resolves to whether the body is now
@@ -39,16 +41,16 @@ export class EditActions {
     return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
   }
 
-  // Adds a shape in front of the selected robot if there is room, else at the first free place.
+  // Adds a shape in front of the selected robot, or where the view looks at. If there is no room, it
+  // gets the first free place.
   async addShape(shape: Shape): Promise<boolean> {
     const { selection, editing } = this.store.get();
     const robot = editing?.chosen == null && selection !== null ? this.placeOf(selection) : null;
     const ahead = BEFORE_ROBOT_M + footprintOf(shape);
-    const place = robot && {
-      x: robot.x + ahead * Math.cos(robot.yaw),
-      y: robot.y + ahead * Math.sin(robot.yaw),
-      yaw: robot.yaw,
-    };
+    const centre = this.lookedAt();
+    const place = robot
+      ? { x: robot.x + ahead * Math.cos(robot.yaw), y: robot.y + ahead * Math.sin(robot.yaw), yaw: robot.yaw }
+      : centre && { ...centre, yaw: 0 };
     return this.edits.addObject({ name: "", model: modelOf(shape), place }, shape.kind);
   }
 

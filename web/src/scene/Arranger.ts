@@ -126,7 +126,11 @@ export class Arranger {
     if (!drag) return;
     event.stopPropagation();
     const { name } = drag.body;
-    if (!drag.isMoved) return this.events.onPick(name);
+    if (!drag.isMoved) {
+      // A click on the arrow means the body behind its tip, if there is one.
+      const behind = drag.turns ? this.view.bodies()?.pick(this.ray(drag.start)) : null;
+      return this.events.onPick(behind && !behind.isFixed ? behind.name : name);
+    }
     void this.events.onPlace(name, drag.place).then((stands) => stands || this.giveUp());
   }
 

@@ -1,11 +1,15 @@
 // Finds the bodies under the pointer. Places are in CSS pixels of the page.
 import type { PerspectiveCamera } from "three";
+import { Vector3 } from "three";
 import type { SceneBody } from "../api/scene";
 import { hasAgent } from "../api/scene";
 import type { BodyLayer } from "./BodyLayer";
 import type { ScreenPlace } from "./picking";
 import { nearest, rayThrough, screenPlaceOf } from "./picking";
 import type { RobotPlaces } from "./RobotPlaces";
+
+const GROUND_WIDTH = 4; // m: smallest width of a floor
+const GROUND_FLATNESS = 0.05; // largest height of a floor, as a fraction of its width
 
 export interface PickedView {
   host: HTMLElement;
@@ -28,9 +32,10 @@ export class BodyPicker {
     );
   }
 
-  // Returns the body at a place; null if there is none.
+  // Returns the body at a place; null if there is none, or only the ground.
   objectAt(place: ScreenPlace): string | null {
-    return this.bodyAt(place)?.name ?? null;
+    const hit = this.bodyAt(place);
+    return hit && !this.isGround(hit) ? hit.name : null;
   }
 
   // Returns the movable body at a place; null if there is none.
@@ -50,6 +55,14 @@ export class BodyPicker {
     const middle = this.view.robots()?.middleOf(robot);
     if (!middle) return null;
     return screenPlaceOf(middle, this.view.camera(), this.view.host.getBoundingClientRect());
+  }
+
+  // Whether a body is a floor: a wide and flat part of the world. A click on it clears the selection.
+  private isGround(body: SceneBody): boolean {
+    const bodies = this.view.bodies();
+    const size = bodies?.templateOf(bodies.indexOf(body.name))?.bounds.getSize(new Vector3());
+    if (!body.isFixed || !size) return false;
+    return Math.min(size.x, size.y) >= GROUND_WIDTH && size.z <= GROUND_FLATNESS * Math.min(size.x, size.y);
   }
 
   private bodyAt(place: ScreenPlace): SceneBody | null {

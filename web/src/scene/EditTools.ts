@@ -45,7 +45,7 @@ export class EditTools {
   readonly group = new Group();
   readonly gizmo: Gizmo;
   readonly marks = new PointMarks();
-  clickUse: ClickUse = "choose";
+  private use: ClickUse = "choose";
   private readonly rings = new Group();
   private readonly ringsMade: SelectionRing[] = [];
   private readonly rectangle: RectangleChoice;
@@ -54,6 +54,7 @@ export class EditTools {
   private held: BodyLayer | null = null;
   // the poses of the dragged bodies before the drag
   private before: { index: number; pose: Matrix4 }[] = [];
+  private isMoved = false; // whether the drag has moved the bodies
 
   constructor(
     private readonly view: EditToolsView,
@@ -66,6 +67,17 @@ export class EditTools {
       onChoose: (isInside) => this.chooseInside(isInside),
     });
     this.group.add(this.rings, this.marks.group, this.gizmo.root);
+  }
+
+  get clickUse(): ClickUse {
+    return this.use;
+  }
+
+  // There are no handles while a click has another use than selecting: they would take the click.
+  set clickUse(use: ClickUse) {
+    this.use = use;
+    this.show();
+    this.view.redraw();
   }
 
   // null: edit mode is off.
@@ -89,7 +101,7 @@ export class EditTools {
 
   // Called with every frame.
   show(): void {
-    this.gizmo.attach(this.tool ? this.poseOf(this.chosen[0]) : null);
+    this.gizmo.attach(this.tool && this.use === "choose" ? this.poseOf(this.chosen[0]) : null);
     const others = this.chosen.slice(1).flatMap((name) => this.view.robots()?.ringOf(name) ?? []);
     while (this.rings.children.length > others.length) this.rings.remove(this.rings.children.at(-1)!);
     others.forEach((place, i) => {
@@ -100,14 +112,14 @@ export class EditTools {
 
   // Whether a press at this place is on a handle of the gizmo.
   isHandleAt(at: ScreenPlace): boolean {
-    return this.tool !== null && this.gizmo.isAt(at);
+    return this.tool !== null && this.use === "choose" && this.gizmo.isAt(at);
   }
 
   // Handles a click that does not select. Returns whether it was one.
   click(at: ScreenPlace): boolean {
-    if (this.clickUse === "choose") return false;
+    if (this.use === "choose") return false;
     const point = this.view.pointAt(at);
-    if (point) (this.clickUse === "place" ? this.events.onPlacePoint : this.events.onPoint)({ x: point.x, y: point.y, z: point.z });
+    if (point) (this.use === "place" ? this.events.onPlacePoint : this.events.onPoint)({ x: point.x, y: point.y, z: point.z });
     return true;
   }
 
@@ -131,6 +143,7 @@ export class EditTools {
   private grab(): void {
     const bodies = this.view.bodies();
     this.held = bodies;
+    this.isMoved = false;
     this.before = this.chosen.flatMap((name) => {
       const index = bodies?.indexOf(name) ?? -1;
       const pose = bodies?.poseOf(index)?.clone();
@@ -141,6 +154,7 @@ export class EditTools {
   private move(motion: Matrix4): void {
     const bodies = this.view.bodies();
     if (!bodies || this.held !== bodies) return;
+    this.isMoved = true;
     for (const { index, pose } of this.before) bodies.moveBody(index, motion.clone().multiply(pose));
     const [first] = this.poses(bodies);
     if (first) this.events.onDrag(first);
@@ -150,13 +164,18 @@ export class EditTools {
   private drop(): void {
     const bodies = this.view.bodies();
     if (!bodies || this.held !== bodies) return;
-    void this.events.onPose(this.poses(bodies)).then((stand) => stand || this.giveUp());
+    if (!this.isMoved) this.held = null; // a click on a handle is no edit
+    else void this.events.onPose(this.poses(bodies)).then((stand) => stand || this.giveUp());
   }
 
   // Returns the bodies to their last reported poses.
   private giveUp(): void {
     const bodies = this.view.bodies();
-    if (bodies && this.held === bodies) for (const { index, pose } of this.before) bodies.moveBody(index, pose);
+    if (bodies && this.held === bodies) {
+      for (const { index, pose } of this.before) bodies.moveBody(index, pose);
+      const [first] = this.poses(bodies);
+      if (first) this.events.onDrag(first); // the fields show the old pose again
+    }
     this.held = null;
     this.view.redraw();
   }

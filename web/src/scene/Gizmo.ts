@@ -9,6 +9,8 @@ import type { ScreenPlace } from "./picking";
 import { screenPlaceOf } from "./picking";
 
 const SIZE = 0.85; // as a fraction of three's default
+// Handles that cover the body itself, where a drag moves the body over the floor.
+const LEFT_OUT: ReadonlySet<string> = new Set(["XYZ", "XZ", "YZ"]);
 const HANDLE_SHARE = 0.5; // fraction of an arrow's length at which tests drag it
 
 export interface GizmoEvents {
@@ -36,7 +38,11 @@ export class Gizmo {
   ) {
     this.controls = new TransformControls(camera, canvas);
     this.controls.size = SIZE;
-    this.root.add(this.frame, this.controls.getHelper());
+    const helper = this.controls.getHelper();
+    const leftOut: Object3D[] = [];
+    helper.traverse((part) => LEFT_OUT.has(part.name) && leftOut.push(part));
+    for (const part of leftOut) part.removeFromParent();
+    this.root.add(this.frame, helper);
     this.controls.addEventListener("change", redraw);
     this.controls.addEventListener("mouseDown", () => {
       this.frame.updateMatrixWorld(true);

@@ -275,6 +275,12 @@ export class World3D {
     if (this.stage.parts) this.rig.frame(this.stage.parts.focus, true);
   }
 
+  // The point that the camera looks at, in metres in the world.
+  get lookedAt(): { x: number; y: number } {
+    const { x, y } = this.rig.controls.target;
+    return { x, y };
+  }
+
   // Moves the camera at once: its position and target, in metres.
   get viewpoint(): Viewpoint {
     return this.rig.viewNumbers;
@@ -410,7 +416,7 @@ export class World3D {
   }
 
   private click(place: ScreenPlace): void {
-    if (this.tools.isHandleAt(place) || this.tools.click(place)) return;
+    if (this.tools.click(place)) return;
     const robot = this.picker.robotAt(place);
     const added = robot === null && this.arranger.isOn ? this.picker.addedStaticAt(place) : null;
     const firm = added === this.watch.selection ? null : added;
