@@ -54,7 +54,6 @@ async function type(label, value) {
 test("a click on the floor clears the selection", async () => {
   await page.locator('[data-robot="pebble"]').click();
   await chosenAre("pebble");
-  await settled(page);
   const at = await onScreen("pebble");
   await page.mouse.click(at.x - 70, at.y + 25);
   await chosenAre();
@@ -119,13 +118,17 @@ test("a drag of the selected body itself moves it over the floor", async () => {
   await edit().getByLabel("Snap").uncheck();
   await settled(page);
   await ready();
+  await type("x (m)", 0);
+  await until(async () => Math.abs((await place("box"))[0]) < 1e-9, "the box in the open");
+  await settled(page);
+  await ready();
   const before = await place("box");
   const at = await onScreen("box");
   // The body's front, below its centre, where the handles meet.
-  const from = { x: at.x - 4, y: at.y + 9 };
+  const from = { x: at.x - 2, y: at.y + 6 };
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
-  await page.mouse.move(from.x - 30, from.y + 10, { steps: 5 });
+  await page.mouse.move(from.x + 25, from.y + 5, { steps: 5 });
   await page.mouse.up();
   await until(async () => Math.hypot((await place("box"))[0] - before[0], (await place("box"))[1] - before[1]) > 0.1, "the dragged box");
   assert.ok(Math.abs((await place("box"))[2] - before[2]) < 1e-6, "at its height");
@@ -150,7 +153,8 @@ test("a click on a handle is no edit, and no handle takes a click that places", 
   await page.getByText("Click the floor to place box there.").waitFor();
   await settled(page);
   assert.equal(await handle("x"), null);
-  await page.mouse.click(at.x, at.y);
+  const middle = await onScreen("box");
+  await page.mouse.click(middle.x + 25, middle.y + 8); // beside the arrow along x
   await until(async () => Math.hypot((await place("box"))[0] - before[0], (await place("box"))[1] - before[1]) > 0.05, "the placed box");
   await settled(page);
   await ready();

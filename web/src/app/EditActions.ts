@@ -76,6 +76,8 @@ export class EditActions {
       const saved = await this.api.saveWorld(simulation, file);
       download(file, new Blob([saved.sdf], { type: "application/xml" }));
       if (scenario) download(file.replace(/\.sdf$/, ".yaml"), new Blob([saved.scenario], { type: "application/yaml" }));
+      const what = scenario ? `${file} and its scenario` : file;
+      notify(this.store, "note", `The browser has downloaded ${what}.`);
       for (const warning of saved.warnings) notify(this.store, "note", warning);
     } catch (error) {
       notify(this.store, "error", (error as Error).message);

@@ -4,6 +4,7 @@ import type { Behaviours } from "../api/SetUpApi";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
 import type { Panel } from "../panels/contract/Panel";
+import type { Editing } from "../state/editing";
 import { EDIT_PANEL, allChosen, chosenOf, copiesOf } from "../state/editing";
 import { EMPTY_SCENARIO, newRobot } from "../api/scenario";
 import type { Option } from "../ui/fields";
@@ -73,7 +74,7 @@ function createEditPanel(app: App): HTMLElement {
     createShapeForm(app),
     element(
       "div",
-      { class: "edit-buttons" },
+      { class: "edit-buttons edit-save" },
       saveButton("Save world", "Save the world as it stands now as SDFormat", () => app.editActions.saveWorld(false)),
       saveButton("Save scenario", "Save the world, and a scenario of it with the behaviours", () => app.editActions.saveWorld(true)),
     ),
@@ -158,10 +159,16 @@ function isRobot(choice: string): boolean {
 function modelsOf({ editing, scene }: State): Option[] {
   if (!editing) return [];
   return [
-    ...editing.models.map(({ name }) => ({ value: name, label: name, group: "Robots" })),
+    ...modelsBy(editing, false).map((name) => ({ value: name, label: name, group: "Robots" })),
     ...editing.objects.map((name) => ({ value: OBJECT + name, label: name, group: "Objects" })),
+    ...modelsBy(editing, true).map((name) => ({ value: name, label: name, group: "Avatars, which people drive" })),
     ...copiesOf(scene).map((name) => ({ value: COPY + name, label: `like ${name}`, group: "Add another one like this" })),
   ];
+}
+
+// Returns the names of the models of avatars, or of the other robots.
+function modelsBy({ models }: Editing, isAvatar: boolean): string[] {
+  return models.filter((model) => model.isAvatar === isAvatar).map(({ name }) => name);
 }
 
 function optionsOf(behaviours: Behaviours | null) {

@@ -1,7 +1,7 @@
 // The handles that move and rotate the selected bodies: three's TransformControls, attached to a
 // separate frame that the bodies follow.
-import type { Camera } from "three";
-import { Group, Matrix4, Object3D, Vector3 } from "three";
+import type { BufferAttribute, BufferGeometry, Camera } from "three";
+import { Box3, Group, Matrix4, Mesh, Object3D, Vector3 } from "three";
 import type { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { GizmoTool } from "../state/editing";
@@ -9,6 +9,7 @@ import type { ScreenPlace } from "./picking";
 import { screenPlaceOf } from "./picking";
 
 const SIZE = 0.85; // as a fraction of three's default
+const AXES: Readonly<Record<string, number>> = { X: 0, Y: 1, Z: 2 };
 // Handles that cover the body itself, where a drag moves the body over the floor.
 const LEFT_OUT: ReadonlySet<string> = new Set(["XYZ", "XZ", "YZ"]);
 const HANDLE_SHARE = 0.5; // fraction of an arrow's length at which tests drag it
@@ -18,6 +19,14 @@ export interface GizmoEvents {
   // Called with the motion of the frame in the world since the drag began.
   onMove(motion: Matrix4): void;
   onDrop(): void;
+}
+
+// Whether a part is the arrow of an axis against its direction.
+function isBackArrow(part: Object3D): boolean {
+  const axis = AXES[part.name];
+  if (axis === undefined || !(part instanceof Mesh)) return false;
+  const bounds = new Box3().setFromBufferAttribute((part.geometry as BufferGeometry).getAttribute("position") as BufferAttribute);
+  return bounds.min.getComponent(axis) < -0.1 && bounds.max.getComponent(axis) < 0.05;
 }
 
 export class Gizmo {
@@ -40,7 +49,7 @@ export class Gizmo {
     this.controls.size = SIZE;
     const helper = this.controls.getHelper();
     const leftOut: Object3D[] = [];
-    helper.traverse((part) => LEFT_OUT.has(part.name) && leftOut.push(part));
+    helper.traverse((part) => (LEFT_OUT.has(part.name) || isBackArrow(part)) && leftOut.push(part));
     for (const part of leftOut) part.removeFromParent();
     this.root.add(this.frame, helper);
     this.controls.addEventListener("change", redraw);

@@ -54,6 +54,8 @@ export function mount(ports: Ports): MountedPanel {
     choice.hidden = all === 0;
     choice.value = showsAll ? ALL : (chosen()?.topic ?? "");
     for (const button of zooms) button.hidden = showsAll || all === 0;
+    grid.hidden = all < 2;
+    grid.setAttribute("aria-pressed", String(showsAll));
     listen();
   };
   const listen = () => {
@@ -83,11 +85,13 @@ export function mount(ports: Ports): MountedPanel {
     smallButton("enlarge", "Fit the image", zoomBy(0)),
   ];
 
+  const setAll = (isOn: boolean) => {
+    showsAll = isOn;
+    build();
+  };
+  const grid = smallButton("grid", "Show all cameras", () => setAll(!showsAll));
   choice.addEventListener("change", () => {
-    if (choice.value === ALL) {
-      showsAll = true;
-      return build();
-    }
+    if (choice.value === ALL) return setAll(true);
     const camera = imagesOf(state.get().scene).find(({ topic }) => topic === choice.value);
     if (camera) showOnly(camera);
   });
@@ -123,7 +127,7 @@ export function mount(ports: Ports): MountedPanel {
   };
   return {
     body: element("div", { class: "camera-body" }, hint, note, place),
-    tools: [choice, element("span", { class: "spacer" }), ...zooms],
+    tools: [choice, grid, element("span", { class: "spacer" }), ...zooms],
     whileOpen: () => {
       setOpen(true);
       return () => setOpen(false);

@@ -18,6 +18,7 @@ type Ports = Pick<PanelPorts, "state" | "control">;
 
 const NONE = "No robot can be driven: each is controlled by its behaviour. To add a robot that you can drive: press Edit, choose a model, leave Behaviour at None, press Add, then Resume.";
 const HINT = "Press the pad, then hold W A S D or the arrow keys (Q and E: sideways). Or drag on the pad. Or use a gamepad.";
+const PAUSED = "The simulation does not run. Press Resume (Space) to drive.";
 const MAX_LISTED = 200;
 
 export function mount({ state, control }: Ports): MountedPanel {
@@ -50,8 +51,9 @@ export function mount({ state, control }: Ports): MountedPanel {
   const show = (wish: Wish) => {
     pad.show(wish);
     const isMoving = !isStill(wish) && robot !== null;
-    setText(moving, isMoving ? `${robot}: ${(wish.ahead * linear.value()).toFixed(2)} m/s, ${(wish.turn * angular.value()).toFixed(2)} rad/s` : "Stopped");
+    setText(moving, isMoving && runs() ? `${robot}: ${(wish.ahead * linear.value()).toFixed(2)} m/s, ${(wish.turn * angular.value()).toFixed(2)} rad/s` : "Stopped");
   };
+  const runs = () => state.get().status?.phase === "running";
   const mayDrive = () => robot !== null && needsControl(state.get().people) === "";
   const update = () => {
     const wish = isStill(wishes.pad) ? wishes.gamepad : wishes.pad;
@@ -93,7 +95,7 @@ export function mount({ state, control }: Ports): MountedPanel {
     choice.value = robot ?? "";
     const isEmpty = names.length === 0;
     for (const hidden of [choice, place, speeds, moving]) hidden.hidden = isEmpty;
-    setText(note, isEmpty ? NONE : HINT);
+    setText(note, isEmpty ? NONE : runs() ? HINT : PAUSED);
   };
   const whileOpen = () => {
     const ends = [
@@ -105,6 +107,10 @@ export function mount({ state, control }: Ports): MountedPanel {
       state.watch(
         ({ selection }) => selection,
         (selection) => selection !== null && drivable(state.get()).includes(selection) && choose(selection),
+      ),
+      state.watch(
+        ({ status }) => status?.phase === "running",
+        (isRunning) => robot !== null && setText(note, isRunning ? HINT : PAUSED),
       ),
       state.watch(
         ({ people }) => needsControl(people) !== "",
