@@ -202,7 +202,7 @@ test("a wall is drawn by two clicks", async () => {
 
 test("the map has a scale, and its ruler agrees with it", async () => {
   const label = await page.locator(".scale-bar").getAttribute("aria-label");
-  const [, length, unit] = label.match(/bar is ([\d.]+) (m|cm) long/);
+  const [, length, unit] = label.match(/bar stands for ([\d.]+) (m|cm)/);
   const metres = Number(length) * (unit === "cm" ? 0.01 : 1);
   const pixels = await page.locator(".scale-line").evaluate((bar) => bar.clientWidth + 2);
   await press("Measure");

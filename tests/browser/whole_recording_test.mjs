@@ -139,11 +139,11 @@ test("the log lists and filters all lines, and a click on one goes to its time",
   await page.keyboard.press("r");
   await settled(page);
   await keepPicture(page, "timeline");
-  await log.getByLabel("Text in the log").fill("FIN");
+  await log.getByLabel("Search the log").fill("FIN");
   await until(async () => (await lines.count()) === 1, "the one line that fits");
   await lines.first().getByRole("button").click();
   await standsAt(DURATION_S, 1e-6);
-  await log.getByLabel("Text in the log").fill("nothing like this");
+  await log.getByLabel("Search the log").fill("nothing like this");
   await log.getByText("No message matches").waitFor();
 });
 

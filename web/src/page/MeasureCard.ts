@@ -86,7 +86,7 @@ export function createScaleBar(app: App): ScaleBar {
       const text = length >= 1 ? `${length} m` : `${Number((100 * length).toPrecision(1))} cm`;
       bar.style.width = `${length / metresPerPixel}px`;
       setText(label, text);
-      place.setAttribute("aria-label", `Map, north up. The bar is ${text} long.`);
+      place.setAttribute("aria-label", `Map, north up. The scale bar stands for ${text}.`);
     },
   };
 }

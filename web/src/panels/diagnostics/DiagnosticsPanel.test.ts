@@ -47,7 +47,7 @@ test("robots with problems are listed, worst first, and the others are counted",
   expect(texts("Robots")).toEqual([
     ["gone", "dead: killed"],
     ["slow", "unresponsive"],
-    ["", "1 more OK."],
+    ["", "The other robot is OK."],
   ]);
   store.set({ robots: [WELL, WELL] });
   expect(texts("Robots")).toEqual([["", "2 robots OK."]]);

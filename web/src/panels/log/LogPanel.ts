@@ -55,7 +55,7 @@ function textField(store: Store<Log>): HTMLElement {
   const field = element("input", {
     type: "search",
     class: "log-filter",
-    "aria-label": "Text in the log",
+    "aria-label": "Search the log",
     placeholder: "robot or text…",
     autocomplete: "off",
     spellcheck: "false",
