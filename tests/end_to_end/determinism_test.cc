@@ -102,8 +102,8 @@ TEST(Determinism, HashDoesNotDependOnRandomCallDelays) {
     const Fleet fleet(broker.reference(), {.wrapper = {"env", fault}});
     const auto report = ReportOf(broker.reference());
     ASSERT_EQ(HashOf(report), expected) << fault;
-    // There are twelve cycles of eight readings. Each reading has two delays of 2 ms on average,
-    // which makes 384 ms. A tenth of that proves that the delays occurred.
+    // There are twelve cycles with at least one call. Each call has two delays of 2 ms on average,
+    // which makes 48 ms. Most of that proves that the delays occurred.
     EXPECT_GT(report["wall_time_s"], 0.038);
   }
 }
@@ -119,8 +119,8 @@ TEST(Determinism, HashDoesNotDependOnASlowNetwork) {
     const Fleet fleet(broker.reference(), {.wrapper = host.wrapper()});
     const auto report = ReportOf(broker.reference());
     ASSERT_EQ(HashOf(report), expected) << "round " << round;
-    // Twelve cycles of eight readings, each with at least 20 ms.
-    EXPECT_GT(report["wall_time_s"], 12 * 8 * 0.020);
+    // Twelve cycles, each with at least one call, of at least 20 ms.
+    EXPECT_GT(report["wall_time_s"], 12 * 0.020);
   }
 }
 

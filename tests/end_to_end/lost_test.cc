@@ -207,7 +207,7 @@ TEST_F(CrashReports, InvalidNotesAreReportedAndTheServerStarts) {
   const std::string log = End();
   for (const char* name :
        {"bad0", "bad1", "bad2", "bad3", "bad4", "bad5", "bad6", "bad7", "endless"}) {
-    EXPECT_NE(log.find(std::string(name) + ".json: it is not a note of a server"),
+    EXPECT_NE(log.find(std::string(name) + ".json: the file is not a note of a server"),
               std::string::npos)
         << name << log;
   }

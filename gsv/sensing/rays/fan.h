@@ -36,12 +36,12 @@ struct Sector {
 std::optional<Sector> SectorOf(const Fan& fan, const geometry::Pose& box_from_fan,
                                const geometry::Bounds& box);
 
-// Calls visit(first, last) for the runs of consecutive rays in a sector. No ray is in two runs.
+// Calls visit(ray) once for each ray in a sector.
 template <class Visit>
-void ForRunsIn(const Sector& sector, const Fan& fan, const Visit& visit) {
+void ForRaysIn(const Sector& sector, const Fan& fan, const Visit& visit) {
   const auto count = static_cast<std::ptrdiff_t>(fan.directions.size());
   if (sector.is_all || !(fan.step > 0)) {
-    if (count > 0) visit(std::size_t{0}, static_cast<std::size_t>(count - 1));
+    for (std::ptrdiff_t i = 0; i < count; ++i) visit(static_cast<std::size_t>(i));
     return;
   }
   constexpr double kTurn = 2 * std::numbers::pi;
@@ -56,7 +56,7 @@ void ForRunsIn(const Sector& sector, const Fan& fan, const Visit& visit) {
     const double end = std::floor((from + width - fan.first) / fan.step + kRounding);
     const auto low = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(begin));
     const auto high = std::min<std::ptrdiff_t>(count - 1, static_cast<std::ptrdiff_t>(end));
-    if (low <= high) visit(static_cast<std::size_t>(low), static_cast<std::size_t>(high));
+    for (std::ptrdiff_t i = low; i <= high; ++i) visit(static_cast<std::size_t>(i));
   }
 }
 

@@ -137,9 +137,7 @@ TEST(Fan, WithNonFiniteRaysHitsNothing) {
 std::multiset<std::size_t> RaysIn(const Sector& sector, double first, double step, int count) {
   const auto directions = DirectionsOf(first, step, count, 0);
   std::multiset<std::size_t> rays;
-  ForRunsIn(sector, {{}, first, step, 0, 10, directions}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i <= end; ++i) rays.insert(i);
-  });
+  ForRaysIn(sector, {{}, first, step, 0, 10, directions}, [&](std::size_t i) { rays.insert(i); });
   return rays;
 }
 

@@ -188,6 +188,23 @@ void SolidSet::Commit() {
   nearest.Offer(*distance, body, bearer.first_primitive + shape.primitive, bearer.part, solid);
 }
 
+void SolidSet::CastAtShapeFrom(const Vector3& origin_in_shape, RayBatch& rays, std::uint32_t shape,
+                               const Bearer& bearer) const {
+  const SolidShape& at = shapes_[shape];
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    rays.in_shape[i] = {origin_in_shape, at.shape_from_set.orientation * rays.directions[i],
+                        rays.nearest[i]->distance};
+  }
+  DistancesToShape(std::span(rays.in_shape).first(rays.count), at.shape,
+                   std::span(rays.distances).first(rays.count));
+  const int body = bearer.body >= 0 ? bearer.body : at.body;
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    if (rays.distances[i] == kInfinity) continue;
+    rays.nearest[i]->Offer(rays.distances[i], body, bearer.first_primitive + at.primitive,
+                           bearer.part, shape);
+  }
+}
+
 // The rate at which a ray approaches the plane per metre: at most that of the normal's part in the
 // fan's plane, plus that of the elevation.
 bool SolidSet::OthersReach(const Fan& fan) const {
