@@ -282,7 +282,14 @@ const traffic = (robots, off) =>
 
 // The page's memory is measured after a while, in which caches fill. Plots grow with simulated time
 // up to their limit, so none is open.
-const GROWTH = { warmUpS: Number(process.env.GSV_GROWTH_WARM_UP_S ?? 60), everyS: 10, samples: 12, robots: 50, dayH: 8 };
+// GSV_GROWTH_MIN is the duration of the measurement in minutes.
+const GROWTH = {
+  warmUpS: Number(process.env.GSV_GROWTH_WARM_UP_S ?? 60),
+  everyS: 10,
+  samples: Math.max(3, 6 * Number(process.env.GSV_GROWTH_MIN ?? 2)),
+  robots: 50,
+  dayH: 8,
+};
 
 // Returns the growth of a value in 8 hours, from the medians of the first and the last third of the
 // samples.
@@ -295,8 +302,8 @@ function growthOf(samples, name) {
 }
 
 // Measures the page's heap after forced garbage collections, its nodes and its listeners.
-const growth = () =>
-  withServer(crowd(folder, GROWTH.robots), (url) =>
+const growth = (name, args) =>
+  withServer(args, (url) =>
     withPage(url, async (page) => {
       await page.locator("[data-robot]").first().click();
       const devTools = await page.context().newCDPSession(page);
@@ -321,7 +328,7 @@ const growth = () =>
       }
       const names = ["heap_kB", "nodes", "listeners"];
       const inADay = Object.fromEntries(names.map((name) => [name, growthOf(samples, name)]));
-      return { robots: GROWTH.robots, growth_in_8_hours: inADay, samples };
+      return { world: name, growth_in_8_hours: inADay, samples };
     }),
   );
 
@@ -335,7 +342,9 @@ try {
   if (isWanted("traffic")) result.traffic = [await traffic(50, true), await traffic(50, false), await traffic(500, true), await traffic(500, false)];
   if (isWanted("frames")) result.frames = [await frames(100), await frames(1000)];
   if (isWanted("drawing")) result.drawing = [await drawing(100), await drawing(1000)];
-  if (isWanted("growth")) result.growth = await growth();
+  if (isWanted("growth")) {
+    result.growth = [await growth("office", IN_OFFICE), await growth(`${GROWTH.robots} robots`, crowd(folder, GROWTH.robots))];
+  }
   if (isWanted("pushed")) {
     result.pushed = [
       await pushed("office", IN_OFFICE),
