@@ -1,6 +1,7 @@
 #include "gsv/presentation/sensor_messages.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "gsv/messages/time.h"
@@ -112,12 +113,14 @@ void BeamMarkers::Add(const world::Snapshot& snapshot, int body, const sensing::
 messages::visualization_msgs::MarkerArray BeamMarkers::Take(base::SimTime time) {
   messages::visualization_msgs::MarkerArray message;
   body_ = -1;
-  for (const std::string& robot : shown_) {
-    if (!points_.contains(robot)) message.markers.push_back(NoLinesOf(robot, time));
+  for (auto known = deletions_left_.begin(); known != deletions_left_.end();) {
+    auto& [robot, left] = *known;
+    const bool is_gone = !points_.contains(robot);
+    if (is_gone) message.markers.push_back(NoLinesOf(robot, time));
+    known = is_gone && --left == 0 ? deletions_left_.erase(known) : std::next(known);
   }
-  shown_.clear();
   for (const auto& [robot, points] : std::exchange(points_, {})) {
-    shown_.insert(robot);
+    deletions_left_[robot] = kDeletions;
     message.markers.push_back(LinesOf(robot, time, points));
   }
   return message;

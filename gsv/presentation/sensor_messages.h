@@ -5,7 +5,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -35,9 +34,12 @@ void AppendSensorTransform(const world::Layout& layout, int body,
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
 // Collects the lines of all robots at one instant. The message has a marker for each robot, and a
-// deletion for each robot that no longer has lines.
+// deletion for each robot that no longer has lines. The next kDeletions messages repeat it, because a
+// viewer with a slow connection gets only some of the messages.
 class BeamMarkers {
  public:
+  static constexpr int kDeletions = 45;
+
   // Adds the lines of a reading: its beams, or short dashes at its points. `body` is the robot's
   // index in the snapshot's layout.
   void Add(const world::Snapshot& snapshot, int body, const sensing::SensorType& type,
@@ -53,8 +55,9 @@ class BeamMarkers {
   int body_ = -1;
   int link_ = -1;
   geometry::Pose world_from_link_;
-  std::set<std::string> shown_;  // robots with lines in the last
-                                 // message
+  // The robots that had lines, with the number of messages that still delete these lines once the
+  // robot has none.
+  std::map<std::string, int> deletions_left_;
 };
 
 }  // namespace gsv::presentation

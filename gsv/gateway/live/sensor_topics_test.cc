@@ -14,6 +14,7 @@
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/tf2_msgs.h"
 #include "gsv/messages/visualization_msgs.h"
+#include "gsv/presentation/sensor_messages.h"
 
 namespace gsv::gateway {
 namespace {
@@ -239,6 +240,23 @@ TEST_F(LiveStreamTest, BeamsAreLinesFromTheSensorAsLongAsTheReading) {
   }
   EXPECT_TRUE(found_front);
   EXPECT_TRUE(found_left);
+}
+
+TEST_F(LiveStreamTest, DeletionsOfBeamsAreRepeatedForViewersThatMissMessages) {
+  Subscribe(1, "/gsv/beams");
+  ASSERT_EQ(Decoded<MarkerArray>(RoundUntil(1, 1)).markers.size(), 2u);
+  simulation_->set_on_watch(
+      [](const std::string&) { return base::Fail(base::ErrorCode::kUnavailable, "no beams"); });
+  const std::size_t last = 1 + presentation::BeamMarkers::kDeletions;
+  for (std::size_t count = 2; count <= last + 1; ++count) {
+    simulation_->Advance(seconds(1));
+    const auto markers = Decoded<MarkerArray>(RoundUntil(1, count)).markers;
+    ASSERT_EQ(markers.size(), count <= last ? 2u : 0u) << count;
+    for (const auto& marker : markers) {
+      EXPECT_EQ(marker.action, messages::visualization_msgs::Marker::kDelete);
+    }
+  }
+  workers_.Stop();
 }
 
 TEST_F(LiveStreamTest, ASensorThatFailsIsReportedOnce) {

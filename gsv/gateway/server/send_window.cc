@@ -10,12 +10,19 @@ double Seconds(SendWindow::Clock::duration duration) {
 }  // namespace
 
 bool SendWindow::WantsPing(Time now) const {
-  if (mark_ || sent_ == last_position_) return false;
+  if (mark_) return false;
+  if (measures_ && unconfirmed() == 0) return true;
+  if (sent_ == last_position_) return false;
   return !is_open() || 2 * unconfirmed() >= bytes_ || now - last_ping_ >= kPingPeriod;
 }
 
 std::uint64_t SendWindow::Ping(Time now, Time started) {
-  mark_ = Mark{++pings_, data_sent_, sent_ - last_position_, first_started_.value_or(now), started};
+  mark_ = Mark{++pings_,
+               data_sent_,
+               sent_ - last_position_,
+               first_started_.value_or(now),
+               started,
+               measures_ && unconfirmed() == 0};
   last_ping_ = now;
   last_position_ = sent_;
   first_started_.reset();
@@ -27,10 +34,9 @@ void SendWindow::Pong(std::uint64_t number, Time now) {
   const Mark mark = *mark_;
   mark_.reset();
   data_confirmed_ = mark.data_position;
-  const Clock::duration delay = now - mark.started;
-  min_delay_ = std::min(min_delay_.value_or(delay), delay);
-  const Clock::duration minimum = std::min<Clock::duration>(*min_delay_, kMaxMinDelay);
-  const Clock::duration excess = delay - minimum;
+  TakeMinDelay(mark, now);
+  const Clock::duration minimum = *min_delay_;
+  const Clock::duration excess = now - mark.started - minimum;
   const bool is_late = excess > kMaxDelay;
   // A short excess says something only about a good part of the window.
   const bool is_telling = 4 * excess > kAimedDelay && 4 * mark.bytes >= bytes_;
@@ -45,10 +51,20 @@ void SendWindow::Pong(std::uint64_t number, Time now) {
   }
   if (is_late) {
     NoteLate(mark.started, now);
-  } else if (holds_back_ && 2 * excess < kAimedDelay) {
+  } else if (holds_back_ && !mark.measures && 2 * excess < kAimedDelay) {
     bytes_ = std::min(kMaxBytes, 2 * bytes_);
   }
   holds_back_ = false;
+  if (4 * excess > kAimedDelay && now - min_measured_ > kMinDelayAge) measures_ = true;
+}
+
+void SendWindow::TakeMinDelay(const Mark& mark, Time now) {
+  const Clock::duration delay = now - mark.started;
+  const Clock::duration most = min_delay_.value_or(std::min<Clock::duration>(delay, kMaxMinDelay));
+  if (min_delay_ && !mark.measures && delay > most) return;
+  min_delay_ = mark.measures ? delay : std::min(most, delay);
+  min_measured_ = now;
+  if (mark.measures) measures_ = false;
 }
 
 void SendWindow::NoteLate(Time began, Time now) {
@@ -58,8 +74,7 @@ void SendWindow::NoteLate(Time began, Time now) {
 }
 
 bool SendWindow::IsOverdue(Time now) const {
-  const Clock::duration minimum =
-      std::min<Clock::duration>(min_delay_.value_or(kMaxMinDelay), kMaxMinDelay);
+  const Clock::duration minimum = min_delay_.value_or(kMaxMinDelay);
   return mark_ && now - mark_->started > minimum + kMaxDelay;
 }
 

@@ -10,6 +10,10 @@
 // kAimedDelay. If the window holds messages back and the excess is below half of kAimedDelay, the
 // window doubles.
 //
+// The way itself may become longer, so the minimum delay ages. If it is older than kMinDelayAge and
+// pongs exceed it, the window closes until everything is confirmed. Then a ping without data
+// measures the minimum again.
+//
 // Threads  one.
 #pragma once
 
@@ -30,14 +34,16 @@ class SendWindow {
   static constexpr std::size_t kMinBytes = 8u << 10;
   static constexpr std::size_t kMaxBytes = 4u << 20;
   static constexpr std::chrono::milliseconds kAimedDelay{200}, kMaxDelay{300};
-  // Limit of the minimum delay, which may have been measured on a busy connection.
+  // Limit of a minimum delay that was measured behind data, perhaps on a busy connection.
   static constexpr std::chrono::milliseconds kMaxMinDelay{500};
+  static constexpr std::chrono::seconds kMinDelayAge{30};
   static constexpr std::chrono::milliseconds kPingPeriod{100};
   // A connection is slow when it was late for kSlowAfter, until it was in time for kInTimeAfter.
   static constexpr std::chrono::seconds kSlowAfter{2}, kInTimeAfter{5};
 
-  // Whether another message may be sent. One always may if nothing is unconfirmed.
-  bool is_open() const { return unconfirmed() == 0 || unconfirmed() < bytes_; }
+  // Whether another message may be sent. One always may if nothing is unconfirmed, unless the
+  // minimum delay is being measured.
+  bool is_open() const { return !measures_ && (unconfirmed() == 0 || unconfirmed() < bytes_); }
   // A message has to wait because the window is closed.
   void HoldBack() { holds_back_ = true; }
   // A message was handed to the system; `started`: the time before that. Only data count in the
@@ -77,12 +83,14 @@ class SendWindow {
     std::size_t bytes = 0;          // bytes sent after the ping before
     Time first_started{};           // start of these bytes
     Time started{};
+    bool measures = false;  // nothing was unconfirmed before the ping, to measure the minimum delay
   };
 
   // A message that was sent or queued at `began` was late.
   void NoteLate(Time began, Time now);
   // Whether the ping without a pong is late already.
   bool IsOverdue(Time now) const;
+  void TakeMinDelay(const Mark& mark, Time now);
 
   std::size_t bytes_ = kFirstBytes;
   std::size_t sent_ = 0;  // all bytes
@@ -93,6 +101,8 @@ class SendWindow {
   std::size_t last_position_ = 0;      // bytes sent before the last ping
   std::optional<Time> first_started_;  // start of the messages after the last ping
   std::optional<Clock::duration> min_delay_;
+  Time min_measured_{};      // when min_delay_ was measured
+  bool measures_ = false;    // the minimum delay is being measured again
   bool holds_back_ = false;  // since the last pong
   bool is_slow_ = false;
   std::optional<double> rate_;

@@ -22,6 +22,7 @@ class Link {
       : rate_(rate), delay_(delay), message_(message) {}
 
   void set_rate(double rate) { rate_ = rate; }
+  void set_delay(milliseconds delay) { delay_ = delay; }
 
   // Returns the longest time from a message's start to its arrival in this time.
   std::chrono::duration<double> Run(milliseconds duration) {
@@ -132,6 +133,36 @@ TEST(SendWindow, FollowsAConnectionThatBecomesSlowAndFastAgain) {
   link.Run(milliseconds(1000));
   EXPECT_GE(link.TakeReceived(), 99);
   EXPECT_FALSE(link.is_slow());
+}
+
+TEST(SendWindow, AConnectionWhoseWayBecameLongerIsNotSlowForever) {
+  for (const milliseconds delay : {milliseconds(450), milliseconds(1200)}) {
+    Link link(10e6, milliseconds(20), 5'000);  // 500 kB/s is offered
+    link.Run(milliseconds(10'000));
+    link.set_delay(delay);
+    link.Run(milliseconds(10'000));
+    EXPECT_TRUE(link.is_slow());
+    link.Run(milliseconds(60'000));
+    EXPECT_FALSE(link.is_slow());
+    link.TakeReceived();
+    link.Run(milliseconds(10'000));
+    EXPECT_GE(link.TakeReceived(), 990);
+    link.set_delay(milliseconds(20));
+    link.set_rate(50'000);
+    link.Run(milliseconds(60'000));
+    EXPECT_LT(link.Run(milliseconds(5000)).count(), 0.6) << "the minimum delay became short again";
+    EXPECT_TRUE(link.is_slow());
+  }
+}
+
+TEST(SendWindow, AConnectionOfALowRateStaysSlowWhenTheMinimumDelayIsMeasuredAgain) {
+  Link link(25'000, milliseconds(20), 1'000);  // 100 kB/s is offered
+  link.Run(milliseconds(5000));
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_LT(link.Run(milliseconds(20'000)).count(), 0.6);
+    EXPECT_TRUE(link.is_slow());
+    EXPECT_GE(link.TakeReceived(), 440);  // the link passes 500
+  }
 }
 
 TEST(SendWindow, SendsOneMessageOfAnySizeAtATime) {
