@@ -1,5 +1,5 @@
 // Opens every panel of the registry in a window in light and dark colours, and on a phone. Each time
-// axe-core finds no problem, and the panel is in sight.
+// axe-core finds no problem, the panel is in sight, and the keyboard focus is visible on every control.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -7,6 +7,7 @@ import path from "node:path";
 import { after, before, test } from "node:test";
 import { faultsOf } from "./axe.mjs";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { controlsWithoutVisibleFocus } from "./focus.mjs";
 import { startServer } from "./server.mjs";
 import { ask, phaseIs, until } from "./viewing.mjs";
 
@@ -94,23 +95,36 @@ test("the bar has a button for each panel of the registry", async () => {
 });
 
 for (const title of TITLES) {
-  test(`the panel ${title} has no accessibility problems and is in sight at each size`, async () => {
+  test(`the panel ${title} has no accessibility problems, is in sight and shows the focus at each size`, async () => {
     const found = {};
     const outside = {};
+    const unseen = {};
     for (const size of SIZES) {
       await resize(size);
       const panel = await open(title);
       found[size.name] = await faultsOf(page);
+      unseen[size.name] = await controlsWithoutVisibleFocus(page);
       const box = await panel.boundingBox();
       const isInside = box.x >= -1 && box.y >= -1 && box.x + box.width <= size.width + 1 && box.y + box.height <= size.height + 1;
       if (!isInside || box.height < 80) outside[size.name] = box;
     }
     await resize(SIZES[0]);
     await close(title);
-    assert.deepEqual(found, Object.fromEntries(SIZES.map(({ name }) => [name, []])));
+    const nothing = Object.fromEntries(SIZES.map(({ name }) => [name, []]));
+    assert.deepEqual(found, nothing);
+    assert.deepEqual(unseen, nothing);
     assert.deepEqual(outside, {});
   });
 }
+
+test("a control without a focus ring would be found", async () => {
+  await page.evaluate(() => {
+    const rules = new CSSStyleSheet();
+    rules.replaceSync("* { outline: none !important; box-shadow: none !important; border-color: red !important; background: none !important; }");
+    document.adoptedStyleSheets.push(rules);
+  });
+  assert.ok((await controlsWithoutVisibleFocus(page)).length > 10);
+});
 
 test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
