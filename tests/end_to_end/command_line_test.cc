@@ -258,6 +258,8 @@ TEST(CommandLine, UnknownCommandIsReported) {
   const auto said = [](const Strings& arguments) { return RunProgram("gsv", arguments).err; };
   EXPECT_EQ(said({"fly"}), "gsv: there is no command fly. See gsv --help\n");
   EXPECT_EQ(said({"world", "burn"}), "gsv: there is no command burn. See gsv world --help\n");
+  EXPECT_EQ(said({"run", "--duration", "abc"}),
+            "gsv: --duration: expected a number, found abc. See gsv run --help\n");
   EXPECT_EQ(said({"--swim"}), "gsv: there is no option --swim. See gsv --help\n");
   EXPECT_EQ(said({"rnu"}), "gsv: there is no command rnu. Did you mean run? See gsv --help\n");
   EXPECT_EQ(said({"help", "rnu"}),

@@ -140,6 +140,14 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
       what.replace(at, word.size(), " and ");
       what += " cannot be used together";
     }
+  } else if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ConversionError)) {
+    // CLI11 writes "Could not convert: --option = value". Only numbers are converted.
+    const std::string begin = "Could not convert: ", middle = " = ";
+    const std::size_t at = what.find(middle);
+    if (what.starts_with(begin) && at != std::string::npos) {
+      what.replace(at, middle.size(), ": expected a number, found ");
+      what.erase(0, begin.size());
+    }
   }
   return "gsv: " + what + (what.ends_with('?') ? " See " : ". See ") + words + " --help\n";
 }

@@ -431,8 +431,9 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-// No lock is needed for the next three functions: the index of the body changes only with the world's lock held, which the
-// stepping thread holds now. The behaviour changes only before the run has started.
+// No lock is needed for the next three functions: the index of the body changes only with the
+// world's lock held, which the stepping thread holds now. The behaviour changes only before the run
+// has started.
 void RobotAgent::PrefetchBehaviour(const world::Snapshot& snapshot) const
     GSV_NO_THREAD_SAFETY_ANALYSIS {
   PrefetchLines(local_, kBehaviourLines);
