@@ -97,7 +97,7 @@ sys.stdout.buffer.write(out.getvalue())`;
 }
 
 const choose = (buffer) =>
-  page.getByLabel("World file").setInputFiles({ name: "lab.zip", mimeType: "application/zip", buffer });
+  page.getByLabel("World file", { exact: true }).setInputFiles({ name: "lab.zip", mimeType: "application/zip", buffer });
 
 test("a zip archive with a world and its models is unpacked and shown", async () => {
   await page.getByRole("button", { name: "New simulation" }).click();
@@ -132,7 +132,7 @@ test("a truncated archive, or one with names outside of it, is rejected with a s
 });
 
 test("a file that is not a world shows an error beside the field", async () => {
-  await page.getByLabel("World file").setInputFiles({ name: "holiday.sdf", mimeType: "image/jpeg", buffer: Buffer.from("not XML at all") });
+  await page.getByLabel("World file", { exact: true }).setInputFiles({ name: "holiday.sdf", mimeType: "image/jpeg", buffer: Buffer.from("not XML at all") });
   await until(async () => /holiday\.sdf/.test((await objection().textContent()) ?? ""), "the objection");
   assert.ok(faults.every((fault) => /status of (40\d|422)/.test(fault)), faults.join());
 });
