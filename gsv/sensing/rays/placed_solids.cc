@@ -9,6 +9,7 @@
 #include "gsv/base/check.h"
 #include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/candidate_set.h"
+#include "gsv/sensing/rays/ray_pairs.h"
 
 namespace gsv::sensing {
 namespace {
@@ -25,6 +26,9 @@ constexpr std::size_t kPartsAtOnce = 512;
 // Up to this number of shapes, rays are cast at all shapes of a part; otherwise at those that its
 // index finds.
 constexpr std::uint32_t kFewShapes = 4;
+
+// If more rays of a packet than this touch a shape's bounding sphere, the shape may be long.
+constexpr int kMaxRaysOfCompact = 4;
 
 // In candidate sets, this bit of the number distinguishes static shapes from moving parts.
 constexpr std::uint32_t kStanding = 1u << 31;
@@ -88,6 +92,82 @@ void InBatches(RayBatch& batch, const ForRays& for_rays, const Cast& cast) {
   });
   if (batch.count > 0) cast(batch);
 }
+
+// Calls cast(i) for each ray i of a mask.
+template <class Cast>
+void ForRays(unsigned mask, const Cast& cast) {
+  for (; mask != 0; mask &= mask - 1) cast(static_cast<std::size_t>(std::countr_zero(mask)));
+}
+
+// Casts rays of a packet at cylinders and boxes, several pairs at a time. Sets only the distances of
+// `nearest`, and the body to any that is not -1.
+class PacketCaster {
+ public:
+  PacketCaster(const RayPacket& packet, std::span<Nearest> nearest)
+      : packet_(packet), nearest_(nearest) {}
+
+  // Casts the rays of a mask at a shape of a set, whose frame is that of a part or the world (null).
+  // Returns false if this must be done for each ray alone.
+  bool Add(unsigned rays, const Pose* part_from_world, const SolidSet& set, std::uint32_t shape) {
+    if (!is_fast_) return false;
+    const geometry::Shape& at = set.ShapeAt(shape);
+    const Pose& shape_from_set = set.ShapeFromSet(shape);
+    if (const auto* const cylinder = std::get_if<geometry::Cylinder>(&at)) {
+      AddTo(part_from_world ? pairs_.moving_cylinders : pairs_.cylinders, rays, part_from_world,
+            shape_from_set, *cylinder);
+    } else if (const auto* const box = std::get_if<geometry::Box>(&at)) {
+      AddTo(part_from_world ? pairs_.moving_boxes : pairs_.boxes, rays, part_from_world,
+            shape_from_set, *box);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // Must be called after the last Add().
+  void Finish() {
+    Cast<geometry::Cylinder, true>(pairs_.moving_cylinders);
+    Cast<geometry::Box, true>(pairs_.moving_boxes);
+    Cast<geometry::Cylinder, false>(pairs_.cylinders);
+    Cast<geometry::Box, false>(pairs_.boxes);
+  }
+
+ private:
+  struct Pairs {
+    RayPairs moving_cylinders, moving_boxes, cylinders, boxes;
+  };
+
+  template <class Shape>
+  void AddTo(RayPairs& pairs, unsigned rays, const Pose* part_from_world,
+             const Pose& shape_from_set, const Shape& shape) {
+    ForRays(rays, [&](std::size_t i) {
+      if (pairs.is_full()) {
+        part_from_world != nullptr ? Cast<Shape, true>(pairs) : Cast<Shape, false>(pairs);
+      }
+      pairs.Add(packet_, i, part_from_world, shape_from_set, shape);
+    });
+  }
+
+  template <class Shape, bool kHaveParts>
+  void Cast(RayPairs& pairs) {
+    if (pairs.count() == 0) return;
+    pairs.Cast<Shape, kHaveParts>();
+    for (std::size_t k = 0; k < pairs.count(); ++k) {
+      Nearest& nearest = nearest_[pairs.ray(k)];
+      if (pairs.distance(k) > nearest.distance) continue;
+      nearest.distance = pairs.distance(k);
+      nearest.body = 0;
+    }
+    pairs.Clear();
+  }
+
+  const RayPacket& packet_;
+  const std::span<Nearest> nearest_;
+  const bool is_fast_ = RayPairs::AreFast();
+  static constinit thread_local Pairs pairs_;
+};
+
+constinit thread_local PacketCaster::Pairs PacketCaster::pairs_;
 
 }  // namespace
 
@@ -362,20 +442,27 @@ void PlacedSolids::Ranges(const RayPacket& packet, const Vector3& place, int ign
 void PlacedSolids::CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
                                  const RayPacket& packet, int ignored_body,
                                  std::span<Nearest> nearest) const {
-  const auto for_rays = [](unsigned mask, const auto& cast) {
-    for (; mask != 0; mask &= mask - 1) cast(static_cast<std::size_t>(std::countr_zero(mask)));
-  };
+  PacketCaster caster(packet, nearest);
   for (const TouchedSpheres::Touched& each : moving.all()) {
     if (BodyOf(each.number) == ignored_body) continue;
-    for_rays(each.rays, [&](std::size_t i) { CastAtPart(each.number, packet.At(i), nearest[i]); });
+    const auto& [part_from_world, part] = parts_[each.number];
+    if (part->solids.ShapesAlone() == 1 && caster.Add(each.rays, &part_from_world, part->solids, 0))
+      continue;
+    ForRays(each.rays, [&](std::size_t i) { CastAtPart(each.number, packet.At(i), nearest[i]); });
   }
   for (const TouchedSpheres::Touched& each : standing.all()) {
-    for_rays(each.rays, [&](std::size_t i) {
+    const SolidSet& set = solids_->standing;
+    if (set.BodyOfShape(each.number) == ignored_body) continue;
+    // Many rays pass the bounding sphere of a long shape.
+    const bool is_long = std::popcount(each.rays) > kMaxRaysOfCompact;
+    if (!is_long && caster.Add(each.rays, nullptr, set, each.number)) continue;
+    ForRays(each.rays, [&](std::size_t i) {
       const Ray ray = packet.At(i);
-      if (!solids_->standing.ShapeReaches(each.number, Around(ray))) return;
-      solids_->standing.CastAtShape(each.number, ray, ignored_body, nearest[i]);
+      if (!set.ShapeReaches(each.number, Around(ray))) return;
+      set.CastAtShape(each.number, ray, ignored_body, nearest[i]);
     });
   }
+  caster.Finish();
 }
 
 double PlacedSolids::Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const {

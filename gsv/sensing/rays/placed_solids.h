@@ -55,7 +55,8 @@ class PlacedSolids final : public RayScene {
   // Finds the bounded solids within the fan's reach, the nearest first. Returns false if there are
   // too many.
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
-  // Casts the rays of a packet at the solids whose spheres they touch.
+  // Casts the rays of a packet at the solids whose spheres they touch. Sets only the distances of
+  // `nearest`, and the body to any that is not -1.
   void CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
                      const RayPacket& packet, int ignored_body, std::span<Nearest> nearest) const;
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;

@@ -113,6 +113,7 @@ class SolidSet {
   const geometry::Pose& ShapeFromSet(std::uint32_t shape) const {
     return shapes_[shape].shape_from_set;
   }
+  const geometry::Shape& ShapeAt(std::uint32_t shape) const { return shapes_[shape].shape; }
   // The bounding box of the shape in its own frame.
   const geometry::Bounds& OwnBoundsOfShape(std::uint32_t shape) const {
     return shape_own_bounds_[shape];

@@ -1,7 +1,9 @@
 #include "gsv/sensing/rays/sphere_grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include <immintrin.h>
 
@@ -25,10 +27,18 @@ constexpr double kLargeCells = 2;
 constexpr std::size_t kMaxLarge = 32;
 
 // With more spheres than this near the rays, single rays are faster.
-constexpr std::size_t kMaxTested = 512, kMaxRows = 128;
+constexpr std::size_t kMaxTested = 512;
 
-// Single precision has a relative error of 6e-8. The gap between ray and centre takes a dozen
-// operations on distances from the ray's origin. The coordinates themselves are rounded once.
+// Spheres are copied in vectors of this length.
+constexpr std::size_t kCopied = 8;
+
+template <class T>
+void CopyEight(const T* from, T* to) {
+  std::memcpy(to, from, kCopied * sizeof(T));
+}
+
+// Single precision has a relative error of 6e-8. Spheres are enlarged by these fractions of the
+// reach and of the coordinates, which are rounded once.
 constexpr double kRounding = 2e-5, kCoordinateRounding = 1e-6;
 
 double SumOfSizes(const Vector3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
@@ -39,86 +49,124 @@ bool Suits(const BoundingSphere& sphere) {
          fits(sphere.radius);
 }
 
-// Rays and spheres as structures of arrays.
-struct Rays {
-  const float *ox, *oy, *oz, *dx, *dy, *dz, *length;
-  float rounding;
-};
-struct Spheres {
-  const float *x, *y, *z, *radius;
+// The test of a sphere takes the squared gap between its centre and a ray, as a difference of sums
+// of products of up to twice the reach, in a dozen operations.
+constexpr float kSquareRounding = 1e-6f;
+
+// The spheres of the cells in reach, side by side. The arrays have room for whole vectors of eight.
+struct NearSpheres {
+  std::size_t count = 0;
+  alignas(32) std::array<float, kMaxTested + 8> x, y, z, radius;
+  std::array<std::uint32_t, kMaxTested + 8> numbers;
 };
 
-// Spheres that are side by side, in a row of cells.
-struct Run {
-  std::uint32_t first, count;
-};
-
-// Both versions set the masks of the runs' spheres, in this order, to the rays that touch them.
-__attribute__((target("avx2"))) void TestByAvx2(const Rays& rays, const Spheres& spheres,
-                                                std::span<const Run> runs, unsigned* masks) {
-  const __m256 ox = _mm256_load_ps(rays.ox), oy = _mm256_load_ps(rays.oy);
-  const __m256 oz = _mm256_load_ps(rays.oz), dx = _mm256_load_ps(rays.dx);
-  const __m256 dy = _mm256_load_ps(rays.dy), dz = _mm256_load_ps(rays.dz);
-  const __m256 length = _mm256_load_ps(rays.length), zero = _mm256_setzero_ps();
-  for (const Run& run : runs) {
-    for (std::uint32_t at = run.first; at < run.first + run.count; ++at) {
-      const __m256 x = _mm256_set1_ps(spheres.x[at]) - ox, y = _mm256_set1_ps(spheres.y[at]) - oy;
-      const __m256 z = _mm256_set1_ps(spheres.z[at]) - oz;
-      const __m256 along = _mm256_min_ps(_mm256_max_ps(x * dx + y * dy + z * dz, zero), length);
-      const __m256 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
-      const __m256 gap = gap_x * gap_x + gap_y * gap_y + gap_z * gap_z;
-      const float radius = spheres.radius[at] + rays.rounding;
-      const __m256 is_near = _mm256_cmp_ps(gap, _mm256_set1_ps(radius * radius), _CMP_LE_OQ);
-      *masks++ = static_cast<unsigned>(_mm256_movemask_ps(is_near));
+// Appends the spheres that rays of the packet touch. Returns false if there are too many. With the
+// vector c from the place to a centre, the vector o to a ray's origin and its direction d:
+//
+//   s = (c - o) d, limited to the ray's length: along;  |c - o - along d|² = |c - o|² - along (2 s -
+//   along)
+//
+// `margins` are radius² - |c|², so that a gap is compared with few operations.
+__attribute__((target("avx2,fma"))) bool TestByAvx2(const PacketRays& rays,
+                                                    const NearSpheres& spheres,
+                                                    TouchedSpheres& found) {
+  const __m256 dx = _mm256_load_ps(rays.dx.data()), dy = _mm256_load_ps(rays.dy.data());
+  const __m256 dz = _mm256_load_ps(rays.dz.data()), start = _mm256_load_ps(rays.start.data());
+  const __m256 ox = _mm256_load_ps(rays.ox.data()), oy = _mm256_load_ps(rays.oy.data());
+  const __m256 oz = _mm256_load_ps(rays.oz.data()), square = _mm256_load_ps(rays.square.data());
+  const __m256 length = _mm256_load_ps(rays.length.data()), zero = _mm256_setzero_ps();
+  const __m256 place_x = _mm256_set1_ps(rays.place_x), place_y = _mm256_set1_ps(rays.place_y);
+  const __m256 place_z = _mm256_set1_ps(rays.place_z), rounding = _mm256_set1_ps(rays.rounding);
+  const __m256 reach = _mm256_set1_ps(rays.reach);
+  const __m256 reach_square = _mm256_set1_ps(2 * rays.reach * rays.reach);
+  alignas(32) std::array<float, 8> cx, cy, cz, margins;
+  std::size_t touched = found.count;
+  for (std::size_t first = 0; first < spheres.count; first += 8) {
+    if (touched + 8 > TouchedSpheres::kMax) return false;
+    const __m256 x = _mm256_load_ps(&spheres.x[first]) - place_x;
+    const __m256 y = _mm256_load_ps(&spheres.y[first]) - place_y;
+    const __m256 z = _mm256_load_ps(&spheres.z[first]) - place_z;
+    const __m256 radius = _mm256_load_ps(&spheres.radius[first]) + rounding;
+    const __m256 away = x * x + y * y + z * z, furthest = radius + reach;
+    const __m256 is_near = _mm256_cmp_ps(away, furthest * furthest, _CMP_LE_OQ);
+    auto lanes = static_cast<unsigned>(_mm256_movemask_ps(is_near));
+    if (spheres.count - first < 8) lanes &= (1u << (spheres.count - first)) - 1;
+    _mm256_store_ps(cx.data(), x), _mm256_store_ps(cy.data(), y), _mm256_store_ps(cz.data(), z);
+    const __m256 error = _mm256_set1_ps(kSquareRounding) * (away + reach_square);
+    _mm256_store_ps(margins.data(), radius * radius + error - away);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const __m256 c_x = _mm256_set1_ps(cx[lane]), c_y = _mm256_set1_ps(cy[lane]);
+      const __m256 c_z = _mm256_set1_ps(cz[lane]);
+      const __m256 s =
+          _mm256_fmadd_ps(c_x, dx, _mm256_fmadd_ps(c_y, dy, _mm256_fmsub_ps(c_z, dz, start)));
+      const __m256 along = _mm256_min_ps(_mm256_max_ps(s, zero), length);
+      const __m256 apart =
+          _mm256_fmadd_ps(c_x, ox, _mm256_fmadd_ps(c_y, oy, _mm256_fmadd_ps(c_z, oz, square)));
+      const __m256 gap = _mm256_fnmadd_ps(along, s + s - along, apart);
+      const __m256 touches = _mm256_cmp_ps(gap, _mm256_set1_ps(margins[lane]), _CMP_LE_OQ);
+      const auto mask = static_cast<unsigned>(_mm256_movemask_ps(touches)) & rays.used;
+      // Which spheres are touched is hard to predict, so they are written without a branch.
+      found.touched[touched] = {spheres.numbers[first + lane], mask};
+      touched += mask != 0;
     }
   }
+  found.count = touched;
+  return true;
 }
 
-unsigned TestBySse(const Rays& rays, const Spheres& spheres, std::uint32_t at) {
-  unsigned mask = 0;
-  const __m128 cx = _mm_set1_ps(spheres.x[at]), cy = _mm_set1_ps(spheres.y[at]);
-  const __m128 cz = _mm_set1_ps(spheres.z[at]);
-  const float radius = spheres.radius[at] + rays.rounding;
-  for (std::size_t four = 0; four < RayPacket::kMax; four += 4) {
-    const __m128 dx = _mm_load_ps(rays.dx + four), dy = _mm_load_ps(rays.dy + four);
-    const __m128 dz = _mm_load_ps(rays.dz + four);
-    const __m128 x = cx - _mm_load_ps(rays.ox + four), y = cy - _mm_load_ps(rays.oy + four);
-    const __m128 z = cz - _mm_load_ps(rays.oz + four);
-    const __m128 along = _mm_min_ps(_mm_max_ps(x * dx + y * dy + z * dz, _mm_setzero_ps()),
-                                    _mm_load_ps(rays.length + four));
-    const __m128 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
-    const __m128 gap = gap_x * gap_x + gap_y * gap_y + gap_z * gap_z;
-    const __m128 is_near = _mm_cmple_ps(gap, _mm_set1_ps(radius * radius));
-    mask |= static_cast<unsigned>(_mm_movemask_ps(is_near)) << four;
-  }
-  return mask;
-}
-
-void TestBySse(const Rays& rays, const Spheres& spheres, std::span<const Run> runs,
-               unsigned* masks) {
-  for (const Run& run : runs) {
-    for (std::uint32_t i = 0; i < run.count; ++i) {
-      *masks++ = TestBySse(rays, spheres, run.first + i);
+bool TestBySse(const PacketRays& rays, const NearSpheres& spheres, TouchedSpheres& found) {
+  for (std::size_t at = 0; at < spheres.count; ++at) {
+    if (found.count == TouchedSpheres::kMax) return false;
+    const float x = spheres.x[at] - rays.place_x, y = spheres.y[at] - rays.place_y;
+    const float z = spheres.z[at] - rays.place_z, radius = spheres.radius[at] + rays.rounding;
+    const float away = x * x + y * y + z * z;
+    const float error = kSquareRounding * (away + 2 * rays.reach * rays.reach);
+    const __m128 margin = _mm_set1_ps(radius * radius + error - away);
+    const __m128 c_x = _mm_set1_ps(x), c_y = _mm_set1_ps(y), c_z = _mm_set1_ps(z);
+    unsigned mask = 0;
+    for (std::size_t four = 0; four < RayPacket::kMax; four += 4) {
+      const auto load = [four](const PacketRays::Floats& of) { return _mm_load_ps(&of[four]); };
+      const __m128 s =
+          c_x * load(rays.dx) + (c_y * load(rays.dy) + (c_z * load(rays.dz) - load(rays.start)));
+      const __m128 along = _mm_min_ps(_mm_max_ps(s, _mm_setzero_ps()), load(rays.length));
+      const __m128 apart =
+          c_x * load(rays.ox) + (c_y * load(rays.oy) + (c_z * load(rays.oz) + load(rays.square)));
+      const __m128 touches = _mm_cmple_ps(apart - along * (s + s - along), margin);
+      mask |= static_cast<unsigned>(_mm_movemask_ps(touches)) << four;
     }
+    mask &= rays.used;
+    found.touched[found.count] = {spheres.numbers[at], mask};
+    found.count += mask != 0;
   }
+  return true;
 }
 
 }  // namespace
 
-PacketSearch::PacketSearch(const RayPacket& rays, const Vector3& place, double reach)
-    : place_(place),
-      reach_(reach),
-      rounding_(static_cast<float>(kRounding * reach +
-                                   kCoordinateRounding * (SumOfSizes(place) + reach))),
-      used_((1u << rays.count) - 1) {
+PacketSearch::PacketSearch(const RayPacket& packet, const Vector3& place, double reach)
+    : place_(place), reach_(reach) {
+  rays_.place_x = static_cast<float>(place.x);
+  rays_.place_y = static_cast<float>(place.y);
+  rays_.place_z = static_cast<float>(place.z);
+  rays_.reach = static_cast<float>(reach * (1 + kRounding));
+  rays_.rounding =
+      static_cast<float>(kRounding * reach + kCoordinateRounding * (SumOfSizes(place) + reach));
+  rays_.used = (1u << packet.count) - 1;
   for (std::size_t i = 0; i < RayPacket::kMax; ++i) {
-    ox_[i] = static_cast<float>(rays.origin_x[i]);
-    oy_[i] = static_cast<float>(rays.origin_y[i]);
-    oz_[i] = static_cast<float>(rays.origin_z[i]);
-    dx_[i] = static_cast<float>(rays.direction_x[i]);
-    dy_[i] = static_cast<float>(rays.direction_y[i]);
-    dz_[i] = static_cast<float>(rays.direction_z[i]);
-    length_[i] = static_cast<float>(rays.max_distance[i]);
+    const double x = packet.origin_x[i] - place.x, y = packet.origin_y[i] - place.y;
+    const double z = packet.origin_z[i] - place.z;
+    const double dx = packet.direction_x[i], dy = packet.direction_y[i];
+    const double dz = packet.direction_z[i];
+    rays_.dx[i] = static_cast<float>(dx);
+    rays_.dy[i] = static_cast<float>(dy);
+    rays_.dz[i] = static_cast<float>(dz);
+    rays_.ox[i] = static_cast<float>(-2 * x);
+    rays_.oy[i] = static_cast<float>(-2 * y);
+    rays_.oz[i] = static_cast<float>(-2 * z);
+    rays_.start[i] = static_cast<float>(x * dx + y * dy + z * dz);
+    rays_.square[i] = static_cast<float>(x * x + y * y + z * z);
+    rays_.length[i] = static_cast<float>(packet.max_distance[i]);
   }
 }
 
@@ -176,8 +224,8 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
   // Each count becomes the end of its cell. Inserting the spheres turns it into the start.
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) start = end += start;
-  for (std::vector<float>* each : {&x_, &y_, &z_, &radius_}) each->resize(end);
-  numbers_.resize(end);
+  for (std::vector<float>* each : {&x_, &y_, &z_, &radius_}) each->resize(end + kCopied);
+  numbers_.resize(end + kCopied);
   for (auto i = static_cast<std::uint32_t>(spheres.size()); i-- > 0;) {
     if (cell_of_[i] == kNoCell) continue;
     const BoundingSphere& sphere = spheres[i];
@@ -203,7 +251,7 @@ bool SphereGrid::AddLarge(const PacketSearch& search, TouchedSpheres& found) con
       continue;
     }
     if (found.count == TouchedSpheres::kMax) return false;
-    found.touched[found.count++] = {large.number, search.used_};
+    found.touched[found.count++] = {large.number, search.rays_.used};
   }
   return true;
 }
@@ -212,39 +260,27 @@ bool SphereGrid::FindTouched(const PacketSearch& search, TouchedSpheres& found) 
   if (!is_suitable_) return false;
   if (!AddLarge(search, found)) return false;
   if (numbers_.empty()) return true;
-  static const bool has_avx2 = __builtin_cpu_supports("avx2");
-  const Rays rays{search.ox_.data(), search.oy_.data(), search.oz_.data(),     search.dx_.data(),
-                  search.dy_.data(), search.dz_.data(), search.length_.data(), search.rounding_};
-  const Spheres spheres{x_.data(), y_.data(), z_.data(), radius_.data()};
-  const double reach = search.reach_ + max_radius_ + search.rounding_;
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const double reach = search.reach_ + max_radius_ + search.rays_.rounding;
   const Vector3& place = search.place_;
   const int left = ColumnOf(place.x - reach), right = ColumnOf(place.x + reach);
   const int front = RowOf(place.y - reach), back = RowOf(place.y + reach);
-  std::array<Run, kMaxRows> runs;
-  std::size_t run_count = 0, tested = 0;
-  if (back - front >= static_cast<int>(kMaxRows)) return false;
+  NearSpheres near;
   for (int row = front; row <= back; ++row) {
     const std::uint32_t* const starts = &starts_[std::size_t(row) * columns_];
-    runs[run_count] = {starts[left], starts[right + 1] - starts[left]};
-    tested += runs[run_count].count;
-    run_count += runs[run_count].count > 0;
-  }
-  if (tested > kMaxTested) return false;
-  const auto in_reach = std::span<const Run>(runs).first(run_count);
-  std::array<unsigned, kMaxTested> masks;
-  has_avx2 ? TestByAvx2(rays, spheres, in_reach, masks.data())
-           : TestBySse(rays, spheres, in_reach, masks.data());
-  const unsigned* mask = masks.data();
-  for (const Run& run : in_reach) {
-    for (std::uint32_t at = run.first; at < run.first + run.count; ++at) {
-      if (found.count == TouchedSpheres::kMax) return false;
-      // Which spheres are touched is hard to predict, so they are written without a branch.
-      const unsigned touching = *mask++ & search.used_;
-      found.touched[found.count] = {numbers_[at], touching};
-      found.count += touching != 0;
+    const std::uint32_t first = starts[left], end = starts[right + 1];
+    if (near.count + (end - first) > kMaxTested) return false;
+    for (std::uint32_t at = first; at < end; at += kCopied) {
+      const std::size_t to = near.count + (at - first);
+      CopyEight(&x_[at], &near.x[to]);
+      CopyEight(&y_[at], &near.y[to]);
+      CopyEight(&z_[at], &near.z[to]);
+      CopyEight(&radius_[at], &near.radius[to]);
+      CopyEight(&numbers_[at], &near.numbers[to]);
     }
+    near.count += end - first;
   }
-  return true;
+  return has_avx2 ? TestByAvx2(search.rays_, near, found) : TestBySse(search.rays_, near, found);
 }
 
 }  // namespace gsv::sensing

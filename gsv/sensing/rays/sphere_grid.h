@@ -34,21 +34,34 @@ struct TouchedSpheres {
   std::span<const Touched> all() const { return std::span(touched).first(count); }
 };
 
+// Rays of a packet in single precision, as a structure of arrays; positions are relative to the
+// place.
+struct PacketRays {
+  using Floats = std::array<float, RayPacket::kMax>;
+
+  alignas(32) Floats dx, dy, dz;  // directions
+  alignas(32) Floats ox, oy, oz;  // origins times -2
+  alignas(32) Floats start;       // origin times direction
+  alignas(32) Floats square;      // square of the origin's distance, m²
+  alignas(32) Floats length;
+  float place_x, place_y, place_z;
+  float reach;
+  float rounding;  // by which spheres are enlarged
+  unsigned used;   // a bit for each ray
+};
+
 // Rays of a packet near one place, which several grids are searched with.
 class PacketSearch {
  public:
   // `reach` is the largest distance from `place` to a point of a ray.
-  PacketSearch(const RayPacket& rays, const geometry::Vector3& place, double reach);
+  PacketSearch(const RayPacket& packet, const geometry::Vector3& place, double reach);
 
  private:
   friend class SphereGrid;
-  using Floats = std::array<float, RayPacket::kMax>;
 
   geometry::Vector3 place_;
   double reach_;
-  float rounding_;  // by which spheres are enlarged
-  unsigned used_;   // a bit for each ray
-  alignas(32) Floats ox_, oy_, oz_, dx_, dy_, dz_, length_;
+  PacketRays rays_;
 };
 
 class SphereGrid {
@@ -82,7 +95,7 @@ class SphereGrid {
   // The first sphere of each cell, row by row, and the number of spheres.
   std::vector<std::uint32_t> starts_;
   std::vector<std::uint32_t> cell_of_;  // working memory of Build()
-  // The spheres by cell.
+  // The spheres by cell, and after the last one room for a whole vector.
   std::vector<float> x_, y_, z_, radius_;
   std::vector<std::uint32_t> numbers_;
   std::vector<Large> large_;  // solids that are too large for cells

@@ -127,7 +127,9 @@ void AgentPopulation::ReportIfFailed(RobotAgent& agent, const char* what,
 
 void AgentPopulation::CheckForDeaths() {
   for (const auto& [name, agent] : agents_) {
-    if (!agent->is_watched() || !liveness_checks_.insert(name).second) continue;
+    // A behaviour in this process does not die on its own.
+    if (agent->is_hosted() || !agent->is_watched()) continue;
+    if (!liveness_checks_.insert(name).second) continue;
     caller_.Post("watch " + name, [this, held = agent, behaviour = agent->behaviour()] {
       const bool is_dead = behaviour->IsDead();
       const SimulationLock lock(*shared_);

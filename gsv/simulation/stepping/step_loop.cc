@@ -135,19 +135,21 @@ void StepLoop::TakeTurns() {
     shared.history.MakeFrame(instant_.snapshots);
   }
   instant_.Prepare(*parts_.team);
+  usual_ends_.assign(turns_.size(), {});
   parts_.team->ParallelFor(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
     sensing::Sampling sampling = instant_.MakeSampling();
     for (std::size_t i = begin; i < end; ++i) {
       PrefetchTurns(i);
       turns_[i]->TakeTurn(instant_, sampling);
     }
+    ApplyUsualTurns(begin, end);
   });
   const SimulationLock lock(shared);
   parts_.world.lock().SetStuck(false);  // the behaviour has finally returned
   const WallTime deadline = WallNow() - parts_.specification.deadline;
-  ApplyUsualTurns();
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     RobotAgent* const agent = turns_[i];
+    if (!usual_ends_[i].is_usual) usual_ends_[i] = agent->ApplyUsualTurn(shared.now);
     if (usual_ends_[i].is_usual) {
       Enlist(*agent, usual_ends_[i]);
       continue;
@@ -170,14 +172,15 @@ void StepLoop::PrefetchTurns(std::size_t now) const {
   if (now + 2 < turns_.size()) turns_[now + 2]->PrefetchTurn();
 }
 
-void StepLoop::ApplyUsualTurns() {
-  usual_ends_.resize(turns_.size());
-  parts_.team->ParallelFor(
-      turns_.size(), kAgentsAtOnce,
-      [this, now = parts_.shared->now](std::size_t begin, std::size_t end) {
-        simulation_mutex.AssertHeld();  // by the stepping thread, which waits for this
-        for (std::size_t i = begin; i < end; ++i) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
-      });
+// The agents of these turns are still in the cache. The mutex is usually free. A thread does not
+// wait for it, because the stepping thread applies the other turns later.
+void StepLoop::ApplyUsualTurns(std::size_t begin, std::size_t end) {
+  base::Mutex& mutex = parts_.shared->mutex;
+  if (!mutex.try_lock()) return;
+  simulation_mutex.AssertHeld();  // it is `mutex`
+  const SimTime now = parts_.shared->now;
+  for (std::size_t i = begin; i < end; ++i) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
+  mutex.unlock();
 }
 
 void StepLoop::Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) {

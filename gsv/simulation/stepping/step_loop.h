@@ -59,8 +59,9 @@ class StepLoop {
   void TakeTurns();
   // Loads data of the turns that follow the turn `now` into the cache.
   void PrefetchTurns(std::size_t now) const;
-  // Applies the turns that ended in a wait, and sets usual_ends_.
-  void ApplyUsualTurns() GSV_REQUIRES(simulation_mutex);
+  // Applies those of the turns from `begin` to `end` that ended in a wait, and sets usual_ends_.
+  // Does nothing if the simulation's mutex is locked. Any thread that takes turns may call this.
+  void ApplyUsualTurns(std::size_t begin, std::size_t end);
   // Adds an agent whose turn has ended to the lists of SharedState.
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
   // Stores the robot whose turn took the longest, unless another agent delays the step.
@@ -86,7 +87,7 @@ class StepLoop {
   DeviceActions device_actions_;                  // the actions for the next step
   Turn::Instant instant_;                         // the instant of the current turns
   std::vector<RobotAgent*> turns_;                // the agents of the current turns
-  std::vector<RobotAgent::UsualEnd> usual_ends_;  // how these turns ended
+  std::vector<RobotAgent::UsualEnd> usual_ends_;  // how they ended, once applied
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events of the agents that were just woken
   bool is_timed_ = false;        // whether an observer requests the times of steps
