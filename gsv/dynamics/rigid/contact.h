@@ -37,6 +37,9 @@ struct SlippingContact {
 void SetSurfaces(const PlacedPiece& first, const PlacedPiece& second, const SlippingContact* wheel,
                  Contact& contact);
 
+// m: penetration of resting bodies, so that they stay in contact.
+inline constexpr double kRestingDepth = 1e-5;
+
 // The velocity that the first body must have relative to the second at the end of a substep: a
 // minimum along the normal, and values along the axes if friction can reach them. `meeting` is that
 // velocity along the normal when the bodies meet. `free` are the velocities at the end of the

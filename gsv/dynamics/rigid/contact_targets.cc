@@ -6,8 +6,6 @@
 namespace gsv::dynamics {
 namespace {
 
-// m: penetration of resting bodies, so that they stay in contact.
-constexpr double kSlop = 1e-5;
 // m/s: bodies that meet at a lower speed do not bounce
 constexpr double kBounces = 0.05;
 // The fraction of an overlap with a tree of links that a substep corrects.
@@ -24,8 +22,8 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
     wanted = std::max(0.0, -contact.restitution * meeting);
   }
   // A gap may close by the end of the step. An overlap with a tree of links is removed over several
-  // steps. An overlap of bodies without joints stays (ADR 099).
-  const double gap = contact.point.distance + kSlop;
+  // steps. OverlapRemoval removes an overlap of bodies without joints.
+  const double gap = contact.point.distance + kRestingDepth;
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
   // The fraction of the slip that friction removes in this substep. A contact that closes during
   // the substep keeps a part of its closing speed, so that the bodies meet at the end of the

@@ -203,13 +203,14 @@ void IslandSolver::Solve(const ContactFinder& finder,
   for (const int moving : bodies_) {
     const LinkTree& tree = bodies[IndexOf(moving)]->tree();
     first_.push_back(size_);
+    place_of_[IndexOf(moving)] = static_cast<int>(first_.size()) - 1;
     first_of_[IndexOf(moving)] = size_;
     size_ += tree.size();
     append(start_, tree.velocities());
     append(free_, tree.free());
     append(momenta_, tree.free_momenta());
   }
-  is_swept_ = size_ > kMaxVelocities && CanSweep(bodies);
+  is_swept_ = size_ > kMaxHeap && CanSweep(bodies);
   if (is_swept_) {
     SolveBySweeps(finder, bodies, contacts, substep);
     StoreVelocities(bodies, starts, velocities);
@@ -293,7 +294,6 @@ void IslandSolver::SolveBySweeps(const ContactFinder& finder,
     const double* const v = free_.data() + first_[b];
     sweeps_.AddBody(
         {{v[3], v[4], v[5]}, {v[0], v[1], v[2]}, 1 / tree.part_mass(0), tree.inverse_inertia()});
-    place_of_[IndexOf(bodies_[b])] = static_cast<int>(b);
   }
   for (const int index : contacts_) {
     const Contact& contact = contacts[IndexOf(index)];

@@ -10,10 +10,11 @@
 //          two to four iterations.
 // Loads    impulses grow from zero by a small compliance, in proportion to the inverse mass, which
 //          later iterations take back. So redundant contacts share the load as equal springs would.
-// Heaps    islands of more than kMaxVelocities in which no body has joints are left to
-//          ContactSweeps.
-// Else     other islands of so many velocities, and the few in which Newton's method does not end,
-//          are left to ImpulseRows.
+// Heaps    islands of more than kMaxHeap velocities in which no body has joints are left to
+//          ContactSweeps. Newton's method takes many iterations where such islands collide.
+// Else     other islands of more than kMaxVelocities, and the few in which Newton's method does not
+//          end, are left to ImpulseRows.
+// Overlaps of bodies without joints: see OverlapRemoval.
 // Threads  one thread at a time for each object.
 // Determinism  Solve() is a function of its bodies and contacts, in their order.
 #pragma once
@@ -27,6 +28,7 @@
 #include "gsv/dynamics/rigid/contact_finder.h"
 #include "gsv/dynamics/rigid/contact_sweeps.h"
 #include "gsv/dynamics/rigid/impulse_rows.h"
+#include "gsv/dynamics/rigid/overlap_removal.h"
 
 namespace gsv::dynamics {
 
@@ -41,7 +43,7 @@ struct PushRow {
 
 class IslandSolver {
  public:
-  static constexpr int kMaxVelocities = 96;
+  static constexpr int kMaxVelocities = 96, kMaxHeap = 48;
 
   void Clear();
   void AddBody(int moving) { bodies_.push_back(moving); }
@@ -57,6 +59,13 @@ class IslandSolver {
   void Solve(const ContactFinder& finder, std::span<const std::unique_ptr<MovingBody>> bodies,
              std::vector<Contact>& contacts, std::vector<PushRow>& pushes,
              std::span<const int> starts, std::span<double> velocities, double substep);
+
+  // Call it after Solve(). For each body that overlaps another, writes the velocity by which it
+  // also moves in this substep to `shifts` (m/s, by moving body).
+  void RemoveOverlaps(const ContactFinder& finder,
+                      std::span<const std::unique_ptr<MovingBody>> bodies,
+                      const std::vector<Contact>& contacts, double substep,
+                      std::span<geometry::Vector3> shifts);
 
  private:
   // A joint row, a push or a contact, which has three rows.
@@ -132,6 +141,7 @@ class IslandSolver {
   std::vector<geometry::Vector3> motions_;
   ImpulseRows impulse_rows_;
   ContactSweeps sweeps_;
+  OverlapRemoval overlaps_;
   bool is_swept_ = false;
   struct Pending {
     ContactSweeps::Side first, second;

@@ -65,6 +65,7 @@ void MovingBody::Load(const world::State& state) {
     const auto first = state.joint_integrals.begin() + plan_.first_joint;
     integrals_.assign(first, first + static_cast<std::ptrdiff_t>(plan_.model->joints.size()));
   }
+  separating_speed_ = 0;
   resting_speed_before_ = tree_.is_single()
                               ? std::max(Norm(body.linear_velocity), Norm(body.angular_velocity))
                               : RestingSpeed();
@@ -280,6 +281,13 @@ void MovingBody::AfterSubstep(std::span<const double> velocities, bool is_touche
   tree_.Shift((-seconds * seconds / 2) * outer_acceleration_, {});
 }
 
+void MovingBody::Separate(const Vector3& velocity, double seconds) {
+  const double speed = Norm(velocity);
+  if (!(speed > 0)) return;
+  separating_speed_ = std::max(separating_speed_, speed);
+  tree_.Shift(seconds * velocity, {});
+}
+
 // rad/s or m/s
 double MovingBody::Rate(int index) const {
   const auto chain = tree_.Chain(index);
@@ -356,7 +364,7 @@ bool MovingBody::Store(double seconds, world::State& state) const {
   const Vector3 turning = is_kinematic_ ? angular_velocity_ : tree_.base_angular_velocity();
   const double rest = kResting * seconds;
   const double speed = tree_.is_single() ? std::max(Norm(velocity), Norm(turning)) : RestingSpeed();
-  const bool rests = resting_speed_before_ < rest && speed < rest;
+  const bool rests = resting_speed_before_ < rest && speed < rest && separating_speed_ < rest;
   StoreJoints(rests, state);
   if (rests) {
     body.linear_velocity = body.angular_velocity = {};

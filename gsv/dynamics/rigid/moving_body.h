@@ -24,6 +24,8 @@ class MovingBody {
   // Sets the velocities at the end of the substep, and moves. A body without contacts follows a
   // parabola.
   void AfterSubstep(std::span<const double> velocities, bool is_touched, double seconds);
+  // Moves by this velocity in this substep only. Call it after AfterSubstep().
+  void Separate(const geometry::Vector3& velocity, double seconds);
 
   // An upper bound of the speed of all points, in m/s.
   double Speed() const;
@@ -90,6 +92,7 @@ class MovingBody {
   geometry::Vector3 velocity_, angular_velocity_;  // velocities of a kinematic body
   geometry::Vector3 outer_acceleration_;  // m/s²: acceleration of a single body due to outer forces
   double resting_speed_before_ = 0;
+  double separating_speed_ = 0;  // m/s: the greatest of Separate() in this step
 };
 
 // m/s² and rad/s²: a body keeps its pose if its speed is below this value times the step, before

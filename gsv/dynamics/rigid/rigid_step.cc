@@ -205,9 +205,11 @@ void RigidStep::MakeIslands() {
 void RigidStep::SolveIslands(double substep) {
   // Waking a thread costs as much as solving this number of islands of this size.
   constexpr std::size_t kGrain = 4;
+  shifts_.assign(bodies_.size(), {});
   const auto solve = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       islands_[i].Solve(finder_, bodies_, *contacts_, push_rows_, starts_, velocities_, substep);
+      islands_[i].RemoveOverlaps(finder_, bodies_, *contacts_, substep, shifts_);
     }
   };
   if (team_ == nullptr) {
@@ -243,6 +245,7 @@ void RigidStep::MoveBodies(double substep) {
     body.AfterSubstep(
         std::span<const double>(velocities_).subspan(At(starts_[i]), At(body.tree().size())),
         is_touched_[i] != 0, substep);
+    body.Separate(shifts_[i], substep);
   }
 }
 

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "gsv/dynamics/rigid/mesh_points.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -162,44 +164,9 @@ bool TriangleSurface::MayTouchVertex(int vertex, const Vector3& normal) const {
   return true;
 }
 
-namespace {
-
-// Collects the points at which a piece touches a mesh. Until Finish(), the points are in the frame
-// of the mesh.
-class PointList {
- public:
-  PointList(double margin, double near, std::vector<TouchPoint>& points)
-      : margin_(margin), near_(near), points_(points), begin_(points.size()) {}
-
-  double margin() const { return margin_; }
-  // Removes points that another triangle has found as well.
-  void Add(const Vector3& on_mesh, const Vector3& normal, double distance) {
-    constexpr double kSameDirection = 1 - 1e-6;
-    for (std::size_t i = begin_; i < points_.size(); ++i) {
-      const Vector3 between = points_[i].on_second - on_mesh;
-      if (Dot(between, between) < near_ * near_ && Dot(points_[i].normal, normal) > kSameDirection)
-        return;
-    }
-    points_.push_back({on_mesh, normal, distance});
-  }
-  void Finish(const PlacedPiece& mesh) {
-    for (std::size_t i = begin_; i < points_.size(); ++i) {
-      points_[i].on_second = mesh.position + mesh.rotation * points_[i].on_second;
-      points_[i].normal = mesh.rotation * points_[i].normal;
-    }
-  }
-
- private:
-  const double margin_, near_;
-  std::vector<TouchPoint>& points_;
-  const std::size_t begin_;
-};
-
-}  // namespace
-
 class TriangleSurface::SphereContacts {
  public:
-  SphereContacts(const TriangleSurface& surface, const PlacedPiece& sphere, PointList& list)
+  SphereContacts(const TriangleSurface& surface, const PlacedPiece& sphere, MeshPoints& list)
       : surface_(surface), middle_(sphere.position), radius_(sphere.piece->half.x), list_(list) {}
 
   void Add(const Triangle& triangle) {
@@ -240,14 +207,14 @@ class TriangleSurface::SphereContacts {
   const TriangleSurface& surface_;
   const Vector3 middle_;
   const double radius_;
-  PointList& list_;
+  MeshPoints& list_;
   std::unordered_set<int> answered_;  // vertices; thousands of triangles may share one
 };
 
 // Works in the frame of the cylinder, whose axis is z.
 class TriangleSurface::CylinderContacts {
  public:
-  CylinderContacts(const TriangleSurface& surface, const PlacedPiece& cylinder, PointList& list)
+  CylinderContacts(const TriangleSurface& surface, const PlacedPiece& cylinder, MeshPoints& list)
       : surface_(surface),
         cylinder_(cylinder),
         radius_(cylinder.piece->half.x),
@@ -424,7 +391,7 @@ class TriangleSurface::CylinderContacts {
   const TriangleSurface& surface_;
   const PlacedPiece& cylinder_;
   const double radius_, half_;
-  PointList& list_;
+  MeshPoints& list_;
   std::unordered_set<int> answered_;  // vertices
   std::array<Vector3, 3> corners_;
   double floor_ = 0;
@@ -444,14 +411,15 @@ bool TriangleSurface::AddPoints(const PlacedPiece& piece, const PlacedPiece& mes
   const Vector3 low = local.low - wide, high = local.high + wide;
   switch (piece.piece->kind) {
     case Piece::Kind::kSphere: {
-      PointList list(margin, 1e-9, points);
+      MeshPoints list(margin, 1e-9, local.piece->half.x, points);
       SphereContacts contacts(*this, local, list);
       bvh_.ForEachNear(low, high, [&](int i) { contacts.Add(triangles_[IndexOf(i)]); });
       list.Finish(mesh);
       return true;
     }
     case Piece::Kind::kCylinder: {
-      PointList list(margin, CylinderContacts::SameDistance(piece.piece->half.x), points);
+      const double radius = piece.piece->half.x;
+      MeshPoints list(margin, CylinderContacts::SameDistance(radius), radius, points);
       CylinderContacts contacts(*this, local, list);
       bvh_.ForEachNear(low, high, [&](int i) { contacts.Add(triangles_[IndexOf(i)]); });
       list.Finish(mesh);

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/dynamics/rigid/mesh_points.h"
 #include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
@@ -18,22 +19,22 @@ using geometry::Vector3;
 
 constexpr double kMargin = 1e-3;
 
-// Squares of 0.25 m around the origin with the heights of `height`, each of two triangles.
+// Squares around the origin, by default of 0.25 m, with the heights of `height`, each of two
+// triangles.
 template <typename Height>
-TriangleMesh Grid(const Height& height) {
-  constexpr int kCount = 8;
+TriangleMesh Grid(const Height& height, int count = 8, double size = 0.25) {
   TriangleMesh mesh;
-  for (int row = 0; row <= kCount; ++row) {
-    for (int column = 0; column <= kCount; ++column) {
-      const double x = 0.25 * (column - kCount / 2), y = 0.25 * (row - kCount / 2);
+  for (int row = 0; row <= count; ++row) {
+    for (int column = 0; column <= count; ++column) {
+      const double x = size * (column - count / 2), y = size * (row - count / 2);
       mesh.positions.push_back({x, y, height(x, y)});
     }
   }
-  const auto corner = [](int row, int column) {
-    return static_cast<std::uint32_t>(row * (kCount + 1) + column);
+  const auto corner = [&](int row, int column) {
+    return static_cast<std::uint32_t>(row * (count + 1) + column);
   };
-  for (int row = 0; row < kCount; ++row) {
-    for (int column = 0; column < kCount; ++column) {
+  for (int row = 0; row < count; ++row) {
+    for (int column = 0; column < count; ++column) {
       const auto a = corner(row, column), b = corner(row, column + 1);
       const auto c = corner(row + 1, column + 1), d = corner(row + 1, column);
       mesh.triangles.push_back({a, b, c});
@@ -107,6 +108,52 @@ TEST(TriangleSurface, WheelOnLevelTrianglesTouchesThemAsAPlane) {
                  std::abs(of.distance - point.distance) < 1e-12;
         }));
       }
+    }
+  }
+}
+
+TEST(TriangleSurface, WheelOnFineLevelTrianglesTouchesThemAsAPlane) {
+  const TriangleMesh fine = Grid([](double, double) { return 0.0; }, 100, 2e-3);
+  for (const double turn : {0.0, 0.3, 1.2}) {
+    const Matrix3 rotation = MatrixOf(geometry::FromAxisAngle({0, 0, 1}, turn)) * kAxleAlongY;
+    const auto points = Touch(kWheel, {1e-4, 2e-4, 0.11999}, rotation, fine);
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_NEAR(Norm(points[0].on_second - points[1].on_second), 2 * kWheel.half.z, 1e-12);
+    for (const TouchPoint& point : points) EXPECT_NEAR(point.distance, -1e-5, 1e-12);
+  }
+}
+
+TEST(TriangleSurface, RoughFineMeshGivesTheDeepestAndFewOtherPoints) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> bump(-2e-4, 0);
+  const TriangleMesh rough = Grid([&](double, double) { return bump(random); }, 100, 2e-3);
+  TriangleMesh reversed = rough;
+  std::reverse(reversed.triangles.begin(), reversed.triangles.end());
+  for (const Piece* piece : {&kWheel, &kBall}) {
+    const Vector3 at{0, 0, piece->half.x - 1e-4};
+    const PlacedPiece placed = Place(*piece, at, kAxleAlongY);
+    double deepest = 1;
+    for (const Vector3& vertex : rough.positions) {
+      const Vector3 from = TransposeTimes(placed.rotation, vertex - at);
+      const double along = piece == &kBall ? from.z : std::max(0.0, std::abs(from.z) - 0.04);
+      deepest = std::min(deepest, std::hypot(from.x, from.y, along) - piece->half.x);
+    }
+    const auto points = Touch(*piece, at, kAxleAlongY, rough);
+    EXPECT_LE(points.size(), MeshPoints::kMaxPoints);
+    EXPECT_NEAR(points.at(0).distance, deepest, 1e-12);
+    double left = 0, right = 0;
+    for (const TouchPoint& point : points) {
+      left = std::max(left, point.on_second.y);
+      right = std::min(right, point.on_second.y);
+    }
+    // The wheel is carried near both rims.
+    if (piece == &kWheel) {
+      EXPECT_GT(std::min(left, -right), 0.03);
+    }
+    const auto same = Touch(*piece, at, kAxleAlongY, reversed);
+    ASSERT_EQ(same.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_NEAR(Norm(same[i].on_second - points[i].on_second), 0, 1e-12);
     }
   }
 }

@@ -1,0 +1,44 @@
+// The points at which one piece touches a mesh.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gsv/dynamics/rigid/placed_piece.h"
+
+namespace gsv::dynamics {
+
+// Collects points in the frame of the mesh, and removes those that others make redundant.
+//
+// Fine meshes  a wheel of 0.1 m is within a millimetre of 3 cm of the ground, which may have
+//              thousands of triangles. At most kMaxPoints points remain: the deepest one, and then,
+//              one by one, the point that is farthest from those chosen before. From this distance
+//              is taken the distance s at which a cylinder of this radius that rolls on a plane has
+//              the gap of the point, s = √(2 radius gap). So on a plane a sphere keeps one point,
+//              and a cylinder keeps both ends. A bump is left out if it is lower than 1 % of its
+//              distance from a chosen point; it is chosen as soon as it is the deepest.
+// Determinism  the chosen points depend on the added points, not on their order.
+class MeshPoints {
+ public:
+  static constexpr std::size_t kMaxPoints = 8;
+
+  // `near` (m) is the distance at which two points with one normal are the same. `radius` (m) is
+  // that of the wheel or sphere. The points are appended to `points`.
+  MeshPoints(double margin, double near, double radius, std::vector<TouchPoint>& points)
+      : margin_(margin), near_(near), radius_(radius), points_(points), begin_(points.size()) {}
+
+  double margin() const { return margin_; }
+  void Add(const geometry::Vector3& on_mesh, const geometry::Vector3& normal, double distance);
+  // Chooses among the points, and converts them to the world.
+  void Finish(const PlacedPiece& mesh);
+
+ private:
+  double DistanceOf(const TouchPoint& a, const TouchPoint& b) const;
+  void Choose();
+
+  const double margin_, near_, radius_;
+  std::vector<TouchPoint>& points_;
+  const std::size_t begin_;
+};
+
+}  // namespace gsv::dynamics
