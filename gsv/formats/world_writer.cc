@@ -118,6 +118,7 @@ class WorldWriter {
     }
     if (!(gravity == original_.gravity))
       SetText(*world_, "gravity", Joined({gravity.x, gravity.y, gravity.z}));
+    WarnOfPaths();
     tinyxml2::XMLPrinter printer;
     file_.document->Print(&printer);
     return std::string(printer.CStr());
@@ -360,7 +361,8 @@ class WorldWriter {
         ->ToElement();
   }
 
-  // Returns model://NAME if this name finds the same file from any folder, else the path.
+  // Returns model://NAME or model://NAME/REST if this name finds the same file from any folder, else
+  // the path.
   std::string UriOfFile(const std::string& source) const {
     const fs::path path = fs::absolute(xacro::FilePart(source)).lexically_normal();
     const std::string by_name = "model://" + path.parent_path().filename().string();
@@ -370,15 +372,63 @@ class WorldWriter {
       std::error_code ignored;
       if (file && fs::equivalent(*file, path, ignored)) return by_name;
     }
+    if (xacro::FilePart(source) == source) {
+      if (const std::string uri = ModelUriOf(path); !uri.empty()) return uri;
+    }
     return "file://" + fs::absolute(source).lexically_normal().string();
+  }
+
+  // Returns model://NAME/REST if the file or folder is in a folder of the model path, else an empty
+  // text.
+  std::string ModelUriOf(const fs::path& path) const {
+    std::error_code ignored;
+    const fs::path file = fs::weakly_canonical(path, ignored);
+    for (const fs::path& folder : finder_.search_path()) {
+      const fs::path rest = file.lexically_relative(fs::weakly_canonical(folder, ignored));
+      if (rest.empty() || *rest.begin() == ".." || *rest.begin() == ".") continue;
+      const std::string uri = "model://" + rest.generic_string();
+      const auto found = finder_.Find(uri, kNowhere);
+      if (found && fs::equivalent(*found, file, ignored)) return uri;
+    }
+    return {};
+  }
+
+  // Warns of files that other computers do not have at the same path.
+  void WarnOfPaths() {
+    std::set<std::string> paths;
+    CollectPaths(*world_, kMaxDepth, paths);
+    if (paths.empty()) return;
+    Warn("the world names " + std::to_string(paths.size()) +
+             (paths.size() == 1 ? " file" : " files") + " by the path on this computer, such as " +
+             *paths.begin() +
+             ". To load it on another computer, put the folder that contains the model's folder on "
+             "the model path (--model-path, or GZ_SIM_RESOURCE_PATH) before you save it",
+         original_.source);
+  }
+
+  void CollectPaths(const XMLElement& element, int levels_left,
+                    std::set<std::string>& paths) const {
+    if (levels_left == 0) return;
+    const char* const text = NamesFile(element) ? element.GetText() : nullptr;
+    constexpr std::string_view kScheme = "file://";
+    if (text != nullptr && std::string_view(text).starts_with(kScheme)) {
+      paths.emplace(text + kScheme.size());
+    }
+    for (const auto* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      CollectPaths(*child, levels_left - 1, paths);
+    }
+  }
+
+  // Whether the text of the element is the name of a file.
+  static bool NamesFile(const XMLElement& element) {
+    return std::any_of(std::begin(kFileElements), std::end(kFileElements),
+                       [&](const char* kind) { return std::string(element.Name()) == kind; });
   }
 
   void MakeNamesAbsolute(XMLElement& element, int levels_left) {
     if (levels_left == 0 || original_.source.empty()) return;
-    const auto names_file = [&](const char* kind) { return std::string(element.Name()) == kind; };
-    if (std::any_of(std::begin(kFileElements), std::end(kFileElements), names_file)) {
-      MakeNameAbsolute(element);
-    }
+    if (NamesFile(element)) MakeNameAbsolute(element);
     for (auto* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
       MakeNamesAbsolute(*child, levels_left - 1);
@@ -393,6 +443,10 @@ class WorldWriter {
     const auto elsewhere = finder_.Find(text, kNowhere);
     std::error_code ignored;
     if (elsewhere && fs::equivalent(*found, *elsewhere, ignored)) return;
+    if (const std::string uri = ModelUriOf(*found); !uri.empty()) {
+      element.SetText(uri.c_str());
+      return;
+    }
     element.SetText(("file://" + fs::absolute(*found).lexically_normal().string()).c_str());
   }
 

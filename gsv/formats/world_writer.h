@@ -4,8 +4,9 @@
 // that GSV does not simulate, such as plugins of Gazebo. An unchanged model keeps its element. A
 // moved model gets an absolute <pose>. A removed model loses its element. An added model becomes an
 // <include> of its file, or an inline <model> if it is a shape (sdf/shape_model.h) or was copied
-// from an inline model. Names of files that are found only beside the world's file become absolute
-// paths, so that the text may be saved in any folder.
+// from an inline model. Some files are found only beside the world's file. Their names become
+// model://NAME/REST if the model path has the files, else absolute paths, so that the text may be
+// saved in any folder. A warning names an absolute path.
 //
 // Frames  ModelLibrary::ReadWorld() reads the poses back bit by bit if roll, pitch and yaw can
 //         express them, as they do for all poses that users set; else within rounding.

@@ -104,6 +104,34 @@ TEST_F(WorldWriterTest, IncludesAreKeptAndFoundFromAnotherFolder) {
   ExpectSame(Again(world, models), models);
 }
 
+TEST_F(WorldWriterTest, NamesFilesOfTheModelPathWithoutTheirAbsolutePaths) {
+  const auto arm = folder_.Write("models/parts/sdf/arm.sdf",
+                                 Document("<model name='arm'>" + std::string(kLink) + "</model>"));
+  const auto world = Read(
+      folder_.Write("models/parts/w.sdf", Document("<world name='w'><include><uri>sdf/arm.sdf</uri>"
+                                                   "</include></world>")));
+  ASSERT_EQ(world.models.size(), 1u);
+  std::vector<PlacedModel> models = world.models;
+  models.push_back({"second", *library_.ReadModel(arm, problems_), Tilted(), false});
+  problems_.clear();
+  const ReadOptions options{.model_path = {arm.parent_path().parent_path().parent_path()}};
+  const auto text = WriteWorld(world, models, world.gravity, options, problems_);
+  ASSERT_TRUE(text);
+  EXPECT_THAT(*text, HasSubstr("<uri>model://parts/sdf/arm.sdf</uri>"));
+  EXPECT_THAT(*text, Not(HasSubstr("file://")));
+  EXPECT_TRUE(problems_.empty());
+  ModelLibrary with_path(options);
+  const auto again = with_path.ReadWorld(elsewhere_.Write("again.sdf", *text), problems_);
+  ASSERT_TRUE(again);
+  ExpectSame(*again, models);
+  // Without the model path, the names are absolute, and a warning says so.
+  ExpectSame(Again(world, models), models);
+  EXPECT_THAT(text_, HasSubstr("<uri>file://" + arm.string() + "</uri>"));
+  ASSERT_EQ(problems_.size(), 1u);
+  EXPECT_THAT(problems_[0].message,
+              HasSubstr("names 1 file by the path on this computer, such as " + arm.string()));
+}
+
 TEST_F(WorldWriterTest, ModelsPlacedRelativeToAMovedModelStay) {
   const auto world =
       World("<world name='w'><model name='a'><pose>1 0 0 0 0 0</pose>" + std::string(kLink) +

@@ -189,6 +189,9 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
             {"sensors", SensorsJson(source, body, known, parameters)}};
   if (world::IsStation(body)) json["is_station"] = true;
   if (body.is_static() && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
+  if (body.is_robot() && body.model->drive && body.model->drive->kind == model::DriveKind::kNone) {
+    json["has_drive"] = false;
+  }
   if (body.is_robot() && IsOfWorld(*source.snapshot.layout, body)) json["is_of_world"] = true;
   if (const std::string id = source.identify_collisions(body.model); !id.empty()) {
     json["collisions"] = id;

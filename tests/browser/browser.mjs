@@ -27,13 +27,15 @@ const ACTION_TIMEOUT_MS = 60_000; // two browsers may share two busy cores
 
 // Opens a browser on `profile`, a folder; close() ends the browser and removes the folder. `drawer`
 // selects what draws the view: "browser", "server", or null for the page's own choice. Without
-// `webgl`, the browser behaves like Chrome on a machine without a graphics card.
+// `webgl`, the browser behaves like Chrome on a machine without a graphics card. With `touch`, it
+// behaves like the browser of a phone.
 export async function openBrowser({
   width = 1280,
   height = 800,
   colorScheme = "light",
   drawer = "browser",
   webgl = true,
+  touch = false,
 } = {}) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-browser-"));
   const context = await chromium.launchPersistentContext(profile, {
@@ -42,6 +44,8 @@ export async function openBrowser({
     args: webgl ? ARGUMENTS : [...ARGUMENTS.filter((each) => !each.includes("swiftshader")), "--disable-3d-apis"],
     viewport: { width, height },
     colorScheme,
+    hasTouch: touch,
+    isMobile: touch,
     reducedMotion: "reduce",
   });
   context.setDefaultTimeout(ACTION_TIMEOUT_MS);

@@ -6,9 +6,11 @@ import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
-import { ask, until } from "./viewing.mjs";
+import { ask, phaseIs, until } from "./viewing.mjs";
 
-const WORLD = path.join(path.dirname(fileURLToPath(import.meta.url)), "models", "workcell.sdf");
+const MODELS = path.join(path.dirname(fileURLToPath(import.meta.url)), "models");
+const WORLD = path.join(MODELS, "workcell.sdf");
+const DESK_ARM = path.join(MODELS, "desk_arm.sdf");
 const DOOR_X = 2; // m
 
 let server;
@@ -17,7 +19,7 @@ let page;
 let faults;
 
 before(async () => {
-  const robots = ["--robot", "pebble@0,0", "--robot", "porter@-1.5,-1.5", "--behaviour", "porter=wander"];
+  const robots = ["--robot", "pebble@0,0", "--robot", "porter@-1.5,-1.5", "--behaviour", "porter=wander", "--robot", `${DESK_ARM}@-3,3`];
   server = await startServer([WORLD, ...robots]);
   browser = await openBrowser({ width: 1366, height: 768 });
   await browser.context.addInitScript(() => {
@@ -54,7 +56,7 @@ async function standsStill(robot) {
 test("keys drive a robot without a behaviour through the door, and releasing them stops it", async () => {
   await press("Teleoperation");
   const choice = panel("Teleoperation").getByRole("combobox", { name: "Robot to drive" });
-  // The other one has a behaviour.
+  // Another one has a behaviour, and desk_arm has no drive.
   await until(async () => JSON.stringify(await choice.locator("option").allTextContents()) === '["pebble"]', "the list with pebble only");
   await pad().focus();
   await page.keyboard.down("w");
@@ -136,12 +138,48 @@ test("an arm's joint is moved by its slider, and shows its limits", async () => 
   const position = async () => (await ask(page, "/bodies/arm/joints")).joints.find(({ name }) => name === "shoulder").position;
   await until(async () => Math.abs((await position()) - wanted) < 0.02, "the joint where the slider stands");
   await until(async () => Math.abs(parseFloat(await shoulder.locator(".joint-state").textContent()) - wanted) < 0.03, "its position in the panel");
-  await joints.getByLabel("Degrees").check();
+  await joints.getByLabel("Degrees", { exact: true }).check();
   await shoulder.getByText(/-85.9 ° to 85.9 °/).waitFor();
   const slide = joints.locator('[data-joint="slide"]');
   await slide.getByLabel("slide: position as a number").fill("0.2");
   await page.keyboard.press("Enter");
   await until(async () => Math.abs((await ask(page, "/bodies/arm/joints")).joints[1].position - 0.2) < 0.01, "the slide at 0.2 m");
+});
+
+test("the inspector opens the joints of its robot, and a slider keeps its value while the simulation is paused", async () => {
+  await page.locator('[data-robot="desk_arm"]').click();
+  await page.getByRole("tab", { name: "Inspector", exact: true }).click();
+  await press("Move joints");
+  const joints = panel("Joints");
+  await until(async () => (await joints.getByRole("combobox", { name: "Body" }).inputValue()) === "desk_arm", "the joints of desk_arm");
+  const elbow = joints.locator('[data-joint="elbow"]');
+  await elbow.waitFor();
+  await joints.getByLabel("Degrees", { exact: true }).uncheck();
+  await ask(page, "/pause", {});
+  await joints.getByText("The simulation is paused. Commands are applied when it runs.").waitFor();
+  await elbow.getByRole("slider").focus();
+  for (let i = 0; i < 5; i++) await page.keyboard.press("PageUp");
+  const wanted = Number(await elbow.getByRole("slider").inputValue());
+  assert.ok(wanted > 0.5, `the slider stands at ${wanted}`);
+  await elbow.getByText(`${wanted.toFixed(3)} rad is applied when the simulation resumes.`).waitFor();
+  // Reports of the paused joint do not move the slider.
+  for (let i = 0; i < 6; i++) await page.waitForResponse((response) => response.url().endsWith("/joints"));
+  assert.equal(Number(await elbow.getByRole("slider").inputValue()), wanted);
+  await press("Resume", joints);
+  const position = async () => (await ask(page, "/bodies/desk_arm/joints")).joints[0].position;
+  await until(async () => Math.abs((await position()) - wanted) < 0.02, "the joint where the slider stands");
+  await elbow.getByText("is applied when").waitFor({ state: "hidden" });
+});
+
+test("the panel for driving says that the simulation is paused, and resumes it", async () => {
+  await ask(page, "/pause", {});
+  await page.getByRole("tab", { name: "Teleoperation", exact: true }).click();
+  const driving = panel("Teleoperation");
+  await driving.getByText("The simulation is paused. Resume it to drive.").waitFor();
+  await press("Resume", driving);
+  await driving.getByText("The simulation is paused.").waitFor({ state: "hidden" });
+  await phaseIs(page, "running");
+  await page.getByRole("tab", { name: "Joints", exact: true }).click();
 });
 
 test("the panel shows why the joints of a robot with a behaviour cannot be moved", async () => {

@@ -71,6 +71,7 @@ test("an added object is placed and selected", async () => {
   await page.locator(".edit option", { hasText: "crate" }).waitFor({ state: "attached" });
   await page.keyboard.press("t");
   await settled(page);
+  await press("Robot or object");
   await model().selectOption({ label: "crate" });
   await press("Add");
   await shown("crate");
@@ -114,6 +115,7 @@ test("a click on the floor puts it there after Place only, which another viewer 
 });
 
 test("removal is undone, and all edits can be undone and redone", async () => {
+  await press("Robot or object");
   await model().selectOption({ label: "can" });
   await press("Add");
   await shown("can");

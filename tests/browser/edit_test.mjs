@@ -76,6 +76,7 @@ test("dragging a robot moves it on the server, and undo reverts it", async () =>
 
 test("a robot with a behaviour is added, removed, and restored at its place", async () => {
   const panel = page.getByRole("region", { name: "Edit" });
+  await press("Robot or object");
   await panel.getByLabel("Model", { exact: true }).selectOption("rover4");
   await panel.getByLabel("Behaviour", { exact: true }).selectOption("wander");
   await press("Add");

@@ -42,7 +42,7 @@ const handle = (axis) => page.evaluate((axis) => window.gsv.gizmoHandle(axis), a
 const chosenAre = (...names) =>
   page.waitForFunction((names) => JSON.stringify(window.gsv.chosen) === JSON.stringify(names), names);
 const ready = () => page.locator('.edit [aria-label="Undo"]:enabled').waitFor();
-const shape = () => edit().getByRole("group", { name: "Shape" });
+const shape = () => edit().getByRole("group", { name: "Shape", exact: true });
 
 async function type(label, value) {
   const field = pose().getByLabel(label);
@@ -63,6 +63,7 @@ test("a box of 0.4 m is put before the selected robot", async () => {
   await press("Edit");
   await edit().waitFor();
   await page.locator('[data-robot="pebble"]').click();
+  await press("Shape");
   for (const label of ["Length x (m)", "Width y (m)", "Height z (m)"]) await shape().getByLabel(label).fill("0.4");
   await shape().getByLabel("Mass (kg)").fill("8");
   await shape().getByLabel("Colour").fill("#ff0000");
@@ -185,7 +186,8 @@ test("a wall is drawn by two clicks", async () => {
   await page.keyboard.press("r");
   await press("Map");
   await settled(page);
-  await shape().getByLabel("Shape").selectOption("wall");
+  await press("Shape");
+  await shape().getByLabel("Shape", { exact: true }).selectOption("wall");
   await press("Draw wall");
   const at = await onScreen("pebble");
   await page.mouse.click(at.x - 60, at.y - 50);
@@ -269,6 +271,8 @@ test("a rectangle selects the bodies inside it", async () => {
 });
 
 test("the saved world is read again with the same bodies", async () => {
+  await press("Save");
+  await edit().getByText("An SDFormat file of the bodies as they stand now. Gazebo and GSV load it.").waitFor();
   const [download] = await Promise.all([page.waitForEvent("download"), press("Save world")]);
   const file = path.join(folder, "saved.sdf");
   await download.saveAs(file);

@@ -46,7 +46,10 @@ const colours = () =>
     );
 
 test("three cameras are seen at once", async () => {
-  await panel().getByRole("combobox", { name: "Camera" }).selectOption({ label: "All cameras (6)" });
+  await page.keyboard.press("Control+k");
+  await page.getByRole("combobox", { name: "Command, robot, topic or panel" }).fill("show all cameras");
+  await page.keyboard.press("Enter");
+  await until(async () => (await camera().locator("option:checked").textContent()) === "All cameras (6)", "all cameras");
   await press("Arrange images");
   await press("Maximise");
   await until(async () => {
@@ -55,6 +58,8 @@ test("three cameras are seen at once", async () => {
   }, "six images");
   const boxes = await panel().locator("canvas").evaluateAll((all) => all.map((each) => each.getBoundingClientRect()).map(({ x, y, width, height }) => [x, y, width, height]));
   assert.equal(new Set(boxes.map(([x, y]) => `${x} ${y}`)).size, 6, "each has its own place");
+  // They fill the part in rows and columns.
+  assert.deepEqual([new Set(boxes.map(([x]) => Math.round(x))).size, new Set(boxes.map(([, y]) => Math.round(y))).size], [3, 2]);
   assert.ok(boxes.every(([, , width, height]) => width > 100 && height > 70), JSON.stringify(boxes));
 });
 

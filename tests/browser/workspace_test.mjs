@@ -144,6 +144,29 @@ test("a link opens its layout; an invalid one shows an error and the standard la
   await linked.close();
 });
 
+test("Esc ends Maximise, and keeps the selection", async () => {
+  await chooseLayout("Watch a crowd");
+  await page.locator("[data-robot]").first().click();
+  await page.getByRole("tab", { name: "Status", exact: true }).click();
+  const { height } = await boxOf("Status");
+  await press("Arrange status");
+  await press("Maximise");
+  await until(async () => (await boxOf("Status")).height > height + 100, "the maximised panel");
+  await page.keyboard.press("Escape");
+  await until(async () => Math.abs((await boxOf("Status")).height - height) < 2, "the panel of its former size");
+  await page.waitForFunction(() => window.gsv.chosen[0] === "pebble");
+});
+
+test("many tabs give way to the buttons of their part", async () => {
+  await chooseLayout("Standard");
+  for (const name of ["World", "Teleoperation", "Joints", "Commands"]) await press(name);
+  const [part, close] = [page.locator(".dv-groupview", { has: page.getByRole("tab", { name: "Commands" }) }), page.getByRole("button", { name: "Close commands" })];
+  const [whole, box] = [await part.boundingBox(), await close.boundingBox()];
+  assert.ok(box.x + box.width <= whole.x + whole.width + 1, JSON.stringify({ whole, box }));
+  await close.click();
+  await page.getByRole("tab", { name: "Commands", exact: true }).waitFor({ state: "detached" });
+});
+
 test("a panel is moved to its own window, and back", async () => {
   await chooseLayout("Watch a crowd");
   await page.getByRole("tab", { name: "Status", exact: true }).click();
@@ -163,7 +186,10 @@ test("topics are listed with types and rates, and a field of any message is read
   const row = page.locator(".topic-list tbody tr").first();
   await row.getByText("gsv_msgs/msg/SimulationStatus").waitFor();
   await row.getByRole("button", { name: "/gsv/status" }).click();
-  await page.locator(".message-tree").getByText('"real_time"').waitFor();
+  const tree = page.locator(".message-tree");
+  await tree.getByText('"real_time"').waitFor();
+  await tree.getByText("robots", { exact: true }).click();
+  await tree.locator("summary", { hasText: "[0]" }).getByText("pebble").waitFor();
   await until(async () => Number(await row.locator("td").nth(2).textContent()) > 0, "a rate");
   await press("Plot step");
   await page.locator(".plot-legend").getByText("gsv status step").waitFor();

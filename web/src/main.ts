@@ -284,9 +284,13 @@ const workspace = new Workspace(
   (space) => STANDARD.layout(space),
 );
 const sceneTree = createSceneTree(ports, pageNames(app));
-// On a narrow screen the list covers the view, so it closes when the user selects a robot.
+// On a narrow screen the list covers the view, so it closes when the user selects a robot, or presses
+// something else.
 sceneTree.addEventListener("click", ({ target }) => {
   if (target instanceof Element && target.closest("[data-robot], [data-object]")) page.classList.remove("sidebar-open");
+});
+page.addEventListener("pointerdown", ({ target }) => {
+  if (target instanceof Element && !target.closest(".sidebar, .sidebar-toggle")) page.classList.remove("sidebar-open");
 });
 page.append(
   createToolbar(app, toggleSidebar),

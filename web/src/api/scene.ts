@@ -48,6 +48,7 @@ export interface SceneBody {
   isStatic: boolean;
   isFixed: boolean; // a static body of the world file, which cannot be moved or removed
   isRobot: boolean;
+  hasDrive: boolean; // false for a robot whose base does not move, such as an arm
   isOfWorld: boolean; // a robot of the world file, without a model file of its own
   isAvatar: boolean;
   isStation: boolean; // an object with sensors and without a drive
@@ -156,6 +157,18 @@ const camerasOfScene = oncePerScene((scene) =>
   ),
 );
 
+// The cameras, then the depth cameras, whose point clouds are shown as depth images.
+export function imagesOf(scene: SceneDescription | null): readonly CameraChoice[] {
+  return scene ? imagesOfScene(scene) : [];
+}
+
+const imagesOfScene = oncePerScene((scene) => [
+  ...camerasOf(scene),
+  ...robotsOf(scene).flatMap(({ name, sensors }) =>
+    sensors.filter(({ type }) => type === "depth_camera").map(({ name: sensor, topic }) => ({ robot: name, sensor, topic })),
+  ),
+]);
+
 function parseBody(value: unknown, where: string, parameters: readonly SceneSensor["parameters"][]): SceneBody {
   const body = objectAt(value, where);
   return {
@@ -164,6 +177,7 @@ function parseBody(value: unknown, where: string, parameters: readonly SceneSens
     isStatic: body.is_static === true,
     isFixed: body.is_static === true && body.is_fixed !== false,
     isRobot: body.is_robot === true,
+    hasDrive: body.has_drive !== false,
     isOfWorld: body.is_of_world === true,
     isAvatar: body.is_avatar === true,
     isStation: body.is_station === true,

@@ -77,8 +77,10 @@ export class App {
     this.layouts = new LayoutControl(store, browserStorage(), new Set([VIEW, EDIT_PANEL, ...PANELS.map(({ id }) => id)]));
     this.link = new LinkControl(store, linked, world, this.layouts);
     this.setUp = new SetUpControl(store, session, api.setUp);
-    this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world(), body) }, () =>
-      this.act("pause"),
+    this.edits = new EditControl(
+      ...[store, api.setUp, { placeOf: (body: string) => placeIn(world(), body) }] as const,
+      () => this.act("pause"),
+      () => void this.act("resume"),
     );
     this.pointing = new PointingControl(store, this.edits);
     this.editActions = new EditActions(
@@ -192,7 +194,7 @@ export class App {
 
   // Handles Escape: cancels the present operation, or else clears the selection.
   escape(): void {
-    if (!this.pointing.end()) this.select(null);
+    if (!this.pointing.end() && !this.panels.host?.restoreSize()) this.select(null);
   }
 
   filterRobots(change: Partial<RobotFilter>): void {
@@ -233,6 +235,16 @@ export class App {
 
   showCamera(camera: CameraChoice): void {
     this.store.set({ camera });
+    this.panels.open(IMAGES_PANEL);
+  }
+
+  // Opens the panel of joints, which shows those of the selection.
+  showJoints(): void {
+    this.panels.open("joints");
+  }
+
+  showAllCameras(allCameras: boolean): void {
+    this.store.set({ allCameras });
     this.panels.open(IMAGES_PANEL);
   }
 

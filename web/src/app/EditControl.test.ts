@@ -36,9 +36,10 @@ async function editing(here: Required<BodyPlace> = BEFORE, phase: "paused" | "ru
     removeObject: vi.fn(leave),
   };
   const pause = vi.fn(async () => store.set({ status: simulationStatus("paused") }));
-  const control = new EditControl(store, api as never, { placeOf: () => here }, pause);
+  const resume = vi.fn();
+  const control = new EditControl(store, api as never, { placeOf: () => here }, pause, resume);
   await control.toggle();
-  return { store, api, pause, control };
+  return { store, api, pause, resume, control };
 }
 
 test("a move is undone with its height, and redone", async () => {
@@ -210,4 +211,22 @@ test("several bodies are removed as one edit, and restored together", async () =
   expect(api.addRobot).toHaveBeenCalledTimes(1);
   store.set({ scene: scene({ bodies: [body("box", { isRobot: false })] }) });
   expect(store.get().editing?.more).toEqual([]); // a removed body is no longer selected
+});
+
+test("after an edit that paused the simulation, a notice offers to resume it", async () => {
+  const { store, resume, control } = await editing(BEFORE, "running");
+  await control.toggle();
+  const notice = store.get().notices.at(-1)!;
+  expect(notice.sentence).toBe("The simulation is still paused.");
+  notice.action!.run();
+  expect(resume).toHaveBeenCalledTimes(1);
+  store.set({ status: simulationStatus("running") });
+  notice.action!.run();
+  expect(resume).toHaveBeenCalledTimes(1);
+});
+
+test("after an edit of a simulation that was paused before, nothing offers to resume it", async () => {
+  const { store, control } = await editing();
+  await control.toggle();
+  expect(store.get().notices).toEqual([]);
 });

@@ -38,6 +38,7 @@ interface Copied {
 export class EditControl {
   private done: Edit[] = []; // edits that can be undone; the newest is last
   private takenBack: Edit[] = [];
+  private hasPaused = false; // whether editing paused the simulation
   // Poses that were set here, but are not in a received scene yet.
   private readonly unseen = new Map<string, BodyPlace>();
   private copied: Copied[] = [];
@@ -48,6 +49,7 @@ export class EditControl {
     private readonly api: SetUpApi,
     private readonly bodies: Bodies,
     private readonly pause: () => Promise<void>,
+    private readonly resume: () => void,
   ) {
     // Editing ends when the simulation resumes or when the page shows another one.
     store.watch(
@@ -68,9 +70,13 @@ export class EditControl {
   }
 
   async toggle(): Promise<void> {
-    if (this.store.get().editing) return this.end();
+    if (this.store.get().editing) {
+      this.end();
+      return this.offerToResume();
+    }
     if (!canEdit(this.store.get())) return;
-    if (this.store.get().status?.phase === "running") await this.pause();
+    this.hasPaused = this.store.get().status?.phase === "running";
+    if (this.hasPaused) await this.pause();
     await this.standsStill();
     this.done = [];
     this.takenBack = [];
@@ -379,6 +385,13 @@ export class EditControl {
 
   private end(): void {
     this.store.set({ editing: null, placing: false, chosenPose: null });
+  }
+
+  // After an edit for which the simulation was paused.
+  private offerToResume(): void {
+    if (!this.hasPaused || this.store.get().status?.phase !== "paused") return;
+    const run = () => this.store.get().status?.phase === "paused" && this.resume();
+    notify(this.store, "note", "The simulation is still paused.", { label: "Resume", run });
   }
 
   private tell(): void {

@@ -1,5 +1,5 @@
 // Makes short messages at the edge of the page: refusals of the server and news of robots.
-import type { State } from "../state/State";
+import type { NoticeAction, State } from "../state/State";
 import type { Store } from "../state/Store";
 
 const LONGEST_LIST = 4;
@@ -8,14 +8,14 @@ const ERROR_MS = 12_000;
 
 let nextId = 1;
 
-export function notify(store: Store<State>, kind: "error" | "note", sentence: string): void {
+export function notify(store: Store<State>, kind: "error" | "note", sentence: string, action?: NoticeAction): void {
   const id = nextId++;
   store.set(({ notices }) => ({
-    notices: [...notices.filter((each) => each.sentence !== sentence), { id, kind, sentence }].slice(
+    notices: [...notices.filter((each) => each.sentence !== sentence), { id, kind, sentence, ...(action && { action }) }].slice(
       -LONGEST_LIST,
     ),
   }));
-  setTimeout(() => dismiss(store, id), kind === "error" ? ERROR_MS : NOTE_MS);
+  setTimeout(() => dismiss(store, id), kind === "error" || action ? ERROR_MS : NOTE_MS);
 }
 
 export function dismiss(store: Store<State>, id: number): void {

@@ -27,8 +27,10 @@ export function panelPorts(app: App, api: SimulationApi, library: Pick<ModelLibr
     },
     control: {
       take: () => app.people.want(true),
+      resume: () => app.startPauseOrResume(),
       drive: (simulation, robot, drive) => api.drive(simulation, robot, drive),
       joints: (simulation, body) => api.joints(simulation, body),
+      showJoints: () => app.showJoints(),
       commandJoint: (simulation, body, joint, kind, value) => api.commandJoint(simulation, body, joint, kind, value),
     },
     shapes: { visuals: async (model, links) => visualFacts(await library.get(model, links)) },
@@ -41,7 +43,7 @@ export function panelPorts(app: App, api: SimulationApi, library: Pick<ModelLibr
       follow: () => app.toggleViewMode("follow"),
     },
     edits: { pose: (pose) => app.editActions.pose([pose]) },
-    cameras: { show: (camera) => app.showCamera(camera) },
+    cameras: { show: (camera) => app.showCamera(camera), showAll: (isOn) => app.showAllCameras(isOn) },
     plots: {
       add: (source, key, unit) => app.plot(source, key, unit),
       remove: (curve) => app.unplot(curve),

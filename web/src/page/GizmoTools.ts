@@ -19,6 +19,7 @@ export function createGizmoTools(app: App): HTMLElement {
     (tool) => {
       if (!tool) return;
       snaps.show(tool.snaps);
+      for (const { element } of [distance, angle]) element.hidden = !tool.snaps;
       distance.show(String(tool.distance));
       angle.show(String(tool.angleDeg));
     },

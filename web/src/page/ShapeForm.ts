@@ -10,7 +10,8 @@ import { element, setText } from "../ui/element";
 const LABELS: Record<LengthName, string> = { length: "Length x (m)", width: "Width y (m)", height: "Height z (m)", radius: "Radius (m)" };
 const FIRST_WALL: Partial<Shape> = { length: 2, width: 0.1, height: 2, isStatic: true, colour: "b4b4b4" };
 
-export function createShapeForm(app: App): HTMLElement {
+// `onAdd` is called when the user adds a shape or begins to draw a wall.
+export function createShapeForm(app: App, onAdd: () => void): HTMLElement {
   let shape: Shape = FIRST_SHAPE;
   const change = (change: Partial<Shape>) => {
     shape = { ...shape, ...change };
@@ -35,10 +36,18 @@ export function createShapeForm(app: App): HTMLElement {
   const isStatic = checkField("Static", (value) => change({ isStatic: value }));
   const colour = colourField("Colour", (value) => change({ colour: value }));
   const fault = element("p", { class: "field-error", role: "alert" });
-  const add = element("button", { class: "button", type: "button", onclick: () => void app.editActions.addShape(shape) }, "Add shape");
+  const addShape = () => {
+    onAdd();
+    void app.editActions.addShape(shape);
+  };
+  const drawWall = () => {
+    onAdd();
+    toggleWall(app, shape);
+  };
+  const add = element("button", { class: "button", type: "button", onclick: addShape }, "Add shape");
   const draw = element(
     "button",
-    { class: "button", type: "button", title: "Draw the wall by two clicks on the floor", onclick: () => toggleWall(app, shape) },
+    { class: "button", type: "button", title: "Draw the wall by two clicks on the floor", onclick: drawWall },
     "Draw wall",
   );
   const show = () => {
@@ -69,9 +78,8 @@ export function createShapeForm(app: App): HTMLElement {
   );
   show();
   return element(
-    "fieldset",
+    "div",
     { class: "shape-form" },
-    element("legend", {}, "Shape"),
     element("div", { class: "field-pair" }, kind.element, colour.element),
     element("div", { class: "field-pair" }, ...[...lengths.values()].map(({ element }) => element)),
     element("div", { class: "field-pair" }, mass.element, isStatic.element),

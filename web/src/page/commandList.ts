@@ -2,7 +2,7 @@
 // and topics.
 import type { App } from "../app/App";
 import { PANELS } from "../panels/registry";
-import { hasAgent } from "../api/scene";
+import { hasAgent, imagesOf } from "../api/scene";
 import { bodyPart } from "../state/parts";
 import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
 import { OVERLAYS } from "../state/overlays";
@@ -58,11 +58,12 @@ function runCommands(app: App): Command[] {
 }
 
 function viewCommands(app: App): Command[] {
-  const { shown } = app.store.get();
+  const { shown, mapMode, scene, allCameras } = app.store.get();
   const view = (label: string, key: string, run: () => void): Command => ({ group: "View", label, key, run });
   return [
-    { group: "View", label: app.store.get().mapMode ? "Leave the map" : "Map", run: () => app.setMap(!app.store.get().mapMode) },
+    { group: "View", label: mapMode ? "Leave the map" : "Map", run: () => app.setMap(!mapMode) },
     { group: "View", label: "Measure", run: () => app.pointing.setMeasuring(true) },
+    ...(imagesOf(scene).length > 1 && !allCameras ? [{ group: "View", label: "Show all cameras", run: () => app.showAllCameras(true) }] : []),
     view("Reset view", "R", () => app.resetView()),
     view("Top view", "T", () => app.topView()),
     view("Follow", "F", () => app.toggleViewMode("follow")),

@@ -13,6 +13,7 @@ export function body(name: string, more: Partial<SceneBody> = {}): SceneBody {
     isOfWorld: false,
     isAvatar: false,
     isStation: false,
+    hasDrive: true,
     pose: HERE,
     links: ["chassis", "wheel"],
     sensors: [],

@@ -29,6 +29,13 @@ export interface Notice {
   id: number;
   kind: "error" | "note";
   sentence: string;
+  action?: NoticeAction;
+}
+
+// A button of a notice.
+export interface NoticeAction {
+  label: string;
+  run(): void;
 }
 
 // The last reported pose of a robot: metres and radians in the world.
@@ -110,6 +117,7 @@ export interface State {
   shown: Shown;
   overlayColours: OverlayColours;
   camera: CameraChoice | null;
+  allCameras: boolean; // whether the images of all cameras are shown in a grid
   plots: Plots;
   openPanels: readonly string[]; // ids of panels in panels/registry.ts
   serverWarnings: readonly string[];
@@ -168,6 +176,7 @@ export const initialState: State = {
   shown: FIRST_SHOWN,
   overlayColours: FIRST_COLOURS,
   camera: null,
+  allCameras: false,
   plots: NO_PLOTS,
   openPanels: [],
   serverWarnings: [],

@@ -1,7 +1,9 @@
-// A button that opens a small sheet of choices above the page. A click elsewhere or Esc closes it.
+// A button that opens a small sheet of choices above the page. A click elsewhere or Esc closes it. On
+// a narrow screen, where the sheet covers the page, a choice closes it too.
 import { element } from "./element";
 import type { IconName } from "./icons";
 import { icon } from "./icons";
+import { isNarrow } from "./narrow";
 
 const GAP_PX = 6;
 const EDGE_PX = 8;
@@ -13,13 +15,24 @@ export interface Menu {
   close(): void;
 }
 
-// `word` is shown below the icon if the page is wide enough.
+// The first word of the label is shown below the icon if the page is wide enough.
 export function createMenu(label: string, picture: IconName, ...items: HTMLElement[]): Menu {
+  return createWordedMenu({ label, picture, word: wordOf(label) }, ...items);
+}
+
+interface MenuLook {
+  label: string;
+  picture: IconName;
+  word: string;
+  title?: string; // tooltip; the label if it is absent
+}
+
+export function createWordedMenu({ label, picture, word, title = label }: MenuLook, ...items: HTMLElement[]): Menu {
   const button = element(
     "button",
-    { class: "button plain worded", type: "button", "aria-label": label, title: label, "aria-expanded": "false" },
+    { class: "button plain worded", type: "button", "aria-label": label, title, "aria-expanded": "false" },
     icon(picture),
-    element("span", { class: "word", "aria-hidden": "true" }, wordOf(label)),
+    element("span", { class: "word", "aria-hidden": "true" }, word),
   );
   const sheet = element("div", { class: "card menu-sheet", role: "group", "aria-label": label, popover: "manual" }, ...items);
   sheet.hidden = true;
@@ -54,6 +67,9 @@ export function createMenu(label: string, picture: IconName, ...items: HTMLEleme
     if (hadFocus) button.focus();
   };
   button.addEventListener("click", () => open(sheet.hidden));
+  sheet.addEventListener("click", ({ target }) => {
+    if (isNarrow() && target instanceof Element && target.closest("button")) close();
+  });
   return { element: place, button, sheet, close };
 }
 

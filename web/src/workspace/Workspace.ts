@@ -7,6 +7,7 @@ import type { Panel } from "../panels/contract/Panel";
 import { EDIT_PANEL } from "../state/editing";
 import type { PanelPorts } from "../panels/contract/ports";
 import { element } from "../ui/element";
+import { NARROW } from "../ui/narrow";
 import { fromDockview, toDockview } from "./dockviewLayout";
 import { Frame } from "./Frame";
 import { createGroupHead } from "./GroupHead";
@@ -19,7 +20,6 @@ const BELOW_PX = 250;
 const TOP_SIDE_SHARE = 0.62; // fraction of the height
 const MIN_WIDTH_PX = 150;
 const MIN_HEIGHT_PX = 90;
-const NARROW = "(max-width: 760px)";
 const POPOUT_PAGE = "popout.html";
 
 export interface WorkspacePanels {
@@ -103,6 +103,13 @@ export class Workspace {
   // Brings a panel to the front if it is behind another tab.
   reveal(id: string): void {
     this.api.getPanel(id)?.api.setActive();
+  }
+
+  // Ends Maximise. Returns whether a part was maximised.
+  restoreSize(): boolean {
+    const isMaximised = this.api.hasMaximizedGroup();
+    if (isMaximised) this.api.exitMaximizedGroup();
+    return isMaximised;
   }
 
   private apply(layout: Split): void {

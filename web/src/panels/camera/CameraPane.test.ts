@@ -52,6 +52,7 @@ test("the grid subscribes to every camera, and a click on one selects it and sho
   const depth = { ...EYE, name: "depth", type: "depth_camera", overlay: "points" as const, topic: "/a/depth" };
   const { ports, store, topics } = testPorts({ scene: scene({ bodies: [body("a", { sensors: [EYE, other, depth] })] }) });
   ports.cameras.show.mockImplementation((camera: CameraChoice) => store.set({ camera }));
+  ports.cameras.showAll.mockImplementation((allCameras: boolean) => store.set({ allCameras }));
   const { body: element, tools, whileOpen } = mount(ports);
   whileOpen!();
   const choice = tools![0] as HTMLSelectElement;

@@ -1,13 +1,14 @@
 // The images of one camera, or of all cameras in a grid. Only visible cameras are subscribed
 // to.
-import type { CameraChoice, SceneDescription } from "../../api/scene";
-import { camerasOf, robotsOf } from "../../api/scene";
+import type { CameraChoice } from "../../api/scene";
+import { camerasOf, imagesOf } from "../../api/scene";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
 import { smallButton } from "../../ui/smallButton";
 import type { MountedPanel } from "../contract/Panel";
 import type { PanelPorts } from "../contract/ports";
 import { CameraTile } from "./CameraTile";
+import { gridFor } from "./gridFor";
 
 type Ports = Pick<PanelPorts, "state" | "topics" | "cameras">;
 
@@ -22,11 +23,11 @@ export function mount(ports: Ports): MountedPanel {
   const note = element("p", { class: "dim camera-note" });
   const hint = element("p", { class: "hint" }, "No robot has a camera.");
   let isOpen = false;
-  let showsAll = false;
   let only: CameraChoice | null = null; // a depth camera that the user chose here; other panels do not know this
                                         // choice
   let tiles: CameraTile[] = [];
 
+  let showsAll = state.get().allCameras;
   const chosen = () => only ?? state.get().camera;
   const shown = (): readonly CameraChoice[] => {
     if (showsAll) return imagesOf(state.get().scene).slice(0, MAX_TILES);
@@ -48,6 +49,7 @@ export function mount(ports: Ports): MountedPanel {
     place.className = showsAll ? "camera-grid" : "camera-one";
     const cells = tiles.map((tile) => (showsAll ? cellOf(tile) : tile.element));
     place.replaceChildren(...cells);
+    arrange();
     const all = imagesOf(state.get().scene).length;
     setText(note, showsAll && all > MAX_TILES ? `The first ${MAX_TILES} of ${all} cameras. Choose another one above.` : "");
     hint.hidden = all > 0;
@@ -72,12 +74,18 @@ export function mount(ports: Ports): MountedPanel {
     return element("div", { class: "camera-cell" }, open, tile.element);
   };
   const showOnly = (camera: CameraChoice) => {
-    showsAll = false;
     const isOfPage = camerasOf(state.get().scene).some(({ topic }) => topic === camera.topic);
     only = isOfPage ? null : camera;
     if (isOfPage && state.get().camera?.topic !== camera.topic) cameras.show(camera);
+    if (showsAll) cameras.showAll(false);
     else build();
   };
+  const arrange = () => {
+    const { clientWidth, clientHeight } = place;
+    const { columns, cellWidth } = gridFor(tiles.length, clientWidth, clientHeight);
+    place.style.setProperty("--columns", `repeat(${columns}, ${cellWidth === null ? "minmax(0, 1fr)" : `${cellWidth}px`})`);
+  };
+  if (typeof ResizeObserver !== "undefined") new ResizeObserver(arrange).observe(place);
   const zoomBy = (factor: number) => () => tiles.forEach((tile) => tile.zoomBy(factor));
   const zooms = [
     smallButton("add", "Zoom in", zoomBy(1.25)),
@@ -85,13 +93,9 @@ export function mount(ports: Ports): MountedPanel {
     smallButton("enlarge", "Fit the image", zoomBy(0)),
   ];
 
-  const setAll = (isOn: boolean) => {
-    showsAll = isOn;
-    build();
-  };
-  const grid = smallButton("grid", "Show all cameras", () => setAll(!showsAll));
+  const grid = smallButton("grid", "Show all cameras", () => cameras.showAll(!showsAll));
   choice.addEventListener("change", () => {
-    if (choice.value === ALL) return setAll(true);
+    if (choice.value === ALL) return cameras.showAll(true);
     const camera = imagesOf(state.get().scene).find(({ topic }) => topic === choice.value);
     if (camera) showOnly(camera);
   });
@@ -108,6 +112,14 @@ export function mount(ports: Ports): MountedPanel {
     ({ camera }) => camera?.topic,
     () => {
       only = null;
+      build();
+    },
+  );
+  state.watch(
+    ({ allCameras }) => allCameras,
+    (isOn) => {
+      if (isOn === showsAll) return;
+      showsAll = isOn;
       build();
     },
   );
@@ -138,18 +150,3 @@ export function mount(ports: Ports): MountedPanel {
 function nameOf({ robot, sensor }: CameraChoice): string {
   return robot + SEPARATOR + sensor;
 }
-
-// Returns the cameras, then the depth cameras, whose point clouds are shown as depth images.
-function imagesOf(scene: SceneDescription | null): readonly CameraChoice[] {
-  let found = scene ? known.get(scene) : NO_CAMERAS;
-  if (!found) {
-    const depth = robotsOf(scene).flatMap(({ name, sensors }) =>
-      sensors.filter(({ type }) => type === "depth_camera").map(({ name: sensor, topic }) => ({ robot: name, sensor, topic })),
-    );
-    known.set(scene!, (found = [...camerasOf(scene), ...depth]));
-  }
-  return found;
-}
-
-const NO_CAMERAS: readonly CameraChoice[] = [];
-const known = new WeakMap<SceneDescription, readonly CameraChoice[]>(); // cached, because a scene never changes

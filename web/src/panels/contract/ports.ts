@@ -72,9 +72,11 @@ export interface CommandsPort {
 export interface ControlPort {
   // Takes control of the simulation, or requests it from the viewer who has it.
   take(): Promise<void>;
+  resume(): void; // starts or resumes the simulation
   // Sets the velocity of an avatar, or of a robot without a behaviour, until the next command.
   drive(simulation: string, robot: string, drive: Drive): Promise<void>;
   joints(simulation: string, body: string): Promise<BodyJoints>;
+  showJoints(): void; // opens the panel of joints, which shows those of the selection
   commandJoint(simulation: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void>;
 }
 
@@ -101,6 +103,7 @@ export interface RobotsPort {
 
 export interface CamerasPort {
   show(camera: CameraChoice): void; // selects the camera, and opens the panel of images
+  showAll(isOn: boolean): void; // shows all cameras in a grid, or the selected one, and opens the panel
 }
 
 export interface PlotsPort {

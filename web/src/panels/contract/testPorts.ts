@@ -57,8 +57,10 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
     commands: { list: vi.fn(async () => []), run: vi.fn(async () => {}) },
     control: {
       take: vi.fn(async () => {}),
+      resume: vi.fn(),
       drive: vi.fn(async () => {}),
       joints: vi.fn(async () => ({ time: 0, joints: [], refusal: "" })),
+      showJoints: vi.fn(),
       commandJoint: vi.fn(async () => {}),
       ...control,
     },
@@ -72,7 +74,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       follow: vi.fn(),
     },
     edits: { pose: vi.fn(async () => true) },
-    cameras: { show: vi.fn() },
+    cameras: { show: vi.fn(), showAll: vi.fn() },
     plots: {
       add: vi.fn(),
       remove: vi.fn(),

@@ -6,12 +6,13 @@ import { element, setText } from "../../ui/element";
 import { formatDistance, formatNumber } from "../../ui/format";
 import { icon } from "../../ui/icons";
 import type { PanelPorts } from "../contract/ports";
+import { hasJoints, jointsButton } from "../control/jointsButton";
 import { plotButton } from "./plotButton";
 import { createOutput } from "./Output";
 import { createSensorList } from "./SensorList";
 import { createWhy } from "./Why";
 
-type Ports = Pick<PanelPorts, "state" | "topics" | "server" | "robots" | "cameras" | "plots" | "notices">;
+type Ports = Pick<PanelPorts, "state" | "topics" | "server" | "control" | "robots" | "cameras" | "plots" | "notices">;
 
 const ROWS = [
   "Position",
@@ -48,13 +49,16 @@ export function createInspector(ports: Ports): HTMLElement {
   const detail = element("p", { class: "detail" });
   const why = createWhy(ports);
   const output = createOutput(ports);
+  const joints = jointsButton(ports);
+  const actions = copyButtons(ports);
+  actions.prepend(joints);
   const panel = element(
     "section",
     { class: "card inspector", "aria-label": "Selected robot" },
     element("div", { class: "card-head" }, title, closeButton(ports)),
     why,
     list,
-    copyButtons(ports),
+    actions,
     detail,
     output,
     createSensorList(ports),
@@ -72,6 +76,10 @@ export function createInspector(ports: Ports): HTMLElement {
       panel.hidden = selection === null;
       setText(title, selection ?? "");
     },
+  );
+  ports.state.watch(
+    ({ selection, scene, replay }) => replay === null && hasJoints(scene?.bodies.find(({ name }) => name === selection)),
+    (isShown) => (joints.hidden = !isShown),
   );
   ports.state.watch(
     ({ selectedPose }) => selectedPose,

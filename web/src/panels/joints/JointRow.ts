@@ -15,6 +15,7 @@ interface Actions {
 
 interface How {
   isRefused: boolean; // whether commands are not possible now
+  isPaused: boolean; // whether commands wait until the simulation runs
   inDegrees: boolean;
 }
 
@@ -23,12 +24,14 @@ export class JointRow {
   private readonly state = element("span", { class: "joint-state number" });
   private readonly limits = element("span", { class: "dim number" });
   private readonly refusal = element("p", { class: "dim" });
+  private readonly later = element("p", { class: "joint-later", role: "status" });
   private readonly slider: HTMLInputElement;
   private readonly field: HTMLInputElement;
   private readonly wishes: NewestOnly<number>;
   private readonly kind: "position" | "velocity";
   private inDegrees = false;
   private heldUntil = 0; // ms
+  private waiting: number | null = null; // the value that was set while the simulation is paused
 
   constructor(joint: Joint, { command, problem }: Actions) {
     const hasLimits = Number.isFinite(joint.minimum) && Number.isFinite(joint.maximum);
@@ -43,7 +46,10 @@ export class JointRow {
       "aria-label": `${joint.name}: ${this.kind}`,
     });
     this.field = element("input", { type: "number", step: "any", "aria-label": `${joint.name}: ${this.kind} as a number` });
-    this.wishes = new NewestOnly((value) => command(joint.name, this.kind, value), problem);
+    this.wishes = new NewestOnly((value) => command(joint.name, this.kind, value), (sentence) => {
+      this.forget();
+      problem(sentence);
+    });
     this.slider.addEventListener("input", () => this.send(Number(this.slider.value)));
     this.field.addEventListener("change", () => {
       if (this.field.value !== "") this.send(Math.min(maximum, Math.max(minimum, Number(this.field.value) / this.scale(joint.unit))));
@@ -54,10 +60,16 @@ export class JointRow {
     const stop = element("button", { class: "button small", type: "button", onclick: () => this.send(0) }, "Stop");
     stop.hidden = this.kind === "position";
     const controls = element("div", { class: "joint-controls" }, this.slider, this.field, stop);
-    this.element = element("li", { "data-joint": joint.name }, head, controls, this.limits, this.refusal);
+    this.element = element("li", { "data-joint": joint.name }, head, controls, this.limits, this.later, this.refusal);
   }
 
-  show(joint: Joint, { isRefused, inDegrees }: How): void {
+  // Forgets a value that was not applied.
+  forget(): void {
+    this.waiting = null;
+    this.heldUntil = 0;
+  }
+
+  show(joint: Joint, { isRefused, isPaused, inDegrees }: How): void {
     this.inDegrees = inDegrees;
     const scale = this.scale(joint.unit);
     const unit = inDegrees && joint.unit === "rad" ? "°" : joint.unit;
@@ -71,9 +83,15 @@ export class JointRow {
     this.slider.disabled = this.field.disabled = isOff;
     for (const button of this.element.querySelectorAll("button")) button.disabled = isOff;
     const commanded = joint.command?.kind === this.kind ? joint.command.value : this.kind === "position" ? joint.position : 0;
+    if (isPaused && this.waiting !== null) this.heldUntil = performance.now() + HELD_MS;
     const isHeld = performance.now() < this.heldUntil || document.activeElement === this.field;
+    if (!isHeld) this.waiting = null;
+    const perSecond = this.kind === "velocity" ? "/s" : "";
+    setText(this.later, isPaused && this.waiting !== null ? `${text(this.waiting)}${perSecond} is applied when the simulation resumes.` : "");
+    this.later.hidden = this.later.textContent === "";
     if (!isHeld) this.showTarget(commanded, scale, digits);
-    setAttribute(this.slider, "aria-valuetext", `${text(Number(this.slider.value))}${this.kind === "velocity" ? "/s" : ""}`);
+    else if (this.waiting !== null && document.activeElement !== this.field) this.showTarget(this.waiting, scale, digits);
+    setAttribute(this.slider, "aria-valuetext", `${text(Number(this.slider.value))}${perSecond}`);
   }
 
   private showTarget(value: number, scale: number, digits: number): void {
@@ -83,6 +101,7 @@ export class JointRow {
 
   private send(value: number): void {
     this.heldUntil = performance.now() + HELD_MS;
+    this.waiting = value;
     this.slider.value = String(value);
     const scale = this.inDegrees && this.field.dataset.unit !== "m" ? 180 / Math.PI : 1;
     this.field.value = formatNumber(value * scale, scale === 1 ? 3 : 1);

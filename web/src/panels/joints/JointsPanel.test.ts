@@ -28,12 +28,12 @@ async function opened(told: Partial<BodyJoints>) {
   const joints = vi.fn(async () => ({ time: 0, joints: [ELBOW], refusal: "", ...told }));
   const bodies = [body("wall", { isRobot: false }), body("arm", { isRobot: false, joints: [JOINT] })];
   const commandJoint = vi.fn(async () => {});
-  const { ports } = testPorts({ scene: scene({ bodies }), status: simulationStatus("running") }, {}, { joints, commandJoint });
+  const { ports, store } = testPorts({ scene: scene({ bodies }), status: simulationStatus("running") }, {}, { joints, commandJoint });
   const { body: element, tools, whileOpen } = mount(ports);
   document.body.replaceChildren(...tools!, element);
   const end = whileOpen!();
   await vi.advanceTimersByTimeAsync(10);
-  return { commandJoint, joints, end, slider: () => document.querySelector<HTMLInputElement>('input[type="range"]')! };
+  return { commandJoint, joints, store, end, slider: () => document.querySelector<HTMLInputElement>('input[type="range"]')! };
 }
 
 test("a joint is shown with its limits, and moved by its slider and by its number", async () => {
@@ -54,6 +54,24 @@ test("a joint is shown with its limits, and moved by its slider and by its numbe
   field.dispatchEvent(new Event("change"));
   await vi.advanceTimersByTimeAsync(1);
   expect((commandJoint.mock.calls.at(-1) as unknown as unknown[])[4]).toBeCloseTo(Math.PI / 2);
+  end();
+});
+
+test("while the simulation is paused, a joint keeps the set value and says when it is applied", async () => {
+  const { commandJoint, slider, end, store, joints } = await opened({});
+  store.set({ status: simulationStatus("paused") });
+  slider().value = "1.2";
+  slider().dispatchEvent(new Event("input"));
+  await vi.advanceTimersByTimeAsync(5000);
+  expect(commandJoint).toHaveBeenCalledTimes(1);
+  expect(Number(slider().value)).toBeCloseTo(1.2, 1);
+  expect(document.body.textContent).toMatch(/1\.2\d\d rad is applied when the simulation resumes\./);
+  expect(document.body.textContent).toContain("The simulation is paused. Commands are applied when it runs.");
+  store.set({ status: simulationStatus("running") });
+  joints.mockImplementation(async () => ({ time: 1, joints: [{ ...ELBOW, command: { kind: "position", value: 0.9 } }], refusal: "" }));
+  await vi.advanceTimersByTimeAsync(1500);
+  expect(Number(slider().value)).toBeCloseTo(0.9, 1);
+  expect(document.body.textContent).not.toContain("is applied when");
   end();
 });
 

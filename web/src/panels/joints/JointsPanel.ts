@@ -1,6 +1,7 @@
 // The joints of a robot or an arm: the position of each between its limits, and a slider that
 // commands it.
 import type { BodyJoints } from "../../api/joints";
+import { shownPart } from "../../state/parts";
 import { needsControl } from "../../state/people";
 import type { State } from "../../state/State";
 import { shallowEqual } from "../../state/Store";
@@ -8,6 +9,7 @@ import { element, setText } from "../../ui/element";
 import type { MountedPanel } from "../contract/Panel";
 import type { PanelPorts } from "../contract/ports";
 import { controlLine } from "../control/controlLine";
+import { resumeLine } from "../control/resumeLine";
 import { JointRow } from "./JointRow";
 
 type Ports = Pick<PanelPorts, "state" | "control">;
@@ -20,11 +22,13 @@ export function mount({ state, control }: Ports): MountedPanel {
   const degrees = element("input", { type: "checkbox" });
   const note = element("p", { class: "dim joints-note", role: "status" });
   const { line, follow } = controlLine(state, control);
+  const paused = resumeLine(state, control, "Commands are applied when it runs.");
   const list = element("ul", { class: "joint-list", "aria-label": "Joints" });
   let rows: JointRow[] = [];
   let body: string | null = null;
   setText(note, NO_BODY);
   let names = "";
+  let time = 0; // time of the last report, s
 
   const problem = (sentence: string) => setText(note, sentence);
   const command = (joint: string, kind: "position" | "velocity", value: number): Promise<void> => {
@@ -41,8 +45,11 @@ export function mount({ state, control }: Ports): MountedPanel {
     }
     const { status, people } = state.get();
     const isRefused = told.refusal !== "" || needsControl(people) !== "";
-    rows.forEach((row, i) => row.show(told.joints[i]!, { isRefused, inDegrees: degrees.checked }));
-    setText(note, told.refusal || noteOf(told, status?.phase));
+    const isPaused = status?.phase === "created" || status?.phase === "paused";
+    if (told.time < time) for (const row of rows) row.forget(); // the simulation was reset
+    time = told.time;
+    rows.forEach((row, i) => row.show(told.joints[i]!, { isRefused, isPaused, inDegrees: degrees.checked }));
+    setText(note, told.refusal || (told.joints.length === 0 ? "This body has no joint that takes commands." : ""));
   };
   const forget = (sentence: string) => {
     names = "";
@@ -78,12 +85,13 @@ export function mount({ state, control }: Ports): MountedPanel {
     timer = setTimeout(() => void ask(), 0);
     const ends = [
       follow(),
+      paused.follow(),
       state.watch(
         jointedBodies,
         (bodies) => {
           choice.replaceChildren(...bodies.map((name) => new Option(name, name)));
           choice.hidden = bodies.length === 0;
-          const { selection } = state.get();
+          const selection = selected(state.get());
           const isThere = (name: string | null): name is string => name !== null && bodies.includes(name);
           choose(isThere(body) ? body : isThere(selection) ? selection : (bodies[0] ?? null));
           choice.value = body ?? "";
@@ -91,7 +99,7 @@ export function mount({ state, control }: Ports): MountedPanel {
         shallowEqual,
       ),
       state.watch(
-        ({ selection }) => selection,
+        selected,
         (selection) => selection !== null && jointedBodies(state.get()).includes(selection) && choose(selection),
       ),
     ];
@@ -102,7 +110,12 @@ export function mount({ state, control }: Ports): MountedPanel {
     };
   };
   const inDegrees = element("label", { class: "check-line", title: "Show angles in degrees" }, degrees, "Degrees");
-  return { body: element("div", { class: "joints-body" }, line, note, list), tools: [choice, inDegrees], whileOpen };
+  return { body: element("div", { class: "joints-body" }, line, paused.line, note, list), tools: [choice, inDegrees], whileOpen };
+}
+
+// The body that the inspector shows, or whose part it shows.
+function selected(state: State): string | null {
+  return shownPart(state)?.body ?? null;
 }
 
 // Returns robots first, then arms and other objects. Static bodies are left out, because their
@@ -110,10 +123,4 @@ export function mount({ state, control }: Ports): MountedPanel {
 function jointedBodies({ scene }: State): string[] {
   const jointed = (scene?.bodies ?? []).filter(({ joints }) => joints.length > 0);
   return [...jointed.filter(({ isRobot }) => isRobot), ...jointed.filter(({ isRobot }) => !isRobot)].map(({ name }) => name);
-}
-
-function noteOf({ joints }: BodyJoints, phase: string | undefined): string {
-  if (joints.length === 0) return "This body has no joint that takes commands.";
-  if (phase === "created" || phase === "paused") return "The simulation does not run. Commands are applied when it runs.";
-  return "";
 }

@@ -8,6 +8,7 @@ import { element, setText } from "../../ui/element";
 import type { MountedPanel } from "../contract/Panel";
 import type { PanelPorts } from "../contract/ports";
 import { controlLine } from "../control/controlLine";
+import { resumeLine } from "../control/resumeLine";
 import { Driver } from "./Driver";
 import type { Wish } from "./driving";
 import { STILL, isStill } from "./driving";
@@ -16,9 +17,8 @@ import { GamepadReader } from "./GamepadReader";
 
 type Ports = Pick<PanelPorts, "state" | "control">;
 
-const NONE = "No robot can be driven: each is controlled by its behaviour. To add a robot that you can drive: press Edit, choose a model, leave Behaviour at None, press Add, then Resume.";
+const NONE = "No robot can be driven: each has no drive, or is controlled by its behaviour. To add a robot that you can drive: press Edit, choose a model, leave Behaviour at None, press Add, then Resume.";
 const HINT = "Press the pad, then hold W A S D or the arrow keys (Q and E: sideways). Or drag on the pad. Or use a gamepad.";
-const PAUSED = "The simulation does not run. Press Resume (Space) to drive.";
 const MAX_LISTED = 200;
 
 export function mount({ state, control }: Ports): MountedPanel {
@@ -28,6 +28,7 @@ export function mount({ state, control }: Ports): MountedPanel {
   const { line, follow } = controlLine(state, control);
   const linear = speedSlider("Speed", "m/s", 0.1, 3, 0.5);
   const angular = speedSlider("Turn rate", "rad/s", 0.1, 3, 1);
+  const { line: paused, follow: followPhase } = resumeLine(state, control, "Resume it to drive.");
   const place = element("div", { class: "pad-place" });
   const speeds = element("div", { class: "teleoperation-speeds" }, linear.element, angular.element);
   const wishes = { pad: STILL, gamepad: STILL };
@@ -95,8 +96,9 @@ export function mount({ state, control }: Ports): MountedPanel {
     choice.value = robot ?? "";
     const isEmpty = names.length === 0;
     for (const hidden of [choice, place, speeds, moving]) hidden.hidden = isEmpty;
-    setText(note, isEmpty ? NONE : runs() ? HINT : PAUSED);
+    tellHow();
   };
+  const tellHow = () => setText(note, robot === null ? NONE : HINT);
   const whileOpen = () => {
     const ends = [
       follow(),
@@ -108,10 +110,7 @@ export function mount({ state, control }: Ports): MountedPanel {
         ({ selection }) => selection,
         (selection) => selection !== null && drivable(state.get()).includes(selection) && choose(selection),
       ),
-      state.watch(
-        ({ status }) => status?.phase === "running",
-        (isRunning) => robot !== null && setText(note, isRunning ? HINT : PAUSED),
-      ),
+      followPhase(),
       state.watch(
         ({ people }) => needsControl(people) !== "",
         (isMissing) => isMissing && letGo(),
@@ -120,7 +119,7 @@ export function mount({ state, control }: Ports): MountedPanel {
     show(STILL);
     return () => ends.forEach((end) => end());
   };
-  const body = element("div", { class: "teleoperation-body" }, line, place, speeds, moving, note);
+  const body = element("div", { class: "teleoperation-body" }, line, paused, place, speeds, moving, note);
   return { body, tools: [choice], whileOpen };
 }
 
@@ -136,12 +135,12 @@ function whenPageIsLeft(letGo: () => void): () => void {
   };
 }
 
-// Returns the robots without a running behaviour, then the avatars.
+// Returns the robots with a drive and without a running behaviour, then the avatars.
 function drivable({ scene, status }: State): readonly string[] {
   const free = new Set(
     (status?.robots ?? []).filter(({ behaviour, agentPhase }) => behaviour === "" || agentPhase === "finished").map(({ name }) => name),
   );
-  const bodies = (scene?.bodies ?? []).filter(({ name, isAvatar, isRobot }) => isAvatar || (isRobot && free.has(name)));
+  const bodies = (scene?.bodies ?? []).filter(({ name, isAvatar, isRobot, hasDrive }) => isAvatar || (isRobot && hasDrive && free.has(name)));
   return [...bodies.filter(({ isAvatar }) => !isAvatar), ...bodies.filter(({ isAvatar }) => isAvatar)]
     .slice(0, MAX_LISTED)
     .map(({ name }) => name);

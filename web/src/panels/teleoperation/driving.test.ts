@@ -79,8 +79,8 @@ test("a disconnected gamepad sends no more commands", () => {
 });
 
 function panel(people = { viewers: [], you: 0 }) {
-  const robots = [robotStatus("a", { behaviour: "" }), robotStatus("b")];
-  const { ports, store } = testPorts({ people, scene: scene({ bodies: [body("a"), body("b")] }), status: simulationStatus("running", { robots }) });
+  const robots = [robotStatus("a", { behaviour: "" }), robotStatus("b"), robotStatus("arm", { behaviour: "" })];
+  const { ports, store } = testPorts({ people, scene: scene({ bodies: [body("a"), body("b"), body("arm", { hasDrive: false })] }), status: simulationStatus("running", { robots }) });
   const { body: element, tools, whileOpen } = mount(ports);
   document.body.replaceChildren(...tools!, element);
   const end = whileOpen!();
@@ -113,5 +113,17 @@ test("without control nothing is driven, and the panel offers to take it", async
   expect(document.querySelector(".control-line")!.textContent).toBe("Others are watching this simulation. Take control first.Take control");
   document.querySelector<HTMLButtonElement>(".control-line button")!.click();
   expect(ports.control.take).toHaveBeenCalled();
+  end();
+});
+
+test("while the simulation is paused, the panel offers to resume it", () => {
+  const { ports, store, end } = panel();
+  const line = [...document.querySelectorAll<HTMLElement>(".control-line")].at(-1)!;
+  expect(line.hidden).toBe(true);
+  store.set({ status: simulationStatus("paused") });
+  expect(line.hidden).toBe(false);
+  expect(line.textContent).toBe("The simulation is paused. Resume it to drive.Resume");
+  line.querySelector("button")!.click();
+  expect(ports.control.resume).toHaveBeenCalled();
   end();
 });

@@ -110,7 +110,7 @@ class Row {
       this.leaf = null;
       this.element.replaceChildren(element("div", { class: "tree-fold" }, details, this.copyButton()));
     }
-    setText(this.fold.note, noteOf(value));
+    setText(this.fold.note, typeof this.step === "number" ? nameOf(value) : noteOf(value));
     if (this.fold.details.open) this.fold.branch.show(value);
   }
 
@@ -147,6 +147,13 @@ function noteOf(value: object): string {
   if (Array.isArray(value)) return ` ${value.length.toLocaleString("en")} elements`;
   if (isNumbers(value)) return ` ${value.length.toLocaleString("en")} numbers`;
   return "";
+}
+
+// Returns the name of an element of a list, such as the robot's name in a list of robots.
+function nameOf(value: object): string {
+  const { name, robot } = value as { name?: unknown; robot?: unknown };
+  const found = [name, robot].find((each) => typeof each === "string" && each !== "");
+  return found === undefined ? noteOf(value) : ` ${String(found).slice(0, MAX_TEXT)}`;
 }
 
 function textOf(value: unknown): string {

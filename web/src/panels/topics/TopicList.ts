@@ -63,7 +63,7 @@ export class TopicList {
     if (known) return known;
     const button = element(
       "button",
-      { class: "button plain", type: "button", "data-topic": name, "aria-pressed": "false", onclick: () => this.choose(name) },
+      { class: "button plain", type: "button", "data-topic": name, title: name, "aria-pressed": "false", onclick: () => this.choose(name) },
       name,
     );
     const [rate, bandwidth] = [element("td", { class: "number" }, "–"), element("td", { class: "number" }, "–")];

@@ -6,6 +6,7 @@ import { element, setText } from "../../ui/element";
 import { formatNumber, formatValue } from "../../ui/format";
 import { smallButton } from "../../ui/smallButton";
 import type { PanelPorts } from "../contract/ports";
+import { hasJoints, jointsButton } from "../control/jointsButton";
 import type { WorldNode } from "./nodes";
 import type { Line } from "./partLines";
 import { collisionLines, factsOf, massLines, mountLines, orientationText, poseLines, positionText, sensorLines, visualLines } from "./partLines";
@@ -168,6 +169,8 @@ export class NodeInspector {
     const button = (label: string, onclick: () => void) => element("button", { class: "button small", type: "button", onclick }, label);
     const isRobot = node.kind !== "transform" && (node.body.isRobot || node.body.isAvatar || node.body.isStation);
     const select = isRobot ? [button("Select in the view", () => robots.select(node.body.name))] : [];
+    const isMovable = (node.kind === "body" || node.kind === "joint") && hasJoints(node.body) && this.ports.state.get().replay === null;
+    if (isMovable) return [...select, jointsButton(this.ports)];
     if (node.kind !== "sensor") return select;
     const { sensor, body } = node;
     const image = sensor.overlay === "picture" ? [button("Show the image", () => cameras.show({ robot: body.name, sensor: sensor.name, topic: sensor.topic }))] : [];

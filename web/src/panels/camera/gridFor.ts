@@ -1,0 +1,32 @@
+// The columns of a grid of images.
+
+const ASPECT = 4 / 3.4; // width by height of a cell: an image of 4 by 3 below its name
+const GAP_PX = 6; // between cells and around the grid
+const MIN_WIDTH_PX = 170; // minimum width of a cell
+
+export interface Grid {
+  columns: number;
+  cellWidth: number | null; // CSS pixels; null: the columns share the width, and the grid scrolls
+}
+
+// Returns the columns with which `count` cells are the largest in a place of this size in CSS
+// pixels. If the cells would be narrower than MIN_WIDTH_PX, they are at least this wide, and the
+// grid scrolls.
+export function gridFor(count: number, width: number, height: number): Grid {
+  let [best, largest] = [1, 0];
+  for (let columns = 1; columns <= count; columns++) {
+    const cellWidth = widthOf(columns, count, width, height);
+    if (cellWidth > largest) [best, largest] = [columns, cellWidth];
+  }
+  if (largest >= MIN_WIDTH_PX) return { columns: best, cellWidth: Math.floor(largest) };
+  const columns = Math.min(count, Math.floor((width - GAP_PX) / (MIN_WIDTH_PX + GAP_PX)));
+  return { columns: Math.max(1, columns), cellWidth: null };
+}
+
+// The width of a cell if all rows are in sight.
+function widthOf(columns: number, count: number, width: number, height: number): number {
+  const rows = Math.ceil(count / columns);
+  const byWidth = (width - GAP_PX) / columns - GAP_PX;
+  const byHeight = ASPECT * ((height - GAP_PX) / rows - GAP_PX);
+  return Math.min(byWidth, byHeight);
+}
