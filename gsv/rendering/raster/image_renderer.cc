@@ -362,7 +362,8 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
   const I8 ids = LoadInt(&nearest_[at]);
   const F8x3 ray = RayAt(x, y);
   const int in_image = x + 8 <= width_ ? 0xff : (1 << (width_ - x)) - 1;
-  int left = Bits(ids != 0) & in_image;
+  const I8 used = (ids != 0) & (IntSteps() < SplatInt(width_ - x));
+  int left = Bits(used);
   const bool sky = left != in_image;
   F8x3 colour = Splat(0, 0, 0);
   Surfaces surfaces;
@@ -385,7 +386,7 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
       is_first = false;
       left &= ~Bits(mask);
     }
-    colour = light.Colour(surfaces, ray, lamps);
+    colour = light.Colour(surfaces, ray, lamps, used);
   }
   if (sky) colour = Select(ids == 0, light.Sky(ray), colour);
   const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
@@ -426,7 +427,7 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
                                                {kAnywhere, kAnywhere, kAnywhere});
-            const I8 above = Encoded(light.Colour(surfaces, ray, lamps), SplatInt(0));
+            const I8 above = Encoded(light.Colour(surfaces, ray, lamps, visible), SplatInt(0));
             std::uint32_t* to =
                 &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
             const I8 below = LoadInt(to);

@@ -138,7 +138,8 @@ Lamps LightModel::Reaching(const geometry::Vector3& min, const geometry::Vector3
   return lamps;
 }
 
-F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& lamps) const {
+F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& lamps,
+                        I8 used) const {
   const F8x3 position = ray * surface.w;
   Reflector s;
   s.normal = Normalized(surface.normal);
@@ -152,7 +153,7 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
   F8x3 light = surface.emissive + Ambient(block_, s, surface.roughness) * surface.occlusion;
   const F8x3 to_sun = Splat3(block_.to_sun);
   const F8 n_dot_l = Clamp01(Dot(s.normal, to_sun));
-  if (Bits(n_dot_l > Splat(0)) != 0) {
+  if (Bits(used & (n_dot_l > Splat(0))) != 0) {
     F8 visible = Splat(1);
     if (shadow_ != nullptr && block_.to_sun[3] > 0) {
       // The shadow is looked up beside the surface, so that the surface does not shade itself.
@@ -163,9 +164,9 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
         return Fma(Splat(m[i]), p.x,
                    Fma(Splat(m[4 + i]), p.y, Fma(Splat(m[8 + i]), p.z, Splat(m[12 + i]))));
       };
-      visible = shadow_->Visible({row(0), row(1), row(2)});
+      visible = shadow_->Visible({row(0), row(1), row(2)}, used & (n_dot_l > Splat(0)));
     }
-    if (Bits(n_dot_l * visible > Splat(0)) != 0) {
+    if (Bits(used & (n_dot_l * visible > Splat(0))) != 0) {
       light = light + Reflected(s, to_sun, n_dot_l) * (Splat3(block_.sun_colour) * visible);
     }
   }

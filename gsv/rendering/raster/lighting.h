@@ -21,8 +21,8 @@ class LightModel {
   // Returns the lamps that can light points in a box, given in the frame of FrustumOf().
   Lamps Reaching(const geometry::Vector3& min, const geometry::Vector3& max) const;
 
-  // Returns the tone-mapped linear colour in [0, 1].
-  F8x3 Colour(const Surfaces& surfaces, const F8x3& ray, const Lamps& lamps) const;
+  // Returns the tone-mapped linear colour in [0, 1]. Lanes outside `used` get any value.
+  F8x3 Colour(const Surfaces& surfaces, const F8x3& ray, const Lamps& lamps, I8 used) const;
   F8x3 Sky(const F8x3& ray) const;
 
  private:

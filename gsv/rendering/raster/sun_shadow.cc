@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gsv/rendering/raster/raster_texture.h"
 #include "gsv/rendering/raster/scan.h"
@@ -39,17 +40,24 @@ void SunShadow::Draw(const RenderList& render_list, std::uint64_t render_list_id
   region_ = ShadowRegion(render_list, to_sun);
   if (region_.IsEmpty()) return;
   const Drawn wanted{render_list_id, render_list.moved_count(), region_};
+  std::vector<ShadowRegion::Rectangle> changed = std::move(moved_);
   if (drawn_ != wanted) {
     still_.assign(std::size_t{kStride} * (kShadowSide + 2), 0.0f);
     DrawCasters(render_list, ShadowRegion::StillCasters(render_list), still_);
     drawn_ = wanted;
     moving_ = still_;
-    moved_.clear();
+    changed = {{0, 0, kShadowSide, kShadowSide}};
+  } else {
+    for (const ShadowRegion::Rectangle& part : changed) CopyStill(part);
   }
-  for (const ShadowRegion::Rectangle& part : moved_) CopyStill(part);
   const std::vector<std::size_t> moving = region_.MovingCasters(render_list, views);
   moved_ = region_.PartsOf(render_list, moving);
   DrawCasters(render_list, moving, moving_);
+  changed.insert(changed.end(), moved_.begin(), moved_.end());
+  for (const ShadowRegion::Rectangle& part : changed) {
+    // A caster at the map's edge may be drawn into the texels beyond it.
+    bounds_.Update(&moving_[kFirst], kStride, {part.min_x, part.min_y, part.max_x + 1, part.max_y});
+  }
 }
 
 void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
@@ -139,12 +147,15 @@ F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
   return Fma(bottom - top, fy, top);
 }
 
-F8 SunShadow::Visible(const F8x3& point) const {
+F8 SunShadow::Visible(const F8x3& point, I8 needed) const {
   const F8 side = Splat(kShadowSide);
   // Points outside the map use the border texels, which cast no shadow.
   const auto inside = [&](F8 at) { return Min(Max(at, Splat(-0.5f)), side + Splat(0.4f)); };
   const F8 x = point.x * side, y = point.y * side;
   const F8 z = Max(point.z, Splat(0));  // below the map, use the height of its lowest layer
+  const ShadowBounds::Range range = bounds_.At(x, y);
+  const I8 is_lit = z >= range.max, is_shaded = z < range.min;
+  if (Bits(needed & ~(is_lit | is_shaded)) == 0) return Select(is_lit, Splat(1), Splat(0));
   const F8 first = Lit(inside(x - Splat(0.6f)), inside(y - Splat(0.3f)), z);
   const F8 second = Lit(inside(x + Splat(0.6f)), inside(y + Splat(0.3f)), z);
   return Splat(0.5f) * (first + second);

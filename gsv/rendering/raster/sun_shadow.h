@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gsv/rendering/raster/rasteriser.h"
+#include "gsv/rendering/raster/shadow_bounds.h"
 #include "gsv/rendering/scene/shadow_region.h"
 
 namespace gsv::rendering::raster {
@@ -25,8 +26,9 @@ class SunShadow {
   const std::vector<ShadowRegion::Rectangle>& moved() const { return moved_; }
 
   // The fraction of sunlight at points of the map, in units of its sides from its corner. z grows
-  // towards the sun. The fraction is 1 outside the map.
-  F8 Visible(const F8x3& point) const;
+  // towards the sun. The fraction is 1 outside the map. Lanes outside `needed` get any value in
+  // [0, 1].
+  F8 Visible(const F8x3& point, I8 needed) const;
 
  private:
   struct Drawn {
@@ -50,6 +52,7 @@ class SunShadow {
   ShadowRegion region_;
   Drawn drawn_;                                 // the present content of still_
   std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
+  ShadowBounds bounds_;                         // of moving_
   Rasteriser rasteriser_;
 };
 

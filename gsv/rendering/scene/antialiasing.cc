@@ -1,8 +1,10 @@
 #include "gsv/rendering/scene/antialiasing.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <bit>
-#include <cstring>
+#include <memory>
 
 namespace gsv::rendering {
 namespace {
@@ -33,57 +35,100 @@ int StepAt(const Surfaces& s, int line, int last, int next) {
 
 class Smoother {
  public:
-  Smoother(int width, int height, const std::uint8_t* rgba) : rgba_(rgba) {
+  Smoother(int width, int height, const std::uint8_t* rgba)
+      : rgba_(rgba),
+        along_rows_(new std::uint8_t[static_cast<std::size_t>(width) * height]),
+        along_columns_(new std::uint8_t[static_cast<std::size_t>(width) * height]) {
     image_.width = width, image_.height = height, image_.channels = 3;
     const std::size_t pixels = static_cast<std::size_t>(width) * height;
     image_.pixels.resize(pixels * 3);
-    along_rows_.resize(pixels);
     Split(rgba, pixels);
-    along_columns_.resize(pixels);
     Transpose(width, height);
   }
 
   model::Image Smooth() {
     const int width = image_.width, height = image_.height;
-    FindEdges({along_rows_.data(), width, height}, width, 1);
-    FindEdges({along_columns_.data(), height, width}, 1, width);
+    FindEdges({along_rows_.get(), width, height}, width, 1);
+    FindEdges({along_columns_.get(), height, width}, 1, width);
     return std::move(image_);
   }
 
  private:
   // Splits pixels into colours and surface numbers.
   void Split(const std::uint8_t* rgba, std::size_t pixels) {
-    static_assert(std::endian::native == std::endian::little);
     std::size_t p = 0;
-    for (; p + 4 <= pixels; p += 4) {
-      std::uint32_t in[4], out[3];
-      std::memcpy(in, rgba + 4 * p, sizeof in);
-      out[0] = (in[0] & 0xffffff) | in[1] << 24;
-      out[1] = (in[1] >> 8 & 0xffff) | in[2] << 16;
-      out[2] = (in[2] >> 16 & 0xff) | in[3] << 8;
-      std::memcpy(&image_.pixels[3 * p], out, sizeof out);
-      const std::uint32_t numbers =
-          in[0] >> 24 | (in[1] >> 24) << 8 | (in[2] >> 24) << 16 | (in[3] & 0xff000000);
-      std::memcpy(&along_rows_[p], &numbers, sizeof numbers);
-    }
+    if (__builtin_cpu_supports("ssse3")) p = SplitBySixteen(rgba, pixels);
     for (; p < pixels; ++p) {
       std::copy(rgba + 4 * p, rgba + 4 * p + 3, &image_.pixels[3 * p]);
       along_rows_[p] = rgba[4 * p + 3];
     }
   }
 
-  // Transposes the numbers in blocks that fit into the cache.
+  // Splits groups of sixteen pixels and returns the number of these pixels.
+  __attribute__((target("ssse3"))) std::size_t SplitBySixteen(const std::uint8_t* rgba,
+                                                              std::size_t pixels) {
+    // The colours of four pixels in the lowest twelve bytes, then their numbers.
+    const __m128i order = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15);
+    std::size_t p = 0;
+    for (; p + 16 <= pixels; p += 16) {
+      const auto four = [&](std::size_t i) __attribute__((target("ssse3"))) {
+        const auto* from = reinterpret_cast<const __m128i*>(rgba + 4 * (p + i));
+        return _mm_shuffle_epi8(_mm_loadu_si128(from), order);
+      };
+      const __m128i a = four(0), b = four(4), c = four(8), d = four(12);
+      auto* colours = reinterpret_cast<__m128i*>(&image_.pixels[3 * p]);
+      const __m128i low = _mm_set_epi32(0, -1, -1, -1);
+      _mm_storeu_si128(colours, _mm_or_si128(_mm_and_si128(a, low), _mm_slli_si128(b, 12)));
+      _mm_storeu_si128(colours + 1, _mm_or_si128(_mm_srli_si128(_mm_and_si128(b, low), 4),
+                                                 _mm_slli_si128(c, 8)));
+      _mm_storeu_si128(colours + 2, _mm_or_si128(_mm_srli_si128(_mm_and_si128(c, low), 8),
+                                                 _mm_slli_si128(d, 4)));
+      const __m128i ab = _mm_unpackhi_epi32(a, b), cd = _mm_unpackhi_epi32(c, d);
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(&along_rows_[p]), _mm_unpackhi_epi64(ab, cd));
+    }
+    return p;
+  }
+
+  // Transposes the numbers in blocks of 16 by 16 pixels.
   void Transpose(int width, int height) {
-    constexpr int kBlock = 32;
-    for (int y0 = 0; y0 < height; y0 += kBlock) {
-      for (int x0 = 0; x0 < width; x0 += kBlock) {
-        const int y1 = std::min(y0 + kBlock, height), x1 = std::min(x0 + kBlock, width);
-        for (int x = x0; x < x1; ++x) {
-          std::uint8_t* column = &along_columns_[static_cast<std::size_t>(x) * height];
-          const std::uint8_t* from = &along_rows_[static_cast<std::size_t>(x)];
-          for (int y = y0; y < y1; ++y) column[y] = from[static_cast<std::size_t>(y) * width];
+    constexpr int kBlock = 16;
+    for (int y = 0; y < height; y += kBlock) {
+      for (int x = 0; x < width; x += kBlock) {
+        const std::uint8_t* from = &along_rows_[static_cast<std::size_t>(y) * width + x];
+        std::uint8_t* to = &along_columns_[static_cast<std::size_t>(x) * height + y];
+        if (x + kBlock <= width && y + kBlock <= height) {
+          TransposeBlock(from, width, to, height);
+          continue;
+        }
+        for (int i = 0; i < std::min(kBlock, width - x); ++i) {
+          for (int k = 0; k < std::min(kBlock, height - y); ++k) {
+            to[static_cast<std::size_t>(i) * height + k] =
+                from[static_cast<std::size_t>(k) * width + i];
+          }
         }
       }
+    }
+  }
+
+  static void TransposeBlock(const std::uint8_t* from, int from_stride, std::uint8_t* to,
+                             int to_stride) {
+    // Each pass interleaves row i with row i + 8, so that after four passes byte k of row i is byte
+    // i of row k.
+    __m128i rows[16], next[16];
+    for (int i = 0; i < 16; ++i) {
+      rows[i] = _mm_loadu_si128(
+          reinterpret_cast<const __m128i*>(from + static_cast<std::size_t>(i) * from_stride));
+    }
+    for (int pass = 0; pass < 4; ++pass) {
+      for (int i = 0; i < 8; ++i) {
+        next[2 * i] = _mm_unpacklo_epi8(rows[i], rows[i + 8]);
+        next[2 * i + 1] = _mm_unpackhi_epi8(rows[i], rows[i + 8]);
+      }
+      std::copy(next, next + 16, rows);
+    }
+    for (int i = 0; i < 16; ++i) {
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(to + static_cast<std::size_t>(i) * to_stride),
+                       rows[i]);
     }
   }
 
@@ -106,8 +151,14 @@ class Smoother {
     }
   }
 
+  // Returns the first pixel from `i` on whose numbers differ, or `end`.
   static int SkipEqual(const std::uint8_t* a, const std::uint8_t* b, int i, int end) {
-    for (; i + 8 <= end && std::memcmp(a + i, b + i, 8) == 0; i += 8) {
+    const auto sixteen = [](const std::uint8_t* from) {
+      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+    };
+    for (; i + 16 <= end; i += 16) {
+      const int equal = _mm_movemask_epi8(_mm_cmpeq_epi8(sixteen(a + i), sixteen(b + i)));
+      if (equal != 0xffff) return i + std::countr_one(static_cast<unsigned>(equal));
     }
     while (i < end && a[i] == b[i]) ++i;
     return i;
@@ -148,7 +199,8 @@ class Smoother {
 
   const std::uint8_t* rgba_;
   model::Image image_;
-  std::vector<std::uint8_t> along_rows_, along_columns_;
+  // not initialised, because Split() and Transpose() write all of them
+  const std::unique_ptr<std::uint8_t[]> along_rows_, along_columns_;
   int line_stride_ = 0, stride_ = 0;
 };
 

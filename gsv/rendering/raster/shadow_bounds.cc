@@ -1,0 +1,80 @@
+#include "gsv/rendering/raster/shadow_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gsv::rendering::raster {
+namespace {
+
+float Least(F8 a) {
+  float least = a[0];
+  for (int lane = 1; lane < 8; ++lane) least = std::min(least, a[lane]);
+  return least;
+}
+
+float Most(F8 a) {
+  float most = a[0];
+  for (int lane = 1; lane < 8; ++lane) most = std::max(most, a[lane]);
+  return most;
+}
+
+}  // namespace
+
+void ShadowBounds::Update(const float* map, std::ptrdiff_t stride,
+                          const ShadowRegion::Rectangle& part) {
+  const auto first = [](int texel) { return std::max(0, (texel - kAfter) / kBlock); };
+  const auto end = [](int texel) { return std::min(kSide, (texel - 1 + kBefore) / kBlock + 1); };
+  if (part.min_x >= part.max_x || part.min_y >= part.max_y) return;
+  for (int y = first(part.min_y); y < end(part.max_y); ++y) {
+    for (int x = first(part.min_x); x < end(part.max_x); ++x) {
+      blocks_[static_cast<std::size_t>(kSide * y + x)] = BoundsOf(map, stride, x, y);
+    }
+  }
+}
+
+ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y) {
+  const int x0 = kBlock * x, y0 = kBlock * y;
+  // The texels that look-ups in the block may read. Two vectors cover a row of them.
+  const int top = std::max(-1, y0 - kBefore),
+            bottom = std::min(kShadowSide, y0 + kBlock - 1 + kAfter);
+  const int left = std::max(-1, x0 - kBefore),
+            right = std::min(kShadowSide, x0 + kBlock - 1 + kAfter) - 7;
+  const auto for_each = [&](const auto& visit) {
+    for (int row = top; row <= bottom; ++row) {
+      for (const int column : {left, right}) visit(Load(map + stride * row + column), column, row);
+    }
+  };
+  F8 lowest = Load(map + stride * top + left), highest = lowest;
+  for_each([&](F8 depths, int, int) {
+    lowest = Min(lowest, depths);
+    highest = Max(highest, depths);
+  });
+  Block block{Least(lowest), Most(highest), 0, 0};
+  if (block.min == block.max) return block;
+  // The slopes of the upper bound follow from the depths at the corners of the block. Any slopes
+  // are correct, and these are tight for a plane.
+  constexpr int kEnd = kBlock - 1;
+  const auto depth = [&](int column, int row) { return map[stride * (y0 + row) + x0 + column]; };
+  const float by_x =
+                  (depth(kEnd, 0) + depth(kEnd, kEnd) - depth(0, 0) - depth(0, kEnd)) / (2 * kEnd),
+              by_y =
+                  (depth(0, kEnd) + depth(kEnd, kEnd) - depth(0, 0) - depth(kEnd, 0)) / (2 * kEnd);
+  F8 above = Splat(-1e30f);  // the depths above the plane with these slopes
+  for_each([&](F8 depths, int column, int row) {
+    const F8 dx = Splat(static_cast<float>(column - x0) + 0.5f) + Steps();
+    const float dy = static_cast<float>(row - y0) + 0.5f;
+    above = Max(above, Fma(Splat(-by_x), dx, depths - Splat(by_y * dy)));
+  });
+  // This is above all rounding errors.
+  constexpr float kSlack = 1e-6f;
+  const float plane = Most(above) + kBesideX * std::abs(by_x) + kBesideY * std::abs(by_y) + kSlack;
+  // The bound with slopes is used if it is lower at the middle of the block.
+  constexpr float kMiddle = 0.5f * kBlock;
+  if (plane + kMiddle * (by_x + by_y) < block.max) {
+    block.max = plane;
+    block.slope_x = kBlock * by_x, block.slope_y = kBlock * by_y;
+  }
+  return block;
+}
+
+}  // namespace gsv::rendering::raster

@@ -1,0 +1,62 @@
+// Bounds of the depths of a shadow map, for each block of texels. They decide most look-ups: all
+// texels around a point have the same answer.
+#pragma once
+
+#include <vector>
+
+#include "gsv/rendering/raster/simd.h"
+#include "gsv/rendering/scene/shadow_region.h"
+
+namespace gsv::rendering::raster {
+
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+
+// A look-up at (x, y), in texels from the map's corner, may read the texels from x - kBefore to
+// x + kAfter, both rounded down, and likewise for y. The centre of each of them is at most kBesideX
+// and kBesideY away from (x, y).
+class ShadowBounds {
+ public:
+  static constexpr int kBefore = 2, kAfter = 2;
+  static constexpr float kBesideX = 1.601f, kBesideY = 1.301f;
+
+  // Computes the bounds that depend on the texels of `part`. `map` points to texel (0, 0) of a map
+  // with a border of at least one texel, and `stride` is the number of texels from row to row.
+  void Update(const float* map, std::ptrdiff_t stride, const ShadowRegion::Rectangle& part);
+
+  // The lowest and the highest depth that look-ups at (x, y) may read. Look-ups outside the map
+  // read the texels at its border.
+  struct Range {
+    F8 min, max;
+  };
+  Range At(F8 x, F8 y) const {
+    constexpr float kLast = kShadowSide - 0.5f;
+    x = Min(Max(x, Splat(0)), Splat(kLast)) * Splat(1.0f / kBlock);
+    y = Min(Max(y, Splat(0)), Splat(kLast)) * Splat(1.0f / kBlock);
+    const F8 column = Floor(x), row = Floor(y);
+    const float* blocks = &blocks_.data()->min;
+    const I8 at = (Truncated(row) * SplatInt(kSide) + Truncated(column)) * 4;
+    const I8x2 range = GatherPairs(blocks, at), slope = GatherPairs(blocks + 2, at);
+    return {(F8)range.first,
+            Fma((F8)slope.first, x - column, Fma((F8)slope.second, y - row, (F8)range.second))};
+  }
+
+ private:
+  static constexpr int kBlock = 8;  // in texels
+  static constexpr int kSide = kShadowSide / kBlock;
+
+  // The upper bound is a plane, because the depths of a lit surface that is tilted differ within a
+  // block by more than the surface's distance from its own depths.
+  struct Block {
+    float min = 0;
+    float max = 0;                   // at the block's first corner
+    float slope_x = 0, slope_y = 0;  // of the upper bound, across the whole block
+  };
+  static Block BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y);
+
+  std::vector<Block> blocks_ = std::vector<Block>(std::size_t{kSide} * kSide);  // by rows
+};
+
+#pragma GCC pop_options
+
+}  // namespace gsv::rendering::raster
