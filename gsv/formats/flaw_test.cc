@@ -202,11 +202,27 @@ TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
   const auto world = World("<model name='m'>" + zero);
   EXPECT_EQ(Find(world, "m")->links[0].inertial.mass, 1);
   EXPECT_THAT(Messages(), ElementsAre(HasSubstr("1 kg is used")));
-  // This inertia only violates the triangle inequality, so it is used unchanged.
-  const auto flat = World(
-      "<model name='m'><link name='l'><inertial><mass>5</mass><inertia><ixx>0.1</ixx><iyy>0.1"
-      "</iyy><izz>0.9</izz></inertia></inertial></link></model>");
-  EXPECT_EQ(Find(flat, "m")->links[0].inertial.izz, 0.9);
+}
+
+TEST_F(FlawTest, PrincipalMomentIsAtMostTheSumOfTheOthers) {
+  const auto link = [](const std::string& moments) {
+    return "<model name='m'><link name='l'><inertial><mass>5</mass><inertia>" + moments +
+           "</inertia></inertial></link></model>";
+  };
+  const auto flat = World(link("<ixx>0.1</ixx><iyy>0.1</iyy><izz>0.9</izz>"));
+  EXPECT_NEAR(Find(flat, "m")->links[0].inertial.izz, 0.2, 1e-12);
+  EXPECT_NEAR(Find(flat, "m")->links[0].inertial.ixx, 0.1, 1e-12);
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("no body has this inertia")));
+  // The same, turned by 45° about the z axis: the moments 0.9, 0.1 and 0.1.
+  const auto turned = World(link("<ixx>0.5</ixx><iyy>0.5</iyy><izz>0.1</izz><ixy>-0.4</ixy>"));
+  const model::Inertial& inertial = Find(turned, "m")->links[0].inertial;
+  EXPECT_NEAR(inertial.ixx, 0.15, 1e-12);
+  EXPECT_NEAR(inertial.iyy, 0.15, 1e-12);
+  EXPECT_NEAR(inertial.ixy, -0.05, 1e-12);
+  EXPECT_THAT(Messages(), ElementsAre(HasSubstr("no body has this inertia")));
+  // Real files violate the inequality by rounding. Such an inertia is used unchanged.
+  const auto rounded = World(link("<ixx>0.1</ixx><iyy>0.1</iyy><izz>0.201</izz>"));
+  EXPECT_EQ(Find(rounded, "m")->links[0].inertial.izz, 0.201);
   EXPECT_THAT(Messages(), IsEmpty());
 }
 

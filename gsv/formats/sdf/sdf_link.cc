@@ -94,14 +94,29 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   return surface;
 }
 
-// Checks by Sylvester's criterion. The triangle inequality is not checked: real files violate it by
-// rounding.
+// Checks by Sylvester's criterion.
 bool IsPositiveDefinite(const model::Inertial& i) {
   const double second = i.ixx * i.iyy - i.ixy * i.ixy;
   const double determinant = i.ixx * (i.iyy * i.izz - i.iyz * i.iyz) -
                              i.ixy * (i.ixy * i.izz - i.iyz * i.ixz) +
                              i.ixz * (i.ixy * i.iyz - i.iyy * i.ixz);
   return i.ixx > 0 && second > 0 && determinant > 0;
+}
+
+// No principal moment of a body exceeds the sum of the other two. Returns false if one does, by
+// more than rounding in files explains, and reduces it to the sum.
+bool LimitGreatestMoment(const ignition::math::MassMatrix3d& source, model::Inertial& inertial) {
+  constexpr double kRounding = 1.05;
+  ignition::math::Vector3d moments = source.PrincipalMoments();  // in ascending order
+  if (!(moments.Z() > kRounding * (moments.X() + moments.Y()))) return true;
+  moments.Z(moments.X() + moments.Y());
+  const ignition::math::Matrix3d axes(source.PrincipalAxesOffset());
+  ignition::math::Matrix3d diagonal = ignition::math::Matrix3d::Zero;
+  for (std::size_t i = 0; i < 3; ++i) diagonal(i, i) = moments[i];
+  const ignition::math::Matrix3d m = axes * diagonal * axes.Transposed();
+  inertial.ixx = m(0, 0), inertial.iyy = m(1, 1), inertial.izz = m(2, 2);
+  inertial.ixy = m(0, 1), inertial.ixz = m(0, 2), inertial.iyz = m(1, 2);
+  return false;
 }
 
 // Reads the inertia. It is not checked for a link that never moves, because it is not used there.
@@ -129,6 +144,11 @@ model::Inertial ReadInertial(const sdf::Link& link, bool is_static, const Readin
     const double moment = 0.4 * inertial.mass * 0.1 * 0.1;
     inertial.ixx = inertial.iyy = inertial.izz = moment;
     inertial.ixy = inertial.ixz = inertial.iyz = 0;
+  } else if (!is_static && !LimitGreatestMoment(source.MassMatrix(), inertial)) {
+    context.Warn(
+        "no body has this inertia, as one principal moment exceeds the sum of the others; it is "
+        "reduced to the sum",
+        place);
   }
   return inertial;
 }
