@@ -139,6 +139,12 @@ test("editing and the set-up form have no accessibility problems", async () => {
   await page.getByRole("button", { name: "Edit", exact: true }).click();
   await page.getByRole("region", { name: "Edit" }).waitFor();
   await judge(page);
+  for (const menu of ["Shape", "Robot or object", "Save"]) {
+    await page.getByRole("button", { name: menu, exact: true }).click();
+    await page.getByRole("group", { name: menu, exact: true }).waitFor();
+    await judge(page);
+    await page.keyboard.press("Escape");
+  }
   await page.getByRole("button", { name: "New simulation" }).click();
   await page.getByRole("button", { name: "Add robot" }).click();
   await page.locator('.set-up[aria-busy="false"]').waitFor();

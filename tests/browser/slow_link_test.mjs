@@ -68,6 +68,29 @@ test("over a slow network the state is new, and the page says that the connectio
   await page.close();
 });
 
+test("if only the page is slow, it says so, and does not blame the connection", async () => {
+  const { page, faults } = await openPage(browser, link.url);
+  await waitUntilDrawn(page);
+  await page.evaluate((busyMs) => {
+    window.testSentences = new Set();
+    const problem = document.querySelector('[data-testid="connection-problem"]');
+    new MutationObserver(() => window.testSentences.add(problem.textContent)).observe(problem, { childList: true, characterData: true, subtree: true });
+    const work = () => {
+      const end = performance.now() + busyMs;
+      while (performance.now() < end);
+      window.testWork = setTimeout(work, 20);
+    };
+    work();
+  }, 4000);
+  await page.getByTestId("connection-problem").getByText("This page is slow: the browser is busy").waitFor({ timeout: 120_000 });
+  await page.evaluate(() => clearTimeout(window.testWork));
+  await page.getByTestId("connection-problem").getByText(/./).waitFor({ state: "hidden", timeout: 120_000 });
+  const sentences = await page.evaluate(() => [...window.testSentences]);
+  assert.deepEqual(sentences.filter((sentence) => sentence.startsWith("The connection")), []);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
 test("a network that passes nothing for a while does not hold up the simulation, and the page catches up", async () => {
   const { page, faults } = await openPage(browser, link.url);
   await waitUntilDrawn(page);

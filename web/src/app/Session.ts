@@ -30,6 +30,7 @@ import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
+import { SlowPage } from "./SlowPage";
 import { TopicWishes } from "./TopicWishes";
 
 const EMPTY_POLL_MS = 2000;
@@ -58,6 +59,7 @@ const NOTHING_WATCHED: Partial<State> = {
   topics: [],
 };
 
+const SLOW_PAGE = "This page is slow: the browser is busy, so the page leaves out older updates. Close panels, or let the server draw the view.";
 const NO_COUNTS: ReadonlyMap<string, TopicCount> = new Map();
 
 // The requests in the page's address.
@@ -70,13 +72,18 @@ export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
 
 // The part of the live stream that the session uses.
 export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics"> &
-  Partial<Pick<FoxgloveClient, "counts" | "openView">>;
+  Partial<Pick<FoxgloveClient, "counts" | "received" | "openView">>;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
 
 type LayoutMessage = Pick<PosesMessage, "layout_version">;
 
 export class Session implements TopicSource, LiveViewSource {
   private client: LiveClient | null = null;
+  private lasting = ""; // the server's sentences on the connection
+  private readonly slowPage = new SlowPage(
+    () => this.client?.received ?? 0,
+    (isSlow) => this.store.set({ connectionProblem: isSlow ? SLOW_PAGE : this.lasting }),
+  );
   private readonly topics = new SharedTopics(); // subscriptions of the client
   private readonly views = new SharedViews(); // views of the client
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -273,6 +280,14 @@ export class Session implements TopicSource, LiveViewSource {
     return true;
   }
 
+  // If the page itself reads too slowly for the server, this is the problem, and not the connection.
+  private showLasting(sentence: string): void {
+    this.lasting = sentence;
+    if (sentence !== "") return this.slowPage.start();
+    this.slowPage.stop();
+    this.store.set({ connectionProblem: "" });
+  }
+
   private async findAbilities(): Promise<void> {
     try {
       this.store.set({ abilities: await this.api.setUp.abilities() });
@@ -291,7 +306,7 @@ export class Session implements TopicSource, LiveViewSource {
         else if (connection.phase === "waiting") void this.checkStillThere(name);
       },
       onTopics: (topics) => this.store.set({ topics }),
-      onLasting: (sentences) => this.store.set({ connectionProblem: sentences.join(" ") }),
+      onLasting: (sentences) => this.showLasting(sentences.join(" ")),
       onProblem: (sentence) => {
         notify(this.store, "error", sentence);
         this.store.set(({ serverWarnings }) => ({ serverWarnings: withServerWarning(serverWarnings, sentence) }));

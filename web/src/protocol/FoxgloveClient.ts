@@ -64,6 +64,7 @@ interface SubscribedChannel {
 }
 
 export class FoxgloveClient implements TopicSource, LiveViewSource {
+  received = 0; // bytes of all binary messages so far
   private socket: WebSocket | null = null;
   private attempt = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -313,6 +314,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   }
 
   private receiveBinary(frame: DataView): void {
+    this.received += frame.byteLength;
     if (frame.byteLength < MESSAGE_DATA_HEADER_BYTES || frame.getUint8(0) !== MESSAGE_DATA) return;
     const id = frame.getUint32(1, true);
     const payload = new DataView(frame.buffer, frame.byteOffset + MESSAGE_DATA_HEADER_BYTES);

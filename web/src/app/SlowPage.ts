@@ -1,0 +1,69 @@
+// Whether this page, and not the connection, is too slow for what the server sends. The server
+// cannot distinguish the two: when a page reads late, its browser confirms late.
+//
+// A busy page runs its timers late, and then receives much at once, because the messages waited in
+// the browser. Over a slow connection, they do not wait there.
+
+const TICK_MS = 100;
+const WINDOW_MS = 8000; // the judgement follows from the ticks in this time
+const DECIDE_MS = 2000; // after this time there is a judgement
+const HOLD_MS = 10_000; // a slow page counts as slow for this time, as the server reports its recovery later
+const MIN_LATE_SHARE = 1 / 3; // fraction of the time by which ticks of a busy page are late
+const MIN_BYTES = 32 << 10; // received between two ticks of a busy page, on average
+
+interface Tick {
+  at: number; // ms
+  late: number; // ms
+  bytes: number; // received since the tick before
+}
+
+export class SlowPage {
+  private ticks: Tick[] = [];
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private before = { at: 0, bytes: 0 };
+  private began = 0; // ms
+  private lastSlow = -Infinity; // ms
+
+  // `received`: the number of bytes that the page has received. `onJudged` is called with each
+  // judgement while this measures.
+  constructor(
+    private readonly received: () => number,
+    private readonly onJudged: (isSlow: boolean) => void,
+  ) {}
+
+  get isMeasuring(): boolean {
+    return this.timer !== undefined;
+  }
+
+  start(): void {
+    if (this.isMeasuring) return;
+    this.ticks = [];
+    this.lastSlow = -Infinity;
+    this.began = performance.now();
+    this.before = { at: this.began, bytes: this.received() };
+    this.timer = setTimeout(() => this.tick(), TICK_MS);
+  }
+
+  stop(): void {
+    clearTimeout(this.timer);
+    this.timer = undefined;
+  }
+
+  private tick(): void {
+    const [at, bytes] = [performance.now(), this.received()];
+    this.ticks.push({ at, late: Math.max(0, at - this.before.at - TICK_MS), bytes: bytes - this.before.bytes });
+    this.ticks = this.ticks.filter((tick) => at - tick.at < WINDOW_MS);
+    this.before = { at, bytes };
+    this.timer = setTimeout(() => this.tick(), TICK_MS);
+    if (at - this.began < DECIDE_MS) return;
+    if (this.isSlow()) this.lastSlow = at;
+    this.onJudged(at - this.lastSlow < HOLD_MS);
+  }
+
+  private isSlow(): boolean {
+    const sum = (of: (tick: Tick) => number) => this.ticks.reduce((total, tick) => total + of(tick), 0);
+    const late = sum((tick) => tick.late);
+    const elapsed = late + TICK_MS * this.ticks.length;
+    return late / elapsed >= MIN_LATE_SHARE && sum((tick) => tick.bytes) / this.ticks.length >= MIN_BYTES;
+  }
+}
