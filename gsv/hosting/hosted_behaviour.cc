@@ -66,9 +66,9 @@ void HostedBehaviour::EndTurn(simulation::Turn& turn) {
 
 // No lock is needed: these pointers do not change while the simulation takes turns.
 void HostedBehaviour::PrefetchTurn() const GSV_NO_THREAD_SAFETY_ANALYSIS {
-  const char* const robot = reinterpret_cast<const char*>(robot_.get());
-  for (std::size_t at = 0; at < sizeof(LocalRobot); at += 64) __builtin_prefetch(robot + at);
-  __builtin_prefetch(behaviour_.get());
+  __builtin_prefetch(robot_.get());
+  __builtin_prefetch(controller_);
+  __builtin_prefetch(sweeps_);
 }
 
 void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
@@ -86,6 +86,7 @@ void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
     }
   }
   robot_->SetTurn(nullptr);
+  sweeps_ = robot_->sweeps();
 }
 
 // Executes a controller's turn: the part of Controller::Run() between two waits.

@@ -17,7 +17,7 @@
 
 namespace gsv::hosting {
 
-class LocalRobot final : public Robot {
+class alignas(64) LocalRobot final : public Robot {
  public:
   // The function that suspends the behaviour until its next turn: it returns from the current turn
   // to the simulation.
@@ -28,6 +28,8 @@ class LocalRobot final : public Robot {
   // Sets the current turn, or null between turns.
   void SetTurn(simulation::Turn* turn);
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
+  // The address of the count of sweeps, which each turn changes; null without sensors.
+  const void* sweeps() const { return sweeps_.get(); }
   // Ends the run for the behaviour. From now on, waits and calls return at once.
   void End() { is_running_ = false; }
   void Note(const base::Error& error);
@@ -75,22 +77,23 @@ class LocalRobot final : public Robot {
   base::Result<std::unique_ptr<SensorPort>> Enter(const std::string& sensor);
   base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
 
-  const std::shared_ptr<simulation::Agent> agent_;
-  simulation::Turn* turn_ = nullptr;
-  Suspend suspend_;
   void PlanSweeps();
   // Reads all beams together, if that is allowed. Returns whether they were read. `readings` must
   // have the names of the sensors.
   bool SweepInto(std::vector<Reading>& readings);
   void ReadInto(std::vector<Reading>& readings);
 
-  std::vector<SensorPtr> open_;  // ordered by name
-  std::size_t ray_sensors_ = 0;  // how many open sensors cast rays
-
+  // The members that each turn of a controller uses come first, in one cache line.
+  simulation::Turn* turn_ = nullptr;
+  std::size_t ray_sensors_ = 0;            // how many open sensors cast rays
   std::shared_ptr<const SweepPlan> plan_;  // the plan for open_; null without sensors
-  bool is_plan_shared_ = false;            // whether plan_ is a result of Share()
   std::shared_ptr<simulation::Sweeps> sweeps_;
+  bool is_plan_shared_ = false;  // whether plan_ is a result of Share()
   std::atomic<bool> is_running_{true};
+
+  const std::shared_ptr<simulation::Agent> agent_;
+  Suspend suspend_;
+  std::vector<SensorPtr> open_;  // ordered by name
   std::string error_;
 };
 

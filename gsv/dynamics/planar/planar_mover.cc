@@ -14,9 +14,10 @@ namespace {
 
 // Movers are processed in chunks with their own lists, so that results do not depend on the number
 // of threads.
-constexpr std::size_t kChunk = 128;
-// With this number of chunks, a further thread saves time.
-constexpr std::size_t kChunksAtOnce = 4;
+constexpr std::size_t kChunk = 32;
+// A thread processes this number at a time. For fewer than the second number, a further thread saves
+// no time.
+constexpr std::size_t kChunksAtOnce = 2, kMinChunks = 8;
 
 // A step has up to three legs: the commanded arc; after a contact, a slide along the obstacle; then
 // a rotation in place.
@@ -87,7 +88,8 @@ base::Status TeamMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
 
 template <typename Work>
 void TeamMover::ForEachChunk(const Work& work) {
-  team_->ParallelFor(chunks_.size(), kChunksAtOnce, [&](std::size_t begin, std::size_t end) {
+  const std::size_t at_once = chunks_.size() < kMinChunks ? kMinChunks : kChunksAtOnce;
+  team_->ParallelFor(chunks_.size(), at_once, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
 }

@@ -20,8 +20,9 @@ using geometry::Bounds;
 using geometry::Pose;
 using geometry::Vector3;
 
-// The number of parts that a thread places at a time.
-constexpr std::size_t kPartsAtOnce = 512;
+// The number of parts that a thread places at a time. For fewer than the second number, a second
+// thread saves no time.
+constexpr std::size_t kPartsAtOnce = 128, kMinParts = 400;
 
 // Up to this number of shapes, rays are cast at all shapes of a part; otherwise at those that its
 // index finds.
@@ -196,7 +197,7 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
     for (std::size_t i = begin; i < end; ++i) Place(i, snapshot);
   };
   if (team != nullptr) {
-    team->ParallelFor(parts_.size(), kPartsAtOnce, place);
+    team->ParallelFor(parts_.size(), parts_.size() < kMinParts ? kMinParts : kPartsAtOnce, place);
   } else {
     place(0, parts_.size());
   }

@@ -19,7 +19,7 @@ namespace {
 using geometry::Bounds;
 using geometry::Vector3;
 
-constexpr double kCellsPerSphere = 3;
+constexpr double kCellsPerSphere = 1;
 constexpr double kMaxCoordinate = 1e5;  // m
 
 // Spheres with more than this many cells in their radius are listed separately.

@@ -41,8 +41,10 @@ void AgentPopulation::Remove(const std::string& name) {
   RobotAgent* const agent = it->second.get();
   agent->MarkRemoved();
   shared_->sleepers.Remove(agent);
+  shared_->turn_sleepers.Remove(agent);
   std::erase(shared_->commanded, agent);
   std::erase(shared_->ready, agent);
+  std::erase(shared_->due, agent);
   if (const auto& behaviour = agent->behaviour(); behaviour != nullptr) {
     caller_.Post(name, [behaviour] {
       (void)behaviour->Stop();
@@ -100,9 +102,11 @@ void AgentPopulation::DestroyBehaviours() {
 
 void AgentPopulation::Reset() {
   shared_->sleepers.Clear();
+  shared_->turn_sleepers.Clear();
   shared_->commanded.clear();
   shared_->given_up.clear();
   shared_->ready.clear();
+  shared_->due.clear();
   shared_->end_reason.clear();
   for (const auto& [name, agent] : agents_) {
     agent->ResetClocks();

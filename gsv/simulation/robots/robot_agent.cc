@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxClocks = 64;
 // The number of cache lines of a local behaviour and of a body that are loaded before a turn.
-constexpr std::size_t kBehaviourLines = 5, kBodyLines = 2;
+constexpr std::size_t kBehaviourLines = 2, kBodyLines = 2;
 // Maximum number of bytes of the reason that a behaviour gives for ending.
 constexpr std::size_t kMaxReasonLength = 1000;
 
@@ -24,10 +24,10 @@ base::Error NotRunning(const std::string& robot) {
 
 RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
                        std::shared_ptr<SharedState> shared)
-    : robot_(std::move(robot)),
+    : shared_(std::move(shared)),
+      robot_(std::move(robot)),
       model_(std::move(model)),
       is_avatar_(is_avatar),
-      shared_(std::move(shared)),
       rack_(robot_, model_, shared_->designs) {
   for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
     shared_->history.Use(design->cadence);
@@ -386,6 +386,12 @@ bool RobotAgent::IsAtWork() const {
 }
 
 RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
+  const Woken woken = WakeForTurn(now, wall_now);
+  if (woken.has_passed && !woken.has_died && is_hosted()) MakeReady();
+  return woken;
+}
+
+RobotAgent::Woken RobotAgent::WakeForTurn(SimTime now, WallTime wall_now) {
   const bool woke = clocks_.Wake(now);
   const bool dies =
       death_reported_ && fate_ == Fate::kAlive && (woke || clocks_.IsRunning() || has_given_up_);
@@ -393,10 +399,7 @@ RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
     fate_ = Fate::kDead;
     StopDriving();
   }
-  if (woke) {
-    running_since_ = wall_now;
-    if (!dies && is_hosted()) MakeReady();
-  }
+  if (woke) running_since_ = wall_now;
   if (woke || dies) UpdateRunningCount();
   return {woke || dies, dies};
 }

@@ -84,6 +84,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   };
   // Ends waits for instants up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
+  // Does the same for a local behaviour without marking it as ready. If it was woken and has not
+  // died, the caller must take its turn.
+  Woken WakeForTurn(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
   // The event on which the agent's calls wait. After a signal, a call checks whether its wait is
   // over.
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
@@ -131,7 +134,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     bool is_usual = false;     // false: nothing was applied, and ApplyTurn() must be called
     bool has_command = false;  // whether the agent must be added to SharedState::commanded
     bool was_counted = false;  // whether the agent no longer counts in SharedState::running
-    SimTime until{0};          // the agent must be added to SharedState::sleepers for this instant
+    SimTime until{0};          // the agent must be added to SharedState::turn_sleepers for this
+                               // instant
   };
   // Applies the turn if it ended in a wait for a later instant, as almost all turns do. Changes
   // only this agent, so calls for different agents may run concurrently while the stepping thread
@@ -141,11 +145,19 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // does nothing and returns false. Concurrent calls are allowed as for ApplyUsualTurn().
   bool ApplyDriveCommand(world::State& state) GSV_REQUIRES(simulation_mutex);
   // Loads the agent's data into the cache, because a call for it follows soon.
-  void Prefetch() const { PrefetchLines(&behaviour_, kPrefetchedLines); }
+  void Prefetch() const { PrefetchLines(&shared_, kPrefetchedLines); }
   // Does the same for the data of a turn at `snapshot`. The agent's own data should be there already,
   // and for the second function also those of the first.
   void PrefetchBehaviour(const world::Snapshot& snapshot) const;
   void PrefetchTurn() const;
+  // The same for the next two stages of ApplyDriveCommand().
+  void PrefetchCommands() const GSV_NO_THREAD_SAFETY_ANALYSIS {
+    PrefetchLines(&shared_, 1);
+    PrefetchLines(&commands_, 2);
+  }
+  void PrefetchDrive(const world::State& state) const GSV_REQUIRES(simulation_mutex) {
+    PrefetchLines(&state.bodies[static_cast<std::size_t>(body_)].drive, 1);
+  }
   // Marks its local behaviour as ready for a turn.
   void MakeReady() GSV_REQUIRES(simulation_mutex);
 
@@ -179,22 +191,15 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Applies the initial command of a device.
   void StartDevice(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
 
-  const std::string robot_;
-  const std::shared_ptr<const model::Model> model_;
-  const bool is_avatar_;
-  const std::shared_ptr<SharedState> shared_;
-  SensorRack rack_;
-
-  WaitEvent wait_event_;
-
   static void PrefetchLines(const void* begin, std::size_t lines) {
     for (std::size_t line = 0; line < lines; ++line) {
       __builtin_prefetch(static_cast<const char*>(begin) + 64 * line);
     }
   }
 
-  // The members that each turn uses come first and are together.
+  // The members that each turn uses come first and fill these cache lines.
   static constexpr std::size_t kPrefetchedLines = 6;
+  alignas(64) const std::shared_ptr<SharedState> shared_;
   std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
   LocalBehaviour* local_ GSV_GUARDED_BY(simulation_mutex) = nullptr;  // behaviour_->local()
   int body_ GSV_GUARDED_BY(simulation_mutex) = -1;
@@ -220,6 +225,11 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                                                   // turns
   WallDuration turn_took_{};                      // used like turn_
 
+  const std::string robot_;
+  const std::shared_ptr<const model::Model> model_;
+  const bool is_avatar_;
+  SensorRack rack_;
+  WaitEvent wait_event_;
   std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
   std::string detail_ GSV_GUARDED_BY(simulation_mutex);
   std::string cause_ GSV_GUARDED_BY(simulation_mutex);  // see RobotStatus

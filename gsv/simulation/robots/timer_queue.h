@@ -49,6 +49,17 @@ class TimerQueue {
     }
   }
 
+  // Removes these sleepers and appends them to `due`, in the same order.
+  void TakeDue(base::SimTime now, std::vector<Sleeper*>& due) {
+    while (HasDue(now)) {
+      std::vector<Sleeper*> first = std::move(entries_.begin()->second);
+      entries_.erase(entries_.begin());
+      due.insert(due.end(), first.begin(), first.end());
+      first.clear();
+      if (first.capacity() > spare_.capacity()) spare_ = std::move(first);
+    }
+  }
+
   void Remove(const Sleeper* sleeper) {
     for (auto& [instant, sleepers] : entries_) std::erase(sleepers, sleeper);
   }

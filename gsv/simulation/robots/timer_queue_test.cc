@@ -39,6 +39,19 @@ TEST(TimerQueue, WokenAgentMayAddItselfAgain) {
   EXPECT_EQ(Due(calendar, 20ms), std::vector{1});
 }
 
+TEST(TimerQueue, AppendsDueAgentsInTheSameOrder) {
+  int one = 1, two = 2, three = 3;
+  TimerQueue<int> calendar;
+  calendar.Add(20ms, &two);
+  calendar.Add(10ms, &three);
+  calendar.Add(20ms, &one);
+  calendar.Add(30ms, &three);
+  std::vector<int*> due{&one};
+  calendar.TakeDue(20ms, due);
+  EXPECT_EQ(due, (std::vector<int*>{&one, &three, &two, &one}));
+  EXPECT_EQ(Due(calendar, 30ms), std::vector{3});
+}
+
 TEST(TimerQueue, RemovesAllEntriesOfAnAgent) {
   int one = 1, two = 2;
   TimerQueue<int> calendar;

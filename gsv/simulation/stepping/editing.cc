@@ -89,7 +89,7 @@ void SteppingSimulation::AwaitTurns() const {
   SimulationLock lock(*shared_);
   if (shared_->mode != Mode::kLockstep || run_.phase() != Phase::kPaused) return;
   shared_->changed.wait_for(lock.inner(), kTurnTimeout, [this]() GSV_REQUIRES(simulation_mutex) {
-    return shared_->running == 0;
+    return shared_->running == 0 && !shared_->has_turns();
   });
 }
 
@@ -111,7 +111,7 @@ void SteppingSimulation::RecordEdit(Edit edit, const char* event, const std::str
     const SimulationLock lock(*shared_);
     edit.kind == Edit::Kind::kCommand ? run_.MarkWorldChanged() : run_.MarkEdited();
     edit.halt = run_.run();
-    edit.moment = run_.MomentOfEdit(shared_->running == 0 && shared_->ready.empty());
+    edit.moment = run_.MomentOfEdit(shared_->running == 0 && !shared_->has_turns());
   }
   const std::string body = edit.body;
   events_.Emit(event, body, detail, std::make_shared<const Edit>(std::move(edit)));

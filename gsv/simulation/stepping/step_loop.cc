@@ -5,17 +5,26 @@
 
 #include <algorithm>
 
+#include <immintrin.h>
+
 #include "gsv/base/check.h"
 #include "gsv/simulation/pace/totals.h"
 
 namespace gsv::simulation {
 namespace {
 
-// The number of turns that a thread executes at a time: some tens of microseconds of work.
-constexpr std::size_t kTurnsAPiece = 16;
+// The number of turns that a thread executes at a time: some microseconds of work. A small crowd
+// has this number of pieces for each thread, so that all threads end at about the same time.
+constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThread = 8;
 
-// The number of agents whose turns or commands a thread applies at a time.
-constexpr std::size_t kAgentsAtOnce = 256;
+// The number of agents whose commands a thread applies at a time.
+constexpr std::size_t kAgentsAtOnce = 128;
+
+// How many agents ahead data of commands is loaded into the cache, in two stages.
+constexpr std::size_t kAgentsAhead = 8, kDrivesAhead = 4;
+
+// How often a thread tries to lock a mutex before it sleeps.
+constexpr int kTries = 200;
 
 // The reason of a pause that nobody requested.
 constexpr const char* kReachedTarget = "the requested time is reached";
@@ -67,7 +76,7 @@ void StepLoop::Run() {
       lock.lock();
     }
     if (!run_.is_running()) continue;
-    if (!shared.ready.empty()) {
+    if (shared.has_turns()) {
       lock.unlock();
       TakeTurns();
       lock.lock();
@@ -107,20 +116,24 @@ void StepLoop::WakeAgents() {
   for (const auto& [robot, sentence] : std::exchange(shared.given_up, {})) {
     parts_.events.Emit("agent_dead", robot, sentence);
   }
+  if (!has_reported_deaths) shared.turn_sleepers.TakeDue(shared.now, shared.due);
   if (!has_reported_deaths && !shared.sleepers.HasDue(shared.now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
     simulation_mutex.AssertHeld();  // the calling function holds the mutex
     const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
     if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.wait_event());
-    if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
-        run_.is_running()) {
-      parts_.life_cycle.Fail("the behaviour of " + agent.DescribeInEvents() + " died");
-    }
+    if (woken.has_died) FailIfRequired(agent);
   };
   shared.sleepers.TakeDue(shared.now, wake);
   if (!has_reported_deaths) return;
+  shared.turn_sleepers.TakeDue(shared.now, wake);
   for (const auto& [name, agent] : parts_.agents.all()) wake(*agent);
+}
+
+void StepLoop::FailIfRequired(const RobotAgent& dead) {
+  if (parts_.specification.on_failure != FailurePolicy::kFail || !run_.is_running()) return;
+  parts_.life_cycle.Fail("the behaviour of " + dead.DescribeInEvents() + " died");
 }
 
 void StepLoop::TakeTurns() {
@@ -130,25 +143,27 @@ void StepLoop::TakeTurns() {
     const SimulationLock lock(shared);
     if (!run_.is_running()) return;
     turns_.swap(shared.ready);
+    awake_ = turns_.size();
+    turns_.insert(turns_.end(), shared.due.begin(), shared.due.end());
+    shared.due.clear();
     instant_.now = shared.now;
     instant_.is_timed = is_timed_;
     shared.history.MakeFrame(instant_.snapshots);
   }
   instant_.Prepare(*parts_.team);
   usual_ends_.assign(turns_.size(), {});
-  parts_.team->ParallelFor(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
-    sensing::Sampling sampling = instant_.MakeSampling();
-    for (std::size_t i = begin; i < end; ++i) {
-      PrefetchTurns(i);
-      turns_[i]->TakeTurn(instant_, sampling);
-    }
-    ApplyUsualTurns(begin, end);
-  });
+  outcomes_.assign(turns_.size(), TurnOutcome::kTaken);
+  const std::size_t pieces = kPiecesOfAThread * static_cast<std::size_t>(parts_.team->threads());
+  const std::size_t a_piece = std::clamp(turns_.size() / pieces, kMinTurnsAPiece, kMaxTurnsAPiece);
+  parts_.team->ParallelFor(turns_.size(), a_piece,
+                           [this](std::size_t begin, std::size_t end) { TakePiece(begin, end); });
   const SimulationLock lock(shared);
   parts_.world.lock().SetStuck(false);  // the behaviour has finally returned
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     RobotAgent* const agent = turns_[i];
+    if (outcomes_[i] == TurnOutcome::kDied) FailIfRequired(*agent);
+    if (outcomes_[i] != TurnOutcome::kTaken) continue;
     if (!usual_ends_[i].is_usual) usual_ends_[i] = agent->ApplyUsualTurn(shared.now);
     if (usual_ends_[i].is_usual) {
       Enlist(*agent, usual_ends_[i]);
@@ -163,13 +178,48 @@ void StepLoop::TakeTurns() {
   turns_.clear();
 }
 
-// Each stage finds its addresses in the data that the stage before it has loaded.
-void StepLoop::PrefetchTurns(std::size_t now) const {
-  if (now + 6 < turns_.size()) turns_[now + 6]->Prefetch();
-  if (now + 4 < turns_.size()) {
-    turns_[now + 4]->PrefetchBehaviour(*instant_.snapshots.latest());
+void StepLoop::TakePiece(std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) turns_[i]->Prefetch();
+  if (end > awake_) WakeForTurns(std::max(begin, awake_), end);
+  const auto prefetch_behaviour = [&](std::size_t i) {
+    if (i < end) turns_[i]->PrefetchBehaviour(*instant_.snapshots.latest());
+  };
+  const auto prefetch_turn = [&](std::size_t i) {
+    if (i < end) turns_[i]->PrefetchTurn();
+  };
+  // Each stage finds its addresses in the data that the stage before it has loaded.
+  for (std::size_t i = begin; i < begin + 4; ++i) prefetch_behaviour(i);
+  for (std::size_t i = begin; i < begin + 2; ++i) prefetch_turn(i);
+  sensing::Sampling sampling = instant_.MakeSampling();
+  for (std::size_t i = begin; i < end; ++i) {
+    prefetch_behaviour(i + 4);
+    prefetch_turn(i + 2);
+    if (outcomes_[i] == TurnOutcome::kTaken) turns_[i]->TakeTurn(instant_, sampling);
   }
-  if (now + 2 < turns_.size()) turns_[now + 2]->PrefetchTurn();
+  ApplyUsualTurns(begin, end);
+}
+
+// Another thread holds the mutex for a microsecond, so that sleeping would take longer.
+void StepLoop::WakeForTurns(std::size_t begin, std::size_t end) {
+  base::Mutex& mutex = parts_.shared->mutex;
+  int tries = 0;
+  while (!mutex.try_lock()) {
+    if (++tries < kTries) {
+      _mm_pause();
+      continue;
+    }
+    mutex.lock();
+    break;
+  }
+  simulation_mutex.AssertHeld();  // it is `mutex`
+  const WallTime wall_now = WallNow();
+  for (std::size_t i = begin; i < end; ++i) {
+    const RobotAgent::Woken woken = turns_[i]->WakeForTurn(parts_.shared->now, wall_now);
+    outcomes_[i] = woken.has_died     ? TurnOutcome::kDied
+                   : woken.has_passed ? TurnOutcome::kTaken
+                                      : TurnOutcome::kNone;
+  }
+  mutex.unlock();
 }
 
 // The agents of these turns are still in the cache. The mutex is usually free. A thread does not
@@ -179,14 +229,16 @@ void StepLoop::ApplyUsualTurns(std::size_t begin, std::size_t end) {
   if (!mutex.try_lock()) return;
   simulation_mutex.AssertHeld();  // it is `mutex`
   const SimTime now = parts_.shared->now;
-  for (std::size_t i = begin; i < end; ++i) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (outcomes_[i] == TurnOutcome::kTaken) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
+  }
   mutex.unlock();
 }
 
 void StepLoop::Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) {
   SharedState& shared = *parts_.shared;
   if (end.has_command) shared.commanded.push_back(&agent);
-  shared.sleepers.Add(end.until, &agent);
+  shared.turn_sleepers.Add(end.until, &agent);
   if (end.was_counted) --shared.running;
 }
 
@@ -320,6 +372,8 @@ void StepLoop::ApplyCommands() {
       commanded.size(), kAgentsAtOnce, [&](std::size_t begin, std::size_t end) {
         simulation_mutex.AssertHeld();  // by the stepping thread, which waits for this
         for (std::size_t i = begin; i < end; ++i) {
+          if (i + kAgentsAhead < end) commanded[i + kAgentsAhead]->PrefetchCommands();
+          if (i + kDrivesAhead < end) commanded[i + kDrivesAhead]->PrefetchDrive(state);
           if (commanded[i]->ApplyDriveCommand(state)) commanded[i] = nullptr;
         }
       });

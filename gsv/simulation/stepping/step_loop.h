@@ -55,12 +55,16 @@ class StepLoop {
   void Run();
   void ApplyFaults();
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
+  // Ends the run, if the death of a behaviour must end it.
+  void FailIfRequired(const RobotAgent& dead) GSV_REQUIRES(simulation_mutex);
   // Executes the turns of local behaviours until all of them wait.
   void TakeTurns();
-  // Loads data of the turns that follow the turn `now` into the cache.
-  void PrefetchTurns(std::size_t now) const;
+  // Any thread may call the next three functions, for different ranges of turns_.
+  void TakePiece(std::size_t begin, std::size_t end);
+  // Wakes the agents and sets outcomes_.
+  void WakeForTurns(std::size_t begin, std::size_t end);
   // Applies those of the turns from `begin` to `end` that ended in a wait, and sets usual_ends_.
-  // Does nothing if the simulation's mutex is locked. Any thread that takes turns may call this.
+  // Does nothing if the simulation's mutex is locked.
   void ApplyUsualTurns(std::size_t begin, std::size_t end);
   // Adds an agent whose turn has ended to the lists of SharedState.
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
@@ -84,9 +88,13 @@ class StepLoop {
 
   // The stepping thread alone uses these.
   SnapshotPool snapshots_;
-  DeviceActions device_actions_;                  // the actions for the next step
-  Turn::Instant instant_;                         // the instant of the current turns
-  std::vector<RobotAgent*> turns_;                // the agents of the current turns
+  DeviceActions device_actions_;  // the actions for the next step
+  Turn::Instant instant_;         // the instant of the current turns
+  // The agents of the current turns. The first `awake_` are awake. The others wake first.
+  std::vector<RobotAgent*> turns_;
+  std::size_t awake_ = 0;
+  enum class TurnOutcome : std::uint8_t { kTaken, kDied, kNone };  // kNone: it did not wake
+  std::vector<TurnOutcome> outcomes_;
   std::vector<RobotAgent::UsualEnd> usual_ends_;  // how they ended, once applied
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events of the agents that were just woken

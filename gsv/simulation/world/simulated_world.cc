@@ -11,8 +11,14 @@ namespace gsv::simulation {
 namespace {
 
 // The numbers of bodies that a thread processes at a time: some microseconds of work.
-constexpr std::size_t kBodiesAtOnce = 512;
-constexpr std::size_t kVelocitiesAtOnce = 4096;
+constexpr std::size_t kBodiesAtOnce = 128;
+constexpr std::size_t kVelocitiesAtOnce = 512;
+
+// For fewer bodies, a second thread saves no time.
+constexpr std::size_t kMinBodies = 400;
+std::size_t BodiesAtOnce(std::size_t bodies) {
+  return bodies < kMinBodies ? kMinBodies : kBodiesAtOnce;
+}
 
 template <class T>
 std::span<T> Part(std::vector<T>& of, std::size_t begin, std::size_t end) {
@@ -74,7 +80,7 @@ void SimulatedWorld::FinishStep(double step_seconds, world::Snapshot& snapshot) 
   state_.bodies = std::move(bodies);
   copies.resize(state_.bodies.size());
   snapshot.state.bodies = std::move(copies);
-  team_->ParallelFor(state_.bodies.size(), kBodiesAtOnce,
+  team_->ParallelFor(state_.bodies.size(), BodiesAtOnce(state_.bodies.size()),
                      [&](std::size_t begin, std::size_t end) GSV_REQUIRES(world_mutex) {
                        wheel_odometry_.Advance(step_seconds, begin, end, state_);
                        const auto moved = Part(state_.bodies, begin, end);
