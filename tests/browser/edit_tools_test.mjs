@@ -84,6 +84,7 @@ test("a box of 0.4 m is put before the selected robot", async () => {
 test("the list, the inspector and the view show the same choice", async () => {
   await page.locator(".world-tree summary").click();
   assert.equal(await page.locator('[data-object="box"]').getAttribute("aria-pressed"), "true");
+  assert.equal(await page.locator('[data-robot="pebble"]').getAttribute("aria-pressed"), "false");
   await pose().getByRole("heading", { name: "box" }).waitFor();
   await page.locator('[data-robot="pebble"]').click();
   assert.deepEqual(await chosen(), ["pebble"]);
@@ -203,6 +204,10 @@ test("a wall is drawn by two clicks", async () => {
 });
 
 test("the map has a scale, and its ruler agrees with it", async () => {
+  // Beside the floor it has the colour of the world's background, not black.
+  const { data, width } = await picture(page, await viewClip(page));
+  const dark = [4, width - 4].map((x) => data.slice(4 * (40 * width + x), 4 * (40 * width + x) + 3)).filter((colour) => Math.max(...colour) < 20);
+  assert.deepEqual(dark, []);
   const label = await page.locator(".scale-bar").getAttribute("aria-label");
   const [, length, unit] = label.match(/bar stands for ([\d.]+) (m|cm)/);
   const metres = Number(length) * (unit === "cm" ? 0.01 : 1);

@@ -123,6 +123,9 @@ test("the command palette finds objects and sensors", async () => {
   await inspector().getByRole("heading", { name: "Sensor height", exact: true }).waitFor();
   // The station with the sensor is selected in the list of robots.
   await until(async () => (await page.locator('[data-robot="post"]').count()) > 0, "the station in the list");
+  // Long names of parameters leave room for the values.
+  const widths = await page.locator(".inspector-body .world-inspector dd").evaluateAll((all) => all.map((each) => each.clientWidth));
+  assert.ok(widths.length > 3 && widths.every((width) => width > 90), `${widths}`);
 });
 
 test("Escape ends the choice, and the inspector explains how to choose", async () => {

@@ -16,6 +16,7 @@ const AFTER = { x: 1, y: 2, yaw: 0.5 };
 async function editing(here: Required<BodyPlace> = BEFORE, phase: "paused" | "running" = "paused") {
   const store = new Store<State>({
     ...initialState,
+    connection: { phase: "open" },
     abilities: { ...initialState.abilities, creates: true },
     simulation: "house",
     scene: scene({ bodies: [body("a"), body("box", { isRobot: false })] }),

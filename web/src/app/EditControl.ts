@@ -97,7 +97,9 @@ export class EditControl {
   // the selection.
   choose(object: string | null): void {
     const { editing } = this.store.get();
-    if (editing && (editing.chosen !== object || editing.more.length > 0)) this.patch({ chosen: object, more: [] });
+    if (!editing) return;
+    if (editing.chosen !== object || editing.more.length > 0) this.patch({ chosen: object, more: [] });
+    if (object !== null) this.store.set({ selection: null, selectedPose: null });
   }
 
   // Sets the selected bodies other than the first one.
@@ -206,7 +208,7 @@ export class EditControl {
     const [first, ...more] = names;
     const isFirstObject = this.copied[0]!.robot === null;
     this.patch({ chosen: isFirstObject ? first! : null, more });
-    if (!isFirstObject) this.store.set({ selection: first! });
+    this.store.set({ selection: isFirstObject ? null : first! });
     return true;
   }
 

@@ -1,7 +1,7 @@
 // The background: darker above and below than at the horizon, as in the robots' cameras
 // (gsv/rendering), but hazy below, because the camera looks down over the edge of the ground. It
 // moves with the camera, so that it is always far away.
-import type { Camera } from "three";
+import type { OrthographicCamera, PerspectiveCamera } from "three";
 import { BackSide, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import type { SceneDescription } from "../api/scene";
 import { colourOf } from "./LightRig";
@@ -31,7 +31,7 @@ export class Sky {
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = -1;
     this.mesh.raycast = () => {};
-    this.mesh.onBeforeRender = (_renderer, _scene, camera) => this.stayAround(camera);
+    this.mesh.onBeforeRender = (_renderer, _scene, camera) => this.stayAround(camera as PerspectiveCamera | OrthographicCamera);
   }
 
   dispose(): void {
@@ -54,12 +54,11 @@ export class Sky {
     this.geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
   }
 
-  private stayAround(camera: Camera): void {
-    this.mesh.matrixWorld.makeTranslation(
-      camera.matrixWorld.elements[12]!,
-      camera.matrixWorld.elements[13]!,
-      camera.matrixWorld.elements[14]!,
-    );
+  // In the middle of the drawn depths: those of a map begin many metres away from its camera.
+  private stayAround(camera: PerspectiveCamera | OrthographicCamera): void {
+    const radius = (camera.near + camera.far) / 2;
+    const [x, y, z] = camera.matrixWorld.elements.slice(12) as [number, number, number];
+    this.mesh.matrixWorld.makeScale(radius, radius, radius).setPosition(x, y, z);
     this.mesh.modelViewMatrix.multiplyMatrices(camera.matrixWorldInverse, this.mesh.matrixWorld);
   }
 }

@@ -24,10 +24,11 @@ export function canAct({ connection, pending, people }: State): boolean {
 }
 
 // Whether the simulation can be edited. A running one is paused first.
-export function canEdit({ abilities, replay, status, setUp, people }: State): boolean {
+export function canEdit({ abilities, connection, replay, status, setUp, people }: State): boolean {
   const phase = status?.phase;
   return (
     abilities.creates &&
+    connection.phase === "open" &&
     mayAct(people) &&
     replay === null &&
     setUp === null &&
