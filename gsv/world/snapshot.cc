@@ -154,7 +154,8 @@ std::vector<Pose> LinkPoses(const Snapshot& snapshot, int body) {
   return poses;
 }
 
-Pose LinkPose(const Snapshot& snapshot, int body, int link) {
+// All calls are inlined, because each turn of a crowd calls this.
+[[gnu::flatten]] Pose LinkPose(const Snapshot& snapshot, int body, int link) {
   const model::Model& model = *snapshot.layout->bodies[body].model;
   return snapshot.state.bodies[body].world_from_model *
          LinkDisplacement(model, JointPositions(snapshot, body), link,
@@ -162,7 +163,7 @@ Pose LinkPose(const Snapshot& snapshot, int body, int link) {
          model.links[link].model_from_link;
 }
 
-Pose ModelFromLink(const Snapshot& snapshot, int body, int link) {
+[[gnu::flatten]] Pose ModelFromLink(const Snapshot& snapshot, int body, int link) {
   const model::Model& model = *snapshot.layout->bodies[body].model;
   return LinkDisplacement(model, JointPositions(snapshot, body), link,
                           [&](int of) { return ParentJoint(model, of); }) *

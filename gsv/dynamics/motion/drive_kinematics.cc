@@ -86,13 +86,6 @@ double ReferenceX(const model::Model& model) {
   return drive.kind == DriveKind::kAckermann ? rearmost : sum / count;
 }
 
-double Follow(double target, double now, const model::Range& speed,
-              const model::Range& acceleration, double seconds, double fastest) {
-  if (!std::isfinite(target)) target = 0;
-  target = std::clamp(std::clamp(target, speed.min, speed.max), -fastest, fastest);
-  return now + std::clamp(target - now, acceleration.min * seconds, acceleration.max * seconds);
-}
-
 }  // namespace
 
 base::Result<DriveKinematics> DriveKinematics::Create(const model::Model& model) {
@@ -148,27 +141,10 @@ void DriveKinematics::AddWheels(const model::Model& model, const std::vector<int
   }
 }
 
-world::DriveCommand DriveKinematics::Next(const world::DriveState& state, base::SimTime now,
-                                          double step_seconds) const {
-  const bool stale = drive_.command_timeout > base::SimTime(0) &&
-                     now - state.command_time >= drive_.command_timeout;
-  if (drive_.kind == DriveKind::kNone) return {};
-  const world::DriveCommand target = stale ? world::DriveCommand{} : state.command;
-  world::DriveCommand next;
-  next.linear = Follow(target.linear, state.actual.linear, drive_.linear_velocity,
-                       drive_.linear_acceleration, step_seconds, kMaxLinearSpeed);
-  if (can_move_sideways()) {
-    next.lateral = Follow(target.lateral, state.actual.lateral, drive_.linear_velocity,
-                          drive_.linear_acceleration, step_seconds, kMaxLinearSpeed);
-  }
-  next.angular = Follow(target.angular, state.actual.angular, drive_.angular_velocity,
-                        drive_.angular_acceleration, step_seconds, kMaxAngularSpeed);
-  if (drive_.kind == DriveKind::kAckermann) {
-    const double fastest_turn =
-        std::abs(next.linear) * std::tan(drive_.steering_limit) / drive_.wheel_base;
-    next.angular = std::clamp(next.angular, -fastest_turn, fastest_turn);
-  }
-  return next;
+void DriveKinematics::LimitTurn(world::DriveCommand& motion) const {
+  const double fastest_turn =
+      std::abs(motion.linear) * std::tan(drive_.steering_limit) / drive_.wheel_base;
+  motion.angular = std::clamp(motion.angular, -fastest_turn, fastest_turn);
 }
 
 void DriveKinematics::SetSlip(const model::Model& model) {

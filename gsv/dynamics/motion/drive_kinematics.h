@@ -14,6 +14,8 @@
 //          Mobile Robots", 2nd edition, chapter 3.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,7 +46,8 @@ class DriveKinematics {
   static DriveKinematics Free();
 
   // Returns the motion in the next step from the present motion and the command. A command that is
-  // older than the drive's timeout is ignored, and non-finite values count as zero.
+  // older than the drive's timeout is ignored, and non-finite values count as zero. Inline, as it
+  // is called for each base in each step.
   world::DriveCommand Next(const world::DriveState& state, base::SimTime now,
                            double step_seconds) const;
 
@@ -68,6 +71,8 @@ class DriveKinematics {
   }
   double reference_x() const { return reference_x_; }
 
+  // Whether TurnJoints() sets any joint.
+  bool turns_joints() const { return !wheels_.empty() || !steered_.empty(); }
   // Sets the joints of wheels and steering according to the base's travel and its present motion.
   // The spans have an entry for each joint of the model.
   void TurnJoints(const Travel& travel, const world::DriveCommand& motion, double step_seconds,
@@ -89,6 +94,8 @@ class DriveKinematics {
 
   void AddWheels(const model::Model& model, const std::vector<int>& joints, double side);
   void SetSlip(const model::Model& model);
+  // Limits the rotation to what the steering allows.
+  void LimitTurn(world::DriveCommand& motion) const;
   // TrueMotion() without slip: the motion of wheels that roll.
   world::DriveCommand RolledMotion(const world::DriveCommand& motion) const;
   double RollOf(const Wheel& wheel, const Travel& travel) const;
@@ -102,5 +109,32 @@ class DriveKinematics {
   std::vector<Wheel> wheels_;
   std::vector<Steered> steered_;
 };
+
+// Returns the speed after a step in which a speed follows its target.
+inline double FollowSpeed(double target, double now, const model::Range& speed,
+                          const model::Range& acceleration, double seconds, double max_speed) {
+  if (!std::isfinite(target)) target = 0;
+  target = std::clamp(std::clamp(target, speed.min, speed.max), -max_speed, max_speed);
+  return now + std::clamp(target - now, acceleration.min * seconds, acceleration.max * seconds);
+}
+
+inline world::DriveCommand DriveKinematics::Next(const world::DriveState& state, base::SimTime now,
+                                                 double step_seconds) const {
+  const bool stale = drive_.command_timeout > base::SimTime(0) &&
+                     now - state.command_time >= drive_.command_timeout;
+  if (drive_.kind == model::DriveKind::kNone) return {};
+  const world::DriveCommand target = stale ? world::DriveCommand{} : state.command;
+  world::DriveCommand next;
+  next.linear = FollowSpeed(target.linear, state.actual.linear, drive_.linear_velocity,
+                            drive_.linear_acceleration, step_seconds, kMaxLinearSpeed);
+  if (can_move_sideways()) {
+    next.lateral = FollowSpeed(target.lateral, state.actual.lateral, drive_.linear_velocity,
+                               drive_.linear_acceleration, step_seconds, kMaxLinearSpeed);
+  }
+  next.angular = FollowSpeed(target.angular, state.actual.angular, drive_.angular_velocity,
+                             drive_.angular_acceleration, step_seconds, kMaxAngularSpeed);
+  if (drive_.kind == model::DriveKind::kAckermann) LimitTurn(next);
+  return next;
+}
 
 }  // namespace gsv::dynamics

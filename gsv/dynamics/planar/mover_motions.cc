@@ -29,6 +29,7 @@ void MoverMotions::Store(std::uint32_t m, const Journey& journey, double seconds
   body.angular_velocity = {0, 0, twist.angular};
   body.drive.actual = drives[m];
   body.distance += journey.distance;
+  if (!kinematics(m).turns_joints()) return;
   kinematics(m).TurnJoints(
       journey.travel, drives[m], seconds,
       std::span(state.joint_positions).subspan(mover.first_joint, mover.joint_count),

@@ -172,7 +172,7 @@ constinit thread_local PacketCaster::Pairs PacketCaster::pairs_;
 
 }  // namespace
 
-void PlacedSolids::Place(std::size_t index, const world::Snapshot& snapshot) {
+[[gnu::flatten]] void PlacedSolids::Place(std::size_t index, const world::Snapshot& snapshot) {
   const auto& [part, body] = solids_->moving[index];
   Pose world_from_part = snapshot.state.bodies[body].world_from_model;
   if (part->link >= 0) {
