@@ -85,6 +85,8 @@ F8x3 FromLamp(const LightBlock& lamp, const Reflector& s, const F8x3& position) 
     const F8x3 offset = Splat3(lamp.position_range) - position;
     const F8 distance2 = Max(Dot(offset, offset), Splat(1e-8f));
     const F8 x2 = distance2 * Splat(lamp.attenuation[3]);
+    // Beyond its range and behind the surface, the light below is weaker than the limit there.
+    if (Bits((x2 < Splat(1)) & (Dot(s.normal, offset) > Splat(0))) == 0) return Splat(0, 0, 0);
     const F8 window = Clamp01(Fma(-x2, x2, Splat(1)));
     const F8 distance = Sqrt(distance2);
     to_light = offset * (Splat(1) / distance);
@@ -158,7 +160,8 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
     if (shadow_ != nullptr && block_.to_sun[3] > 0) {
       // The shadow is looked up beside the surface, so that the surface does not shade itself.
       const F8 beside = Splat(block_.to_sun[3]) * (Splat(1.5f) - n_dot_l);
-      const F8x3 p = Fma(Normalized(surface.face_normal), beside, position);
+      const F8x3 face_normal = surface.has_normal_map ? Normalized(surface.face_normal) : s.normal;
+      const F8x3 p = Fma(face_normal, beside, position);
       const auto& m = block_.shadow_from_relative;
       const auto row = [&](int i) {
         return Fma(Splat(m[i]), p.x,

@@ -12,16 +12,16 @@ namespace gsv::rendering::raster {
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 
-// Narrows a row of pixels to those where no q_i is negative. Pixels are counted from the first of
-// the box.
-inline void Narrow(const Triangle& t, const float (&row)[3], float& left, float& right) {
+// Narrows eight rows of pixels to those where no q_i is negative. Pixels are counted from the first
+// of the box.
+inline void Narrow(const Triangle& t, const F8 (&rows)[3], F8& left, F8& right) {
   for (int i = 0; i < 3; ++i) {
     if (t.a[i] > 0) {
-      left = std::max(left, -row[i] / t.a[i]);
+      left = Max(-rows[i] / Splat(t.a[i]), left);
     } else if (t.a[i] < 0) {
-      right = std::min(right, -row[i] / t.a[i]);
-    } else if (row[i] < 0) {
-      right = -1;
+      right = Min(-rows[i] / Splat(t.a[i]), right);
+    } else {
+      right = Select(rows[i] < Splat(0), Splat(-1), right);
     }
   }
 }
@@ -41,26 +41,36 @@ void Scan(const Triangle& t, const Box& box, Block&& block) {
   const float total_slack = slack[0] + slack[1] + slack[2];
   const bool wide = box.x1 - box.x0 >= kWide;
   const float first_x = static_cast<float>(box.x0) - t.x0;
-  for (int y = box.y0; y <= box.y1; ++y) {
-    const float dy = static_cast<float>(y) - t.y0;
-    const float row[3] = {t.c[0] + t.b[0] * dy + slack[0] + t.a[0] * first_x,
-                          t.c[1] + t.b[1] * dy + slack[1] + t.a[1] * first_x,
-                          t.c[2] + t.b[2] * dy + slack[2] + t.a[2] * first_x};
-    int begin = box.x0, end = box.x1;
-    if (wide) {
-      float left = 0, right = static_cast<float>(box.x1 - box.x0);
-      Narrow(t, row, left, right);
-      if (!(left <= right + 1)) continue;
-      begin = box.x0 + std::max(0, static_cast<int>(left));
-      end = box.x0 + static_cast<int>(std::max(right, -1.0f));
+  // Eight rows at a time.
+  for (int first_y = box.y0; first_y <= box.y1; first_y += 8) {
+    const F8 dy = Splat(static_cast<float>(first_y) - t.y0) + Steps();
+    F8 rows[3];
+    for (int i = 0; i < 3; ++i) {
+      rows[i] = Splat(t.c[i]) + Splat(t.b[i]) * dy + Splat(slack[i]) + Splat(t.a[i] * first_x);
     }
-    const F8 r0 = Splat(row[0]), r1 = Splat(row[1]), r2 = Splat(row[2]);
-    const F8 depth_row = r0 + r1 + r2 - Splat(total_slack);
-    for (int x = begin; x <= end; x += 8) {
-      const F8 dx = Splat(static_cast<float>(x - box.x0)) + Steps();
-      const F8 inside = Min(Min(Fma(a0, dx, r0), Fma(a1, dx, r1)), Fma(a2, dx, r2));
-      const I8 covered = inside >= Splat(0);
-      if (Bits(covered) != 0) block(x, y, covered, Fma(a, dx, depth_row));
+    I8 seen = IntSteps() <= SplatInt(box.y1 - first_y);
+    alignas(32) float q[3][8], inverse_w[8];
+    alignas(32) std::int32_t begins[8], ends[8];
+    for (int i = 0; i < 3; ++i) Store(q[i], rows[i]);
+    Store(inverse_w, rows[0] + rows[1] + rows[2] - Splat(total_slack));
+    if (wide) {
+      F8 left = Splat(0), right = Splat(static_cast<float>(box.x1 - box.x0));
+      Narrow(t, rows, left, right);
+      seen &= left <= right + Splat(1);
+      StoreInt(begins, SplatInt(box.x0) + MaxInt(Truncated(left), SplatInt(0)));
+      StoreInt(ends, SplatInt(box.x0) + Truncated(Max(right, Splat(-1))));
+    }
+    for (int left = Bits(seen); left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(static_cast<unsigned>(left));
+      const F8 r0 = Splat(q[0][lane]), r1 = Splat(q[1][lane]), r2 = Splat(q[2][lane]);
+      const F8 depth_row = Splat(inverse_w[lane]);
+      const int end = wide ? ends[lane] : box.x1;
+      for (int x = wide ? begins[lane] : box.x0; x <= end; x += 8) {
+        const F8 dx = Splat(static_cast<float>(x - box.x0)) + Steps();
+        const F8 inside = Min(Min(Fma(a0, dx, r0), Fma(a1, dx, r1)), Fma(a2, dx, r2));
+        const I8 covered = inside >= Splat(0);
+        if (Bits(covered) != 0) block(x, first_y + lane, covered, Fma(a, dx, depth_row));
+      }
     }
   }
 }

@@ -52,7 +52,7 @@ class SunShadow {
   ShadowRegion region_;
   Drawn drawn_;                                 // the present content of still_
   std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
-  ShadowBounds bounds_;                         // of moving_
+  ShadowBounds bounds_;                         // bounds of the depths in moving_
   Rasteriser rasteriser_;
 };
 

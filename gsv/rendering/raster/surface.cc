@@ -152,14 +152,26 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
     // Use the normal of the side that the camera sees.
     n = Select(Dot(n, ray) > Splat(0), n * Splat(-1), n);
   }
+  const bool has_textures = group.base_colour || group.normal || group.metallic_roughness ||
+                            group.emissive || group.occlusion || group.light;
+  if (is_first) {
+    s.w = w, s.normal = n, s.number = SplatInt(surface.number);
+    s.has_normal_map = false;
+  } else {
+    s.w = Select(mask, w, s.w);
+    s.normal = Select(mask, n, s.normal);
+    if (s.has_normal_map) s.face_normal = Select(mask, n, s.face_normal);
+    s.number = SelectInt(mask, SplatInt(surface.number), s.number);
+  }
+  if (!is_first && s.plain == &drawn) return;
+  s.plain = is_first && !has_textures ? &drawn : nullptr;
+
   const SurfaceFactors& f = *drawn.factors;
   F8x3 base = Splat(f.base_colour[0], f.base_colour[1], f.base_colour[2]);
   F8x3 emissive = Splat(f.emissive_metalness[0], f.emissive_metalness[1], f.emissive_metalness[2]);
   F8 alpha = Splat(f.base_colour[3]), metalness = Splat(f.emissive_metalness[3]),
      roughness = Splat(f.roughness), occlusion = Splat(1);
-  F8x3 bumped = n;
-  if (group.base_colour || group.normal || group.metallic_roughness || group.emissive ||
-      group.occlusion || group.light) {
+  if (has_textures) {
     const F8 u = At(surface.u, dx, dy) * w, v = At(surface.v, dx, dy) * w;
     const int seen = Bits(mask);
     const float middle = 0.5f * static_cast<float>(__builtin_ctz(static_cast<unsigned>(seen)) + 31 -
@@ -190,23 +202,24 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
       emissive = emissive +
                  F8x3{Decoded(texel.r), Decoded(texel.g), Decoded(texel.b)} * (diffuse * occlusion);
     }
-    if (group.normal) bumped = Bumped(drawn, t, sample(group.normal), Normalized(n));
+    if (group.normal) {
+      if (!s.has_normal_map) s.face_normal = s.normal;
+      s.has_normal_map = true;
+      const F8x3 bumped = Bumped(drawn, t, sample(group.normal), Normalized(n));
+      s.normal = is_first ? bumped : Select(mask, bumped, s.normal);
+    }
   }
   if (is_first) {
-    s = {w,     bumped,    n,         base,      emissive,
-         alpha, metalness, roughness, occlusion, SplatInt(surface.number)};
+    s.base = base, s.emissive = emissive, s.alpha = alpha, s.metalness = metalness;
+    s.roughness = roughness, s.occlusion = occlusion;
     return;
   }
-  s.w = Select(mask, w, s.w);
-  s.normal = Select(mask, bumped, s.normal);
-  s.face_normal = Select(mask, n, s.face_normal);
   s.base = Select(mask, base, s.base);
   s.emissive = Select(mask, emissive, s.emissive);
   s.alpha = Select(mask, alpha, s.alpha);
   s.metalness = Select(mask, metalness, s.metalness);
   s.roughness = Select(mask, roughness, s.roughness);
   s.occlusion = Select(mask, occlusion, s.occlusion);
-  s.number = SelectInt(mask, SplatInt(surface.number), s.number);
 }
 
 }  // namespace gsv::rendering::raster

@@ -9,11 +9,14 @@ namespace gsv::rendering::raster {
 struct Surfaces {
   F8 w;              // distance along the view
   F8x3 normal;       // points towards the camera and includes the normal map
-  F8x3 face_normal;  // does not include the normal map
+  F8x3 face_normal;  // does not include the normal map; only set if has_normal_map
+  bool has_normal_map = false;
   F8x3 base, emissive;
   F8 alpha, metalness, roughness;
   F8 occlusion;  // the fraction of ambient light that reaches the surface
   I8 number;     // number of the surface, from 1 to 255
+  // The item whose material all lanes have so far, if the material has no textures; else null.
+  const Drawn* plain = nullptr;
 };
 
 // The attributes of a triangle's surface as functions of the pixel. The value of a plane at the
