@@ -181,8 +181,10 @@ RobotHealth HealthOf(const simulation::RobotStatus& robot,
 void SetLimit(std::optional<Limit> limit, RobotHealth& health) {
   health.limit = std::move(limit);
   if (!health.limit) return;
-  char text[64];
-  std::snprintf(text, sizeof text, " reads %.2f m", health.limit->value);
+  char text[64] = " reads less than its minimum range";  // -inf, see REP 117
+  if (std::isfinite(health.limit->value)) {
+    std::snprintf(text, sizeof text, " reads %.2f m", health.limit->value);
+  }
   health.reason += (health.reason.empty() ? "" : ", ") + health.limit->sensor + text;
 }
 

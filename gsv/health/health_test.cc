@@ -1,5 +1,7 @@
 #include "gsv/health/health_book.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,6 +42,10 @@ TEST(Health, ARobotThatStandsHasItsCommandAndItsNearestRangeAsReasons) {
   EXPECT_EQ(Sentence(health, 35700ms),
             "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m");
   EXPECT_EQ(FinalSentence(health), "stood still from 15.7 s: commanded 0, sonar_00 reads 0.26 m");
+  RobotHealth close = HealthOf(Robot());
+  SetLimit(Limit{"lidar", -std::numeric_limits<double>::infinity()}, close);
+  EXPECT_EQ(Sentence(close, 35700ms),
+            "has not moved for 20 s: commanded 0, lidar reads less than its minimum range");
 }
 
 TEST(Health, StandingIsAWarningAfterTenSecondsIfItsBehaviourRuns) {

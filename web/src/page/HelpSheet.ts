@@ -52,7 +52,9 @@ const KEYS: [heading: string, lines: Line[]][] = [
   [
     "Edit",
     [
-      [["Ctrl Z"], "Undo the last change (Ctrl Shift Z: redo)"],
+      [["Ctrl Z", "Ctrl Y"], "Undo or redo the last change"],
+      [["Ctrl C", "Ctrl V"], "Copy or paste the selection"],
+      [["Ctrl D"], "Duplicate the selection"],
       [["Delete"], "Remove the selected robot or object"],
       [["[", "]"], "Turn it by 15° to the left or right"],
     ],
@@ -95,7 +97,7 @@ export function createHelpSheet(app: App): HTMLElement {
     { class: "card help", "aria-label": "Help" },
     element("div", { class: "card-head" }, element("h2", {}, "Keys and gestures"), documentation, close),
     singleKeysSetting(app),
-    element("div", { class: "help-sections" }, ...keys, section("Mouse and touch", gestures)),
+    element("div", { class: "help-sections" }, ...keys, section("Mouse and touch", gestures, "gestures")),
   );
   close.addEventListener("click", () => sheet.close());
   sheet.addEventListener("close", () => app.openHelp(false));
@@ -135,10 +137,10 @@ function lowered(text: string): string {
   return text.charAt(0).toLowerCase() + text.slice(1);
 }
 
-function section(heading: string, lines: Node[][]): HTMLElement {
+function section(heading: string, lines: Node[][], kind = "keys"): HTMLElement {
   return element(
     "section",
-    {},
+    { class: kind },
     heading !== "" && element("h3", {}, heading),
     element("dl", {}, ...lines.flat()),
   );

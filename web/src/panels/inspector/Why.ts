@@ -59,7 +59,7 @@ function rowsOf({ command, actual, limit, contact, since }: RobotHealth): Record
   return {
     Commanded: motionText(command.linear, command.angular, command.lateral),
     Actual: motionText(actual.linear, actual.angular),
-    Nearest: limit ? `${limit.sensor} reads ${formatValue(limit.value, limit.unit)}` : "",
+    Nearest: limit ? `${limit.sensor} reads ${Number.isFinite(limit.value) ? formatValue(limit.value, limit.unit) : "less than its minimum range"}` : "",
     Touches: contact,
     Since: formatTime(since),
   };
