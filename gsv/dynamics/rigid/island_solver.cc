@@ -286,7 +286,8 @@ bool IslandSolver::CanSweep(std::span<const std::unique_ptr<MovingBody>> bodies)
 void IslandSolver::SolveBySweeps(const ContactFinder& finder,
                                  std::span<const std::unique_ptr<MovingBody>> bodies,
                                  std::vector<Contact>& contacts, double substep) {
-  constexpr int kMaxSweeps = 30;
+  // An island of few bodies has time for many sweeps, which a tower needs.
+  constexpr int kMaxSweeps = 300, kMinSweeps = 30, kSweepsOfAll = 4800;
   constexpr double kTolerance = 1e-5;  // m/s
   sweeps_.Clear();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -336,7 +337,9 @@ void IslandSolver::SolveBySweeps(const ContactFinder& finder,
                        each.softness, each.impulse);
   }
   pending_.clear();
-  CountSolverIterations(sweeps_.Solve(kMaxSweeps, kTolerance));
+  const int max_sweeps =
+      std::clamp(kSweepsOfAll / static_cast<int>(bodies_.size()), kMinSweeps, kMaxSweeps);
+  CountSolverIterations(sweeps_.Solve(max_sweeps, kTolerance));
   velocities_.clear();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ContactSweeps::Body& body = sweeps_.body(static_cast<int>(b));

@@ -302,6 +302,26 @@ TEST(RigidFidelity, StackIsStableForAMinute) {
 }
 
 // One cube on another, at rest from the start.
+// More boxes than are solved exactly. The uppermost may be heavy. No contact is deeper than the
+// overlap of 0.1 mm that stays.
+TEST(RigidFidelity, TowerOfTwelveBoxesStands) {
+  constexpr int kBoxes = 12;
+  for (const double mass : {1.0, 100.0}) {
+    TestWorld world = WorldOnGround();
+    for (int i = 0; i < kBoxes; ++i) {
+      world.AddRigid("box" + std::to_string(i),
+                     SolidOf(geometry::Box{{0.3, 0.3, 0.3}}, i == kBoxes - 1 ? mass : 1),
+                     At(0.003 * (i % 3), 0, 0.15 + 0.3 * i));
+    }
+    ASSERT_TRUE(world.Start());
+    world.Run(10, kStep);
+    const Vector3 top = world.position("box11");
+    EXPECT_WITHIN(top.x, 0.006, 1e-3, "m") << mass;
+    EXPECT_WITHIN(top.y, 0, 1e-3, "m") << mass;
+    EXPECT_WITHIN(top.z, 0.15 + 0.3 * (kBoxes - 1), kBoxes * 1e-4, "m") << mass;
+  }
+}
+
 TEST(RigidFidelity, HeavyBoxOnALightBoxIsStable) {
   for (const double mass : {10.0, 1e3, 1e5}) {
     TestWorld world = WorldOnGround();
