@@ -14,7 +14,6 @@
 //          Mobile Robots", 2nd edition, chapter 3.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
@@ -110,16 +109,24 @@ class DriveKinematics {
   std::vector<Steered> steered_;
 };
 
-// Returns the speed after a step in which a speed follows its target.
-inline double FollowSpeed(double target, double now, const model::Range& speed,
-                          const model::Range& acceleration, double seconds, double max_speed) {
-  if (!std::isfinite(target)) target = 0;
-  target = std::clamp(std::clamp(target, speed.min, speed.max), -max_speed, max_speed);
-  return now + std::clamp(target - now, acceleration.min * seconds, acceleration.max * seconds);
+// Equals std::clamp(value, low, high), but takes no branches.
+inline double Limited(double value, double low, double high) {
+  const double from_low = value < low ? low : value;
+  return high < from_low ? high : from_low;
 }
 
-inline world::DriveCommand DriveKinematics::Next(const world::DriveState& state, base::SimTime now,
-                                                 double step_seconds) const {
+// Returns the speed after a step in which a speed follows its target.
+[[gnu::always_inline]] inline double FollowSpeed(double target, double now,
+                                                 const model::Range& speed,
+                                                 const model::Range& acceleration, double seconds,
+                                                 double max_speed) {
+  if (!std::isfinite(target)) target = 0;
+  target = Limited(Limited(target, speed.min, speed.max), -max_speed, max_speed);
+  return now + Limited(target - now, acceleration.min * seconds, acceleration.max * seconds);
+}
+
+[[gnu::always_inline]] inline world::DriveCommand DriveKinematics::Next(
+    const world::DriveState& state, base::SimTime now, double step_seconds) const {
   const bool stale = drive_.command_timeout > base::SimTime(0) &&
                      now - state.command_time >= drive_.command_timeout;
   if (drive_.kind == model::DriveKind::kNone) return {};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include <immintrin.h>
 
@@ -27,15 +26,10 @@ constexpr double kLargeCells = 2;
 constexpr std::size_t kMaxLarge = 32;
 
 // With more spheres than this near the rays, single rays are faster.
-constexpr std::size_t kMaxTested = 512;
+constexpr std::size_t kMaxTested = 512, kMaxRows = 128;
 
-// Spheres are copied in vectors of this length.
-constexpr std::size_t kCopied = 8;
-
-template <class T>
-void CopyEight(const T* from, T* to) {
-  std::memcpy(to, from, kCopied * sizeof(T));
-}
+// Spheres are read in vectors of this length.
+constexpr std::size_t kRead = 8;
 
 // Single precision has a relative error of 6e-8. Spheres are enlarged by these fractions of the
 // reach and of the coordinates, which are rounded once.
@@ -53,11 +47,17 @@ bool Suits(const BoundingSphere& sphere) {
 // of products of up to twice the reach, in a dozen operations.
 constexpr float kSquareRounding = 1e-6f;
 
-// The spheres of the cells in reach, side by side. The arrays have room for whole vectors of eight.
+// Spheres that are side by side, in a row of cells.
+struct Run {
+  std::uint32_t first, end;
+};
+
+// The spheres of a grid, and the runs of those in reach. The arrays may be read beyond the last
+// sphere, in whole vectors of eight.
 struct NearSpheres {
-  std::size_t count = 0;
-  alignas(32) std::array<float, kMaxTested + 8> x, y, z, radius;
-  std::array<std::uint32_t, kMaxTested + 8> numbers;
+  const float *x, *y, *z, *radius;
+  const std::uint32_t* numbers;
+  std::span<const Run> runs;
 };
 
 // Appends the spheres that rays of the packet touch. Returns false if there are too many. With the
@@ -81,16 +81,19 @@ __attribute__((target("avx2,fma"))) bool TestByAvx2(const PacketRays& rays,
   const __m256 reach_square = _mm256_set1_ps(2 * rays.reach * rays.reach);
   alignas(32) std::array<float, 8> cx, cy, cz, margins;
   std::size_t touched = found.count;
-  for (std::size_t first = 0; first < spheres.count; first += 8) {
+  const Run* run = spheres.runs.data();
+  const Run* const end_of_runs = run + spheres.runs.size();
+  for (std::uint32_t first = run->first; run != end_of_runs;) {
     if (touched + 8 > TouchedSpheres::kMax) return false;
-    const __m256 x = _mm256_load_ps(&spheres.x[first]) - place_x;
-    const __m256 y = _mm256_load_ps(&spheres.y[first]) - place_y;
-    const __m256 z = _mm256_load_ps(&spheres.z[first]) - place_z;
-    const __m256 radius = _mm256_load_ps(&spheres.radius[first]) + rounding;
+    const __m256 x = _mm256_loadu_ps(&spheres.x[first]) - place_x;
+    const __m256 y = _mm256_loadu_ps(&spheres.y[first]) - place_y;
+    const __m256 z = _mm256_loadu_ps(&spheres.z[first]) - place_z;
+    const __m256 radius = _mm256_loadu_ps(&spheres.radius[first]) + rounding;
     const __m256 away = x * x + y * y + z * z, furthest = radius + reach;
     const __m256 is_near = _mm256_cmp_ps(away, furthest * furthest, _CMP_LE_OQ);
     auto lanes = static_cast<unsigned>(_mm256_movemask_ps(is_near));
-    if (spheres.count - first < 8) lanes &= (1u << (spheres.count - first)) - 1;
+    const std::uint32_t count = std::min(run->end - first, 8u);
+    lanes &= (1u << count) - 1;
     _mm256_store_ps(cx.data(), x), _mm256_store_ps(cy.data(), y), _mm256_store_ps(cz.data(), z);
     const __m256 error = _mm256_set1_ps(kSquareRounding) * (away + reach_square);
     _mm256_store_ps(margins.data(), radius * radius + error - away);
@@ -110,34 +113,38 @@ __attribute__((target("avx2,fma"))) bool TestByAvx2(const PacketRays& rays,
       found.touched[touched] = {spheres.numbers[first + lane], mask};
       touched += mask != 0;
     }
+    first += count;
+    if (first == run->end && ++run != end_of_runs) first = run->first;
   }
   found.count = touched;
   return true;
 }
 
 bool TestBySse(const PacketRays& rays, const NearSpheres& spheres, TouchedSpheres& found) {
-  for (std::size_t at = 0; at < spheres.count; ++at) {
-    if (found.count == TouchedSpheres::kMax) return false;
-    const float x = spheres.x[at] - rays.place_x, y = spheres.y[at] - rays.place_y;
-    const float z = spheres.z[at] - rays.place_z, radius = spheres.radius[at] + rays.rounding;
-    const float away = x * x + y * y + z * z;
-    const float error = kSquareRounding * (away + 2 * rays.reach * rays.reach);
-    const __m128 margin = _mm_set1_ps(radius * radius + error - away);
-    const __m128 c_x = _mm_set1_ps(x), c_y = _mm_set1_ps(y), c_z = _mm_set1_ps(z);
-    unsigned mask = 0;
-    for (std::size_t four = 0; four < RayPacket::kMax; four += 4) {
-      const auto load = [four](const PacketRays::Floats& of) { return _mm_load_ps(&of[four]); };
-      const __m128 s =
-          c_x * load(rays.dx) + (c_y * load(rays.dy) + (c_z * load(rays.dz) - load(rays.start)));
-      const __m128 along = _mm_min_ps(_mm_max_ps(s, _mm_setzero_ps()), load(rays.length));
-      const __m128 apart =
-          c_x * load(rays.ox) + (c_y * load(rays.oy) + (c_z * load(rays.oz) + load(rays.square)));
-      const __m128 touches = _mm_cmple_ps(apart - along * (s + s - along), margin);
-      mask |= static_cast<unsigned>(_mm_movemask_ps(touches)) << four;
+  for (const Run& run : spheres.runs) {
+    for (std::uint32_t at = run.first; at < run.end; ++at) {
+      if (found.count == TouchedSpheres::kMax) return false;
+      const float x = spheres.x[at] - rays.place_x, y = spheres.y[at] - rays.place_y;
+      const float z = spheres.z[at] - rays.place_z, radius = spheres.radius[at] + rays.rounding;
+      const float away = x * x + y * y + z * z;
+      const float error = kSquareRounding * (away + 2 * rays.reach * rays.reach);
+      const __m128 margin = _mm_set1_ps(radius * radius + error - away);
+      const __m128 c_x = _mm_set1_ps(x), c_y = _mm_set1_ps(y), c_z = _mm_set1_ps(z);
+      unsigned mask = 0;
+      for (std::size_t four = 0; four < RayPacket::kMax; four += 4) {
+        const auto load = [four](const PacketRays::Floats& of) { return _mm_load_ps(&of[four]); };
+        const __m128 s =
+            c_x * load(rays.dx) + (c_y * load(rays.dy) + (c_z * load(rays.dz) - load(rays.start)));
+        const __m128 along = _mm_min_ps(_mm_max_ps(s, _mm_setzero_ps()), load(rays.length));
+        const __m128 apart =
+            c_x * load(rays.ox) + (c_y * load(rays.oy) + (c_z * load(rays.oz) + load(rays.square)));
+        const __m128 touches = _mm_cmple_ps(apart - along * (s + s - along), margin);
+        mask |= static_cast<unsigned>(_mm_movemask_ps(touches)) << four;
+      }
+      mask &= rays.used;
+      found.touched[found.count] = {spheres.numbers[at], mask};
+      found.count += mask != 0;
     }
-    mask &= rays.used;
-    found.touched[found.count] = {spheres.numbers[at], mask};
-    found.count += mask != 0;
   }
   return true;
 }
@@ -224,8 +231,8 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
   // Each count becomes the end of its cell. Inserting the spheres turns it into the start.
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) start = end += start;
-  for (std::vector<float>* each : {&x_, &y_, &z_, &radius_}) each->resize(end + kCopied);
-  numbers_.resize(end + kCopied);
+  for (std::vector<float>* each : {&x_, &y_, &z_, &radius_}) each->resize(end + kRead);
+  numbers_.resize(end);
   for (auto i = static_cast<std::uint32_t>(spheres.size()); i-- > 0;) {
     if (cell_of_[i] == kNoCell) continue;
     const BoundingSphere& sphere = spheres[i];
@@ -265,21 +272,19 @@ bool SphereGrid::FindTouched(const PacketSearch& search, TouchedSpheres& found) 
   const Vector3& place = search.place_;
   const int left = ColumnOf(place.x - reach), right = ColumnOf(place.x + reach);
   const int front = RowOf(place.y - reach), back = RowOf(place.y + reach);
-  NearSpheres near;
+  std::array<Run, kMaxRows> runs;
+  std::size_t run_count = 0, tested = 0;
+  if (back - front >= static_cast<int>(kMaxRows)) return false;
   for (int row = front; row <= back; ++row) {
     const std::uint32_t* const starts = &starts_[std::size_t(row) * columns_];
-    const std::uint32_t first = starts[left], end = starts[right + 1];
-    if (near.count + (end - first) > kMaxTested) return false;
-    for (std::uint32_t at = first; at < end; at += kCopied) {
-      const std::size_t to = near.count + (at - first);
-      CopyEight(&x_[at], &near.x[to]);
-      CopyEight(&y_[at], &near.y[to]);
-      CopyEight(&z_[at], &near.z[to]);
-      CopyEight(&radius_[at], &near.radius[to]);
-      CopyEight(&numbers_[at], &near.numbers[to]);
-    }
-    near.count += end - first;
+    runs[run_count] = {starts[left], starts[right + 1]};
+    tested += runs[run_count].end - runs[run_count].first;
+    run_count += runs[run_count].first != runs[run_count].end;
   }
+  if (tested > kMaxTested) return false;
+  if (run_count == 0) return true;
+  const NearSpheres near{x_.data(),      y_.data(),       z_.data(),
+                         radius_.data(), numbers_.data(), std::span(runs).first(run_count)};
   return has_avx2 ? TestByAvx2(search.rays_, near, found) : TestBySse(search.rays_, near, found);
 }
 
