@@ -43,7 +43,10 @@ test("the pane does not wait for a recording without images", () => {
   const { store, waiting } = opened({});
   store.set({ replay: { start: 0, end: 10, speed: 1, loop: false } });
   expect(waiting()).toBe("The recording has no image of this camera up to this time.");
-  store.set({ replay: null });
+  store.set({ inPast: true, replay: { start: 0, end: 11, speed: 1, loop: false } });
+  store.set({ simulation: "past" });
+  expect(waiting()).toBe("The kept past has no camera images. Press Live to see the present one.");
+  store.set({ inPast: false, replay: null });
   expect(waiting()).toBe("Waiting for an image…");
 });
 

@@ -72,10 +72,11 @@ export class CameraTile {
     setText(this.caption, "");
     setText(this.value, "");
     this.waiting.hidden = false;
-    const { view, replay } = this.ports.state.get();
+    const { view, replay, inPast } = this.ports.state.get();
     // A recording contains only images that were requested during recording. If it has one for the
     // present instant, the replay sends it at once.
-    setText(this.waiting, replay ? "The recording has no image of this camera up to this time." : "Waiting for an image…");
+    const missing = inPast ? "The kept past has no camera images. Press Live to see the present one." : "The recording has no image of this camera up to this time.";
+    setText(this.waiting, replay ? missing : "Waiting for an image…");
     if (view === "starting") return;
     this.end = this.ports.topics.subscribe<CameraMessage>(this.camera.topic, (image) => this.painter.take(image), { newestOnly: true });
   }
