@@ -31,4 +31,4 @@ class Cruise final : public Controller {
 
 }  // namespace
 
-GSV_BEHAVIOUR("cruise", "Wanders about in one round trip a control cycle.", Cruise)
+GSV_BEHAVIOUR("cruise", "Wanders about, with one round trip per control cycle.", Cruise)

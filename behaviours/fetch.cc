@@ -13,7 +13,7 @@ namespace {
 using namespace gsv;
 
 constexpr Colour kYellow{1, 0.7, 0}, kGreen{0, 1, 0}, kRed{1, 0, 0};
-constexpr double kBetweenTheJaws = 0.03;  // distance from the sonar, m
+constexpr double kBetweenFingers = 0.03;  // a body nearer to the sonar is between the fingers, m
 constexpr double kBackOff = 0.3;          // m
 constexpr double kBackOffSpeed = 0.15;    // m/s
 
@@ -44,7 +44,7 @@ class Fetch final : public Behaviour {
 
   void Run(Robot& robot) override {
     (void)led_->Set(kYellow);
-    if (!Approach(robot) || !Take(robot)) return;
+    if (!Approach(robot) || !GraspBody(robot)) return;
     if (gripper_->Read().held.empty()) return Say(kRed, 220);
     Say(kGreen, 880);
     if (!CarryToGoal(robot)) return;
@@ -60,8 +60,8 @@ class Fetch final : public Behaviour {
 
  private:
   bool Approach(Robot& robot) {
-    for (double range = ahead_->Range(); range > kBetweenTheJaws; range = ahead_->Range()) {
-      robot.Drive(std::clamp(0.8 * (range - kBetweenTheJaws), 0.02, 0.3), 0);
+    for (double range = ahead_->Range(); range > kBetweenFingers; range = ahead_->Range()) {
+      robot.Drive(std::clamp(0.8 * (range - kBetweenFingers), 0.02, 0.3), 0);
       if (!robot.SleepFor(50ms)) return false;
     }
     robot.Drive(0, 0);
@@ -69,7 +69,7 @@ class Fetch final : public Behaviour {
   }
 
   // Drives until the fingers hold a body or are closed.
-  bool Take(Robot& robot) {
+  bool GraspBody(Robot& robot) {
     (void)gripper_->Grasp();
     for (;;) {
       if (!robot.SleepFor(50ms)) return false;

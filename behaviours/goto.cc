@@ -1,4 +1,4 @@
-// Drives to a point in the world, around obstacles; then it has finished.
+// Drives to a point in the world, around obstacles, and finishes there.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -47,8 +47,8 @@ class GoTo final : public Behaviour {
   }
 
  private:
-  // Chooses a command by the vector field histogram in its simplest form: of the free directions it
-  // takes the one nearest to the goal, and prefers the side of the last cycle.
+  // Chooses a command by the vector field histogram in its simplest form. The robot takes the free
+  // direction that is nearest to the goal, and prefers the side of the last cycle.
   DriveCommand Decide(double radius, double distance, double bearing,
                       const std::vector<SonarRing::Echo>& echoes) {
     const double room = std::min(radius + 0.5, distance + radius);
@@ -60,7 +60,7 @@ class GoTo final : public Behaviour {
                           0.4 * std::abs(std::remainder(direction - last_, 2 * std::numbers::pi));
       if (cost < best_cost) best = direction, best_cost = cost;
     }
-    // there is no free direction, so it turns to look around
+    // no direction is free, so the robot turns to find one
     if (best_cost > 1e8) return {0.0, 0.6};
     last_ = best;
     if (std::abs(best) < 0.1 && std::abs(bearing) < 0.2) best = bearing;

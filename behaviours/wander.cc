@@ -1,5 +1,5 @@
-// Wanders: drives forward if the eight sonars have space, else turns to the freer side; takes an
-// image every second.
+// Wanders: drives forward if its eight sonars detect space, else turns to the side with more space.
+// Takes an image every second.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -54,7 +54,7 @@ class Wander final : public Behaviour {
 
 BehaviourFactory Configure(CLI::App& app) {
   const auto blind = std::make_shared<bool>(false);
-  app.add_flag("--no-pictures", *blind, "leave the camera alone");
+  app.add_flag("--no-pictures", *blind, "do not use the camera");
   return [blind] { return std::make_unique<Wander>(!*blind); };
 }
 

@@ -1,5 +1,5 @@
-// The rule by which a wandering robot drives: forward where its sonars detect space, else it turns
-// to the freer side.
+// The rule of a wandering robot: it drives forward if its sonars detect space, else it turns to the
+// side with more space.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace gsv {
 
-// Call it once per control cycle.
+// Decides how a robot wanders. Call Decide() once per control cycle.
 class WanderRule {
  public:
   DriveCommand Decide(double radius, const std::vector<SonarRing::Echo>& echoes) {

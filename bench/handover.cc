@@ -1,5 +1,5 @@
-// Two processes pass a futex to each other. This is the shortest time that a call to another
-// process on the same machine can take. Prints the duration of one handover there and back, in ns.
+// Measures the shortest time that a call to another process on the same machine can take: two
+// processes wake each other by a futex. Prints the duration of one handover there and back, in ns.
 //
 // usage: handover [REPETITIONS]
 #include <linux/futex.h>

@@ -1,4 +1,5 @@
-// Compiled once for all libraries (cmake/GsvTargets.cmake). A file still includes what it uses.
+// The headers that are precompiled once for all libraries (cmake/GsvTargets.cmake). Each source
+// file still includes what it uses.
 #pragma once
 
 #include <algorithm>

@@ -35,7 +35,7 @@ constexpr double kStartDistance = 1.5;  // distance from the wall, m
 
 double Seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-// The cart, which moves towards the wall when it faces it.
+// The cart. It moves towards the wall while it faces the wall.
 class Cart {
  public:
   void Drive(double linear, double angular) {
@@ -163,7 +163,7 @@ class CartSensors final : public POA_sba::SensorFactory {
     throw sba::Refused("this robot has no camera");
   }
   sba::PositioningSystem_ptr create_positioning_system(const char*) override {
-    throw sba::Refused("this robot does not know where it is");
+    throw sba::Refused("this robot has no positioning system");
   }
   sba::Sensor_ptr create(const char* type, const sba::SensorTraits& description) override {
     if (std::string_view(type) != "sonar") throw sba::Refused("sonars only");
@@ -212,7 +212,7 @@ class CartClock final : public POA_sba::Clock {
   void close() override {}
   void give_up(const char* reason) override {
     cart_.Drive(0, 0);
-    std::fprintf(stderr, "the behaviour has given up: %.200s\n", reason);
+    std::fprintf(stderr, "the behaviour failed: %.200s\n", reason);
   }
 
  private:

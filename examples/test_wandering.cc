@@ -1,6 +1,6 @@
 // A robotic application that tests the wander behaviour in a real world. It finds a simulator by a
-// constraint at the broker, creates a simulation, adds robots with behaviours, runs 30 simulated
-// seconds in lockstep, and checks that every robot moved and that none hit anything.
+// constraint at the broker, creates a simulation, and adds robots with behaviours. It runs 30
+// simulated seconds in lockstep. Then it checks that every robot moved and that none hit anything.
 //
 //   gsv serve --broker REF &   gsv-wander --broker REF &
 //   example-test-wandering --broker REF [--world FILE --robot MODEL …]

@@ -109,7 +109,8 @@ class SimulationProxy final : public RemoteSimulation {
         simulation_(sba::Simulation::_duplicate(simulation)),
         server_(std::move(server)) {
     orb::LimitCalls(simulation_, kCreateTimeout);
-    // Uses another reference, because a time limit belongs to a reference.
+    // Waits use a second reference to the simulation, because a time limit is stored in a
+    // reference.
     const CORBA::String_var text = orb_->orb()->object_to_string(simulation);
     const CORBA::Object_var object = orb_->orb()->string_to_object(text);
     waiting_ = sba::Simulation::_unchecked_narrow(object);

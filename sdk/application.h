@@ -18,11 +18,12 @@
 
 namespace gsv {
 
+// The options of a simulation to create.
 struct SimulationRequest {
   std::string world;  // a file or model that the server finds; empty for the server's default
   bool lockstep = true;
   double factor = 1;  // the target real-time factor; ignored in lockstep
-  SimTime step{0};    // 0 for that of the world
+  SimTime step{0};    // 0 for the world's own step
   std::uint64_t seed = 0;
   std::string name;  // empty if the server chooses it
   // Further options, with the names of sba::SimulationSpecification::options: "on_failure",
@@ -30,16 +31,18 @@ struct SimulationRequest {
   std::map<std::string, std::string> options;
 };
 
+// A robot to add. Its start pose is in metres and radians, in the world frame.
 struct RobotRequest {
   std::string model;
   double x = 0, y = 0, yaw = 0;
   std::string behaviour;  // the name of an offer; empty for a robot without a behaviour
-  std::string name;       // empty to name the robot after its model
+  std::string name;       // if empty, the robot gets the name of its model
   // Makes a behaviour of this program, which needs no offer. It runs in this process, on its own
   // thread.
   BehaviourFactory own_behaviour;
 };
 
+// The state of a robot in a simulation.
 struct RobotState {
   std::string name, model, behaviour;
   // state of the behaviour: "running", "waiting", "finished", "unresponsive", "dead", …
@@ -49,6 +52,7 @@ struct RobotState {
   std::uint64_t collisions = 0;
 };
 
+// The state of a simulation and its robots at one instant.
 struct SimulationState {
   // "created", "running", "paused", …, or "lost" if the server has ended. Time and robots of a lost
   // simulation are the last known ones.
@@ -70,6 +74,7 @@ class RemoteSimulation {
  public:
   virtual ~RemoteSimulation() = default;
 
+  // Adds a robot and returns its name.
   virtual base::Result<std::string> AddRobot(const RobotRequest& robot) = 0;
   virtual base::Status RemoveRobot(const std::string& name) = 0;
   virtual base::Status Start() = 0;
@@ -96,7 +101,9 @@ class RemoteSimulation {
                                 std::chrono::seconds timeout = std::chrono::minutes(10),
                                 const std::function<bool()>& keep_waiting = {}) = 0;
   virtual base::Result<SimulationState> State() = 0;
+  // Returns a hash of the simulation's state. Equal runs have equal hashes.
   virtual base::Result<std::string> StateHash() = 0;
+  // Returns the address of the viewer, or an empty text if the server has none.
   virtual base::Result<std::string> ViewerUrl() = 0;
   // Records to a file on the simulator's machine.
   virtual base::Status StartRecording(const std::string& path) = 0;

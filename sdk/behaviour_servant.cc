@@ -46,7 +46,8 @@ void BehaviourServant::start() {
   if (behaviour_ == nullptr) throw sba::Refused("call init before start");
   if (running_.joinable()) throw sba::Refused("the behaviour is running already");
   orb::ValueOrThrow(robot_->OpenClock());
-  // Both objects outlive the thread, because EndRun() joins the thread before either is replaced.
+  // The behaviour and the robot outlive the thread, because EndRun() joins the thread before either
+  // is replaced.
   running_ =
       std::jthread([&behaviour = *behaviour_, &robot = *robot_] { RunOnClock(behaviour, robot); });
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kMaxMilliseconds = 60'000;
 
-// The ORB calls plain functions, so their settings are global.
+// The settings are global, because the ORB calls plain functions.
 FaultDelay& Settings() {
   static FaultDelay settings;
   return settings;
@@ -73,7 +73,7 @@ void DelayCalls(const FaultDelay& fault) {
       &Delay<omni::omniInterceptors::clientReceiveReply_T::info_T>);
 }
 
-base::Status DelayCallsAsEnvironmentSays() {
+base::Status DelayCallsFromEnvironment() {
   const char* text = std::getenv("GSV_FAULT_DELAY");
   if (text == nullptr || *text == '\0') return {};
   const auto fault = ParseFaultDelay(text);

@@ -16,7 +16,7 @@ struct FaultDelay {
   std::chrono::milliseconds max{0};
 };
 
-// Errors  kInvalidArgument with the expected form.
+// Parses the value of GSV_FAULT_DELAY. Returns kInvalidArgument with the expected form.
 base::Result<FaultDelay> ParseFaultDelay(std::string_view text);
 
 // The duration of the `n`th delay, uniform in [0, max).
@@ -27,6 +27,6 @@ std::chrono::nanoseconds NthDelay(const FaultDelay& fault, std::uint64_t n);
 void DelayCalls(const FaultDelay& fault);
 
 // Calls DelayCalls() if GSV_FAULT_DELAY is set.
-base::Status DelayCallsAsEnvironmentSays();
+base::Status DelayCallsFromEnvironment();
 
 }  // namespace gsv::sdk

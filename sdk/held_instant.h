@@ -1,6 +1,6 @@
-// Saves round trips of a behaviour in lockstep. While the behaviour runs, simulated time stands still.
-// So the readings that came with the end of its last wait stay valid, and a command of the base may
-// be sent with its next wait.
+// Saves round trips of a behaviour in lockstep. While the behaviour runs, simulated time does not
+// advance. So the readings that it received at the end of its last wait stay valid, and a command
+// of the base can be sent with its next wait.
 //
 // Threads  any.
 #pragma once
@@ -17,18 +17,18 @@ namespace gsv::sdk {
 
 class HeldInstant {
  public:
-  // A wait sends the delayed command, and the sensors that the behaviour has used since its last
-  // wait.
+  // The data that a wait sends: the delayed command, and the names of the sensors that the
+  // behaviour has used since its last wait.
   struct Wait {
     std::optional<DriveCommand> command;
     std::vector<std::string> sensors;
   };
 
-  // Begins an instant, which holds until End().
+  // Begins an instant. Simulated time does not advance until End().
   void Begin(SimTime now, std::vector<Reading> readings);
   Wait End();
 
-  // Returns nullopt if no instant is held.
+  // Returns the current instant, or nullopt after End().
   std::optional<SimTime> now() const;
   // Copies the reading of a sensor. Returns false if there is none. Notes that the behaviour uses
   // the sensor.
@@ -40,7 +40,7 @@ class HeldInstant {
  private:
   struct Use {
     bool is_used = false;
-    std::optional<Reading> reading;  // empty if none came with the wait
+    std::optional<Reading> reading;  // empty if the wait returned none
   };
 
   mutable base::Mutex mutex_;

@@ -444,7 +444,7 @@ class BrokenImu final : public sensing::Sensor {
   }
 };
 
-TEST(Sensors, AReadingOfTheWrongSizeEndsTheRunWithAnErrorThatNamesTheSensor) {
+TEST(Sensors, ReadingOfTheWrongSizeEndsTheRunWithAnErrorThatNamesTheSensor) {
   auto types = std::make_shared<sensing::SensorRegistry>();
   sensing::SensorType imu;
   imu.name = "imu";

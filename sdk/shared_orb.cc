@@ -36,7 +36,7 @@ base::Result<std::shared_ptr<SharedOrb>> SharedOrb::Towards(const std::string& b
   auto orb = StartOrbTowards(broker);
   if (!orb) return base::Fail(orb.error());
   shared.reset(new SharedOrb(*orb));
-  static const base::Status delayed = DelayCallsAsEnvironmentSays();  // once per process
+  static const base::Status delayed = DelayCallsFromEnvironment();  // once per process
   if (!delayed) return base::Fail(delayed.error());
   shared_orb = shared;
   return shared;

@@ -14,7 +14,7 @@ import check_circles
 
 class CheckCircles(unittest.TestCase):
     def run_on(self, files):
-        """Exit code and printed lines for a tree of {path: text}."""
+        """Runs the check on a tree of {path: text}. Returns its exit code and the printed lines."""
         with tempfile.TemporaryDirectory() as root:
             for path, text in files.items():
                 place = Path(root, path)

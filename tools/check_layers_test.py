@@ -28,7 +28,7 @@ except gsv/world/pacer.h wall-clock
 
 class CheckLayers(unittest.TestCase):
     def run_on(self, files, layers=LAYERS):
-        """Exit code and printed lines for a tree of {path: text}."""
+        """Runs the check on a tree of {path: text}. Returns its exit code and the printed lines."""
         with tempfile.TemporaryDirectory() as root:
             for path, text in {**files, "docs/layers.txt": layers}.items():
                 place = Path(root, path)

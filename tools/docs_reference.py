@@ -65,7 +65,7 @@ def files_of(root, language):
 
 
 def prepare(root, language, folder):
-    """Copies what the reference of a language is made of into a folder, with a main page."""
+    """Copies the sources of a language's reference documentation into a folder, with a main page."""
     for file in files_of(root, language):
         text = file.read_text(encoding="utf-8")
         there = Path(folder) / file.relative_to(root)

@@ -54,7 +54,7 @@ class TryFiles(unittest.TestCase):
                 path.write_text(text)
             rows, code, text, images = tried(folder)
         self.assertEqual({name: row["state"] for name, row in rows.items()},
-                         {"absent.sdf": "lacks", "crate": "ok", "joint.urdf": "ok", "torn.urdf": "refused",
+                         {"absent.sdf": "incomplete", "crate": "ok", "joint.urdf": "ok", "torn.urdf": "refused",
                           "whole.world": "ok"})
         self.assertEqual(code, 0)
         self.assertIn("| all | 5 | 80.0 % | 3 | 0 | 1 | 1 | 0 |", text)

@@ -1,4 +1,4 @@
-// For programs that are built with ThreadSanitizer.
+// Makes std::timed_mutex work with ThreadSanitizer of GCC 12, in programs that are built with it.
 #include <pthread.h>
 #include <time.h>
 
@@ -14,8 +14,9 @@ timespec Now(clockid_t clock) {
 
 }  // namespace
 
-// std::timed_mutex takes this one, and ThreadSanitizer of GCC 12 does not see it: by one that it
-// sees.
+// Replaces the function of the C library that std::timed_mutex calls. ThreadSanitizer of GCC 12
+// does not intercept that function, but it intercepts pthread_mutex_timedlock(), which is called
+// here.
 extern "C" int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock,
                                        const timespec* until) {
   const timespec here = Now(clock);

@@ -43,7 +43,7 @@ class HornState final : public world::ActuatorState {
   const world::Sound sound_;
 };
 
-// The layout of its readings.
+// The layout of a horn's readings.
 struct Honk {
   double left = 0;
   static constexpr auto kFields = std::make_tuple(readings::Value("left", "s", &Honk::left));

@@ -1,5 +1,5 @@
-// Microphones hear a horn, the state includes it, and it stops by itself, without code for it in
-// GSV.
+// Tests the horn, for which GSV itself has no code: microphones hear it, it is part of the state,
+// and it stops by itself.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -25,7 +25,7 @@ namespace {
 
 using namespace gsv;
 
-// The layout of its readings.
+// The layout of the sensor's readings.
 struct Proximity {
   double distance = std::numeric_limits<double>::infinity();  // infinite if nothing is within max
   double voltage = 0;

@@ -82,7 +82,7 @@ class Porter(gsv.Behaviour):
         while True:
             here = self.positioning.locate()
             dx, dy = self.goal[0] - here.x, self.goal[1] - here.y
-            distance = abs(complex(dx, dy))  # the same as hypot of C; math.hypot rounds differently
+            distance = abs(complex(dx, dy))  # equals hypot() of C; math.hypot() rounds differently
             if not robot.is_running:
                 return False
             if distance < self.tolerance:

@@ -83,5 +83,5 @@ class Wander(gsv.Behaviour):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=Wander.__doc__)
-    parser.add_argument("--no-pictures", action="store_true", help="leave the camera alone")
+    parser.add_argument("--no-pictures", action="store_true", help="do not use the camera")
     gsv.serve("wander", Wander, parser)

@@ -1,6 +1,6 @@
 // Reads CDR, the encoding of CORBA's messages and references and of ROS 2's messages, without an
-// ORB. The bytes are untrusted input: the first value that does not fit makes the reader fail. A
-// failed reader reads zeros.
+// ORB. The bytes are untrusted input: the reader fails at the first value that exceeds the
+// remaining bytes, and from then on reads only zeros.
 //
 // Source  CORBA 3.1 part 2, 7.3; OMG DDS-XTypes 1.3, 7.4.3 (XCDR version 1, the same encoding).
 #pragma once

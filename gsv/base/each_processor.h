@@ -1,6 +1,5 @@
-// Compiles the function behind
-// GSV_FOR_EACH_PROCESSOR with and without AVX2; the
-// loader chooses.
+// GSV_FOR_EACH_PROCESSOR, before a function, compiles the function twice: with and without AVX2.
+// The dynamic loader selects the version that the processor supports.
 #pragma once
 
 #include "gsv/base/sanitizer.h"

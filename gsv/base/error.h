@@ -20,9 +20,9 @@ enum class ErrorCode {
   kBehaviour,        // a behaviour that threw, crashed or hung (4)
   kNotFound,         // a name, file or offer that does not exist (5 unless it is a model: 3)
   kUnavailable,      // a peer, port, display or disk that does not answer (5)
-  kTimeout,          // something took longer than its limit (5)
-  kNotRunning,       // an operation that took longer than its time limit (5)
-  kEnded,            // a call that is not allowed in the current state (5)
+  kTimeout,          // an operation that took longer than its time limit (5)
+  kNotRunning,       // a call that is not allowed in the current state (5)
+  kEnded,            // the simulation or the server has ended (5)
   kCorrupt,          // bytes that cannot be decoded (5)
 };
 
@@ -31,7 +31,7 @@ struct Error {
   std::string message;
   std::string where;
 
-  // "where: message", or the message alone.
+  // Returns "where: message", or the message alone if `where` is empty.
   std::string Sentence() const { return where.empty() ? message : where + ": " + message; }
 };
 

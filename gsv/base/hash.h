@@ -13,6 +13,7 @@ struct XXH3_state_s;
 
 namespace gsv::base {
 
+// Adds values one after the other; Digest() returns the hash of all values so far.
 class Hash {
  public:
   Hash();

@@ -1,5 +1,5 @@
-// Calls functions of shared libraries that are loaded at the first call; see
-// tools/make_late_library.
+// Loads a shared library at the first call of one of its functions, so that programs start faster.
+// See tools/make_late_library.
 //
 // Threads  any.
 #pragma once

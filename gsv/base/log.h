@@ -21,6 +21,7 @@ namespace gsv::base {
 
 enum class LogFormat { kText, kJson };
 
+// The level, the format and the limits of the log.
 struct LogOptions {
   spdlog::level::level_enum level = spdlog::level::warn;
   LogFormat format = LogFormat::kText;

@@ -1,6 +1,6 @@
 // Limits the number of lines that a log writes, with a token bucket that fills at a constant rate.
 //
-// The caller passes the time, so that the result is a function of the arguments.
+// The caller passes the time, so that tests need no clock.
 #pragma once
 
 #include <chrono>

@@ -16,6 +16,7 @@
 
 namespace gsv::base {
 
+// std::mutex with annotations.
 class GSV_CAPABILITY("mutex") Mutex {
  public:
   Mutex() = default;
@@ -33,6 +34,7 @@ class GSV_CAPABILITY("mutex") Mutex {
   std::mutex mutex_;
 };
 
+// std::timed_mutex with annotations.
 class GSV_CAPABILITY("mutex") TimedMutex {
  public:
   TimedMutex() = default;
@@ -52,6 +54,7 @@ class GSV_CAPABILITY("mutex") TimedMutex {
   std::timed_mutex mutex_;
 };
 
+// std::shared_mutex with annotations.
 class GSV_CAPABILITY("mutex") SharedMutex {
  public:
   SharedMutex() = default;
@@ -68,7 +71,7 @@ class GSV_CAPABILITY("mutex") SharedMutex {
   std::shared_mutex mutex_;
 };
 
-// Holds a mutex for its lifetime, except between unlock() and lock().
+// Locks a mutex for its lifetime, except between unlock() and lock().
 template <class M>
 class GSV_SCOPED_CAPABILITY ScopedLock {
  public:
@@ -100,6 +103,7 @@ using MutexLock = ScopedLock<Mutex>;
 using TimedMutexLock = ScopedLock<TimedMutex>;
 using WriterLock = ScopedLock<SharedMutex>;
 
+// Holds a shared lock of a SharedMutex for its lifetime.
 class GSV_SCOPED_CAPABILITY ReaderLock {
  public:
   explicit ReaderLock(SharedMutex& mutex) GSV_ACQUIRE_SHARED(mutex) : mutex_(mutex) {

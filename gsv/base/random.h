@@ -19,7 +19,8 @@ std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 2> key,
 // Returns a 64-bit hash of a string, equal on every machine (FNV-1a).
 std::uint64_t StableId(std::string_view name);
 
-// Random numbers for one sensor at one step. Equal arguments give equal sequences of numbers.
+// The random numbers of one sensor at one step. Equal constructor arguments give equal sequences of
+// numbers.
 class Noise {
  public:
   // `stream` names the robot and sensor, see StableId(); `step` is the sampling step.

@@ -1,5 +1,5 @@
-// Writes the measurements of a test for tools/plot_fidelity: appends rows to NAME.dat in the folder
-// GSV_FIDELITY_DATA. Does nothing if that variable is not set.
+// Writes the measurements of a test for tools/plot_fidelity. It appends rows to NAME.dat in the
+// folder that the variable GSV_FIDELITY_DATA names, and does nothing if that variable is not set.
 #pragma once
 
 #include <cstdlib>
@@ -10,6 +10,7 @@
 
 namespace gsv::base::testing {
 
+// A file of measurements; each call of Row() appends a line.
 class Table {
  public:
   explicit Table(const std::string& name) {

@@ -10,13 +10,13 @@
 #define GSV_THREAD_ATTRIBUTE(x)
 #endif
 
-// GSV_CAPABILITY marks a class of mutexes. The next macro marks a class that locks a mutex for its
-// lifetime.
+// GSV_CAPABILITY marks a mutex class. GSV_SCOPED_CAPABILITY marks a class that locks a mutex for
+// its lifetime.
 #define GSV_CAPABILITY(name) GSV_THREAD_ATTRIBUTE(capability(name))
 #define GSV_SCOPED_CAPABILITY GSV_THREAD_ATTRIBUTE(scoped_lockable)
 
-// Mark members that may be accessed only while the mutex is locked, and pointers whose targets may
-// be.
+// GSV_GUARDED_BY marks a member that may be accessed only while the mutex is locked.
+// GSV_PT_GUARDED_BY marks a pointer whose target may be accessed only then.
 #define GSV_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(guarded_by(mutex))
 #define GSV_PT_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(pt_guarded_by(mutex))
 
@@ -35,8 +35,8 @@
 #define GSV_RELEASE_GENERIC(...) GSV_THREAD_ATTRIBUTE(release_generic_capability(__VA_ARGS__))
 #define GSV_TRY_ACQUIRE(...) GSV_THREAD_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
 
-// Declares that the mutex is held here, without a check at run time. It is for the start of a
-// lambda that is called under the mutex.
+// Declares that the mutex is held here, without a check at run time. Use it at the start of a
+// lambda that is called while the mutex is locked.
 #define GSV_ASSERT_HELD(...) GSV_THREAD_ATTRIBUTE(assert_capability(__VA_ARGS__))
 
 // Marks functions that the analysis cannot check. A comment beside them gives the reason.

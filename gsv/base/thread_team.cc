@@ -11,13 +11,13 @@ namespace {
 
 // The number of times that an idle worker checks for a new job before it sleeps: some microseconds.
 // Jobs often follow each other quickly, and waking a worker takes longer than these checks.
-constexpr int kLooks = 400;
+constexpr int kPolls = 400;
 
-// How many of a caller's checks come at once, without letting other threads run.
+// The number of checks that a caller makes before it yields its processor between checks.
 constexpr int kPauses = 50;
 
-// The number of further checks, about 0.1 ms in all, between which an idle worker lets other threads
-// run. A sleeping worker would join a short job too late to help.
+// The number of further checks, about 0.1 ms in total. Between them, an idle worker yields its
+// processor to other threads. A sleeping worker would join a short job too late to help.
 constexpr int kYields = 300;
 
 }  // namespace
@@ -60,7 +60,7 @@ void ThreadTeam::Run(const Job& job) {
 // The caller first polls, because the workers usually finish soon. Then it sleeps, so that a long
 // piece of work does not occupy a second processor.
 void ThreadTeam::WaitForWorkers() {
-  for (int i = 0; i < kLooks; ++i) {
+  for (int i = 0; i < kPolls; ++i) {
     if (state_.load(std::memory_order_acquire) == 0) return;
     i < kPauses ? _mm_pause() : std::this_thread::yield();
   }
@@ -92,7 +92,7 @@ bool ThreadTeam::TryJoin() {
 }
 
 bool ThreadTeam::Join() {
-  for (int i = 0; i < kLooks; ++i) {
+  for (int i = 0; i < kPolls; ++i) {
     if (TryJoin()) return true;
     _mm_pause();
   }

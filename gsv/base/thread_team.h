@@ -15,6 +15,7 @@
 
 namespace gsv::base {
 
+// The threads of a parallel loop. They are started once and used for many loops.
 class ThreadTeam {
  public:
   // Returns the number of processors, but at most `kMaxDefaultThreads`.

@@ -76,9 +76,9 @@ bool AllOthersSleep() {
 
 // Regression: threads without a piece of work kept their processors busy.
 TEST(ThreadTeam, ThreadsWithoutAPieceSleep) {
-  constexpr int kLooks =
-      200;  // number of consecutive successful checks; one is not enough, because a thread that
-            // polls may also sleep for a moment
+  // Number of consecutive successful checks; one is not enough, because a thread that polls may
+  // also sleep for a moment.
+  constexpr int kLooks = 200;
   constexpr auto kTimeout = std::chrono::seconds(30);
   std::latch begun(2), end(1);
   std::thread job([&] {

@@ -49,7 +49,7 @@ TEST(Broker, ReportsThatItsPortIsInUse) {
                                  " is in use; choose another, or 0 for any free port\n");
 }
 
-TEST(Broker, RestartsOnItsPortAndIsEmptyWithoutAFile) {
+TEST(Broker, RestartsOnTheSamePortWithoutOffersIfItHasNoFile) {
   const std::string port = FreePort();
   BrokerProcess first({port});
   ASSERT_EQ(first.port(), port);

@@ -19,6 +19,7 @@ inline constexpr std::size_t kMaxRuns = 1'000'000;
 struct Engine;
 struct EngineRequest;
 
+// A parameter of the scenario that varies from run to run.
 struct Parameter {
   enum class Kind { kList, kUniform, kNormal };
   std::string path;  // the path of the parameter in the scenario, such as robots[0].x
@@ -27,6 +28,7 @@ struct Parameter {
   double a = 0, b = 0;  // for kUniform the bounds; for kNormal the mean and the standard deviation
 };
 
+// A campaign that was read from its file.
 struct Campaign {
   std::string scenario;  // the scenario that the runs vary, as YAML with absolute paths
   std::vector<Parameter> parameters;

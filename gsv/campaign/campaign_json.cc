@@ -1,5 +1,5 @@
-// Converts a campaign to JSON. A queued campaign is stored so, and does not change when its file
-// changes.
+// Converts a campaign to JSON, the plan of a queued campaign. Later changes of the campaign's file
+// do not affect the plan.
 #include <nlohmann/json.hpp>
 
 #include "gsv/campaign/campaign.h"

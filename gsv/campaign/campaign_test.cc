@@ -85,27 +85,27 @@ TEST_F(CampaignTest, ReportsErrorsBeforeAnythingRuns) {
   EXPECT_FALSE(Read("scenario: none.yaml"));
 }
 
-LocalEngine EngineThatTakes(std::vector<std::atomic<int>>& taken, std::size_t most) {
+LocalEngine EngineThatExecutes(std::vector<std::atomic<int>>& executed, std::size_t most) {
   LocalEngine engine;
   engine.jobs = 3;
   auto begun = std::make_shared<std::atomic<std::size_t>>(0);
-  engine.take = [&taken, begun, most](std::int64_t run,
-                                      const std::atomic<bool>&) -> std::optional<RunResult> {
+  engine.execute = [&executed, begun, most](std::int64_t run,
+                                            const std::atomic<bool>&) -> std::optional<RunResult> {
     if ((*begun)++ >= most) return std::nullopt;
-    ++taken[static_cast<std::size_t>(run)];
+    ++executed[static_cast<std::size_t>(run)];
     return RunResult{run, run % 3 == 0 ? "failed" : "passed"};
   };
   return engine;
 }
 
-TEST_F(CampaignTest, DriverContinuesAnotherDriversRunsAndEachRunCountsOnce) {
+TEST_F(CampaignTest, SecondDriverContinuesTheRunsAndEachRunCountsOnce) {
   const auto campaign = Read("scenario: s.yaml\nparameters: {seed: {from: 0, to: 299}}");
   ASSERT_TRUE(campaign && problems_.empty());
-  std::vector<std::atomic<int>> taken(300);
+  std::vector<std::atomic<int>> executed(300);
   {
     const auto results = Results::OpenToAdd(file(), *campaign);
     ASSERT_TRUE(results) << results.error().Sentence();
-    ASSERT_TRUE(EngineThatTakes(taken, 120).Run(**results));
+    ASSERT_TRUE(EngineThatExecutes(executed, 120).Run(**results));
     EXPECT_EQ((*results)->DoneRuns()->size(), 120u);
     const auto second = Results::OpenToAdd(file(), *campaign);
     ASSERT_FALSE(second);
@@ -114,8 +114,8 @@ TEST_F(CampaignTest, DriverContinuesAnotherDriversRunsAndEachRunCountsOnce) {
   }
   const auto results = Results::OpenToAdd(file(), *campaign);
   ASSERT_TRUE(results);
-  ASSERT_TRUE(EngineThatTakes(taken, 1000).Run(**results));
-  for (const auto& times : taken) EXPECT_EQ(times, 1);
+  ASSERT_TRUE(EngineThatExecutes(executed, 1000).Run(**results));
+  for (const auto& times : executed) EXPECT_EQ(times, 1);
   ASSERT_TRUE((*results)->Add({RunResult{5, "error"}}));
   const auto all = (*results)->All();
   ASSERT_TRUE(all);
@@ -131,12 +131,12 @@ TEST_F(CampaignTest, ResultsOfAnotherCampaignAreNotChanged) {
   const auto refused = Results::OpenToAdd(file(), *other);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, base::ErrorCode::kInvalidArgument);
-  std::ofstream(file()) << "no database, but long enough to be taken for one, if nobody looked";
+  std::ofstream(file()) << "no database, but long enough to be executed for one, if nobody looked";
   EXPECT_FALSE(Results::Open(file()));
   EXPECT_EQ(Results::Open(file() + "x").error().code, base::ErrorCode::kNotFound);
 }
 
-TEST_F(CampaignTest, LockedOrIncompleteResultsFileLosesNothing) {
+TEST_F(CampaignTest, LockedOrIncompleteResultsFileLosesNoResults) {
   const auto campaign = Read("scenario: s.yaml\nparameters: {seed: {from: 0, to: 999}}");
   ASSERT_TRUE(campaign);
   std::vector<RunResult> many;

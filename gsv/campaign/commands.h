@@ -24,11 +24,11 @@ class StartedProgram {
  public:
   virtual ~StartedProgram() = default;
   virtual std::string Output() = 0;  // Returns the stdout and stderr so far.
-  virtual std::string Ending() = 0;  // Returns how the program ended, as in CommandOutcome. Empty
-                                     // while it runs.
+  // Returns how the program ended, as in CommandOutcome. Empty while it runs.
+  virtual std::string Ending() = 0;
 };
 
-// Threads  one at a time.
+// Runs commands for a job queue. One thread at a time may use it.
 class CommandRunner {
  public:
   virtual ~CommandRunner() = default;

@@ -35,9 +35,10 @@ struct EngineOption {
   bool is_list = false;  // whether values are appended to the list under the key
 };
 
+// A kind of engine, such as Slurm.
 struct EngineType {
-  std::string name;   // the name in `engine: NAME` and --engine NAME; also the key of the engine's
-                      // mapping
+  // the name in `engine: NAME` and --engine NAME; also the key of the engine's mapping
+  std::string name;
   std::string title;  // the name in sentences, such as "Slurm"
   std::string help;
   std::vector<EngineOption> options;
@@ -54,10 +55,10 @@ const std::vector<EngineType>& EngineTypes();
 
 // The options of the command line that concern the engine. They override the campaign's file.
 struct EngineRequest {
-  std::string name;                                         // empty for the engine of the file
-  std::size_t runs_per_task = 0;                            // 0 for the number in the file
-  std::map<std::string, std::vector<std::string>> options;  // values of the engine's options, by
-                                                            // the flag of the option
+  std::string name;               // empty for the engine of the file
+  std::size_t runs_per_task = 0;  // 0 for the number in the file
+  // values of the engine's options, by the flag of the option
+  std::map<std::string, std::vector<std::string>> options;
 };
 
 // The engine that a campaign uses.

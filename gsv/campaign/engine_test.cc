@@ -43,7 +43,7 @@ TEST_F(EngineTest, FileNamesTheEngineAndItsKeys) {
   EXPECT_EQ(Problems(), "");
 }
 
-TEST_F(EngineTest, TheFormerNameOfRunsPerTaskIsAccepted) {
+TEST_F(EngineTest, FormerNameOfRunsPerTaskIsAccepted) {
   EXPECT_EQ(Read("engine: slurm\nslurm: {runs_a_task: 10}").runs_per_task, 10u);
   EXPECT_EQ(Problems(), "");
 }

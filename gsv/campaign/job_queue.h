@@ -1,6 +1,6 @@
-// A job queue. It accepts batches of tasks and executes them on other machines, each task as `gsv
-// campaign task` (TaskCommand). The results of tasks are in the spool (spool.h), so a queue only
-// reports which tasks are waiting or running.
+// The interface to a job queue, such as Slurm. The queue accepts batches of tasks and executes them
+// on other machines, each task as `gsv campaign task` (TaskCommand). The results of tasks are in
+// the spool (spool.h), so a queue only reports which tasks are waiting or running.
 //
 // Threads  one at a time.
 #pragma once
@@ -39,10 +39,10 @@ class JobQueue {
 struct TaskCommand {
   std::string program;  // the path of gsv on the machine
   std::string batch_file;
-  std::string task, job, node;  // the number of the task, and the fields `job` and `node` of its
-                                // journal
-  std::string jobs = "1";       // how many runs are executed at once
-  std::string more;             // more options of `gsv campaign task`
+  // the number of the task, and the fields `job` and `node` of its journal
+  std::string task, job, node;
+  std::string jobs = "1";  // how many runs are executed at once
+  std::string more;        // more options of `gsv campaign task`
 
   std::string Text() const;
 };

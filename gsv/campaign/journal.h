@@ -1,5 +1,5 @@
-// The journal of an attempt at a share of a campaign's runs: a file to which one process appends
-// while others read it, possibly on a shared file system.
+// The journal of an attempt: a file with the results of the runs that one process has executed. The
+// process appends to it, while other processes read it, possibly on a shared file system.
 //
 // Format   lines of 16 hexadecimal digits (base::Hash of the rest), a space and a JSON object. The
 //          first is {"attempt": …}. Then come {"begun": RUN} and {"result": …}, and {"end": true}
@@ -23,7 +23,7 @@ namespace gsv::campaign {
 // Returns the seconds since 1970. The machines of a queue share no other clock.
 double UnixSeconds();
 
-// Threads  any.
+// Writes the journal of one attempt. Any thread may call it.
 class JournalWriter {
  public:
   // Creates a file in the folder, named after the attempt's share, the machine and the process.
@@ -48,14 +48,15 @@ class JournalWriter {
   base::Mutex mutex_;
 };
 
-// Threads  one at a time.
+// Reads the journal of an attempt that may still be running: each call of ReadNew() reads the lines
+// that were appended since the last call. One thread at a time may use it.
 class JournalReader {
  public:
   explicit JournalReader(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // Returns the results since the last call.
+  // Reads the new lines and returns the results in them.
   base::Result<std::vector<RunResult>> ReadNew();
-  // The attempt as it was read so far; nullopt before the first line was read.
+  // The attempt according to the lines that were read; nullopt before the first line was read.
   const std::optional<Attempt>& attempt() const { return attempt_; }
   bool is_over() const { return is_over_; }
   // The numbers of runs that have begun and have no result yet.

@@ -16,7 +16,7 @@ class Work {
  public:
   Work(const LocalEngine& engine, std::vector<std::int64_t> runs)
       : engine_(engine), runs_(std::move(runs)) {
-    for (int i = 0; i < engine.jobs; ++i) threads_.emplace_back([this] { TakeRuns(); });
+    for (int i = 0; i < engine.jobs; ++i) threads_.emplace_back([this] { ExecuteRuns(); });
   }
   ~Work() { is_cancelled_ = true; }
 
@@ -34,12 +34,12 @@ class Work {
   void Cancel() { is_cancelled_ = true; }
 
  private:
-  void TakeRuns() {
+  void ExecuteRuns() {
     base::MutexLock lock(mutex_);
     while (next_ < runs_.size() && !is_cancelled_) {
       const std::int64_t run = runs_[next_++];
       lock.unlock();
-      auto result = engine_.take(run, is_cancelled_);
+      auto result = engine_.execute(run, is_cancelled_);
       lock.lock();
       if (result) done_.push_back(*std::move(result));
     }
@@ -55,7 +55,7 @@ class Work {
   std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
   std::size_t idle_ GSV_GUARDED_BY(mutex_) = 0;
   std::vector<RunResult> done_ GSV_GUARDED_BY(mutex_);
-  std::vector<std::jthread> threads_;  // the last member, because the threads use the others
+  std::vector<std::jthread> threads_;  // destroyed first, because they use the other members
 };
 
 }  // namespace
@@ -69,11 +69,11 @@ base::Status LocalEngine::Run(Results& results) const {
   for (std::int64_t run = 0; run < *planned; ++run) {
     if (!done->contains(run)) left.push_back(run);
   }
-  return Take(std::move(left), {static_cast<std::size_t>(*planned), done->size()},
-              [&](const std::vector<RunResult>& more) { return results.Add(more); });
+  return Execute(std::move(left), {static_cast<std::size_t>(*planned), done->size()},
+                 [&](const std::vector<RunResult>& more) { return results.Add(more); });
 }
 
-base::Status LocalEngine::Take(
+base::Status LocalEngine::Execute(
     std::vector<std::int64_t> runs, Progress progress,
     const std::function<base::Status(const std::vector<RunResult>&)>& keep) const {
   const auto start = EngineClock::now();

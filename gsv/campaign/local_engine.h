@@ -10,16 +10,16 @@ namespace gsv::campaign {
 
 struct Progress {
   std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes runs of earlier drivers
-  double seconds_left = 0;                            // estimated wall-clock time to the end; 0 if
-                                                      // unknown
+  // estimated wall-clock time to the end; 0 if unknown
+  double seconds_left = 0;
 };
 
 struct LocalEngine {
   int jobs = 1;
-  // Executes one run on a thread of the engine, which ends with the run. nullopt means that the run
-  // was cancelled and does not count.
+  // Executes one run. The engine calls it on one of its threads. nullopt means that the run was
+  // cancelled and does not count.
   std::function<std::optional<RunResult>(std::int64_t run, const std::atomic<bool>& is_cancelled)>
-      take;
+      execute;
   std::function<void(const Progress&)> report;  // called about twice a second
   std::function<bool()> is_interrupted;
 
@@ -28,8 +28,9 @@ struct LocalEngine {
   base::Status Run(Results& results) const;
   // Executes these runs, and calls `keep` once for each. `progress` is the progress of the campaign
   // before these runs.
-  base::Status Take(std::vector<std::int64_t> runs, Progress progress,
-                    const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;
+  base::Status Execute(
+      std::vector<std::int64_t> runs, Progress progress,
+      const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;
 };
 
 }  // namespace gsv::campaign

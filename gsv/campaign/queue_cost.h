@@ -9,8 +9,8 @@
 
 namespace gsv::campaign {
 
-// The durations compare the clocks of several machines, and are only as accurate as those clocks
-// agree.
+// The additional time. Durations are differences between the clocks of several machines, so an
+// offset between these clocks is part of them.
 struct QueueCost {
   std::size_t tasks = 0;     // number of started tasks; a task that was requeued counts again
   std::size_t requeued = 0;  // number of starts that followed a requeue

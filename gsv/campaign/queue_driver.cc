@@ -19,7 +19,7 @@ constexpr std::size_t kFewTasks = 1000;
 // a run becomes an error after tasks have ended this many times during the run
 constexpr std::size_t kMaxAttempts = 3;
 // number of consecutive queries that must not list a task before it counts as lost
-constexpr int kGone = 2;
+constexpr int kMissedQueriesUntilGone = 2;
 // maximum number of bytes of a task's log in an error message
 constexpr std::size_t kMaxLogBytes = 1000;
 
@@ -42,30 +42,30 @@ class Drive {
     if (!batches) return base::Fail(batches.error());
     batches_ = *std::move(batches);
     progress_.planned = spool_.campaign().runs();
-    if (auto ok = TakeIn(); !ok) return ok;
+    if (auto ok = CollectResults(); !ok) return ok;
     done_before_ = done_.size();
     auto next_look = start_;
     while (done_.size() < progress_.planned) {
       if (DriverClock::now() >= next_look) {
-        if (auto ok = LookAndHandOut(); !ok) return ok;
-        if (!settings_.waits && IsAllHandedOut()) return {};
+        if (auto ok = QueryAndSubmit(); !ok) return ok;
+        if (!settings_.waits && IsSubmissionComplete()) return {};
         next_look = DriverClock::now() + settings_.poll_period;
       }
       if (settings_.is_interrupted(std::min(kGatherPeriod, settings_.poll_period))) return {};
-      if (auto ok = TakeIn(); !ok) return ok;
+      if (auto ok = CollectResults(); !ok) return ok;
     }
     return {};
   }
 
  private:
   // Collects new results and updates the state of the runs.
-  base::Status TakeIn() {
+  base::Status CollectResults() {
     const auto gathered = Gather(spool_, results_);
     if (!gathered) return base::Fail(gathered.error());
     if (*gathered > 0 || done_.empty()) {
       auto done = results_.DoneRuns();
       if (!done) return base::Fail(done.error());
-      if (done->size() != done_.size()) last_news_ = DriverClock::now();
+      if (done->size() != done_.size()) last_progress_ = DriverClock::now();
       done_ = *std::move(done);
       const auto not_passed = results_.NotPassed();
       if (!not_passed) return base::Fail(not_passed.error());
@@ -81,34 +81,35 @@ class Drive {
     return {};
   }
 
-  base::Status LookAndHandOut() {
+  base::Status QueryAndSubmit() {
     const std::vector<Batch> open = OpenBatches();
     auto tasks = settings_.queue.TasksOf(open);
     if (!tasks) {
       // The content of the queue is unknown, so nothing can be submitted. Running tasks continue.
-      if (!has_looked_ || tasks.error().code == base::ErrorCode::kNotFound)
+      if (!has_queried_ || tasks.error().code == base::ErrorCode::kNotFound)
         return base::Fail(tasks.error());
-      if (!std::exchange(is_silent_, true))
-        settings_.say(tasks.error().Sentence() + "; gsv asks again, and running tasks continue");
+      if (!std::exchange(is_queue_silent_, true))
+        settings_.say(tasks.error().Sentence() +
+                      "; gsv will query the queue again, and running tasks continue");
       return {};
     }
-    has_looked_ = true;
-    is_silent_ = false;
+    has_queried_ = true;
+    is_queue_silent_ = false;
     for (const Batch& batch : open) {
       for (std::size_t task = 0; task < batch.tasks(); ++task) {
         const std::string share = batch.ShareOf(task);
-        looks_without_[share] = tasks->contains(share) ? 0 : looks_without_[share] + 1;
+        missed_queries_[share] = tasks->contains(share) ? 0 : missed_queries_[share] + 1;
       }
     }
-    SayWhyNothingComes(*tasks);
+    ExplainTheWait(*tasks);
     // Collect once more: a task may have written results between the last collection and the query.
-    if (auto ok = TakeIn(); !ok) return ok;
-    if (auto ok = DropBatchesThatCameToNothing(); !ok) return ok;
+    if (auto ok = CollectResults(); !ok) return ok;
+    if (auto ok = DropBatchesWithoutRuns(); !ok) return ok;
     auto missing = MissingRuns();
     if (!missing) return base::Fail(missing.error());
     if (missing->empty()) return {};
-    if (is_waiting_to_hand_out_ && tasks->size() >= tasks_at_refusal_) return {};
-    return HandOut(*std::move(missing), tasks->size());
+    if (is_waiting_to_submit_ && tasks->size() >= tasks_at_refusal_) return {};
+    return SubmitRuns(*std::move(missing), tasks->size());
   }
 
   // Returns the batches that have unfinished runs.
@@ -123,25 +124,28 @@ class Drive {
   }
 
   bool IsGone(const Batch& batch, std::size_t task) const {
-    const auto looks = looks_without_.find(batch.ShareOf(task));
-    return looks != looks_without_.end() && looks->second >= kGone;
+    const auto missed = missed_queries_.find(batch.ShareOf(task));
+    return missed != missed_queries_.end() && missed->second >= kMissedQueriesUntilGone;
   }
 
-  // A task may be missing from one query by mistake. If so, the next query decides.
-  bool IsAllHandedOut() const {
-    return !is_waiting_to_hand_out_ &&
-           std::none_of(looks_without_.begin(), looks_without_.end(),
-                        [](const auto& looks) { return looks.second > 0 && looks.second < kGone; });
+  // Whether all runs are in submitted tasks, and the state of every task is certain. A task that is
+  // missing from one query may still be in the queue; the next query decides.
+  bool IsSubmissionComplete() const {
+    return !is_waiting_to_submit_ &&
+           std::none_of(missed_queries_.begin(), missed_queries_.end(), [](const auto& missed) {
+             return missed.second > 0 && missed.second < kMissedQueriesUntilGone;
+           });
   }
 
-  // Drops batches that left the queue before any run began. An earlier driver may have cancelled
-  // such a batch, or never submitted it. If this driver submitted it, that is an error.
-  base::Status DropBatchesThatCameToNothing() {
+  // Drops the batches that left the queue before any of their runs began. An earlier driver may
+  // have cancelled such a batch, or not have submitted it. If this driver submitted the batch, it
+  // fails.
+  base::Status DropBatchesWithoutRuns() {
     for (const Batch& batch : OpenBatches()) {
-      bool came_to_nothing = true;
-      for (std::size_t task = 0; task < batch.tasks() && came_to_nothing; ++task)
-        came_to_nothing = IsGone(batch, task) && !HasBegun(batch.ShareOf(task));
-      if (!came_to_nothing) continue;
+      bool has_no_run = true;
+      for (std::size_t task = 0; task < batch.tasks() && has_no_run; ++task)
+        has_no_run = IsGone(batch, task) && !HasBegun(batch.ShareOf(task));
+      if (!has_no_run) continue;
       spool_.Remove(batch);
       std::erase_if(batches_, [&](const Batch& one) { return one.number == batch.number; });
       if (!ours_.contains(batch.number)) continue;
@@ -169,8 +173,8 @@ class Drive {
     return false;
   }
 
-  // Returns the runs that are neither done nor in the queue. Runs during which a task ended are
-  // last in the list. A run with too many such ends becomes an error.
+  // Returns the runs that are neither done nor in the queue. Runs during which a task ended come
+  // last. A run during which tasks have ended too often becomes an error.
   base::Result<std::vector<std::int64_t>> MissingRuns() {
     std::set<std::int64_t> queued;
     for (const Batch& batch : OpenBatches()) {
@@ -214,7 +218,7 @@ class Drive {
     return result;
   }
 
-  base::Status HandOut(std::vector<std::int64_t> runs, std::size_t tasks_in_queue) {
+  base::Status SubmitRuns(std::vector<std::int64_t> runs, std::size_t tasks_in_queue) {
     const auto most = settings_.queue.MaxTasks();
     if (!most) return base::Fail(most.error());
     const std::size_t tasks = std::min(*most, kFewTasks);
@@ -230,8 +234,8 @@ class Drive {
       if (!job && job.error().code == base::ErrorCode::kNotRunning) {
         spool_.Remove(batch);
         if (tasks_in_queue == 0) return base::Fail(job.error());
-        if (!std::exchange(is_waiting_to_hand_out_, true)) {
-          settings_.say(fmt::format("{}; {} runs wait here until the queue is shorter",
+        if (!std::exchange(is_waiting_to_submit_, true)) {
+          settings_.say(fmt::format("{}; {} runs are not submitted yet, until the queue is shorter",
                                     job.error().Sentence(), runs.size() - first));
         }
         tasks_at_refusal_ = tasks_in_queue;
@@ -247,7 +251,7 @@ class Drive {
       ours_.insert(batch.number);
       batches_.push_back(std::move(batch));
     }
-    is_waiting_to_hand_out_ = false;
+    is_waiting_to_submit_ = false;
     return {};
   }
 
@@ -264,13 +268,13 @@ class Drive {
     return batch;
   }
 
-  void SayWhyNothingComes(const std::map<std::string, QueuedTask>& tasks) {
+  void ExplainTheWait(const std::map<std::string, QueuedTask>& tasks) {
     std::map<std::string, std::size_t> reasons;
     for (const auto& [share, task] : tasks) {
       if (task.state != "PENDING") return;
       ++reasons[task.reason];
     }
-    if (reasons.empty() || DriverClock::now() - last_news_ < kSilence) return;
+    if (reasons.empty() || DriverClock::now() - last_progress_ < kSilence) return;
     std::string sentence = "all tasks wait in the queue:";
     for (const auto& [reason, count] : reasons)
       sentence += fmt::format(" {} for {},", count, reason);
@@ -282,15 +286,15 @@ class Drive {
   Spool& spool_;
   Results& results_;
   const DriverClock::time_point start_ = DriverClock::now();
-  DriverClock::time_point last_news_ = start_;
+  DriverClock::time_point last_progress_ = start_;
   std::vector<Batch> batches_;  // ordered by number
   std::set<int> ours_;          // batches that this driver submitted
   std::set<std::int64_t> done_;
   std::size_t done_before_ = 0;  // number of runs that were done when this driver started
   Progress progress_;
   // number of consecutive queries that did not list a task, by the task's share
-  std::map<std::string, int> looks_without_;
-  bool has_looked_ = false, is_silent_ = false, is_waiting_to_hand_out_ = false;
+  std::map<std::string, int> missed_queries_;
+  bool has_queried_ = false, is_queue_silent_ = false, is_waiting_to_submit_ = false;
   std::size_t tasks_at_refusal_ = 0;
   std::string last_said_;
 };

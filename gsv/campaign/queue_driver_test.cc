@@ -54,8 +54,8 @@ class QueueDriverTest : public ::testing::Test {
     return campaign;
   }
 
-  // Simulates a node. It takes the task and does its first `count` runs. If `crashes` is true, the
-  // task begins one more run and ends during it. Then the task leaves the queue.
+  // Simulates a node that executes the first `count` runs of the task. If `crashes` is true, the
+  // node begins one more run, and the task ends during it. Then the task leaves the queue.
   void Do(const std::string& share, std::size_t count = 1000, bool crashes = false) {
     const auto task = queue_.held.extract(share);
     ASSERT_FALSE(task.empty()) << share;
@@ -147,7 +147,7 @@ TEST_F(QueueDriverTest, RunsOfALostTaskAreSubmittedAgainAfterTwoQueries) {
   EXPECT_EQ(Done(), 10u);
 }
 
-TEST_F(QueueDriverTest, ARunThatCrashesItsTaskThreeTimesIsAnError) {
+TEST_F(QueueDriverTest, RunThatCrashesItsTaskThreeTimesIsAnError) {
   for (int attempt = 0; attempt < 3; ++attempt) {
     Then([this] {
       while (!queue_.held.empty()) {
@@ -203,12 +203,13 @@ TEST_F(QueueDriverTest, AbortedBatchOfThisDriverIsAnErrorWithTheLog) {
       HasSubstr("The queue: job job 1 ended before any of its runs started: gsv: no such folder"));
 }
 
-TEST_F(QueueDriverTest, ARefusalWhileTasksAreQueuedIsRetriedWhenTheQueueIsShorter) {
+TEST_F(QueueDriverTest, RefusedBatchIsSubmittedAgainWhenTheQueueIsShorter) {
   queue_.max_tasks = 3;
   queue_.room = 3;
   Then([this] {
     EXPECT_EQ(queue_.submitted.size(), 1u);
-    EXPECT_THAT(said_.back(), HasSubstr("it is full; 4 runs wait here until the queue is shorter"));
+    EXPECT_THAT(said_.back(),
+                HasSubstr("it is full; 4 runs are not submitted yet, until the queue is shorter"));
     Do("batch-0001-task-0000");
   });
   Then([this] {
@@ -229,14 +230,15 @@ TEST_F(QueueDriverTest, RefusalByAnEmptyQueueEndsTheDriver) {
   EXPECT_THAT(*spool_.Batches(), IsEmpty());
 }
 
-TEST_F(QueueDriverTest, AQueueThatStopsAnsweringIsQueriedAgain) {
+TEST_F(QueueDriverTest, QueueThatStopsAnsweringIsQueriedAgain) {
   queue_.failure = base::Error{base::ErrorCode::kUnavailable, "no answer", "squeue"};
   EXPECT_FALSE(Drive());
   queue_.failure.reset();
   Then([this] { queue_.failure = base::Error{base::ErrorCode::kUnavailable, "no answer", "ask"}; });
   Then([] {});
   Then([this] {
-    EXPECT_EQ(said_.back(), "ask: no answer; gsv asks again, and running tasks continue");
+    EXPECT_EQ(said_.back(),
+              "ask: no answer; gsv will query the queue again, and running tasks continue");
     EXPECT_EQ(said_.size(), 2u) << "said once";
     queue_.failure.reset();
     DoAll();

@@ -10,8 +10,8 @@ namespace gsv::campaign {
 namespace {
 
 constexpr std::size_t kFewValues = 12;
-constexpr double kWidth = 720, kHeight = 300, kLeft = 60, kBottom = 60, kTop = 20;  // sizes of the
-                                                                                    // drawing, px
+// sizes of the drawing, px
+constexpr double kWidth = 720, kHeight = 300, kLeft = 60, kBottom = 60, kTop = 20;
 
 std::string ValueIn(const RunResult& result, const std::string& parameter) {
   const auto found = result.parameters.find(parameter);

@@ -17,6 +17,7 @@ struct Group {
   std::map<std::string, std::vector<double>> metrics;
 };
 
+// The content of a report.
 struct Report {
   std::string title;
   std::int64_t planned = 0;
@@ -33,10 +34,10 @@ Report MakeReport(const std::vector<RunResult>& results, std::vector<std::string
                   const std::vector<std::string>& parameters, std::vector<std::string> metrics);
 
 std::string ToText(const Report& report);
-std::string ToSvg(const Report& report);   // Draws a bar chart: the fraction of passed runs in each
-                                           // group.
-std::string ToHtml(const Report& report);  // Returns the report as one HTML page without further
-                                           // files.
+// Draws a bar chart: the fraction of passed runs in each group.
+std::string ToSvg(const Report& report);
+// Returns the report as one HTML page without further files.
+std::string ToHtml(const Report& report);
 // Returns one line per run: run, parameters, status, state_hash, times, metrics (RFC 4180).
 std::string ToCsv(const std::vector<RunResult>& results,
                   const std::vector<std::string>& parameters);

@@ -22,6 +22,7 @@
 
 namespace gsv::campaign {
 
+// The result of one run.
 struct RunResult {
   std::int64_t run = 0;
   std::string status;   // "passed", "failed" or "error"
@@ -48,11 +49,13 @@ struct Attempt {
   friend bool operator==(const Attempt&, const Attempt&) = default;
 };
 
+// An open results file.
 class Results {
  public:
   // Opens the file for a driver, and creates it if it does not exist. Fails for a file of another
   // campaign, and for a file that contains no results. If another process writes the file, waits up
-  // to `timeout`, then fails with kNotRunning. A process that only collects results ends soon.
+  // to `timeout`, then fails with kNotRunning. A process that only collects results writes it for a
+  // short time.
   static base::Result<std::unique_ptr<Results>> OpenToAdd(
       const std::string& file, const Campaign& campaign,
       std::chrono::milliseconds timeout = std::chrono::milliseconds(0));

@@ -97,7 +97,7 @@ TEST_F(SlurmQueueTest, RefusalContainsSlurmsMessage) {
             "sbatch: Slurm refuses: sbatch: unrecognized option '--x'");
 }
 
-TEST_F(SlurmQueueTest, KilledSbatchMayHaveSubmitted) {
+TEST_F(SlurmQueueTest, KilledSbatchIsReportedAsPossiblySubmitted) {
   Answer("", "signal 9");
   const auto killed = Queue()->Submit(spool_, TwoTasks());
   ASSERT_FALSE(killed);

@@ -77,7 +77,8 @@ base::Result<Spool> Spool::Make(const fs::path& folder, const Campaign& campaign
   fs::create_directories(folder / "journals", error);
   if (!error) fs::create_directories(folder / "logs", error);
   if (error) {
-    return base::Fail(base::ErrorCode::kUnavailable, "cannot be made: " + error.message(), folder);
+    return base::Fail(base::ErrorCode::kUnavailable, "cannot create the folder: " + error.message(),
+                      folder);
   }
   // Shards that start at the same time may write this file together; they write the same content.
   const fs::path whole = fs::absolute(folder, error);

@@ -32,16 +32,17 @@ struct Batch {
   std::string failures;  // a folder for the files of failed runs; empty if none are kept
 
   std::size_t tasks() const { return (runs.size() + runs_per_task - 1) / runs_per_task; }
-  std::vector<std::int64_t> RunsOf(std::size_t task) const;
+  std::vector<std::int64_t> RunsOf(std::size_t task) const;  // the runs of a task
   // Returns the name of a task's share, which journals contain.
   std::string ShareOf(std::size_t task) const;
 };
 
 base::Result<Batch> ReadBatch(const std::filesystem::path& file);
 
-// Returns the name of share `index` of `count`, for runs that another queue than GSV's started.
+// Returns the name of share `index` of `count`, which `gsv campaign run --shard` executes.
 std::string ShardName(std::size_t index, std::size_t count);
 
+// Reads and writes the folder.
 class Spool {
  public:
   // Opens the folder, and creates it if it does not exist. Fails for a folder of another campaign.
@@ -58,17 +59,15 @@ class Spool {
   std::filesystem::path LogOf(const Batch& batch, const std::string& task) const;
 
   base::Result<std::vector<Batch>> Batches() const;  // Returns the batches, ordered by number.
+  // Writes the batch to its file, which may exist.
   base::Status Put(const Batch& batch) const;
   void Remove(const Batch& batch) const;
 
-  // Returns the results since the last call: those of all attempts, or only those of one
-  // share.
+  // Reads the journals and returns the results since the last call: those of all attempts, or only
+  // those of one share.
   base::Result<std::vector<RunResult>> Collect(const std::string& share = "");
-  const std::map<std::string, JournalReader>& read() const {
-    return readers_;
-  }  // the journals
-     // that were read,
-     // by file name
+  // Returns the readers of all journals, by file name.
+  const std::map<std::string, JournalReader>& read() const { return readers_; }
   std::vector<Attempt> Attempts() const;
 
  private:

@@ -68,7 +68,7 @@ TEST_F(SpoolTest, PlanContainsTheCampaign) {
   EXPECT_EQ(Spool::Open(folder_).error().code, base::ErrorCode::kCorrupt);
 }
 
-TEST_F(SpoolTest, ABatchIsReadUnchanged) {
+TEST_F(SpoolTest, ReadsBackABatchUnchanged) {
   const auto spool = Spool::Make(folder_, FourRuns());
   ASSERT_TRUE(spool);
   const Batch batch{2, "gsv-x-2", "17", 1e9 + 0.25, 3, {5, 7, 9, 11}, 12.5, "/f"};
@@ -89,7 +89,7 @@ TEST_F(SpoolTest, ABatchIsReadUnchanged) {
               HasSubstr("this machine can read the folder"));
 }
 
-TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineIsIgnored) {
+TEST_F(SpoolTest, ReadsAGrowingJournalAndIgnoresAnIncompleteLine) {
   auto spool = Spool::Make(folder_, FourRuns());
   ASSERT_TRUE(spool);
   const auto journal = JournalWriter::Create(spool->journals(), AttemptAt("s"));
@@ -147,7 +147,7 @@ TEST_F(SpoolTest, RunOfSeveralAttemptsCountsOnce) {
   EXPECT_EQ((*results)->NotPassed(), 2u);
 }
 
-TEST(QueueCostTest, WaitsOverheadAndGapsAddUp) {
+TEST(QueueCostTest, AddsUpWaitsOverheadAndIdleTime) {
   // There are two slots. One executes "a" from 2 to 6 and "c" from 7 to 10. The other executes "b"
   // from 3 to 10; "b" was requeued, so it has a first attempt from 3 to 4 and a second one from 5
   // to 10.

@@ -25,14 +25,14 @@ using std::chrono::seconds;
 
 constexpr int kMaxSlots = 256;
 constexpr std::size_t kMaxHosts = 1000;
-// number of tasks per slot: many small tasks end all slots at about the same time
+// number of tasks per slot: with many small tasks, all slots finish at about the same time
 constexpr std::size_t kTasksPerSlot = 8;
 // maximum number of connections being opened to a host; sshd drops more (MaxStartups 10)
 constexpr std::size_t kMaxConnecting = 8;
 // the queue gives up after this many consecutive failures of every host
 constexpr int kMaxFailures = 3;
 constexpr seconds kFirstRest{5}, kMaxRest{60};
-constexpr seconds kStartTimeout{60};  // maximum time from the start of ssh to the begin of the task
+constexpr seconds kStartTimeout{60};  // maximum time from the start of ssh to the start of the task
 constexpr seconds kEndMargin{60};     // added to the time that the task's runs may take
 
 struct SshOptions {
@@ -102,7 +102,7 @@ class SshQueue final : public JobQueue {
   struct Task {
     std::string job, share, number;
     std::string batch_file, log;
-    seconds time_limit;  // counted from the begin of the task
+    seconds time_limit;  // time limit of the task, from its start
   };
   struct Running {
     Task task;
@@ -147,8 +147,8 @@ class SshQueue final : public JobQueue {
       return;
     }
     const std::string last = LastLine(output);
-    const bool is_lost = !running.has_begun || ending == "exit code 255";  // ssh returns exit code
-                                                                           // 255 if it fails itself
+    // ssh returns exit code 255 if it fails itself
+    const bool is_lost = !running.has_begun || ending == "exit code 255";
     if (is_lost) Fail(host, last.empty() ? ending : last);
     if (!running.has_begun) waiting_.push_back(std::move(running.task));
   }

@@ -108,7 +108,7 @@ class SshQueueTest : public ::testing::Test {
   std::unique_ptr<JobQueue> queue_;
 };
 
-TEST_F(SshQueueTest, ATaskIsOneCommandOverSsh) {
+TEST_F(SshQueueTest, TaskIsOneCommandOverSsh) {
   MakeQueue("{hosts: ['me@n1:2'], program: /opt/ssh, options: [-p, '2222'], gsv: /opt/gsv}");
   Submit(1);
   EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING"));
@@ -122,7 +122,7 @@ TEST_F(SshQueueTest, ATaskIsOneCommandOverSsh) {
                       "--until-stdin-closes"));
 }
 
-TEST_F(SshQueueTest, TasksFillTheSlotsEvenlyAndTheRestWaits) {
+TEST_F(SshQueueTest, FillsTheSlotsEvenlyAndLetsOtherTasksWait) {
   MakeQueue("{hosts: [n1, 'n2:2']}");
   EXPECT_EQ(*queue_->MaxTasks(), 24u);  // eight tasks per slot
   Submit(5);
@@ -135,7 +135,7 @@ TEST_F(SshQueueTest, TasksFillTheSlotsEvenlyAndTheRestWaits) {
   EXPECT_THAT(Hosts(), ElementsAre("n2", "n1", "n2", "n1"));
 }
 
-TEST_F(SshQueueTest, AtMostEightTasksPerHostConnectAtOnce) {
+TEST_F(SshQueueTest, ConnectsAtMostEightTasksPerHostAtOnce) {
   MakeQueue("{hosts: ['n1:20']}");
   Submit(20);
   QueryTasks();
@@ -212,7 +212,7 @@ TEST_F(SshQueueTest, FailsWithTheErrorOfEachHostIfNoHostAcceptsATask) {
   EXPECT_EQ(queue_->TasksOf({}).error().code, base::ErrorCode::kNotFound);
 }
 
-TEST_F(SshQueueTest, ABrokenConnectionLosesTheTaskAndPausesTheHost) {
+TEST_F(SshQueueTest, BrokenConnectionLosesTheTaskAndPausesTheHost) {
   MakeQueue("{hosts: [n1]}");
   Submit(2);
   QueryTasks();
@@ -226,7 +226,7 @@ TEST_F(SshQueueTest, ABrokenConnectionLosesTheTaskAndPausesTheHost) {
   EXPECT_THAT(log.str(), HasSubstr("server n1 not responding"));
 }
 
-TEST_F(SshQueueTest, AKilledTaskIsLostAndItsHostContinues) {
+TEST_F(SshQueueTest, KilledTaskIsLostAndItsHostContinues) {
   MakeQueue("{hosts: [n1]}");
   Submit(2);
   QueryTasks();
@@ -250,7 +250,7 @@ TEST_F(SshQueueTest, TaskThatDoesNotBeginInTimeFailsItsHost) {
   EXPECT_THAT(said_, ElementsAre(HasSubstr("host n1 failed: no response in time")));
 }
 
-TEST_F(SshQueueTest, ATaskThatExceedsTheTimeOfItsRunsIsEnded) {
+TEST_F(SshQueueTest, TaskThatExceedsTheTimeOfItsRunsIsEnded) {
   MakeQueue("{hosts: [n1]}");
   Submit(1);
   QueryTasks();

@@ -1,4 +1,4 @@
-// Tests the world's engine with an engine of rigid-body dynamics other than the project's.
+// Tests WorldEngine with a simple rigid-body engine in the place of the project's own.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"
@@ -71,7 +71,7 @@ TEST(RigidEngine, MovesTheRigidBodiesOfAWorld) {
   EXPECT_NEAR(world.position("box").z, 10 - testing::kG / 2, 1e-9);
 }
 
-TEST(RigidEngine, KeepsItsMemoryInTheHashedState) {
+TEST(RigidEngine, StoresItsDataInTheHashedState) {
   TestWorld world = FallingWorld();
   world.AddRigid("box", SmallBox(), At(0, 0, 10));
   ASSERT_TRUE(world.Start());

@@ -76,9 +76,9 @@ class WorldEngine final : public Engine {
     if (auto layout = attached_.TakeChanged()) GSV_CHECK(UseLayout(std::move(layout)));
   }
 
-  // Actors move first, because nothing stops them. Then planar bodies move, while rigid bodies
-  // stand still. Planar bodies that were stopped by rigid ones push them. After the rigid bodies
-  // have moved, the planar bodies move again from the start of the step.
+  // Actors move first, because nothing stops them. Then planar bodies move, with the rigid bodies
+  // as static obstacles. Planar bodies that were stopped by rigid ones push them. After the rigid
+  // bodies have moved, the planar bodies move again from the start of the step.
   void MoveAll(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     before_ = state;
     actors_.Move(step, state, &before_);

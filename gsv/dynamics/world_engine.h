@@ -1,5 +1,5 @@
-// The engine of a whole world: planar kinematics for wheeled bases and people, and an engine of
-// rigid-body dynamics for bodies that fall, tip over or have joints driven by forces.
+// The engine of a whole world. Planar kinematics moves wheeled bases and people. An engine of
+// rigid-body dynamics moves bodies that fall, tip over or have joints driven by forces.
 //
 // Together    Rigid bodies stop planar ones, and planar ones push rigid bodies at their target
 //             speed with a force of at most their own weight (traction 1). A rigid body that hits a
@@ -17,7 +17,7 @@
 
 namespace gsv::dynamics {
 
-// `team` helps the planar mover; if it is null, the caller computes alone. `rigid` moves the rigid
+// The engine's work runs on `team`; if it is null, on the calling thread. `rigid` moves the rigid
 // bodies (default: the solver of rigid/).
 std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team = nullptr,
                                         std::unique_ptr<RigidEngine> rigid = nullptr);

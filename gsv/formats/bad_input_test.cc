@@ -1,4 +1,4 @@
-// The reader reports each error in a file with a sentence that names the place.
+// Tests that the reader reports each error in a file, with a sentence and its place.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -23,7 +23,7 @@ class BadInputTest : public testing::Test {
     EXPECT_EQ(world.error().code, ErrorCode::kBadModel);
     return world.error();
   }
-  // The warnings that reading this model gives. It must be read without errors.
+  // Reads a model, which must have no errors, and returns the warnings.
   std::vector<std::string> WarningsIn(const std::string& model_content) {
     problems_.clear();
     const auto model =
@@ -99,7 +99,7 @@ TEST_F(BadInputTest, SkipsTheIncludeThatClosesACycle) {
                     HasSubstr("a/model.sdf → "), HasSubstr("b/model.sdf → ")));
 }
 
-// Without a link outside of the cycle nothing is left of the model.
+// These models have no links of their own, so nothing is left without the include.
 TEST_F(BadInputTest, NamesTheCycleOfModelsThatContainOnlyEachOther) {
   const auto including = [](const std::string& other) {
     return "<sdf version='1.9'><model name='m'><include><uri>model://" + other +

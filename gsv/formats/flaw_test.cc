@@ -24,7 +24,7 @@ constexpr char kCube[] = "<geometry><box><size>1 1 1</size></box></geometry>";
 
 class FlawTest : public testing::Test {
  protected:
-  // A world with one valid model and `content`, which begins on line 2.
+  // Reads a world with one valid model and `content`, which begins on line 2.
   model::WorldDescription World(const std::string& content, const std::string& version = "1.9") {
     problems_.clear();
     const auto world = ModelLibrary().ReadWorld(
@@ -45,7 +45,7 @@ class FlawTest : public testing::Test {
   std::shared_ptr<const model::Model> Robot(const std::string& content) {
     return Model("r.urdf", "<robot name='r'>\n" + content + "</robot>");
   }
-  // All problems of the last reading, which must be warnings.
+  // Returns all problems of the last World(), which must be warnings.
   std::vector<std::string> Messages() const {
     std::vector<std::string> said;
     for (const base::Problem& problem : problems_) {
@@ -193,7 +193,7 @@ TEST_F(FlawTest, LinksThatGazeboClassicFlattenedAreRead) {
   Messages();
 }
 
-TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
+TEST_F(FlawTest, AnInvalidInertiaIsRepairedUnlessTheModelIsStatic) {
   const std::string zero =
       "<link name='l'><inertial><mass>0</mass><inertia><ixx>0</ixx><iyy>0</iyy><izz>0</izz>"
       "</inertia></inertial></link></model>";
@@ -238,7 +238,7 @@ TEST_F(FlawTest, AStaticNestedModelDoesNotMove) {
   EXPECT_EQ(outer->links[static_cast<std::size_t>(outer->joints[0].child)].name, "shelf::l");
 }
 
-TEST_F(FlawTest, AScriptWithoutUriNamesAMaterialOfGazebo) {
+TEST_F(FlawTest, AScriptWithoutUriSelectsAMaterialOfGazebo) {
   const auto world = World("<model name='m'><link name='l'><visual name='v'>" + std::string(kCube) +
                            "<material><script><name>Gazebo/Red</name></script></material></visual>"
                            "</link></model>");
@@ -267,7 +267,7 @@ TEST_F(FlawTest, IncludesAreFoundFromTheFileThatNamesThemAtAnyDepth) {
   EXPECT_THAT(Messages(), IsEmpty());
 }
 
-TEST_F(FlawTest, AFlawInAnIncludedFileIsNamedWithThatFile) {
+TEST_F(FlawTest, AFlawInAnIncludedFileIsReportedWithItsPath) {
   folder_.Write("base/model.sdf", FlawModel("base", "\n<link name='l'><pose>1 2 3</pose></link>"));
   folder_.Write("cart/model.sdf",
                 FlawModel("cart", "<link name='c'/>" + IncludeOf("model://base")));
@@ -365,7 +365,7 @@ TEST_F(FlawTest, LinksFixedToALinkWithMassNeedNoMass) {
   EXPECT_THAT(Messages(), IsEmpty());
 }
 
-TEST_F(FlawTest, AFloatingRobotIsFree) {
+TEST_F(FlawTest, ARobotOnAFloatingJointMovesFreely) {
   const auto robot =
       Robot(UrdfLink("world") + UrdfLink("base", kMassive) + UrdfLink("leg", kMassive) +
             UrdfJoint("float", "floating", "world", "base") +
@@ -383,7 +383,7 @@ TEST_F(FlawTest, AFloatingJointBetweenLinksIsFixed) {
   EXPECT_THAT(Messages(), ElementsAre(HasSubstr("\"float\" is fixed")));
 }
 
-TEST_F(FlawTest, NamesWithScopesAreReadWithDots) {
+TEST_F(FlawTest, ScopesInNamesAreReadAsDots) {
   const std::string links =
       "<link name='a::b'/><link name='c'><pose relative_to='a::b'>1 0 0 0 0 0</pose></link>"
       "<joint name='j::k' type='ball'><parent>a::b</parent><child>c</child></joint>";
@@ -407,7 +407,7 @@ TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
       {base + UrdfLink("lost", kMassive), "no joint connects the link \"lost\""},
       {base + base, "there is one of that name already"},
       {base + UrdfLink("arm", kMassive) + UrdfJoint("j", "revolute", "base", "arm"),
-       "it turns freely"},
+       "it rotates without limits"},
       {base + UrdfLink("arm", kMassive) +
            UrdfJoint("j", "revolute", "base", "arm", "<limit lower='-1' upper='1'/>"),
        "has no @effort"},

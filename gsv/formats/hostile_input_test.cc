@@ -1,4 +1,4 @@
-// Malicious and damaged files: the reader is not harmed and reports a sentence.
+// Tests that the readers survive malicious and damaged files, and report each with a sentence.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class HostileInputTest : public testing::Test {
  protected:
-  // The problems of a model's file, whether it can be read or not.
+  // Returns the problems of a model's file, whether it can be read or not.
   std::vector<std::string> ProblemsOf(const std::string& name, const std::string& text) {
     base::Problems problems;
     const auto model = ModelLibrary().ReadModel(folder_.Write(name, text).string(), problems);
@@ -40,7 +40,7 @@ class HostileInputTest : public testing::Test {
   std::shared_ptr<const model::Model> model_;
 };
 
-// Each of ten entities expands to ten times the one before.
+// Each of ten entities expands to ten copies of the previous entity.
 TEST_F(HostileInputTest, EntitiesOfManyBytesAreRefused) {
   std::string text =
       "<?xml version='1.0'?><!DOCTYPE sdf [<!ENTITY a0 '" + std::string(1000, 'h') + "'>";
@@ -135,7 +135,8 @@ std::string Word(std::uint32_t value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-// A .glb of `json` and `data`, whose chunks declare that much more length than they have.
+// Returns a .glb file of `json` and `data`. Its two chunks declare `more_json` and `more_data`
+// bytes more than they have.
 std::string Glb(std::string json, const std::string& data, std::uint32_t more_json = 0,
                 std::uint32_t more_data = 0) {
   json.resize((json.size() + 3) / 4 * 4, ' ');

@@ -25,8 +25,8 @@ class RealFilesTest : public testing::Test {
   }
 };
 
-// Missing files, elements that gsv does not support, and one stray character; nothing in these
-// files is misspelt.
+// Whether the warning is about a missing file, an unsupported element, or the one stray character
+// in these files. They have no misspelt elements.
 bool IsKnownToBeAbsent(const base::Problem& problem) {
   if (problem.severity != base::Problem::Severity::kWarning) return false;
   for (const char* absent :
@@ -161,7 +161,7 @@ TEST_F(RealFilesTest, TurtleBot3WorldStandsUpright) {
   EXPECT_EQ(walls, 1);
 }
 
-TEST_F(RealFilesTest, PioneerIsMeasured) {
+TEST_F(RealFilesTest, MeasuresTheDriveOfThePioneer) {
   base::Problems problems;
   const auto pioneer =
       ModelLibrary().ReadModel((RealFolder() / "gazebo_models/pioneer2dx").string(), problems);
@@ -175,7 +175,7 @@ TEST_F(RealFilesTest, PioneerIsMeasured) {
   }
 }
 
-TEST_F(RealFilesTest, CafeAndWillowGarageAreEnvironments) {
+TEST_F(RealFilesTest, ReadsModelsOfBuildingsAsWorlds) {
   for (const char* name : {"cafe", "willowgarage"}) {
     base::Problems problems;
     const auto world = ModelLibrary().ReadWorld(RealFolder() / "gazebo_models" / name, problems);

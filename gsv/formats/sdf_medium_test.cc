@@ -1,5 +1,5 @@
-// Tests media, collision filters and other properties of bodies: bitmasks, wind, fluids, decay,
-// kinematic links, automatic inertia, joints that follow others.
+// Tests how media and properties of bodies are read: bitmasks, wind, fluids, velocity decay,
+// kinematic links, automatic inertia, and mimic joints.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"

@@ -182,7 +182,8 @@ class ModelLibrary::Reader {
 
   base::Mutex mutex_;
   const std::map<std::string, std::string> drives_;
-  // Models with the chosen drives, by the model that was read from the file.
+  // Copies of models with the drives of ReadOptions. The key is the model as it was read from the
+  // file.
   std::map<std::shared_ptr<const Model>, std::shared_ptr<const Model>> driven_
       GSV_GUARDED_BY(mutex_);
   ModelStore store_ GSV_GUARDED_BY(mutex_);

@@ -36,13 +36,14 @@ class ModelLibrary {
   ModelLibrary(const ModelLibrary&) = delete;
   ModelLibrary& operator=(const ModelLibrary&) = delete;
 
-  // `path` is a world file, or the file or folder of a model. A model becomes a world with a sun,
-  // and with a ground plane unless the model has a plane as collision shape.
+  // Reads a world. `path` is a world file, or the file or folder of a model. For a model, makes a
+  // world with the model and a sun, and with a ground plane unless the model has a plane as
+  // collision shape.
   base::Result<model::WorldDescription> ReadWorld(const std::filesystem::path& path,
                                                   base::Problems& problems);
 
-  // Reads the frames of a world from its file again. They are those of the file, at the start. A
-  // model that serves as a world has none.
+  // Reads the <frame> elements of a world from its file again, with their poses at the start. A
+  // world that was made for a single model has none.
   base::Result<std::vector<NamedPose>> ReadNamedPoses(const model::WorldDescription& world);
 
   // Reads a model by its file (SDFormat or URDF), its folder, or its name. A name is found as

@@ -78,7 +78,7 @@ TEST_F(SdfReaderTest, GroundPlaneAndSunNeedNoFile) {
   EXPECT_EQ(world.lights[0].kind, model::Light::Kind::kDirectional);
 }
 
-TEST_F(SdfReaderTest, ReportsOtherModelsOfTheWebAndContinues) {
+TEST_F(SdfReaderTest, ReportsOtherModelsOnTheWebAndContinues) {
   const auto world = World(
       "<world "
       "name='w'>\n<include><uri>https://fuel.gazebosim.org/1.0/x/models/Cone</uri></include>\n"
@@ -372,7 +372,7 @@ TEST_F(SdfReaderTest, ReadsTemperaturesOfTheAirAndOfVisuals) {
                                        HasSubstr("<temperature> must be a number of kelvins")));
 }
 
-TEST_F(SdfReaderTest, AModelIsAnEnvironmentWithSunAndGround) {
+TEST_F(SdfReaderTest, AModelBecomesAWorldWithSunAndGround) {
   folder_.Write("hall/model.sdf",
                 Sdf("<model name='hall'><static>true</static><pose>1 2 0 0 0 0</pose>"
                     "<link name='l'>" +
@@ -462,7 +462,7 @@ TEST_F(SdfReaderTest, ReportsElementsOfIncludedFilesInTheirFile) {
                                                HasSubstr("Did you mean <static>?"))));
 }
 
-TEST_F(SdfReaderTest, ReportsBrokenRulesOfNamesOnlyWhenAsked) {
+TEST_F(SdfReaderTest, ReportsBrokenNamingRulesOnlyOnRequest) {
   const auto file = folder_.Write(
       "rules.sdf", Sdf("<world name='w'><frame name='f' attached_to='nowhere'/></world>"));
   ReadOptions options;

@@ -82,7 +82,7 @@ TEST_F(SdfRobotTest, MeasuresMissingValues) {
   EXPECT_NEAR(drive->wheel_radius, 0.15, 1e-12);
 }
 
-TEST_F(SdfRobotTest, ReadsTheDialectsOfDiffDrive) {
+TEST_F(SdfRobotTest, ReadsAllVariantsOfDiffDrive) {
   const auto ros1 =
       DriveOf(Plugin("libgazebo_ros_diff_drive.so", "x",
                      "<leftJoint>fl_joint</leftJoint><rightJoint>fr_joint</rightJoint>"
@@ -167,7 +167,7 @@ TEST_F(SdfRobotTest, GuessesInsteadOfADriveThatCannotWork) {
   EXPECT_THAT(problems_[2].Sentence(), HasSubstr("names no joint"));
 }
 
-TEST_F(SdfRobotTest, MeasuresInsteadOfImpossibleNumbers) {
+TEST_F(SdfRobotTest, MeasuresTheWheelsInsteadOfUsingImpossibleNumbers) {
   EXPECT_TRUE(DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive",
                              "<left_joint>fl_joint</left_joint><right_joint>fr_joint</"
                              "right_joint><wheel_radius>-1</wheel_radius>"
@@ -317,7 +317,7 @@ TEST_F(SdfRobotTest, ASensorWithAPresetHasOnlyTheParametersThatItsFileGives) {
   EXPECT_EQ(model::NumberOr(model->sensors[1].parameters, "range.max", 0), 3);
 }
 
-TEST_F(SdfRobotTest, AContactSensorNamesItsCollisions) {
+TEST_F(SdfRobotTest, ReadsTheCollisionsOfAContactSensor) {
   const auto model = Read(
       "<sdf version='1.9'><model name='r'><link name='a'>"
       "<collision name='front'><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
@@ -351,7 +351,7 @@ TEST_F(SdfRobotTest, ReadsTheMovementOfTheModel) {
   EXPECT_THAT(problems_[0].message, HasSubstr("planar or rigid"));
 }
 
-TEST_F(SdfRobotTest, WheelsMayDifferFromTheDrivesAssumption) {
+TEST_F(SdfRobotTest, ReadsDifferentRadiiOfLeftAndRightWheels) {
   const auto drive =
       DriveOf(Plugin("gz-sim-diff-drive-system", "gz::sim::systems::DiffDrive",
                      "<left_joint>fl_joint</left_joint><right_joint>fr_joint</right_joint>"

@@ -10,7 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// An uncompressed TGA image of one colour.
+// Returns an uncompressed TGA file of one colour.
 std::string Tga(int side, unsigned char red, unsigned char green, unsigned char blue) {
   std::string text(18, '\0');
   text[2] = 2;
@@ -30,7 +30,7 @@ class SdfTerrain : public ::testing::Test {
     folder_.Write("snow.tga", Tga(2, 250, 250, 250));
   }
 
-  // The material of a visual that has a height of 3 m everywhere.
+  // Returns the material of a heightmap that has a height of 3 m everywhere.
   model::Material MaterialOf(const std::string& textures) {
     const std::string map = "<geometry><heightmap><uri>hill.tga</uri><size>10 10 3</size>" +
                             textures + "</heightmap></geometry>";

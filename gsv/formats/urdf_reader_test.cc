@@ -93,7 +93,7 @@ TEST_F(SdfReaderTest, ReadsRos2ControlOfAModelInAWorld) {
   EXPECT_EQ(systems[0].joints[0].joint, "shoulder");
 }
 
-TEST_F(SdfReaderTest, NamesTheFileAndLineOfAMacroInWarnings) {
+TEST_F(SdfReaderTest, WarningsHaveTheFileAndLineOfAMacro) {
   folder_.Write(
       "part.xacro",
       "<robot>\n<xacro:macro name='part' params='name'>\n<link name='${name}'><inertial>\n"
@@ -133,9 +133,6 @@ TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {
   EXPECT_NEAR(drive.wheel_radius, 0.07, 1e-9);
   EXPECT_THAT(Sentences(), IsEmpty());
 }
-
-// The file uses SDFormat's cone (1.11), <light_on> (1.9) and <screw_thread_pitch> (1.10), which
-// libsdformat for 1.9 does not know.
 
 }  // namespace
 }  // namespace gsv::formats

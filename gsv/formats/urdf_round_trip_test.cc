@@ -34,7 +34,7 @@ void ExpectNear(const geometry::Pose& a, const geometry::Pose& b, const std::str
   }
 }
 
-// The box, in the link's frame, around all of its visuals or collisions.
+// Returns the box around all visuals or collisions of a link, in the link's frame.
 template <typename Parts, typename PoseOf>
 geometry::Bounds BoxOf(const Parts& parts, PoseOf link_from_part) {
   geometry::Bounds box{{1e9, 1e9, 1e9}, {-1e9, -1e9, -1e9}};
@@ -167,7 +167,7 @@ constexpr const char* kRobot = R"(<sdf version='1.9'><model name='r'>
 
 TEST_F(UrdfRoundTripTest, KeepsLinksJointsInertiasAndShapes) { ExpectSame(*ReadText(kRobot)); }
 
-TEST_F(UrdfRoundTripTest, KeepsAStaticModelAndOneThatIsHeldByTheWorld) {
+TEST_F(UrdfRoundTripTest, KeepsAStaticModelAndOneThatIsFixedToTheWorld) {
   ExpectSame(
       *ReadText("<sdf version='1.9'><model name='m'><static>true</static><link name='l'>"
                 "<collision name='c'><geometry><box><size>1 2 3</size></box></geometry></collision>"
@@ -180,7 +180,7 @@ TEST_F(UrdfRoundTripTest, KeepsAStaticModelAndOneThatIsHeldByTheWorld) {
   ExpectSame(*held);
 }
 
-// The frame of a door leaf is in its middle, and it turns about its edge. This requires a link at
+// The frame of a door leaf is in its middle, but it rotates about its edge. So URDF needs a link at
 // the edge.
 TEST_F(UrdfRoundTripTest, AddsALinkIfTheJointIsOutsideItsChildsFrame) {
   const ModelPointer door = ReadText(
@@ -208,11 +208,11 @@ TEST_F(UrdfRoundTripTest, ReportsOmittedElements) {
   WriteUrdf(*loose, "", problems_);
   std::string all;
   for (const base::Problem& problem : problems_) all += problem.Sentence() + "\n";
-  EXPECT_THAT(all, HasSubstr("m: URDF has no elements for sensors: 1, left out"));
+  EXPECT_THAT(all, HasSubstr("m: URDF has no elements for sensors: 1; they are left out"));
   EXPECT_THAT(all, HasSubstr("link b, which nothing connects"));
 }
 
-TEST_F(UrdfRoundTripTest, EscapesNamesAndWritesTheSameTextEachTime) {
+TEST_F(UrdfRoundTripTest, EscapesNamesAndWritesEqualTextsForEqualModels) {
   model::Model model;
   model.name = "a \"quoted\" <robot>";
   model.links.resize(1);
@@ -236,7 +236,7 @@ double MassOf(const model::Model& model) {
   return mass;
 }
 
-// An added link, which only URDF's tree needs, is merged with the link that is fixed to it. The
+// libsdformat merges a link that was added for URDF's tree with the link that is fixed to it. The
 // merged link has the name of the added one.
 TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
   if (RealFolder().empty()) GTEST_SKIP() << "GSV_REAL_DIR names no folder of real worlds";

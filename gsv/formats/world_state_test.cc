@@ -102,7 +102,7 @@ TEST_F(WorldStateTest, IgnoresTheStateOfAnotherWorld) {
   EXPECT_THAT(problems_[0].Sentence(), HasSubstr("one of the world \"default\""));
 }
 
-TEST_F(WorldStateTest, NamesModelsThatTheWorldDoesNotHave) {
+TEST_F(WorldStateTest, ReportsModelsThatTheWorldDoesNotHave) {
   World("<model name='a'>" + std::string(kSavedBox) +
         "<state world_name='w'><deletions><name>gone</name></deletions>"
         "<model name='nobody'><pose>1 0 0 0 0 0</pose></model>"

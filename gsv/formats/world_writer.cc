@@ -26,12 +26,12 @@ using geometry::Pose;
 using model::PlacedModel;
 using tinyxml2::XMLElement;
 
-// The elements whose text is the name of a file.
+// Elements whose text is the name of a file.
 constexpr const char* kFileElements[]{"uri",           "filename",        "albedo_map",
                                       "normal_map",    "light_map",       "roughness_map",
                                       "metalness_map", "glossiness_map",  "specular_map",
                                       "emissive_map",  "environment_map", "ambient_occlusion_map"};
-// A place without models beside it.
+// A path in a folder that has no models. A name that is found from it is found from any folder.
 constexpr const char* kNowhere = "/gsv-nowhere/world.sdf";
 constexpr int kMaxDepth = 256;
 
@@ -69,7 +69,8 @@ std::vector<double> Neighbours(double number) {
   return numbers;
 }
 
-// Returns angles that convert exactly to `q`; nullopt if there are none near its own angles.
+// Returns roll, pitch and yaw that convert to exactly `q`. Returns nullopt if none of the numbers
+// near the angles of `q` do.
 std::optional<geometry::RollPitchYaw> AnglesOf(const geometry::Quaternion& q) {
   const geometry::RollPitchYaw angles = geometry::ToRollPitchYaw(q);
   for (const double roll : Neighbours(angles.roll)) {
@@ -83,7 +84,8 @@ std::optional<geometry::RollPitchYaw> AnglesOf(const geometry::Quaternion& q) {
   return std::nullopt;
 }
 
-// Whether the ground of the environment was added to a model that has none, see ReadWorld().
+// Whether the world has a ground plane. ReadWorld() adds one to the world that it makes for a
+// single model.
 bool HasGroundPlane(const model::WorldDescription& world) {
   return std::any_of(world.models.begin(), world.models.end(),
                      [](const PlacedModel& placed) { return placed.name == "ground_plane"; });
@@ -129,7 +131,8 @@ class WorldWriter {
     problems_.push_back({Problem::Severity::kWarning, message, where});
   }
 
-  // Opens the world's file. A world without a file was made around a model, or by a program.
+  // Opens the world's file. If the world has no file, it was made for a single model, or by a
+  // program.
   base::Status Open() {
     std::error_code ignored;
     const bool has_file =
@@ -160,7 +163,7 @@ class WorldWriter {
     return found == original_.models.end() ? nullptr : &*found;
   }
 
-  // The file that an <include> names; empty if it is not found.
+  // Returns the file to which an <include> refers; empty if it is not found.
   fs::path FileOfInclude(const XMLElement& include) const {
     auto found = finder_.Find(TextOf(include, "uri"), original_.source);
     if (!found) return {};
@@ -182,8 +185,8 @@ class WorldWriter {
     return {};
   }
 
-  // Names the elements by the rules of the reader: included models first, and a second model with
-  // the same name gets a number.
+  // Gives the elements the names that the reader gives them: included models first, and a second
+  // model with the same name gets a number.
   void NameElements() {
     for (XMLElement* const include : ChildrenOf("include")) {
       const std::string name = NameOfInclude(*include);
@@ -306,7 +309,7 @@ class WorldWriter {
       written->SetText(Joined({p.x, p.y, p.z, angles->roll, angles->pitch, angles->yaw}).c_str());
       return;
     }
-    // The reader normalizes a quaternion, which may change its last bits.
+    // The reader normalizes the quaternion, so its last bits may differ when it is read.
     written->SetAttribute("rotation_format", "quat_xyzw");
     written->SetText(Joined({p.x, p.y, p.z, q.x, q.y, q.z, q.w}).c_str());
     file_.root->SetAttribute("version", "1.9");  // the first version with quaternions
@@ -457,8 +460,7 @@ class WorldWriter {
   XmlFile file_;
   XMLElement* world_ = nullptr;
   std::set<std::string> names_;
-  std::map<std::string, XMLElement*> elements_;   // elements of the file, by the names that the
-                                                  // reader gave them
+  std::map<std::string, XMLElement*> elements_;   // elements of the file, by their names
   std::map<std::string, XMLElement*> templates_;  // copies of these elements, owned by the document
 };
 

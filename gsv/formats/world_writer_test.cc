@@ -42,7 +42,7 @@ class WorldWriterTest : public testing::Test {
     EXPECT_TRUE(world) << (world ? "" : world.error().Sentence());
     return world.value_or(model::WorldDescription{});
   }
-  // Writes the models to a file in another folder, and reads that file.
+  // Writes the models to a file in another folder, and reads this file again.
   model::WorldDescription Again(const model::WorldDescription& world,
                                 const std::vector<PlacedModel>& models) {
     const auto text = WriteWorld(world, models, world.gravity, {}, problems_);
@@ -142,7 +142,7 @@ TEST_F(WorldWriterTest, ModelsPlacedRelativeToAMovedModelStay) {
   ExpectSame(Again(world, models), models);
 }
 
-TEST_F(WorldWriterTest, AModelAloneBecomesAWorldThatIncludesIt) {
+TEST_F(WorldWriterTest, ASingleModelBecomesAWorldThatIncludesIt) {
   const auto file = folder_.Write(
       "crate.sdf", Document("<model name='crate'>" + std::string(kLink) + "</model>"));
   const auto world = Read(file);

@@ -1,6 +1,6 @@
-// Simulations, a recording or another instance on the web: the viewer's files, the documentation
-// at /docs/, an HTTP API, and live data over the Foxglove WebSocket protocol at /ws. See
-// docs/formats/live.md and docs/api.yaml.
+// A Gateway is gsv's web server. It serves the viewer's files, the documentation at /docs/, an HTTP
+// API, and live data over the Foxglove WebSocket protocol at /ws. See docs/formats/live.md and
+// docs/api.yaml.
 //
 // A gateway has one of three sets of routes: the simulations of this program; a recording that is
 // replayed; or another instance whose simulations are relayed. All have the same addresses and
@@ -41,7 +41,8 @@ struct GatewayOptions : ServerOptions {
   std::string only_recording{};  // a single file of the folder that is served; empty: all files
   uploads::UploadLimits uploads{};
   recordings::SessionLimits replays{};
-  // Bytes that are kept of the past of each simulation (recording/run_history.h); 0: nothing.
+  // Maximum size in bytes of the history of each simulation (recording/run_history.h); 0: no
+  // history.
   std::size_t history_bytes = 0;
   std::vector<Route> routes{};  // additional routes, for simulations of this program
 };

@@ -167,7 +167,7 @@ TEST_F(GatewayTest, EachSimulationHasItsOwnStream) {
   EXPECT_THROW(Viewer(port(), "/ws?simulation=third"), std::runtime_error);
 }
 
-TEST_F(GatewayTest, SlowCameraDelaysNoOtherTopic) {
+TEST_F(GatewayTest, ASlowCameraDoesNotDelayOtherTopics) {
   std::mutex gate;
   std::unique_lock closed(gate);
   simulation_->set_on_watch([&](const std::string& sensor) -> base::Status {

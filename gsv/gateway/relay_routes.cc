@@ -1,5 +1,5 @@
-// The routes of a relay for another instance, which answers the requests. The relay also checks
-// permissions, with its own tokens.
+// The routes of a relay. It forwards requests to another gsv, which answers them. The relay also
+// checks permissions, with its own tokens.
 #include <map>
 #include <thread>
 #include <utility>
@@ -132,7 +132,7 @@ class RelayRoutes final : public RouteSet {
     return *std::move(answer);
   }
 
-  // `socket` is the path of the stream at the other instance.
+  // Returns the hub for a client. `socket` is the path of the stream at the other instance.
   base::Result<std::shared_ptr<Hub>> FindHub(const Request& request, const std::string& socket) {
     const auto& query = request.target.query;
     const auto found = query.find("simulation");

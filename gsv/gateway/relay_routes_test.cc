@@ -96,7 +96,7 @@ class SecureRelayTest : public RelayTest {
   const base::TemporaryFolder folder_ = *base::TemporaryFolder::Make("gsv-relay");
 };
 
-TEST_F(RelayTest, PassesRequestsAndAnswersOn) {
+TEST_F(RelayTest, ForwardsRequestsAndResponses) {
   const std::string scene = "/api/simulations/arena/scene";
   const HttpReply here = Fetch(port(), "GET", scene);
   EXPECT_EQ(here.body, Fetch(gateway_->port(), "GET", scene).body);
@@ -119,7 +119,7 @@ TEST_F(RelayTest, PassesRequestsAndAnswersOn) {
   EXPECT_EQ(Fetch(port(), "GET", "/", "Origin: http://evil.example\r\n").status, 403);
 }
 
-TEST_F(RelayTest, ServicesArePassedOn) {
+TEST_F(RelayTest, ForwardsServiceCalls) {
   for (const char* target : {"/ws?simulation=arena", "/ws"}) {
     Viewer viewer(port(), target);
     EXPECT_TRUE(viewer.CallService("start").first);
@@ -138,7 +138,7 @@ TEST_F(RelayTest, ServicesArePassedOn) {
             "a relay cannot set parameters; set them at the other instance");
 }
 
-TEST_F(RelayTest, AtMostSixtyFourSimulationsArePassedOn) {
+TEST_F(RelayTest, RelaysAtMostSixtyFourSimulations) {
   std::vector<std::unique_ptr<Viewer>> viewers;
   for (int i = 0; i < 65; ++i) {
     const std::string name = "arena_" + std::to_string(i);
@@ -176,7 +176,7 @@ TEST_F(RelayTest, SeveralViewersSeeTheRobotsMove) {
   EXPECT_NEAR(Decoded<Poses>(second.ReceiveData(2)).poses[7 * 3], std::cos(1), 1e-12);
 }
 
-TEST_F(RelayTest, ALateViewerOfAPausedSimulationGetsThePresentAndTheEvents) {
+TEST_F(RelayTest, ALateViewerOfAPausedSimulationGetsTheStateAndTheEvents) {
   simulation_->AddEvent("one");
   simulation_->AddEvent("two");
   Viewer early(port());
@@ -228,7 +228,7 @@ TEST_F(RelayTest, ARelayCanBeRelayed) {
   viewer.ReceiveData(1);
 }
 
-TEST_F(SecureRelayTest, PassesRequestsAndTheStreamOn) {
+TEST_F(SecureRelayTest, ForwardsRequestsAndTheStream) {
   EXPECT_TRUE(gateway_->url().starts_with("https://"));
   const HttpReply scene = Fetch(port(), "GET", "/api/simulations/arena/scene");
   EXPECT_EQ(scene.status, 200);
@@ -255,7 +255,7 @@ TEST_F(SecureRelayTest, WaitsForAnInstanceThatIsRestarted) {
   viewer.ReceiveText("advertise");
 }
 
-TEST_F(SecureRelayTest, AnUntrustedInstanceGivesASentence) {
+TEST_F(SecureRelayTest, ReportsAnUntrustedInstance) {
   ASSERT_TRUE(tls::MakeAuthority(folder_.path() / "other", {}));
   const auto refusal = [&](const std::string& url, const std::string& authority) {
     const auto relay = Gateway::StartRelay({}, {url, "", authority});
@@ -274,7 +274,7 @@ TEST_F(SecureRelayTest, AnUntrustedInstanceGivesASentence) {
   EXPECT_NE(refusal("http://127.0.0.1:" + port, "").find("HTTPS only"), std::string::npos);
 }
 
-TEST_F(RelayTest, AnInstanceWithoutTlsGivesASentence) {
+TEST_F(RelayTest, ReportsAnInstanceWithoutTls) {
   const auto relay = Gateway::StartRelay({}, {"https" + gateway_->url().substr(4)});
   ASSERT_FALSE(relay);
   EXPECT_NE(relay.error().Sentence().find("the TLS connection failed"), std::string::npos)

@@ -1,5 +1,5 @@
-// Streams of images (view.mjpeg) through a relay: it requests one image after another from the
-// other instance, and sends them as its own stream.
+// RelayedImages serves streams of images (view.mjpeg) through a relay. It requests one image after
+// another from the other instance, and sends them as its own stream.
 //
 // Threads  any; requests to the other instance are made by a pool of its own.
 // Bounded  kMaxImageStreams streams.

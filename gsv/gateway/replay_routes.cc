@@ -1,4 +1,4 @@
-// The routes for the replay of a recording.
+// The routes of a gateway that replays a recording.
 #include <optional>
 #include <utility>
 

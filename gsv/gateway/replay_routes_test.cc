@@ -24,7 +24,7 @@ using testing::ReceiveEach;
 using testing::ReplayGatewayTest;
 using testing::Viewer;
 
-TEST_F(ReplayGatewayTest, LooksLikeTheRecordedSimulation) {
+TEST_F(ReplayGatewayTest, ServesOnlyTheRecordedSimulation) {
   const json list = json::parse(Get("/api/simulations").body);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0]["name"], "simulation");
@@ -114,7 +114,7 @@ TEST_F(ReplayGatewayTest, ReturnsTheWholeLog) {
   EXPECT_EQ(log[1]["time_s"], 2.0);
 }
 
-// A page may send a request before the replay has played.
+// Requests may come before the replay plays.
 TEST_F(ReplayGatewayTest, ListsTheRobotsFromTheStart) {
   for (int i = 0; i < 50; ++i) {
     const auto player = ReplayPlayer::Open(PathFor("run"), {});

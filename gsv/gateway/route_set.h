@@ -1,4 +1,5 @@
-// The routes of one kind of gateway, besides the common ones.
+// A RouteSet has the routes of one kind of gateway: live simulations, a replay or a relay. The
+// Gateway adds the common routes.
 #pragma once
 
 #include <memory>
@@ -15,16 +16,17 @@ class RouteSet {
   virtual ~RouteSet() = default;
   // The handlers are valid during the lifetime of this object.
   virtual std::vector<Route> Routes() = 0;
-  // See Handler.
+  // See ViewersApi::CheckControl().
   virtual base::Status CheckControl(const std::string& /*viewer*/,
                                     const std::string& /*simulation*/) {
     return {};
   }
-  // Ends the streams. Handlers may still run and request streams.
+  // Ends the streams. Handlers may still run meanwhile and request streams.
   virtual void Stop() {}
 };
 
-// `commanders` runs the commands of WebSockets, and must outlive the set.
+// Make the routes of each kind of gateway. `commanders` runs the commands that come over
+// WebSockets, and must outlive the set.
 std::unique_ptr<RouteSet> MakeLiveRoutes(const GatewayOptions& options,
                                          std::shared_ptr<SimulationDirectory> directory,
                                          WorkerPool& commanders);

@@ -7,8 +7,8 @@
 namespace gsv::geometry {
 namespace {
 
-// Returns the distance from a point to a rectangle about the origin. The arguments are the point's
-// distances outside of each pair of sides.
+// Returns the distance from a point to a rectangle. `outside_x` and `outside_y` are the point's
+// distances outside of the two pairs of sides; negative inside.
 double ToRectangle(double outside_x, double outside_y) {
   const double beyond = std::hypot(std::max(outside_x, 0.0), std::max(outside_y, 0.0));
   return beyond + std::min(std::max(outside_x, outside_y), 0.0);
@@ -50,7 +50,7 @@ double ToSegment(const Vector2& p, const Vector2& a, const Vector2& b) {
   return std::hypot(from_a.x - t * along.x, from_a.y - t * along.y);
 }
 
-// In coordinates (distance from the axis, height), the cone is a triangle.
+// In the plane of (distance from the axis, height), the cone is a triangle.
 double To(const Cone& cone, const Vector3& p) {
   const Vector2 point{std::hypot(p.x, p.y), p.z};
   const Vector2 centre{0, -cone.length / 2}, rim{cone.radius, -cone.length / 2},

@@ -37,7 +37,7 @@ struct Plane {
   Vector3 normal{0, 0, 1};  // unit length
   Vector2 size{1, 1};
 };
-// Shared between its users; never null.
+// The triangles are shared by their users; the pointer is never null.
 struct Mesh {
   std::shared_ptr<const TriangleMesh> triangles;
   Vector3 scale{1, 1, 1};

@@ -86,8 +86,8 @@ SolidMoments Of(const Mesh& mesh) {
     AddTetrahedron(corner(0), corner(1), corner(2), sum);
   }
   if (sum.volume == 0) return {};
-  const double sign = sum.volume < 0 ? -1 : 1;  // the normals of the mesh point inwards, or it is
-                                                // mirrored
+  // The normals of the mesh point inwards, or it is mirrored.
+  const double sign = sum.volume < 0 ? -1 : 1;
   const Vector3 c = 1 / sum.volume * sum.centroid;
   SolidMoments moments;
   moments.volume = sign * sum.volume;

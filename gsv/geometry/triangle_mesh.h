@@ -29,6 +29,7 @@ struct TriangleMesh {
   std::vector<MeshPart> parts;
 };
 
+// A box whose edges are parallel to the axes.
 struct Bounds {
   Vector3 min, max;
 };

@@ -1,6 +1,6 @@
 // The health of robots: whether each one moves, stands, is stuck, touches something, is late or
-// dead; its last command and its actual motion; and the obstacle that limits it. The state is
-// computed from a simulation's status and the readings of range sensors.
+// dead; its last command, its actual motion, and the obstacle that stops it. The state is computed
+// from a simulation's status and the readings of range sensors.
 //
 // Units        metres, radians, seconds; instants of simulated time.
 // Determinism  everything except `late` depends only on the states of the run.
@@ -25,19 +25,22 @@ const char* ToString(State state);
 // Returns the state of this name, or nothing.
 std::optional<State> StateOf(std::string_view name);
 
+// How serious a robot's state is.
 enum class Level : std::uint8_t { kFine = 0, kWarning = 1, kError = 2 };
 
 // Returns a number for sorting, which is higher for a worse state: dead, stuck, contact, late,
 // standing, moving.
 int Severity(State state, Level level);
 
-// A short distance that a sensor measures, and that may limit the robot's motion.
+// A short distance that a range sensor measures: the nearest obstacle, which may be why the robot
+// does not move.
 struct Limit {
   std::string sensor;
   double value = 0;  // m
   friend bool operator==(const Limit&, const Limit&) = default;
 };
 
+// The state of one robot and the reason for it.
 struct RobotHealth {
   std::string robot;
   State state = State::kMoving;
@@ -50,10 +53,11 @@ struct RobotHealth {
   std::optional<Limit> limit;      // set for a robot that stands or is stuck
   std::string contact;             // a body that the robot touches; empty if there is none
   std::string summary;             // such as "has not moved", "has been stuck" or "has been dead"
-  std::string reason;              // such as "commanded 0, sonar_00 reads 0.26 m"; empty if there
-                                   // is none
+  // Such as "commanded 0, sonar_00 reads 0.26 m"; empty if there is none.
+  std::string reason;
 };
 
+// The health of all robots of a simulation at one instant.
 struct Report {
   base::SimTime time{0};
   std::int64_t step = 0;

@@ -1,4 +1,4 @@
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 
 #include <limits>
 
@@ -143,9 +143,9 @@ TEST(Health, ABehaviourThatDoesNotWaitIsLate) {
 }
 
 // Makes robots with one sonar each, and counts readings of the sonars.
-class HealthBookTest : public ::testing::Test {
+class HealthTrackerTest : public ::testing::Test {
  protected:
-  HealthBookTest() {
+  HealthTrackerTest() {
     sensing::AddBuiltInSensors(types_);
     access_.types = &types_;
     access_.sensors = [](const std::string&) {
@@ -172,13 +172,13 @@ class HealthBookTest : public ::testing::Test {
   double range_ = 0.4;
 };
 
-TEST_F(HealthBookTest, CountsRobotsByStateWithoutStations) {
+TEST_F(HealthTrackerTest, CountsRobotsByStateWithoutStations) {
   simulation::RobotStatus moving = Robot("a"), station = Robot("camera");
   moving.motion.is_moving = true;
   station.is_station = true;
-  HealthBook book;
+  HealthTracker tracker;
   const Report report =
-      book.Update(At(20s, {moving, Robot("b"), Robot("c"), station}), 5s, access_);
+      tracker.Update(At(20s, {moving, Robot("b"), Robot("c"), station}), 5s, access_);
   EXPECT_EQ(report.CountOf(State::kMoving), 1u);
   EXPECT_EQ(report.CountOf(State::kStanding), 2u);
   EXPECT_EQ(Summary(report), "1 moves, 2 stand");
@@ -186,34 +186,34 @@ TEST_F(HealthBookTest, CountsRobotsByStateWithoutStations) {
   EXPECT_EQ(report.robots[1].limit, (Limit{"front", 0.4}));
 }
 
-TEST_F(HealthBookTest, ReadsTheSensorsOfARobotThatStandsEveryFiveSeconds) {
-  HealthBook book;
+TEST_F(HealthTrackerTest, ReadsTheSensorsOfARobotThatStandsEveryFiveSeconds) {
+  HealthTracker tracker;
   for (base::SimTime now = 16s; now < 21s; now += 500ms) {
-    (void)book.Update(At(now, {Robot()}), 5s, access_);
+    (void)tracker.Update(At(now, {Robot()}), 5s, access_);
   }
   EXPECT_EQ(readings_, 1);
   range_ = 0.3;
-  const Report report = book.Update(At(21s, {Robot()}), 5s, access_);
+  const Report report = tracker.Update(At(21s, {Robot()}), 5s, access_);
   EXPECT_EQ(readings_, 2);
   EXPECT_EQ(report.robots[0].limit->value, 0.3);
 }
 
-TEST_F(HealthBookTest, ReadsTheSensorsOfALimitedNumberOfRobots) {
-  HealthBook book(2);
+TEST_F(HealthTrackerTest, ReadsTheSensorsOfALimitedNumberOfRobots) {
+  HealthTracker tracker(2);
   std::vector<simulation::RobotStatus> robots;
   for (const char* name : {"a", "b", "c", "d", "e"}) robots.push_back(Robot(name));
-  (void)book.Update(At(20s, robots), 5s, access_);
+  (void)tracker.Update(At(20s, robots), 5s, access_);
   EXPECT_EQ(readings_, 2);
-  (void)book.Update(At(20s, robots), 5s, access_);
-  const Report report = book.Update(At(20s, robots), 5s, access_);
+  (void)tracker.Update(At(20s, robots), 5s, access_);
+  const Report report = tracker.Update(At(20s, robots), 5s, access_);
   EXPECT_EQ(readings_, 5);
   EXPECT_TRUE(report.robots[4].limit);
 }
 
-TEST_F(HealthBookTest, ARangeOfMoreThanAMetreIsNoLimit) {
+TEST_F(HealthTrackerTest, ARangeOfMoreThanAMetreIsNoLimit) {
   range_ = 1.5;
-  HealthBook book;
-  EXPECT_FALSE(book.Update(At(20s, {Robot()}), 5s, access_).robots[0].limit);
+  HealthTracker tracker;
+  EXPECT_FALSE(tracker.Update(At(20s, {Robot()}), 5s, access_).robots[0].limit);
 }
 
 }  // namespace

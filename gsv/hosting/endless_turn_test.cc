@@ -154,7 +154,7 @@ TEST_P(EndlessTurn, AfterALateEndTheSimulationCanBeReset) {
   EXPECT_EQ(simulation_->status().failure, "");
 }
 
-TEST_P(EndlessTurn, ABehaviourThatIgnoresItsEndIsAbandoned) {
+TEST_P(EndlessTurn, BehaviourThatIgnoresItsEndIsAbandoned) {
   AddRobots([this](gsv::Robot& robot) {
     robot.SleepFor(1h);
     AwaitRelease();

@@ -10,11 +10,12 @@ namespace {
 
 using Stacks = boost::context::protected_fixedsize_stack;
 
-// The size of a fibre's stack in the address space. Only used pages cost memory. Below is a guard
-// page.
+// The size of a fibre's stack in the address space. Only used pages cost memory. There is a guard
+// page below the stack.
 constexpr std::size_t kStackBytes = 256u << 10;
 
-// Switches away from the fibre's stack after the body has returned or was unwound.
+// Notifies the sanitizer that the thread leaves the fibre's stack for the last time, after the body
+// has returned or was unwound.
 struct Departure {
   SanitizerStack& stack;
   ~Departure() { stack.BeforeLeavingForGood(); }
@@ -55,8 +56,8 @@ void Fibre::Resume() {
 }
 
 void Fibre::Suspend() {
-  // The data that are passed into the fibre: a return context, or an exception that unwinds the
-  // body.
+  // Notifies the sanitizer that the thread is on the fibre's stack again. resume() returns there,
+  // or throws an exception that unwinds the body.
   struct Arrival {
     SanitizerStack& stack;
     ~Arrival() { stack.AfterEntering(); }

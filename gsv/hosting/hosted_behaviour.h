@@ -1,8 +1,8 @@
-// A gsv::Behaviour in this process that drives one robot of one simulation. The same class also
-// runs as a program, with the same result.
+// Runs a gsv::Behaviour in this process, for one robot of one simulation. The same behaviour can
+// also run as a program, with the same results.
 //
-// The turns of a Controller are plain calls. Any other behaviour runs on a fibre, and each wait
-// suspends the fibre.
+// A turn is the part of a behaviour between two waits. The turns of a Controller are plain function
+// calls. Any other behaviour runs on a fibre, and each wait suspends the fibre.
 #pragma once
 
 #include <atomic>

@@ -144,7 +144,7 @@ TEST(HostedBehaviour, HashOfACrowdDoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(HashOfACrowd(60, 7, controller), HashOfACrowd(60, 1, controller));
 }
 
-TEST(HostedBehaviour, AnExceptionEndsOneBehaviourAndTheOthersContinue) {
+TEST(HostedBehaviour, ExceptionEndsOneBehaviourAndTheOthersContinue) {
   auto simulation = simulation::Make(Lockstep(500ms));
   ASSERT_TRUE(
       simulation->AddRobot(simulation::Robot("bad", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) {
@@ -164,7 +164,7 @@ TEST(HostedBehaviour, AnExceptionEndsOneBehaviourAndTheOthersContinue) {
   EXPECT_EQ(bad.cause, "out of ideas");
 }
 
-TEST(HostedBehaviour, AFailureEndsTheRunIfThePolicyRequiresIt) {
+TEST(HostedBehaviour, FailureEndsTheRunIfThePolicyRequiresIt) {
   auto specification = Lockstep(500ms);
   specification.on_failure = simulation::FailurePolicy::kFail;
   const auto hash_of = [&](std::shared_ptr<simulation::BehaviourPort> behaviour) {
@@ -190,7 +190,7 @@ TEST(HostedBehaviour, AFailureEndsTheRunIfThePolicyRequiresIt) {
   EXPECT_EQ(inside, outside);
 }
 
-TEST(HostedBehaviour, ABehaviourThatReturnsHasFinished) {
+TEST(HostedBehaviour, BehaviourThatReturnsHasFinished) {
   auto simulation = simulation::Make(Lockstep(500ms));
   ASSERT_TRUE(simulation->AddRobot(simulation::Robot(
       "robot", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) { robot.SleepFor(100ms); }))));
@@ -199,7 +199,7 @@ TEST(HostedBehaviour, ABehaviourThatReturnsHasFinished) {
   EXPECT_EQ(StatusOf(*simulation, "robot").phase, simulation::AgentPhase::kFinished);
 }
 
-TEST(HostedBehaviour, ARunAfterAResetEqualsTheFirst) {
+TEST(HostedBehaviour, RunAfterAResetEqualsTheFirst) {
   auto simulation = simulation::Make(Lockstep(300ms));
   ASSERT_TRUE(simulation->AddRobot(simulation::Robot("robot", 0, 0, Hosted(ApproachInALoop))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
@@ -288,7 +288,7 @@ class Sweeper final : public Controller {
   std::vector<std::unique_ptr<Sonar>> sonars_;
 };
 
-TEST(HostedBehaviour, ReadsManySonarsAsOneAfterTheOther) {
+TEST(HostedBehaviour, ReadingManySonarsTogetherEqualsReadingThemOneByOne) {
   auto simulation = simulation::Make(Lockstep(1s));
   int cycles = 0, echoes = 0;
   const auto look = [&](const Sweeper::Ranges& swept, const Sweeper::Ranges& alone) {
@@ -356,7 +356,7 @@ TEST(HostedBehaviour, RobotsWithDifferentSensorsReadTheirOwn) {
   for (const int each : cycles) EXPECT_GE(each, 19);
 }
 
-TEST(HostedBehaviour, ASilentSonarAmongManyKeepsItsRange) {
+TEST(HostedBehaviour, SilentSonarAmongManyKeepsItsRange) {
   auto specification = Lockstep(1s);
   scenario::Fault fault;
   fault.kind = scenario::Fault::Kind::kSensorSilent;
@@ -378,7 +378,7 @@ TEST(HostedBehaviour, ASilentSonarAmongManyKeepsItsRange) {
   for (std::size_t i = 11; i < silent.size(); ++i) EXPECT_EQ(silent[i], silent[10]);
 }
 
-TEST(HostedBehaviour, ASlowSensorIsReadAtTheInstantOfTheRequest) {
+TEST(HostedBehaviour, SlowSensorIsReadAtTheInstantOfTheRequest) {
   auto sensors = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*sensors);
   sensing::SensorType slow;

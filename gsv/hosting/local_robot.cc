@@ -32,8 +32,8 @@ SensorTraits TraitsOf(const model::SensorDescription& description,
 // Below this number of beams, each beam is cast separately.
 constexpr std::size_t kMinSweep = 3;
 
-// The readings of the behaviour whose turn a thread executes. If the next behaviour has the same
-// plan, its names are already in place, and the memory is in the cache.
+// A thread's buffer for the readings of the behaviour whose turn it executes. If the next behaviour
+// has the same plan, the buffer already contains the names of its sensors, and is in the cache.
 struct ThreadReadings {
   std::shared_ptr<const SweepPlan> plan;
   std::vector<Reading> readings;

@@ -1,5 +1,4 @@
-// Implements the class Robot for a behaviour in this
-// process.
+// Implements the class Robot (sdk/behaviour/robot.h) for a behaviour that runs in this process.
 //
 // Threads  the thread of the behaviour's turn.
 #pragma once
@@ -34,9 +33,10 @@ class alignas(64) LocalRobot final : public Robot {
   void End() { is_running_ = false; }
   void Note(const base::Error& error);
 
-  // The next two functions: whether all open sensors are fast, and their readings, ordered by name.
+  // Whether no open sensor takes long to read, as a camera does.
   bool HasOnlyFastSensors() const;
-  // The readings remain valid until the next call on this thread.
+  // Reads all open sensors, ordered by name. The readings are valid until the next call on this
+  // thread.
   const std::vector<Reading>& ReadOpenSensors();
 
   // The members of Robot.
@@ -78,8 +78,8 @@ class alignas(64) LocalRobot final : public Robot {
   base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
 
   void PlanSweeps();
-  // Reads all beams together, if that is allowed. Returns whether they were read. `readings` must
-  // have the names of the sensors.
+  // Reads the beams of all open sensors together. Returns false if that is not allowed, or if there
+  // are only a few beams. `readings` must have the names of the sensors.
   bool SweepInto(std::vector<Reading>& readings);
   void ReadInto(std::vector<Reading>& readings);
 

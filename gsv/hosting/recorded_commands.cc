@@ -43,13 +43,14 @@ base::Status RecordedCommands::Start() {
 void RecordedCommands::TakeTurn(simulation::Turn& turn) {
   const base::MutexLock lock(mutex_);
   for (; next_ < commands_.size() && commands_[next_].time <= turn.now(); ++next_) {
-    Give(commands_[next_], turn);
+    Apply(commands_[next_], turn);
   }
   turn.WaitUntil(next_ < commands_.size() ? commands_[next_].time : kNever);
 }
 
-// Applies a command. If the command is no longer possible, skips it; the run then differs visibly.
-void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn) const {
+// Applies a command. A command that is no longer possible is skipped. The repeated run then differs
+// from the recorded one, which the comparison of the two detects.
+void RecordedCommands::Apply(const TimedCommand& command, simulation::Turn& turn) const {
   if (const auto* drive = std::get_if<world::DriveCommand>(&command.command)) {
     turn.Command(*drive);
   } else if (const auto* told = std::get_if<RecordedDeviceCommand>(&command.command)) {

@@ -25,7 +25,7 @@ struct TimedCommand {
   base::SimTime time{0};
   std::variant<world::DriveCommand, RecordedDeviceCommand, RecordedTransmission> command;
 };
-using TimedCommands = std::vector<TimedCommand>;  // In ascending order of time.
+using TimedCommands = std::vector<TimedCommand>;  // Commands in ascending order of time.
 
 class RecordedCommands final : public simulation::LocalBehaviour {
  public:
@@ -46,7 +46,7 @@ class RecordedCommands final : public simulation::LocalBehaviour {
   void TakeTurn(simulation::Turn& turn) override;
 
  private:
-  void Give(const TimedCommand& command, simulation::Turn& turn) const GSV_REQUIRES(mutex_);
+  void Apply(const TimedCommand& command, simulation::Turn& turn) const GSV_REQUIRES(mutex_);
 
   const std::string name_, place_;
   const TimedCommands commands_;

@@ -1,5 +1,5 @@
-// How a robot's open sensors are read together. Robots with equal sensors share one plan, so that a
-// crowd's plan stays in the processor's cache.
+// The plan by which the beams of a robot's open sensors are read together. Robots with equal
+// sensors share one plan, so that the plan of a crowd stays in the processor's cache.
 //
 // Threads  const objects may be used concurrently; Share() by any thread.
 #pragma once

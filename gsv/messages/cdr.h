@@ -28,7 +28,8 @@
 
 namespace gsv::messages {
 
-static_assert(std::endian::native == std::endian::little, "CDR is copied from memory as it is");
+static_assert(std::endian::native == std::endian::little,
+              "little-endian CDR is copied from memory without conversion");
 
 using Bytes = std::vector<std::byte>;
 
@@ -59,8 +60,8 @@ class CdrWriter {
   std::size_t origin_;  // the position from which alignment is counted
 };
 
-// Reads one message. The first value that does not fit makes the reader fail. From then on every
-// read returns zero, an empty string or an empty sequence.
+// Reads one message. The reader fails at the first value that exceeds the message. From then on,
+// every read returns zero, an empty string or an empty sequence.
 class CdrReader {
  public:
   // `bytes` must outlive the reader.
@@ -84,8 +85,8 @@ class CdrReader {
   std::size_t ReadCount(std::size_t element_size);
   void ReadBlock(void* data, std::size_t size, std::size_t alignment);
 
-  // Returns an error if a value did not fit, or if bytes remain that are not the padding of some
-  // writers.
+  // Returns an error if a value exceeded the message, or if more bytes remain than the padding that
+  // some writers add.
   base::Status Finish() const;
 
  private:

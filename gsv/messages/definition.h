@@ -20,6 +20,7 @@
 
 namespace gsv::messages {
 
+// A message type that was parsed from the text of a schema.
 class Definition {
  public:
   // Parses a schema. `name` has the form "sensor_msgs/msg/Range". `text` is the definition of the

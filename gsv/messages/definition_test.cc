@@ -75,7 +75,8 @@ TEST(Definition, ReadsEveryTypeOfGsv) {
       Encode(message, bytes);
       const auto decoded = definition.Decode(bytes);
       ASSERT_TRUE(decoded) << schema.name << ": " << decoded.error().Sentence();
-      // The following loop takes a time that is quadratic in the size, so only small seeds do it.
+      // The time of the following loop is quadratic in the size of the message, so it runs for
+      // small seeds only.
       if (seed > 1) continue;
       for (std::size_t size = 0; size < bytes.size(); ++size) {
         EXPECT_FALSE(definition.Decode(std::span(bytes).first(size))) << schema.name << " " << size;

@@ -8,11 +8,13 @@
 
 namespace gsv::model {
 
+// The command and state interfaces of one joint.
 struct JointInterfaces {
   std::string joint;                        // the name of a Joint
   std::vector<std::string> command, state;  // "position", "velocity", "effort", …
 };
 
+// One <ros2_control> element: a hardware component and its joints.
 struct ControlSystem {
   std::string name;
   std::string type;      // "system", "actuator" or "sensor"

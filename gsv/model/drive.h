@@ -9,6 +9,7 @@
 
 namespace gsv::model {
 
+// The kinematics of a base.
 enum class DriveKind {
   kDifferential,  // two wheels, or two rows of them (skid steer)
   kSynchro,       // all wheels turn and steer together; moves along its heading
@@ -55,7 +56,7 @@ struct Drive {
   double steering_limit = 0.5;  // kAckermann
   Range linear_velocity, angular_velocity;
   Range linear_acceleration, angular_acceleration;
-  Slip slip;  // used for wheels without a slip of their own
+  Slip slip;  // used for wheels whose own slip is not set
   // After this time without a command the base brakes; zero means never.
   base::SimTime command_timeout{0};
   DriveOrigin origin = DriveOrigin::kPlugin;

@@ -139,8 +139,8 @@ base::Status FindJoints(const Model& model, const std::vector<std::string>& name
   return {};
 }
 
-// Returns the drive to start from: the model's own or the guessed one if it is of that kind, else a
-// new one with the same wheels.
+// Returns the drive to which the user's choice is applied: the model's own or guessed drive if it
+// has that kind, else a new drive with the same wheels.
 Drive StartFrom(const Model& model, DriveKind kind) {
   if (model.drive && model.drive->kind == kind) return *model.drive;
   Drive guess = GuessDrive(model);

@@ -22,6 +22,7 @@
 
 namespace gsv::model {
 
+// A parsed choice of a drive.
 struct DriveChoice {
   DriveKind kind = DriveKind::kNone;
   std::vector<std::string> left, right, steer;  // names of the joints

@@ -230,7 +230,7 @@ TEST(DriveGuess, WheelsWithACommandInterfaceArePreferred) {
   EXPECT_THAT(robot.Names(drive.right_wheels), ElementsAre("rr_joint"));
 }
 
-TEST(DriveGuess, WheelsOfMeshesAndOfVisualsAreMeasured) {
+TEST(DriveGuess, WheelsMadeOfMeshesOrVisualsAreMeasured) {
   auto ring = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i < 32; ++i) {
     const double angle = 2 * std::numbers::pi * i / 32;
@@ -266,7 +266,7 @@ TEST(DriveGuess, ArmHasNoWheels) {
   EXPECT_EQ(robot.Guess().kind, DriveKind::kNone);
 }
 
-TEST(DriveGuess, SquareAndOffAxisLinksAreNoWheels) {
+TEST(DriveGuess, SquareAndOffAxisLinksAreNotWheels) {
   for (const bool is_square : {true, false}) {
     Robot robot;
     robot.AddWheel("left", 0, 0.2);
@@ -283,7 +283,7 @@ TEST(DriveGuess, SquareAndOffAxisLinksAreNoWheels) {
   }
 }
 
-TEST(DriveGuess, LinkThatDoesNotTouchTheGroundIsNoWheel) {
+TEST(DriveGuess, LinkThatDoesNotTouchTheGroundIsNotAWheel) {
   Robot robot;
   robot.AddWheel("left", 0, 0.2);
   robot.AddWheel("right", 0, -0.2);

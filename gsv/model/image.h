@@ -14,7 +14,7 @@ struct Image {
   int height = 0;
   int channels = 3;
   std::vector<std::uint8_t> pixels;
-  std::string source;  // the file from which it was read, for messages
+  std::string source;  // the file of the image, named in error messages
 };
 
 }  // namespace gsv::model

@@ -19,6 +19,7 @@
 
 namespace gsv::model {
 
+// A shape of a link that is drawn.
 struct Visual {
   std::string name;
   geometry::Pose link_from_visual;
@@ -52,6 +53,7 @@ struct Surface {
   CollisionFilter filter;
 };
 
+// A shape of a link that takes part in collisions, with its surface.
 struct Collision {
   std::string name;
   geometry::Pose link_from_collision;
@@ -59,6 +61,7 @@ struct Collision {
   Surface surface;
 };
 
+// The mass, the centre of mass and the inertia of a link.
 struct Inertial {
   double mass = 1.0;             // kg
   geometry::Pose link_from_com;  // pose of the frame in which the moments below are given
@@ -66,6 +69,7 @@ struct Inertial {
   double ixx = 1, iyy = 1, izz = 1, ixy = 0, ixz = 0, iyz = 0;
 };
 
+// A rigid part of a model.
 struct Link {
   std::string name;
   geometry::Pose model_from_link;
@@ -116,6 +120,7 @@ struct JointGains {
   double offset = 0;          // added to the sum, N m or N
 };
 
+// A joint between two links, or between a link and the world.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kFixed;
@@ -146,17 +151,16 @@ int FindJoint(const std::vector<Joint>& joints, const std::string& name);
 // An initial command of a joint, from the model's own controllers.
 struct JointTarget {
   enum class Kind {
-    kPosition,
-    kVelocity,
-    kEffort
-  };              // unit of the value: rad or m; rad/s or m/s;
-                  // N m or N
+    kPosition,  // rad or m
+    kVelocity,  // rad/s or m/s
+    kEffort     // N m or N
+  };
   int joint = 0;  // index of the joint in Model::joints
   Kind kind = Kind::kPosition;
   double value = 0;
 };
 
-// How a model with a drive moves.
+// The method that moves a model with a drive.
 enum class Movement {
   kPlanar,  // planar kinematics on level ground
   kRigid,   // rigid-body dynamics: wheels roll, and the model can climb, tip over and be pushed

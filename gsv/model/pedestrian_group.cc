@@ -83,7 +83,7 @@ std::shared_ptr<const Model> PedestrianModel(const PedestrianGroup& group, int l
   link.name = "body";
   link.inertial.mass = 75;
   const Colour &trousers = kTrousers[i % kTrousers.size()], &top = kTops[i % kTops.size()];
-  // The figure is in the middle of a step.
+  // The figure is modelled in the middle of a step.
   constexpr double kStride = 0.3, kSwing = 0.35;  // rad
   const double hip = 0.5 * h, leg = hip / std::cos(kStride), shoulder = 0.8 * h;
   link.visuals.push_back(LimbOf("left_leg", {0, 0.34 * w, hip}, leg, 0.3 * w, kStride, trousers));

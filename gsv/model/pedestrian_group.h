@@ -20,6 +20,7 @@ struct PedestrianGoal {
   friend bool operator==(const PedestrianGoal&, const PedestrianGoal&) = default;
 };
 
+// Pedestrians with the same route, speed and size.
 struct PedestrianGroup {
   std::string name = "pedestrian";  // pedestrians are called NAME_1, NAME_2, …
   int count = 1;

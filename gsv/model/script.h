@@ -12,11 +12,13 @@
 
 namespace gsv::model {
 
+// A pose of the actor and the time at which the actor reaches it.
 struct Waypoint {
   base::SimTime time{0};  // time since the trajectory's start
   geometry::Pose pose;
 };
 
+// A path of the actor through waypoints.
 struct Trajectory {
   std::vector<Waypoint> waypoints;  // in ascending order of time, each time once, the first at 0
   double tension = 0;               // in [0, 1]; 1 means straight lines between waypoints
@@ -35,6 +37,7 @@ struct Animation {
   }
 };
 
+// The trajectories of an actor and the animation of its joints.
 struct Script {
   bool loops = true;
   base::SimTime delay{0};  // the delay before each start; not negative

@@ -17,8 +17,8 @@ constexpr int kDirections = 16;  // number of directions in which a wheel's exte
 // minimum ratio of the smallest to the largest extent; a 12-sided mesh counts as round
 constexpr double kRoundness = 0.88;
 constexpr double kMinRadius = 0.005;
-constexpr double kLevel = 0.35;    // maximum sine of an axle's slope, because wheels may have
-                                   // camber
+// Maximum sine of an axle's slope, because wheels may have camber.
+constexpr double kLevel = 0.35;
 constexpr double kUpright = 0.9;   // minimum cosine between a swivel and the vertical
 constexpr double kManyTurns = 20;  // rad
 
@@ -57,7 +57,8 @@ struct Reach {
   }
 };
 
-// Measures how far shapes extend from an axis through `origin`, perpendicular to it and along it.
+// Measures how far shapes extend from an axis through `origin`: the radius perpendicular to the
+// axis, and the length along it.
 class Extent {
  public:
   Extent(const Vector3& origin, const Vector3& axis) : origin_(origin), axis_(axis) {

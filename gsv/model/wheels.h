@@ -20,8 +20,8 @@ struct Wheel {
   std::optional<int> swivel;  // the vertical joint between wheel and base, if any
 };
 
-// Whether a joint can turn on without a limit: it is continuous, or revolute with a range of
-// several turns.
+// Whether a joint can rotate without a limit: it is continuous, or revolute with a range of several
+// revolutions.
 bool TurnsFreely(const Joint& joint);
 
 // Returns the wheel on a joint, measured on its collisions, or on its visuals if only these are

@@ -25,6 +25,7 @@ struct Light {
   bool cast_shadows = true;
 };
 
+// The ambient light, the background and the sky of a world.
 struct SceneLook {
   Colour ambient{0.4, 0.4, 0.4, 1};
   Colour background{0.7, 0.75, 0.8, 1};
@@ -32,6 +33,7 @@ struct SceneLook {
   bool sky = false;
 };
 
+// A model with its name and pose in a world.
 struct PlacedModel {
   std::string name;  // unique in its world
   std::shared_ptr<const Model> model;
@@ -55,8 +57,8 @@ struct WorldDescription {
   double real_time_factor = 1;
   geometry::Vector3 gravity{0, 0, -9.8};
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
-  double temperature = 288.15;                                           // of the air at height 0,
-                                                                         // K
+  // Temperature of the air at height 0, in K.
+  double temperature = 288.15;
   std::optional<GeodeticOrigin> origin;  // if absent, the world has no satellite navigation
   std::optional<Wind> wind;
   std::optional<Fluid> fluid;

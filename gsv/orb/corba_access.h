@@ -25,7 +25,8 @@ struct CorbaAccess {
 
 CorbaAccess AccessFromEnvironment();
 
-// Checks whether a server may listen there. kInvalidArgument: the sentence says what is required.
+// Checks whether a server may listen on `host`. If not, returns kInvalidArgument with a sentence
+// about what is required.
 base::Status CheckListening(const CorbaAccess& access, const std::string& host);
 
 // Whether the host is in 127.0.0.0/8, ::1 or "localhost".

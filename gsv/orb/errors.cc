@@ -8,8 +8,8 @@ namespace {
 
 using base::ErrorCode;
 
-// Avoids that a message contains a name twice: removes `where` from the beginning of the reason, or
-// clears `where` if the reason contains a part of it.
+// Makes the message contain the name `where` only once. Removes `where` from the beginning of the
+// reason, or clears `where` if the reason begins with a path below it.
 void NameOnce(base::Error& error) {
   if (error.where.empty() || !error.message.starts_with(error.where)) return;
   const std::string rest = error.message.substr(error.where.size());
@@ -17,7 +17,8 @@ void NameOnce(base::Error& error) {
   if (rest.starts_with("/")) error.where.clear();
 }
 
-// Returns the text of an exception. All exceptions of the module sba have one member, the reason.
+// If the exception is an `Exception`, sets `error` to its reason and returns true. All exceptions
+// of the module sba have one member, the reason.
 template <typename Exception>
 bool Matches(const CORBA::UserException& exception, const std::string& where, ErrorCode code,
              base::Error& error) {

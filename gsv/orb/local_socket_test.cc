@@ -33,7 +33,7 @@ TEST_F(LocalSocket, IsInAFolderOfThisUserOnly) {
   EXPECT_NE(*socket, *NewLocalSocket());
 }
 
-TEST_F(LocalSocket, SocketsOfEndedProcessesAreRemovedAndOthersKept) {
+TEST_F(LocalSocket, RemovesSocketsOfEndedProcessesOnly) {
   fs::create_directory(folder());
   fs::permissions(folder(), fs::perms::owner_all);
   // The file of a process that has ended: no process has a number above 2^22, see proc(5).

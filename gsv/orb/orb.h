@@ -2,7 +2,7 @@
 // (corba_access.h). Every call has a time limit. Idle connections are closed. Messages may be as
 // large as images.
 //
-// Threads  StartOrb() once a process, before any other use of CORBA.
+// Threads  call StartOrb() once per process, before any other use of CORBA.
 #pragma once
 
 #include <chrono>

@@ -19,8 +19,8 @@ constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edi
                               Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
                                   Edit::Moment::kAmidTurns};
-const std::string kDrive = " drive ";  // this word is followed by a drive choice, see
-                                       // model/drive_choice.h
+// This word is followed by a drive choice, see model/drive_choice.h.
+const std::string kDrive = " drive ";
 constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
 
 const char* ToString(model::Movement movement) {

@@ -72,7 +72,8 @@ messages::gsv_msgs::Health HealthMessage(const health::Report& report) {
   return message;
 }
 
-bool IsNews(const messages::gsv_msgs::Health& message, const messages::gsv_msgs::Health& sent) {
+bool NeedsSending(const messages::gsv_msgs::Health& message,
+                  const messages::gsv_msgs::Health& sent) {
   const auto counts = [](const messages::gsv_msgs::Health& of) {
     return std::array{of.moving, of.standing, of.stuck, of.contact, of.dead, of.late};
   };

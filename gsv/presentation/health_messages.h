@@ -10,7 +10,8 @@ namespace gsv::presentation {
 // Makes the message. It lists only robots that do not move.
 messages::gsv_msgs::Health HealthMessage(const health::Report& report);
 // Whether `message` differs from `sent` in more than time and actual motion, and so must be sent.
-bool IsNews(const messages::gsv_msgs::Health& message, const messages::gsv_msgs::Health& sent);
+bool NeedsSending(const messages::gsv_msgs::Health& message,
+                  const messages::gsv_msgs::Health& sent);
 
 messages::gsv_msgs::Expectations ExpectationsMessage(
     base::SimTime time, const std::vector<simulation::ExpectationState>& states);

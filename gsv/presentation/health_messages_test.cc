@@ -59,10 +59,10 @@ TEST(HealthMessage, IsNotSentAgainIfOnlyTimeAndMotionChange) {
   later.linear = 0.01;
   auto report = ReportOf({later});
   report.time = 21s;
-  EXPECT_FALSE(IsNews(HealthMessage(report), sent));
+  EXPECT_FALSE(NeedsSending(HealthMessage(report), sent));
   later.contact = "shelf";
-  EXPECT_TRUE(IsNews(HealthMessage(ReportOf({later})), sent));
-  EXPECT_TRUE(IsNews(HealthMessage(ReportOf({})), sent));
+  EXPECT_TRUE(NeedsSending(HealthMessage(ReportOf({later})), sent));
+  EXPECT_TRUE(NeedsSending(HealthMessage(ReportOf({})), sent));
 }
 
 TEST(ExpectationsMessage, HasVerdictMarginAndShapes) {

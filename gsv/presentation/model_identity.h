@@ -1,5 +1,5 @@
-// Computes an identifier of a model's looks: equal looks have equal identifiers on every machine
-// and in every run.
+// Computes an identifier of a model's appearance. Equal models have equal identifiers on every
+// machine and in every run.
 #pragma once
 
 #include <string>

@@ -12,7 +12,8 @@ namespace gsv::presentation {
 namespace {
 
 constexpr double kUnitsPerMetre = 1e4;
-// The largest component is left out; the others are at most 1 / sqrt(2).
+// The largest component of a unit quaternion is left out. The others are at most 1 / sqrt(2), and
+// this scale maps them to integers.
 constexpr double kHalfScale = 16383.5;
 constexpr unsigned kHighestBit = 0x8000;
 

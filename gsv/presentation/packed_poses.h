@@ -1,4 +1,4 @@
-// Makes the message gsv_msgs/PackedPoses.
+// Makes the message gsv_msgs/PackedPoses: all poses in fewer bytes than gsv_msgs/Poses.
 #pragma once
 
 #include <vector>

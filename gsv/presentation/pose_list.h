@@ -7,7 +7,7 @@
 
 namespace gsv::presentation {
 
-// Says which pose it is: that of a body (link -1: world_from_model), or that of a link that moves
+// One entry of the list: the pose of a body (link -1: world_from_model), or of a link that moves
 // relative to its body (world_from_link).
 struct PoseEntry {
   int body = 0;   // index in Layout::bodies

@@ -82,10 +82,10 @@ Json LookJson(const model::SceneLook& look) {
           {"sky", look.sky}};
 }
 
-// The parameters of sensors, each set once: robots of one model have equal ones.
+// The distinct sets of sensor parameters. Robots of the same model share their sets.
 class ParameterSets {
  public:
-  // Returns the index of the sensor's set in Take().
+  // Returns the index of the sensor's set in the result of Take().
   std::size_t IndexOf(const model::SensorDescription& sensor) {
     Json set = Json::object();
     if (sensor.update_rate > 0) set["update_rate"] = sensor.update_rate;
@@ -225,8 +225,8 @@ Json AllInertialsJson(const SceneSource& source) {
   for (const world::Body& body : source.snapshot.layout->bodies) {
     if (!body.is_static()) models.try_emplace(body.model.get(), body.model);
   }
-  std::map<std::string, Json> by_identifier;  // ordered by identifier, because addresses differ
-                                              // from run to run
+  // Ordered by identifier, because addresses differ from run to run.
+  std::map<std::string, Json> by_identifier;
   for (const auto& [address, model] : models) {
     by_identifier.try_emplace(source.identify(model), InertialsJson(*model));
   }
@@ -278,9 +278,8 @@ std::optional<Bounds> VisibleBounds(const model::Model& model) {
 }  // namespace
 
 Bounds SceneBounds(const world::Snapshot& snapshot) {
-  std::map<const model::Model*, std::optional<Bounds>> of_model;  // the bounds of each model,
-                                                                  // because many bodies may share
-                                                                  // it
+  // The bounds of each model, because many bodies may share it.
+  std::map<const model::Model*, std::optional<Bounds>> of_model;
   std::optional<Bounds> bounds;
   for (std::size_t i = 0; i < snapshot.layout->bodies.size(); ++i) {
     const model::Model* model = snapshot.layout->bodies[i].model.get();

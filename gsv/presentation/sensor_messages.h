@@ -48,8 +48,8 @@ class BeamMarkers {
   messages::visualization_msgs::MarkerArray Take(base::SimTime time);
 
  private:
-  std::map<std::string, std::vector<geometry::Vector3>> points_;  // points in the world frame, by
-                                                                  // robot
+  // Points in the world frame, by robot.
+  std::map<std::string, std::vector<geometry::Vector3>> points_;
   // The pose of the body's link for which Add() was called last; most robots have all their sensors
   // on one link.
   int body_ = -1;

@@ -32,16 +32,17 @@ enum class Replay {
   kByClock,  // none; the player makes its own messages: time and status of the replay
 };
 
+// The properties of one topic in the table.
 struct Topic {
   std::string_view name{};
   const messages::Schema* schema = nullptr;
   bool is_live = true;
   bool is_recorded = true;
   Replay replay = Replay::kNewest;
-  bool is_reproducible = true;  // whether the messages are equal in every run, and are therefore
-                                // hashed
-  std::size_t history = 1;      // number of earlier messages that a new live subscriber gets
-  bool is_state = true;         // whether a message replaces the earlier ones of the topic
+  // Whether the messages are equal in every run, and are therefore hashed.
+  bool is_reproducible = true;
+  std::size_t history = 1;  // number of earlier messages that a new live subscriber gets
+  bool is_state = true;     // whether a message replaces the earlier ones of the topic
 };
 
 std::span<const Topic> Topics();
@@ -72,7 +73,7 @@ inline constexpr TopicOf<messages::gsv_msgs::ActuatorCommand> kActuators{"/gsv/a
 inline constexpr TopicOf<messages::gsv_msgs::Contact> kContacts{"/gsv/contacts"};
 inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
-// This topic is in every recording of an edited simulation, whatever topics are selected.
+// This topic is in every recording of an edited simulation, even if it is not selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
 // The wall-clock time that each part of a step takes.
 inline constexpr TopicOf<messages::gsv_msgs::StepCosts> kStepCosts{"/gsv/step_costs"};

@@ -1,8 +1,8 @@
-// The catalogue of readings: the struct of each sensor type, the one definition for all code that
-// writes, reads, sends or shows it. fields.h defines how a struct becomes values and labels.
+// The catalogue of readings: one struct for each sensor type. All code that writes, reads, sends or
+// shows readings uses these structs. fields.h converts a struct to lists of values and labels.
 //
-// Behaviours get these structs (sdk/behaviour/sensors.h), in Python with the same field names.
-// docs/sensors.md lists them; a test compares that table with the structs.
+// Robot behaviours get these structs (sdk/behaviour/sensors.h), in Python with the same field
+// names. docs/sensors.md lists them; a test compares that table with the structs.
 //
 // Frames  REP-103: x forward, y left, z up.
 // Units   metres, radians, seconds, or the unit of the field.
@@ -50,6 +50,7 @@ struct Colour {
 
 // Readings.
 
+// The reading of an ultrasonic range sensor.
 struct Sonar {
   static constexpr const char* kType = "sonar";
   double range = 0;  // distance to the nearest echo; the maximum range if there is none
@@ -74,6 +75,7 @@ struct Lidar {
   }
 };
 
+// The pose of the sensor in the world.
 struct Positioning {
   static constexpr const char* kType = "positioning";
   Placement world_from_sensor;
@@ -191,6 +193,7 @@ struct Battery {
       Value("fraction", "", &Battery::fraction, "percentage"));
 };
 
+// One model in the view of a logical camera.
 struct Sighting {
   std::string name;
   Placement sensor_from_model;
@@ -198,6 +201,7 @@ struct Sighting {
       std::make_tuple(Value("name", "", &Sighting::name),
                       Value("sensor_from_model", "", &Sighting::sensor_from_model, "bbox.center"));
 };
+// The models in the camera's frustum, with their poses.
 struct LogicalCamera {
   static constexpr const char* kType = "logical_camera";
   std::vector<Sighting> sightings;
@@ -205,6 +209,7 @@ struct LogicalCamera {
       std::make_tuple(Value("sightings", "", &LogicalCamera::sightings, "detections"));
 };
 
+// One message that a radio has received.
 struct HeardMessage {
   std::uint64_t number = 0;  // number of the message, counted from 1 since the radio was opened
   double sent = 0;
@@ -226,8 +231,8 @@ struct Radio {
 // The distance to one radio anchor, as an ultra-wideband (UWB) tag measures it.
 struct Ranging {
   static constexpr const char* kType = "ranging";
-  double distance = std::numeric_limits<double>::infinity();  // infinite if the anchor was not
-                                                              // received
+  // Infinite if the anchor was not received.
+  double distance = std::numeric_limits<double>::infinity();
   static constexpr auto kFields =
       std::make_tuple(Value("distance", "m", &Ranging::distance, "range"));
 };

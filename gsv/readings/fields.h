@@ -1,4 +1,4 @@
-// The layout of a reading's struct in values and labels.
+// Converts the struct of a reading to values and labels, and back.
 //
 // Readings of all types are passed as lists of numbers (`values`) and of texts (`labels`). The
 // struct of a type (catalogue.h) lists its members in this order, each with name and unit:
@@ -9,8 +9,8 @@
 //                                                     …);
 //   };
 //
-// Decode() and Append() convert by that list, LayoutOf() describes it, and the Python module makes
-// its attributes of it. Members may be
+// Decode() and Append() convert in the order of that list, and LayoutOf() describes it. The Python
+// module makes one attribute for each member of the list. Members may be
 //   numbers, flags              one value each
 //   std::string                 one label
 //   a struct with kFields       its parts, in order
@@ -42,7 +42,7 @@ struct Field {
   // the field's path in the message of the type; null if it is the name; empty if the parts have
   // their own paths
   const char* path;
-  bool is_optional;  // whether the field may be missing at the end of the values
+  bool is_optional;  // whether the field may be missing if it is the last one
 };
 
 template <typename Struct, typename Member>

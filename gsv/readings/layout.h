@@ -10,13 +10,14 @@
 
 namespace gsv::readings {
 
+// The number of times that a column occurs in a reading.
 enum class Multiplicity {
   kOnce,
-  kOptional,  // once, or missing if the values end before it
+  kOptional,  // once, or not at all at the end of a reading
   kRepeated,  // any number of times, up to the end of the values
 };
 
-// The path of a field through its structs, with the unit that it inherits.
+// The path of a field in nested structs, with the unit that it has or inherits.
 struct Place {
   std::string name;  // "touches.point.x"
   std::string unit;  // unit of the innermost field that has one
@@ -27,6 +28,7 @@ struct Place {
   Place Inside(const char* field, const char* field_unit, const char* field_path) const;
 };
 
+// The columns of a sensor type's readings.
 struct Layout {
   struct Column {
     std::string name;  // "angular_velocity.x"

@@ -173,7 +173,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   if (!log.is_sonar) AddScanMedians(device, pairs, result);
   const Mixture real_mix = MixtureOf(pairs, true, kTolerance);
   const Mixture mix = MixtureOf(pairs, false, kTolerance);
-  result.warning = DoubtAbout(real_mix, kTolerance);
+  result.warning = WarningAbout(real_mix, kTolerance);
   const double beams = count * static_cast<double>(real.size());
   double heard = 0, simulated_heard = 0;
   for (std::size_t i = 0; i < real.size(); ++i) {
@@ -194,7 +194,7 @@ void CompareAtRest(const Log& log, const model::WorldDescription& world,
                    const CompareOptions& options, const TimedPose& pose, Comparison& result) {
   const std::vector<double> real = RestDifferences(log.scans);
   if (real.size() < 100) return;
-  auto device = SimulatedDevice::Create(world, AskedSensors(log, options), options.seed);
+  auto device = SimulatedDevice::Create(world, ConfiguredSensors(log, options), options.seed);
   if (!device) return;
   constexpr int kScans = 30;
   std::vector<ScanPair> pairs;

@@ -28,16 +28,17 @@ struct Series {
   std::vector<double> real, simulated;
 };
 
+// The result of a comparison: a table and the distributions to plot.
 struct Comparison {
   std::vector<Row> rows;
   std::vector<Series> series;
-  std::string warning;  // a reason why the values say little about the device; empty if there is
-                        // none
+  // A reason why the values say little about the device; empty if there is none.
+  std::string warning;
 };
 
 struct CompareOptions {
-  std::optional<model::WorldDescription> world;  // if not set, a world is fitted to every other
-                                                 // block of the log
+  // If not set, a world is fitted to every other block of the log.
+  std::optional<model::WorldDescription> world;
   // Whether the scans of every other block update the walls of the world. The update shows doors
   // that are open and objects that have moved.
   bool update_world = false;
@@ -63,6 +64,7 @@ struct FittedParameter {
   std::string name, unit;
   double value = 0, confidence = 0;
 };
+// A simulated device whose parameters were fitted to a log.
 struct FittedDevice {
   std::string type, name;
   std::vector<FittedParameter> parameters;

@@ -111,7 +111,7 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   // Omits parameters of short readings whose interval is wider than half their value. By default
   // there are no short readings.
   const std::size_t shared = device.parameters.size() - 2;
-  device.warning = DoubtAbout(MixtureOf(pairs, true, kFitTolerance), kFitTolerance);
+  device.warning = WarningAbout(MixtureOf(pairs, true, kFitTolerance), kFitTolerance);
   const bool is_known = std::all_of(
       device.parameters.begin() + static_cast<std::ptrdiff_t>(shared), device.parameters.end(),
       [](const FittedParameter& each) { return each.confidence < each.value / 2; });

@@ -16,6 +16,8 @@
 
 namespace gsv::reality {
 
+// For each cell of a map, the distance to the nearest occupied cell. Rates how well a scan fits the
+// map.
 class LikelihoodField {
  public:
   explicit LikelihoodField(const OccupancyMap& map);

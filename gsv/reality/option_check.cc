@@ -32,14 +32,13 @@ std::vector<std::string> ParametersOf(const std::string& type, const CompareOpti
   model::SensorDescription description;
   description.name = description.type = type;
   description.parameters = options.parameters;
-  if (type == "sonar")
-    description.parameters["beam"] = std::string("cone");  // this option gives the device the most
-                                                           // parameters
+  // With a cone beam, a sonar has the most parameters.
+  if (type == "sonar") description.parameters["beam"] = std::string("cone");
   const std::string preset = PresetOf(type, options);
   if (!preset.empty()) description.parameters["preset"] = preset;
   const sensing::AskedParameters asked;
-  (void)registry.Find(type)->create(description);  // creating a device lists its parameters; errors
-                                                   // are reported later, where the device is used
+  // Creating a device lists its parameters; errors are reported later, where the device is used.
+  (void)registry.Find(type)->create(description);
   if (type == "odometry") {
     sensing::ParameterReader reader(description);
     (void)sensing::ReadOdometryDrift(reader);

@@ -133,8 +133,8 @@ constexpr PanelTest kPanels[] = {{.17, -24, 26},  {.32, -23, 27},  {.46, -23, 30
                                  {1.37, -31, 35}, {1.52, -19, 28}, {1.68, -35, 32}, {1.83, -29, 29},
                                  {1.98, -29, 29}, {2.11, -31, 17}, {2.26, -15, 18}, {2.41, -23, 21},
                                  {2.57, -27, 21}};
-constexpr double kRule = 2.45, kSheet = 1.68;  // maximum distances at which the rule and the
-                                               // sheet
+// Maximum distances at which the rule and the sheet.
+constexpr double kRule = 2.45, kSheet = 1.68;
 
 // Returns the errors (degrees) at every second distance, beginning with `first`.
 std::vector<double> PanelErrors(const BeamTest& test, std::size_t first, double step) {
@@ -408,8 +408,8 @@ std::vector<TimedPose> Driven(model::WorldDescription world, const Log& log, dou
           if (!simulation::SleepFor(agent, clock, until - agent.Now())) return;
         }
       });
-  world.max_step_size = std::chrono::milliseconds(1);  // the step equals the resolution of the
-                                                       // log's clock
+  // The step equals the resolution of the log's clock.
+  world.max_step_size = std::chrono::milliseconds(1);
   simulation::Specification specification =
       simulation::Lockstep(base::FromSeconds(log.wheels.back().time - first));
   specification.world = std::make_shared<model::WorldDescription>(std::move(world));
@@ -424,7 +424,8 @@ std::vector<TimedPose> Driven(model::WorldDescription world, const Log& log, dou
   return observer->path;
 }
 
-// Before the first step and after the last one, the robot does not move.
+// Returns the distance between `place` and the path's pose at the same time. Before the first pose
+// and after the last one, the robot does not move.
 double ErrorAt(const std::vector<TimedPose>& path, const TimedPose& place) {
   const TimedPose there =
       PoseAt(path, place.time)

@@ -50,7 +50,7 @@ Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double toler
           mixture.longer / count};
 }
 
-std::string DoubtAbout(const Mixture& real, double tolerance) {
+std::string WarningAbout(const Mixture& real, double tolerance) {
   if (real.hit >= 0.5) return "";
   return fmt::format(
       "only {:.0f} % of the readings are within {} m of a surface of the world, so the values say "

@@ -25,7 +25,7 @@ Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double toler
 // Returns a sentence if fewer than half of the readings are within `tolerance` of a surface: then
 // the poses or the world are wrong, and the device cannot be judged. Otherwise returns an empty
 // text.
-std::string DoubtAbout(const Mixture& real, double tolerance);
+std::string WarningAbout(const Mixture& real, double tolerance);
 
 // Returns the fraction of readings with an echo, for each beam of the real or the simulated device.
 std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real);

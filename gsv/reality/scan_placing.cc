@@ -32,11 +32,11 @@ base::Result<OccupancyMap> SearchMap(const model::WorldDescription& world, doubl
 }
 
 // Improves a pose until the exact ranges fit the scan. Differences above kWild count as kWild.
-class PosePolish {
+class PoseRefiner {
  public:
-  PosePolish(SimulatedDevice& exact, double max_range) : exact_(exact), max_range_(max_range) {}
+  PoseRefiner(SimulatedDevice& exact, double max_range) : exact_(exact), max_range_(max_range) {}
 
-  TimedPose Polished(const RangeScan& scan, TimedPose pose) {
+  TimedPose Refined(const RangeScan& scan, TimedPose pose) {
     double best = Cost(scan, pose);
     for (double step = 0.03; step > 5e-4; step /= 2) {
       for (bool is_better = true; is_better;) {
@@ -90,12 +90,12 @@ base::Result<std::vector<RangeScan>> ScansIn(const Log& log, const CompareOption
   auto exact =
       SimulatedDevice::Create(*options.world, SensorsOf(log, "", {}, options.height), options.seed);
   if (!exact) return base::Fail(exact.error());
-  PosePolish polish(*exact, log.max_range);
+  PoseRefiner refiner(*exact, log.max_range);
   std::vector<RangeScan> placed;
   for (std::size_t i = 0; i < poses->size(); ++i) {
     placed.push_back(log.scans[i * stride]);
     placed.back().base = map->resolution < kCell
-                             ? polish.Polished(unbiased.scans[i * stride], (*poses)[i])
+                             ? refiner.Refined(unbiased.scans[i * stride], (*poses)[i])
                              : (*poses)[i];
   }
   return placed;
@@ -123,7 +123,7 @@ base::Result<OccupancyMap> UpdatedWorld(const Log& log, const CompareOptions& op
   return map;
 }
 
-// Divides scans into those that a world is made from and those that are compared.
+// Divides the log's scans into two lists: scans to make a world from, and scans to compare.
 void Divide(std::vector<RangeScan>& for_world, std::vector<RangeScan>& to_read, bool for_fitting) {
   std::erase_if(for_world, [](const RangeScan& scan) { return !IsForFitting(scan.time); });
   std::erase_if(to_read,
@@ -151,7 +151,8 @@ void MarkMissing(std::vector<double>& ranges, double max_range) {
   }
 }
 
-std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options) {
+std::vector<model::SensorDescription> ConfiguredSensors(const Log& log,
+                                                        const CompareOptions& options) {
   auto sensors =
       SensorsOf(log, PresetOf(ScannerOf(log), options), options.parameters, options.height);
   for (std::size_t i = 0; i < std::min(sensors.size(), options.beam_parameters.size()); ++i) {
@@ -197,7 +198,8 @@ base::Result<PlacedScans> PlaceScans(const Log& given, const CompareOptions& opt
 
 base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const Log& log,
                                               const CompareOptions& options) {
-  auto device = SimulatedDevice::Create(placed.world, AskedSensors(log, options), options.seed);
+  auto device =
+      SimulatedDevice::Create(placed.world, ConfiguredSensors(log, options), options.seed);
   if (!device) return base::Fail(device.error());
   auto exact =
       SimulatedDevice::Create(placed.world, SensorsOf(log, "", {}, options.height), options.seed);

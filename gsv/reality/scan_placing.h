@@ -30,7 +30,8 @@ base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const L
                                               const CompareOptions& options);
 
 // Returns the sensors that the options describe.
-std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options);
+std::vector<model::SensorDescription> ConfiguredSensors(const Log& log,
+                                                        const CompareOptions& options);
 
 // Replaces readings at or beyond the maximum range by infinity (no echo).
 void MarkMissing(std::vector<double>& ranges, double max_range);

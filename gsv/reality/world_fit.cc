@@ -10,16 +10,16 @@
 namespace gsv::reality {
 namespace {
 
-constexpr double kSonarHalfAngle = 0.13;  // half angle of the cone that returns most of the sound,
-                                          // rad
-constexpr double kMargin = 6;             // margin around the path, for sonars and in rooms, m
+// Half angle of the cone that returns most of the sound, rad.
+constexpr double kSonarHalfAngle = 0.13;
+constexpr double kMargin = 6;  // margin around the path, for sonars and in rooms, m
 constexpr double kMaxFittedCells = 25e6;
 constexpr double kFurthest = 50;    // echoes from further away are ignored, m
 constexpr double kMaxWidth = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
 constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // minimum log odds of a wall
-constexpr double kWall = 10;  // larger than the sum of the evidence of all long readings that pass
-                              // a smooth wall
+// Larger than the sum of the evidence of all long readings that pass a smooth wall.
+constexpr double kWall = 10;
 
 // The beam of a sideways sonar moves along walls. Two consecutive echoes of one wall are connected
 // by a line.

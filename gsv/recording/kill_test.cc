@@ -1,5 +1,5 @@
-// Kills programs that record (SIGKILL) at two hundred random moments, several at once. A message
-// that a program recorded more than a second before it was killed must be in its file.
+// Kills recording programs with SIGKILL at 200 random moments, several programs at once. A message
+// that was recorded more than a second before the kill must be in the file.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -25,8 +25,8 @@ namespace gsv::recording {
 namespace {
 
 constexpr int kMoments = 200;
-// The number of concurrent programs. It is smaller on slow machines. Attempts in which a program
-// waited too long for a processor do not count, and most of these would be long ones.
+// Number of programs that run at once; lower on slow machines. A program that waits too long for a
+// processor must be started again (see kStall), and many programs would make such waits frequent.
 constexpr std::size_t kAtOnce = base::kSlowdown > 1 ? 6 : 20;
 constexpr std::int64_t kMillisecond = 1'000'000;  // in ns
 constexpr std::int64_t kPromised = 1000 * kMillisecond;
@@ -36,7 +36,7 @@ constexpr std::int64_t kMaxLifetime = 2500 * kMillisecond;
 constexpr std::int64_t kStall = 250 * kMillisecond;
 constexpr int kMaxRepeats = 200;
 
-// A program that records, from its start until it is killed.
+// A recording program that the test starts, and kills later.
 class Victim {
  public:
   Victim(std::string path, std::int64_t life, int dawdling_us)
@@ -83,8 +83,8 @@ class Victim {
     close(pipe_);
   }
 
-  // The simulated time up to which all messages must be in the file; nullopt if the program was
-  // killed too early for any guarantee. Call it after Kill().
+  // Returns the simulated time up to which all messages must be in the file. Returns nullopt if the
+  // program recorded nothing more than a second before it was killed. Call it after Kill().
   std::optional<base::SimTime> promised() const {
     std::optional<base::SimTime> newest;
     for (const HandOver& each : told_) {

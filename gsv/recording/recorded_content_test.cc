@@ -46,8 +46,8 @@ TEST_F(SimulationRecorderTest, BeamsCanBeRecordedWithoutReadings) {
   const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
   ASSERT_EQ(beams.size(), 11u);
   ASSERT_EQ(beams.back().markers.size(), 1u);
-  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // the points are the ends of the beams of
-                                                         // "front" and of "back"
+  // The points are the ends of the beams of "front" and of "back".
+  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);
 }
 
 // A sensor whose image is one pixel. Its message has the format "jpeg" and no data.

@@ -95,7 +95,8 @@ std::string RobotOf(const McapReader& reader, const Difference& difference) {
     return BodyOfPose(reader, difference.time,
                       std::strtoul(difference.field.c_str() + kPoses.size(), nullptr, 10));
   }
-  if (presentation::FindTopic(topic) == nullptr) {  // this is the topic of a sensor: /ROBOT/SENSOR
+  // Other topics are those of sensors: /ROBOT/SENSOR.
+  if (presentation::FindTopic(topic) == nullptr) {
     return topic.substr(1, topic.find('/', 1) - 1);
   }
   return NameInMessage(difference.message, difference.field);

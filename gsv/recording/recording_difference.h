@@ -13,6 +13,7 @@
 
 namespace gsv::recording {
 
+// The differences between two recordings.
 struct RecordingDifference {
   // Lines that are in only one of the two attached scenarios, at most 20 for each.
   std::vector<std::string> only_in_first, only_in_second;

@@ -24,13 +24,14 @@ constexpr std::chrono::milliseconds kChunkAge{500};        // wall-clock time
 constexpr std::chrono::milliseconds kWatchedPeriod{50}, kUnwatchedPeriod{250};
 constexpr std::chrono::milliseconds kWatchedStatusPeriod{200}, kUnwatchedStatusPeriod{1000};
 constexpr std::chrono::milliseconds kReadingsPeriod{200}, kSensorListPeriod{1000};
-// After an activity, its thread pauses for this multiple of the time that the activity took.
+// After each sampling, the thread pauses for this multiple of the time that the sampling took.
 constexpr int kWatchedRest = 20, kUnwatchedRest = 50;
 // A rate above all sampling rates, so that every sample is recorded.
 constexpr double kHistoryPosesRate = 1000;
 constexpr std::chrono::milliseconds kOpenTimeout{500}, kOpenPoll{5};
 
-// Runs an activity periodically, and less often if it takes long.
+// Limits the share of the thread's time that an activity takes: runs it periodically, and less
+// often if it takes long.
 class Share {
  public:
   bool IsDue(RunHistory::WallTime now) const { return now >= next_; }
@@ -68,7 +69,7 @@ WriterOptions RingWriting() {
 
 }  // namespace
 
-// Collects the events and collisions between two calls of Round().
+// Collects the events and collisions between two calls of SampleIfDue().
 class RunHistory::Inbox final : public simulation::Observer {
  public:
   struct Content {
@@ -147,7 +148,7 @@ class RunHistory::Run {
     const auto snapshot = simulation.snapshot();
     const int rest = is_watched ? kWatchedRest : kUnwatchedRest;
     if (snapshot->layout != layout_ || (is_watched && list_share_.IsDue(now))) {
-      list_share_.Run(now, kSensorListPeriod, rest, [&] { Mount(simulation, *snapshot); });
+      list_share_.Run(now, kSensorListPeriod, rest, [&] { SetSensors(simulation, *snapshot); });
     }
     if (snapshot != latest_ && pose_share_.IsDue(now)) {
       pose_share_.Run(now, is_watched ? kWatchedPeriod : kUnwatchedPeriod, rest, [&] {
@@ -180,11 +181,11 @@ class RunHistory::Run {
   }
 
  private:
-  void Mount(const Simulation& simulation, const world::Snapshot& snapshot) {
+  void SetSensors(const Simulation& simulation, const world::Snapshot& snapshot) {
     const auto lists = std::make_shared<SensorLists>(SensorsOf(simulation, *snapshot.layout));
     scene_.Attach(snapshot, *lists);
-    sensors_.Mount(*lists, snapshot);
-    health_.Mount(lists);
+    sensors_.SetSensors(*lists, snapshot);
+    health_.SetSensors(lists);
     layout_ = snapshot.layout;
   }
 
@@ -223,7 +224,7 @@ RunHistory::~RunHistory() {
   if (const auto simulation = simulation_.lock()) simulation->RemoveObserver(inbox_);
 }
 
-void RunHistory::Round(WallTime now, bool is_watched) {
+void RunHistory::SampleIfDue(WallTime now, bool is_watched) {
   const std::shared_ptr<Simulation> simulation = simulation_.lock();
   if (!simulation) return;
   const Inbox::Content content = inbox_->Take();

@@ -1,15 +1,15 @@
 // Keeps the last minutes of a running simulation in memory, readable as a recording.
 //
 // A thread of the owner samples the simulation at rates of wall-clock time, so that a fast run
-// costs no more than a slow one. Sampling takes at most 1/20 of that thread's time while somebody
-// watches, and 1/50 otherwise. The stepping thread only stores the events and the collisions of
-// each step.
+// costs no more than a slow one. Sampling takes at most 1/20 of that thread's time while a viewer
+// is connected, and 1/50 otherwise. The stepping thread only stores the events and the collisions
+// of each step.
 //
 // Records      Events, log, output, notes, commands and collisions are always recorded. Poses and
-//              status are recorded at a low rate while nobody watches. For viewers, the rate is
-//              higher, and health, sensor readings (no images) and beams are added.
+//              status are recorded at a low rate. While a viewer is connected, the rate is higher,
+//              and health, sensor readings (no images) and beams are added.
 // One run      a reset of the simulation starts a new history.
-// Threads      Round() from one thread; the others from any.
+// Threads      SampleIfDue() from one thread; other functions from any.
 #pragma once
 
 #include <chrono>
@@ -24,26 +24,27 @@
 
 namespace gsv::recording {
 
-// The begin of a contact of a robot with another body.
+// The start of a contact of a robot with another body.
 struct Collision {
   base::SimTime time{};
   std::string robot, other;
 };
 
+// The history of a running simulation.
 class RunHistory {
  public:
   using WallTime = std::chrono::steady_clock::time_point;
 
-  // Rates of poses while somebody watches and while nobody does, in Hz of wall-clock time.
+  // Rates of poses with and without viewers, in Hz of wall-clock time.
   static constexpr double kWatchedRate = 20;
   static constexpr double kUnwatchedRate = 4;
 
-  // `capacity` is that of the ChunkRing, in bytes.
+  // `capacity` is the maximum size of the history in memory, in bytes (see ChunkRing).
   RunHistory(const std::shared_ptr<simulation::Simulation>& simulation, std::size_t capacity);
   ~RunHistory();
 
-  // Takes a sample of the simulation, if it is time for one.
-  void Round(WallTime now, bool is_watched);
+  // Samples the simulation if a sample is due. `is_watched`: whether a viewer is connected.
+  void SampleIfDue(WallTime now, bool is_watched);
 
   std::size_t capacity() const { return capacity_; }
   ChunkRing::Extent extent() const;
@@ -66,7 +67,7 @@ class RunHistory {
   const std::shared_ptr<Inbox> inbox_;
 
   mutable base::Mutex mutex_;
-  std::shared_ptr<Run> run_ GSV_GUARDED_BY(mutex_);  // null before the first round
+  std::shared_ptr<Run> run_ GSV_GUARDED_BY(mutex_);  // null before the first sample
   std::deque<Collision> collisions_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -31,7 +31,7 @@ class RunHistoryTest : public ::testing::Test {
     ASSERT_EQ(simulation_->WaitForPhase({simulation::Phase::kPaused}, kTimeout),
               simulation::Phase::kPaused);
     now_ += 1h;
-    history_.Round(now_, is_watched);
+    history_.SampleIfDue(now_, is_watched);
   }
   std::unique_ptr<McapReader> Open() const {
     auto reader = history_.Open();
@@ -57,8 +57,8 @@ TEST_F(RunHistoryTest, KeepsTheRunAsARecording) {
   EXPECT_EQ(reader->Read(reader->summary().metadata[0]).value().values.at("name"), "simulation");
   ASSERT_GE(reader->summary().attachments.size(), 1u);
   for (const auto& attachment : reader->summary().attachments) {
-    EXPECT_EQ(attachment.name, "scene.json");  // scenes are the only attachments; models come from
-                                               // elsewhere
+    // Scenes are the only attachments; models come from elsewhere.
+    EXPECT_EQ(attachment.name, "scene.json");
   }
 }
 
@@ -75,7 +75,7 @@ TEST_F(RunHistoryTest, SamplesAtMostAtItsRates) {
   for (int i = 0; i < 100; ++i) {
     ASSERT_TRUE(simulation_->Step(1));
     (void)simulation_->WaitForPhase({simulation::Phase::kPaused}, kTimeout);
-    history_.Round(now_ + i * 1ms, true);  // 20 Hz allow two samples in these rounds
+    history_.SampleIfDue(now_ + i * 1ms, true);  // at 20 Hz, two samples are due in this time
   }
   EXPECT_LE(CountsOf(*Open()).at("/gsv/poses"), 3u);
 }
@@ -101,7 +101,7 @@ TEST_F(RunHistoryTest, HasEveryEventNoteAndCollision) {
   }
 }
 
-TEST_F(RunHistoryTest, AResetStartsAnew) {
+TEST_F(RunHistoryTest, StartsANewHistoryAfterAReset) {
   Advance(200);
   ASSERT_EQ(history_.collisions().size(), 1u);
   const auto before = Open();

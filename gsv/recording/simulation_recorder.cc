@@ -133,7 +133,7 @@ base::Status SimulationRecorder::Stop() {
     if (simulation) {
       if (!feed_->was_reset()) result_ = ResultOf(*simulation);
       // The run has ended, but its last snapshot may not be delivered yet. So the feed is closed
-      // with it.
+      // with the current state appended.
       feed_->CloseAtLatest();
       simulation->RemoveObserver(feed_);
     }
@@ -179,8 +179,8 @@ void SimulationRecorder::Record(const Observation& observation) {
   if (observation.sensors) {
     scene_.Attach(snapshot, *observation.sensors);
     sources_.AttachRobots(snapshot);
-    sensors_.Mount(*observation.sensors, snapshot);
-    health_.Mount(observation.sensors);
+    sensors_.SetSensors(*observation.sensors, snapshot);
+    health_.SetSensors(observation.sensors);
   }
   states_.Record(observation.snapshot);
   RecordStatusOf(observation);

@@ -28,12 +28,14 @@
 
 namespace gsv::rendering {
 
+// The implementation that renders the images.
 enum class BackEnd {
   kAutomatic,   // a graphics card, or else the rasteriser, or else (without AVX2) Mesa in software
   kOpenGl,      // OpenGL, on the devices that `egl` allows
   kRasteriser,  // the rasteriser; kUnavailable on processors without AVX2 and FMA
 };
 
+// The settings of a renderer.
 struct RendererOptions {
   BackEnd back_end = BackEnd::kAutomatic;
   EglOptions egl;
@@ -47,6 +49,7 @@ class Renderer {
   // behaviours may be shorter.
   static constexpr std::chrono::seconds kTimeout{60};
 
+  // Starts the render thread. Returns kUnavailable if this machine has no such back end.
   [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
   // Ends all pending requests with kEnded.
   ~Renderer();

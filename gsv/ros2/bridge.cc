@@ -85,7 +85,7 @@ class SimulationBridge final : public Bridge {
   sensing::RaySceneCache rays_;
   Graph graph_;
   Node node_;
-  std::vector<std::unique_ptr<Source>> sources_;  // sources of the simulation as a whole
+  std::vector<std::unique_ptr<Source>> sources_;  // topics of the whole simulation
   RobotDescriptions descriptions_;
   dds::Writer* static_frames_ = nullptr;
   dds::Writer* log_ = nullptr;
@@ -93,7 +93,7 @@ class SimulationBridge final : public Bridge {
   std::map<std::string, std::unique_ptr<RobotTopics>> robots_;  // by body
   SlowLane slow_;  // declared last, because it uses the members above
   bool has_checked_namespaces_ = false;
-  std::unique_ptr<SimulationServices> own_services_;  // null: those of the caller
+  std::unique_ptr<SimulationServices> own_services_;  // null if the caller has given services
   SimulationServices& services_;
   std::thread thread_;
 };
@@ -150,14 +150,14 @@ SimulationBridge::SimulationBridge(dds::Participant& participant, Options option
   simulation->AddObserver(feed_);
   thread_ = std::thread([this] { Run(); });
   if (options_.steps == nullptr) return;
-  options_.steps->RepeatBy([this] {
+  options_.steps->SetRepeat([this] {
     repeats_clock_ = true;
     feed_->Wake();
   });
 }
 
 SimulationBridge::~SimulationBridge() {
-  if (options_.steps != nullptr) options_.steps->RepeatBy({});
+  if (options_.steps != nullptr) options_.steps->SetRepeat({});
   is_stopping_ = true;
   feed_->Close();
   thread_.join();
@@ -170,7 +170,7 @@ SimulationBridge::~SimulationBridge() {
   }
   if (slow_.skipped() > 0) {
     spdlog::info(
-        "ROS 2: images of {} instants were skipped, because drawing them did not keep up. Use "
+        "ROS 2: images of {} instants were skipped, because rendering them did not keep up. Use "
         "fewer or smaller "
         "cameras, or a lower rate",
         slow_.skipped());
@@ -225,7 +225,7 @@ void SimulationBridge::Refresh(Simulation& simulation) {
   }
 }
 
-// Returns whether robots were added, removed or changed.
+// Adds and removes the topics of robots. Returns whether robots were added, removed or changed.
 bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapshot& snapshot) {
   std::set<std::string> with_behaviour;
   for (const simulation::RobotStatus& robot : simulation.status().robots) {
@@ -246,11 +246,11 @@ bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapsho
     const bool takes_commands = !with_behaviour.contains(body.name);
     std::unique_ptr<RobotTopics>& robot = robots_[body.name];
     if (robot != nullptr && robot->node().name_space == NamespaceOf(body.name) &&
-        robot->IsOf(body, simulation.sensors(body.name), takes_commands)) {
+        robot->Fits(body, simulation.sensors(body.name), takes_commands)) {
       continue;
     }
     slow_.Drain();
-    robot = nullptr;  // its topics are free again
+    robot = nullptr;  // this releases the names of its topics
     robot = std::make_unique<RobotTopics>(context, body, NamespaceOf(body.name), takes_commands);
     has_changed = true;
   }
@@ -327,7 +327,7 @@ void SimulationBridge::Publish(const SnapshotPointer& snapshot) {
   const Moment moment{snapshot, seed_, rays_};
   std::vector<Source*> slow;
   VisitSources([&](Source& source) {
-    if (!source.Pass(snapshot->state.time) || !source.is_wanted()) return;
+    if (!source.AdvanceTo(snapshot->state.time) || !source.is_wanted()) return;
     if (source.takes_long()) {
       slow.push_back(&source);
     } else {
@@ -337,8 +337,8 @@ void SimulationBridge::Publish(const SnapshotPointer& snapshot) {
   if (!slow.empty()) slow_.Offer(std::move(slow), moment, is_lockstep_);
 }
 
-// A step waits for a node. So /clock is sent again. Before the first step all topics are sent,
-// because no step has published them yet.
+// Called while a step waits for a node: sends /clock again. Before the first step, sends all
+// topics, because no step has published them yet.
 void SimulationBridge::Repeat() {
   const std::shared_ptr<Simulation> simulation = simulation_.lock();
   if (simulation == nullptr) return;

@@ -16,6 +16,7 @@
 
 namespace gsv::ros2 {
 
+// The connection of one simulation to ROS 2. Its destructor ends it.
 class Bridge {
  public:
   // `participant` and `services` must outlive the bridge; the participant watches endpoints. If

@@ -167,7 +167,7 @@ TEST_F(BridgeTest, MovesJointsAlongATrajectory) {
   EXPECT_NEAR(position, 0.3, 1e-3);
 }
 
-TEST_F(BridgeTest, SurvivesBytesThatAreNoCommand) {
+TEST_F(BridgeTest, IgnoresBytesThatAreNotACommand) {
   Publish();
   ASSERT_TRUE(simulation_->Start());
   const auto writer = peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");
@@ -202,8 +202,8 @@ TEST_F(BridgeTest, TakesNoCommandsForARobotWithABehaviour) {
   ASSERT_TRUE(simulation_->Start());
   peer_->Listen("/driven/odom", "nav_msgs/msg/Odometry", kDefaultQos);
   (void)peer_->Await<messages::nav_msgs::Odometry>("/driven/odom");
-  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // a second publisher of the same
-                                                                   // topic
+  // A second publisher of the same topic.
+  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");
   for (const dds::Endpoint& endpoint : peer_->participant().endpoints()) {
     EXPECT_NE(endpoint.topic.name, "rt/driven/cmd_vel");
   }

@@ -133,7 +133,7 @@ void CommandInput::Note(const base::Status& status, const char* topic) {
   // simulation.
   if (code == base::ErrorCode::kNotRunning || code == base::ErrorCode::kEnded) return;
   if (refused_++ == 0) {
-    spdlog::warn("{}: {} from ROS 2 is refused: {}. Further ones are counted", robot_, topic,
+    spdlog::warn("{}: {} from ROS 2 is refused: {}. Further refusals are not logged", robot_, topic,
                  status.error().Sentence());
   }
 }

@@ -1,8 +1,8 @@
 // Applies the commands that ROS 2 nodes send to a robot's drive and joints.
 //
 // The bytes are untrusted input. A message that cannot be decoded, or contains a number that is not
-// finite, is rejected as a whole: no joint gets a command of it. The first rejected message of each
-// topic is logged.
+// finite, is rejected as a whole: none of its values is applied. Only the robot's first rejected
+// message is logged.
 //
 // Threads  Take…() on any threads; a command applies from the next step on.
 #pragma once
@@ -18,10 +18,11 @@
 
 namespace gsv::ros2 {
 
+// The commands from ROS 2 for one robot.
 class CommandInput {
  public:
-  // `steps` may be null (then no node steps robots). While a node steps the robot, stamped commands
-  // go to `steps`.
+  // `steps` is null if no ROS 2 node steps robots. While a node steps this robot, commands with a
+  // time stamp go to `steps`.
   explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent,
                         std::shared_ptr<NodeSteps> steps = nullptr);
 
@@ -35,7 +36,7 @@ class CommandInput {
 
   // Commands these joints to these positions, in rad or m.
   void CommandPositions(const std::vector<int>& joints, const std::vector<double>& positions);
-  // Counts a rejected message of `topic`, and logs the first one.
+  // Counts a rejected message of `topic`. Logs the robot's first one.
   void Refuse(const base::Error& error, const char* topic);
 
   std::uint64_t taken() const { return taken_; }

@@ -41,8 +41,8 @@ TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
   CommandedRobot robot;
   robot.input->TakeTwist(TwistBytes(0.5));
   EXPECT_EQ(robot.input->taken(), 1u);
-  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);  // 0.5 m/s for 1 s; the command starts with the second
-                                              // step
+  // 0.5 m/s for 1 s; the command starts with the second step.
+  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);
 }
 
 TEST(CommandInput, RejectsNonFiniteCommands) {
@@ -59,7 +59,7 @@ TEST(CommandInput, RejectsNonFiniteCommands) {
   EXPECT_EQ(robot.XAtTheEnd(), 0);
 }
 
-TEST(CommandInput, RefusesEachTruncationOfACommand) {
+TEST(CommandInput, RejectsTruncatedCommands) {
   CommandedRobot robot;
   const messages::Bytes whole = TwistBytes(0.5);
   for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -69,7 +69,7 @@ TEST(CommandInput, RefusesEachTruncationOfACommand) {
   EXPECT_EQ(robot.XAtTheEnd(), 0);
 }
 
-TEST(CommandInput, KeepsOnlyTheLatestOfAFlood) {
+TEST(CommandInput, KeepsOnlyTheLatestOfManyCommands) {
   CommandedRobot robot;
   for (int i = 0; i < 10'000; ++i) robot.input->TakeTwist(TwistBytes(-1));
   robot.input->TakeTwist(TwistBytes(0.5));
@@ -141,7 +141,7 @@ TEST(CommandInput, IgnoresAnArrayWithANonFiniteNumber) {
             (std::vector<double>{0, 0}));
 }
 
-TEST(CommandInput, ForgetsARemovedRobot) {
+TEST(CommandInput, TakesNoCommandsForARemovedRobot) {
   CommandedRobot robot;
   robot.simulation.reset();
   robot.input->TakeTwist(TwistBytes(0.5));

@@ -9,7 +9,7 @@ void Feed::OnSnapshot(const SnapshotPointer& snapshot) {
     base::MutexLock lock(mutex_);
     bool is_due = false;
     for (auto& [period, instants] : instants_) {
-      is_due = instants.Pass(snapshot->state.time) || is_due;
+      is_due = instants.AdvanceTo(snapshot->state.time) || is_due;
     }
     if (!is_due || is_closed_) return;
     if (waits_when_full_) {

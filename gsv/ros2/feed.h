@@ -21,6 +21,7 @@ namespace gsv::ros2 {
 
 using SnapshotPointer = std::shared_ptr<const world::Snapshot>;
 
+// Receives the simulation's snapshots and events, and queues them for the publisher.
 class Feed final : public simulation::Observer {
  public:
   explicit Feed(bool waits_when_full) : waits_when_full_(waits_when_full) {}

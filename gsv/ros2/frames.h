@@ -18,6 +18,7 @@ namespace gsv::ros2 {
 
 inline constexpr std::string_view kRosWorldFrame = "world";
 
+// The names of one robot's frames, and the transforms between them.
 class Frames {
  public:
   // `prefix` is prepended to frame names; it is empty or ends with a slash.

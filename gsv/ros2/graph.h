@@ -24,6 +24,7 @@ void EncodeGraph(const dds::Guid& participant, const std::vector<NodeInfo>& node
 // Reads the nodes of a ParticipantEntitiesInfo of any distribution. `sample` is untrusted input.
 base::Result<std::vector<NodeInfo>> DecodeGraph(std::span<const std::byte> sample);
 
+// Publishes the nodes of one participant.
 class Graph {
  public:
   // `participant` must outlive this object.
@@ -34,8 +35,8 @@ class Graph {
  private:
   dds::Participant& participant_;
   const Distro distro_;
-  std::unique_ptr<dds::Writer> writer_;  // null if the participant refused to make it, which is
-                                         // logged
+  // Null if the participant refused to make it, which is logged.
+  std::unique_ptr<dds::Writer> writer_;
   std::optional<std::vector<NodeInfo>> sent_;
 };
 

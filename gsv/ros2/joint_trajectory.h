@@ -17,6 +17,7 @@
 
 namespace gsv::ros2 {
 
+// A decoded trajectory.
 struct JointTrajectory {
   static constexpr std::size_t kMaxPoints = 100'000;
 

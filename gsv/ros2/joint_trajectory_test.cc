@@ -83,7 +83,7 @@ TEST(JointTrajectory, WithoutPointsStopsTheJoints) {
   EXPECT_THAT(read->PositionsAt(5s, {0.3}), ElementsAre(0.3));
 }
 
-TEST(JointTrajectory, RefusesBadMessagesWithASentence) {
+TEST(JointTrajectory, RejectsInvalidMessagesWithAReason) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(WhyNot({}, {}), "it names no joints");
   EXPECT_THAT(WhyNot({"wheel"}, {}), HasSubstr("no joint 'wheel' that takes commands"));
@@ -95,7 +95,7 @@ TEST(JointTrajectory, RefusesBadMessagesWithASentence) {
   EXPECT_THAT(WhyNot({"elbow"}, {PointAt(1, {1}), PointAt(1, {2})}), HasSubstr("must increase"));
 }
 
-TEST(JointTrajectory, RefusesTruncatedBytes) {
+TEST(JointTrajectory, RejectsTruncatedMessages) {
   messages::trajectory_msgs::JointTrajectory message;
   message.joint_names = {"elbow"};
   message.points = {PointAt(1, {1}, {0})};

@@ -31,6 +31,7 @@ struct NodeInfo {
   friend bool operator==(const NodeInfo&, const NodeInfo&) = default;
 };
 
+// The endpoints of one ROS 2 node. They exist as long as the node.
 class Node {
  public:
   // `participant` must outlive the node. `on_match` is called when a reader of one of its topics is

@@ -66,7 +66,7 @@ std::optional<world::DriveCommand> NodeSteps::Await(const std::string& robot, ba
   return there.is_open ? std::optional(there.command) : std::nullopt;
 }
 
-void NodeSteps::RepeatBy(std::function<void()> repeat) {
+void NodeSteps::SetRepeat(std::function<void()> repeat) {
   const base::MutexLock lock(repeat_mutex_);
   repeat_ = std::move(repeat);
 }
@@ -97,8 +97,8 @@ void NodeBehaviour::Run(simulation::Agent& agent, simulation::ClockId clock) {
     const base::SimTime now = agent.Now();
     const auto command = steps_->Await(robot_, now);
     if (!command) break;
-    (void)agent.Command(*command);  // if this fails, the wait below fails as well and returns the
-                                    // error
+    // If this fails, the wait below fails as well and returns the error.
+    (void)agent.Command(*command);
     const base::SimTime next = (now / period_ + 1) * period_;
     do {
       wait = agent.SleepUntil(clock, next, kStepLease);

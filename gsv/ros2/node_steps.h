@@ -33,13 +33,13 @@ class NodeSteps {
 
   // Stores a command that a node has sent with this time stamp.
   void Offer(const std::string& robot, base::SimTime stamp, const world::DriveCommand& command);
-  // Waits for the command with this time stamp, and sends /clock again from time to time. Returns
-  // nullopt once the node no longer steps the robot.
+  // Waits for the command with this time stamp. Meanwhile, /clock is sent again from time to time.
+  // Returns nullopt once the node no longer steps the robot.
   std::optional<world::DriveCommand> Await(const std::string& robot, base::SimTime time);
 
-  // `repeat` sends /clock again, for nodes that have started late or lost it. The function must
-  // return at once, and may be empty.
-  void RepeatBy(std::function<void()> repeat);
+  // Sets the function that sends /clock again, for nodes that started late or did not receive it.
+  // `repeat` must return at once, and may be empty.
+  void SetRepeat(std::function<void()> repeat);
 
  private:
   struct Robot {

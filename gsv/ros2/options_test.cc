@@ -52,7 +52,7 @@ TEST(Ros2Options, OverrideTheEnvironment) {
   EXPECT_TRUE(participant->peers.empty());
 }
 
-TEST(Ros2Options, RefuseBadValuesWithASentence) {
+TEST(Ros2Options, RejectInvalidValuesWithAReason) {
   const std::map<std::string, std::string> bad[] = {{{"ROS_DOMAIN_ID", "233"}},
                                                     {{"ROS_DOMAIN_ID", "-1"}},
                                                     {{"ROS_DOMAIN_ID", "1 "}},

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Stands in mesh URIs for the temporary folder, which is created only if there are meshes.
+// A placeholder in mesh URIs for the path of the temporary folder, which is created only if there
+// are meshes.
 constexpr const char* kPlaceholder = "gsv-ros2-meshes://";
 
 void ReplaceAll(std::string& text, std::string_view from, const std::string& to) {

@@ -15,6 +15,7 @@
 
 namespace gsv::ros2 {
 
+// The URDF of each model, cached.
 class RobotDescriptions {
  public:
   // Returns the URDF of a model. Each model is converted once. Meshes have file:/// URIs in a

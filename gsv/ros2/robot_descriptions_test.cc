@@ -33,7 +33,7 @@ TEST(RobotDescriptions, HaveNoFilesForShapesOfUrdf) {
   EXPECT_THAT(*text, Not(HasSubstr("://")));
 }
 
-TEST(RobotDescriptions, NameMeshesThatExistUntilTheyAreDropped) {
+TEST(RobotDescriptions, KeepMeshFilesUntilTheyAreDestroyed) {
   auto descriptions = std::make_unique<RobotDescriptions>();
   const auto model = ModelWith(geometry::Cone{0.1, 0.3});
   const auto text = descriptions->Of(model);

@@ -85,7 +85,7 @@ RobotTopics::RobotTopics(const Context& context, const world::Body& body, std::s
   if (takes_commands_) TakeCommands(context);
 }
 
-bool RobotTopics::IsOf(const world::Body& body,
+bool RobotTopics::Fits(const world::Body& body,
                        const std::vector<model::SensorDescription>& sensors,
                        bool takes_commands) const {
   return body.model == model_ && body.kind == kind_ && sensors == sensors_ &&

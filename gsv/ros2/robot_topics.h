@@ -20,6 +20,7 @@
 
 namespace gsv::ros2 {
 
+// The ROS 2 node of one robot or station.
 class RobotTopics {
  public:
   struct Context {
@@ -36,7 +37,7 @@ class RobotTopics {
               bool takes_commands);
 
   // Whether these topics still fit the body: false after its sensors or its namespace have changed.
-  bool IsOf(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
+  bool Fits(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
             bool takes_commands) const;
 
   const std::string& body() const { return body_; }
@@ -69,14 +70,14 @@ class RobotTopics {
   const bool takes_commands_;
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
-  std::vector<bool> is_optical_;                  // whether each of sensors_ has an optical frame
-  std::vector<std::unique_ptr<Source>> sources_;  // declared before node_, whose readers call the
-                                                  // sources
+  std::vector<bool> is_optical_;  // whether each of sensors_ has an optical frame
+  // Declared before node_, whose readers call the sources.
+  std::vector<std::unique_ptr<Source>> sources_;
   Node node_;
-  dds::Writer* description_ = nullptr;  // null after robot_description was sent, or if the
-                                        // participant refused the topic
-  std::string drive_type_;              // type of cmd_vel, such as "geometry_msgs/msg/Twist"; empty
-                                        // if there is no such topic
+  // Null after robot_description was sent, or if the participant refused the topic.
+  dds::Writer* description_ = nullptr;
+  // Type of cmd_vel, such as "geometry_msgs/msg/Twist"; empty if there is no such topic.
+  std::string drive_type_;
   dds::Reader* drive_reader_ = nullptr;
   bool has_warned_of_many_ = false;
   bool has_warned_of_type_ = false;

@@ -19,8 +19,8 @@ namespace {
 
 using sensing::Reading;
 
-// The usual topic and rate of sensors of one type in ROS 2.
-struct Habit {
+// The topic and the rate that ROS 2 drivers usually have for a type of sensor.
+struct UsualTopic {
   const char* topic;
   bool is_sensor_data;
   double rate;  // Hz, used if the sensor has no rate of its own
@@ -29,8 +29,8 @@ struct Habit {
 constexpr double kUsualRate = 20;
 constexpr double kUsualImageRate = 15;
 
-const Habit* FindHabit(const std::string& type) {
-  static const std::map<std::string, Habit> kHabits{
+const UsualTopic* FindUsualTopic(const std::string& type) {
+  static const std::map<std::string, UsualTopic> kUsualTopics{
       {readings::Lidar::kType, {"scan", true, 10}},
       {readings::Odometry::kType, {"odom", false, 50}},
       {readings::Imu::kType, {"imu", true, 100}},
@@ -46,8 +46,8 @@ const Habit* FindHabit(const std::string& type) {
       {readings::Camera::kWideAngleType, {"camera", true, kUsualImageRate}},
       {readings::DepthImage::kType, {"depth", true, kUsualImageRate}},
   };
-  const auto found = kHabits.find(type);
-  return found == kHabits.end() ? nullptr : &found->second;
+  const auto found = kUsualTopics.find(type);
+  return found == kUsualTopics.end() ? nullptr : &found->second;
 }
 
 bool Append(const std::vector<std::uint8_t>& bytes, EncodedMessage& out) {
@@ -194,16 +194,16 @@ class OutputList {
 
 std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
                                     const model::Model& model) {
-  const Habit* const habit = FindHabit(sensor.type->name);
+  const UsualTopic* const usual = FindUsualTopic(sensor.type->name);
   const std::string name = RosName(sensor.description.name);
   const std::string type = sensor.type->name;
   const bool is_camera =
       type == readings::Camera::kType || type == readings::Camera::kWideAngleType;
   const bool is_depth = type == readings::DepthImage::kType;
   std::string base = name;
-  if (habit != nullptr && sensor.is_only) base = habit->topic;
-  if (habit != nullptr && !sensor.is_only && !is_camera && !is_depth)
-    base += std::string("/") + habit->topic;
+  if (usual != nullptr && sensor.is_only) base = usual->topic;
+  if (usual != nullptr && !sensor.is_only && !is_camera && !is_depth)
+    base += std::string("/") + usual->topic;
   OutputList list(sensor, std::move(base), frames.OfSensor(model, sensor.description));
   if (is_camera) {
     list.AddImages();
@@ -216,14 +216,14 @@ std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frame
   } else if (type == readings::Positioning::kType) {
     list.AddPose();
   } else {
-    list.AddOther(habit != nullptr && habit->is_sensor_data ? kSensorDataQos : kDefaultQos);
+    list.AddOther(usual != nullptr && usual->is_sensor_data ? kSensorDataQos : kDefaultQos);
   }
   return list.Take();
 }
 
 double RateOf(const RosSensor& sensor) {
   if (sensor.description.update_rate > 0) return sensor.description.update_rate;
-  if (const Habit* const habit = FindHabit(sensor.type->name)) return habit->rate;
+  if (const UsualTopic* const usual = FindUsualTopic(sensor.type->name)) return usual->rate;
   return sensor.sensor->TakesLong() ? kUsualImageRate : kUsualRate;
 }
 

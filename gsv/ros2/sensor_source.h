@@ -34,6 +34,7 @@ struct SensorOutput {
   std::function<bool(const sensing::Reading& reading, EncodedMessage& out)> encode;
 };
 
+// A sensor of a robot, and its type.
 struct RosSensor {
   std::string body;  // name of the robot's body in the world
   model::SensorDescription description;
@@ -52,6 +53,7 @@ std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frame
 // Returns the rate in Hz: the sensor's own rate, or else the usual rate of its type.
 double RateOf(const RosSensor& sensor);
 
+// Publishes the messages of one sensor.
 class SensorSource final : public Source {
  public:
   SensorSource(RosSensor sensor, std::vector<SensorOutput> outputs, Node& node);

@@ -15,6 +15,7 @@
 
 namespace gsv::ros2 {
 
+// The thread for slow sources, with its queue.
 class SlowLane {
  public:
   SlowLane();

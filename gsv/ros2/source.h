@@ -20,6 +20,7 @@ struct Moment {
   sensing::RaySceneCache& rays;
 };
 
+// One or several topics whose messages are made from snapshots, at a fixed period.
 class Source {
  public:
   explicit Source(base::SimTime period) : period_(period), instants_(period) {}
@@ -27,7 +28,7 @@ class Source {
 
   base::SimTime period() const { return period_; }
   // Whether a message is due at this time. Called once for each snapshot.
-  bool Pass(base::SimTime time) { return instants_.Pass(time); }
+  bool AdvanceTo(base::SimTime time) { return instants_.AdvanceTo(time); }
 
   // Whether a topic of the source has subscriptions.
   virtual bool is_wanted() const = 0;

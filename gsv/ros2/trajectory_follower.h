@@ -17,6 +17,7 @@
 
 namespace gsv::ros2 {
 
+// Commands the joints of one robot along its current trajectory.
 class TrajectoryFollower final : public Source {
  public:
   // `joints` are the joints that accept commands. `on_change` is called when a trajectory arrives.

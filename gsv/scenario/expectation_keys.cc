@@ -44,7 +44,8 @@ class FormulaReader {
     if (is_too_large()) return formula;
     if (++count_ > kMaxFormulas || depth > kMaxFormulaDepth) {
       count_ = kMaxFormulas + 1;
-      mapping.AddProblem("expectations have at most 1000 parts, 16 deep");
+      mapping.AddProblem(
+          "too many expectations; they have at most 1000 parts, nested at most 16 deep");
       return formula;
     }
     std::string found;

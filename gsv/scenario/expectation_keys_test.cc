@@ -162,8 +162,9 @@ TEST(TestKeys, AliasesCannotExpandToALargeFormula) {
     const std::string before = "*a" + std::to_string(i - 1);
     text += "  - &a" + std::to_string(i) + " {all: [" + before + ", " + before + "]}\n";
   }
-  EXPECT_THAT(ProblemsInKeys(text),
-              ::testing::Contains(HasSubstr("expectations have at most 1000 parts, 16 deep")));
+  EXPECT_THAT(
+      ProblemsInKeys(text),
+      ::testing::Contains(HasSubstr("they have at most 1000 parts, nested at most 16 deep")));
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
+// One fault of a scenario.
 struct Fault {
   enum class Kind {
     kSensorSilent,   // robot/sensor: the sensor keeps returning its last sample
@@ -38,12 +39,8 @@ struct Fault {
     kBodyMoves,      // body: the body is moved to `place`
     kJointMoves,     // body/joint: the joint moves to `target` in the unit of `unit`
   };
-  enum class Unit {
-    kPosition,
-    kVelocity,
-    kEffort
-  };  // unit of `target`: rad or m, rad/s or m/s, N
-      // m or N
+  // The quantity that `target` is: in rad or m, in rad/s or m/s, in N m or N.
+  enum class Unit { kPosition, kVelocity, kEffort };
 
   Kind kind = Kind::kSensorSilent;
   double at = 0;     // simulated time, s

@@ -4,7 +4,7 @@
 namespace gsv::scenario {
 namespace {
 
-// The target of a fault. This follows from the key of the fault.
+// The kind of thing that a fault affects. The key of the fault determines it.
 enum class Subject { kSensor, kBehaviour, kMotor, kMove, kJoint };
 constexpr std::pair<const char*, Subject> kSubjects[]{{"sensor", Subject::kSensor},
                                                       {"behaviour", Subject::kBehaviour},

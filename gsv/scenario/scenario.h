@@ -21,11 +21,11 @@ namespace gsv::scenario {
 struct RobotEntry {
   // A file, a folder, or a name. Empty if the robot is in the world file.
   std::string model;
-  std::string name;                  // if empty, the robot gets the name of its model
-  std::optional<Place> start;        // if not set, the robot starts at the first free place
-  std::string behaviour;             // name and options of the behaviour; empty if it has none
-  std::string behaviour_constraint;  // instead of `behaviour`: a constraint on the behaviour's
-                                     // offer
+  std::string name;            // if empty, the robot gets the name of its model
+  std::optional<Place> start;  // if not set, the robot starts at the first free place
+  std::string behaviour;       // name and options of the behaviour; empty if it has none
+  // instead of `behaviour`: a constraint on the behaviour's offer
+  std::string behaviour_constraint;
   std::optional<model::Movement> movement;  // if not set, the movement of the model is used
   // A text as in model/drive_choice.h. If it is empty, the model's own drive is used, or else a
   // guessed one.
@@ -56,8 +56,8 @@ struct Scenario {
   std::optional<double> deadline;        // maximum wall-clock time of a behaviour's turn, s
   std::optional<double> stuck_after;     // see Specification::stuck_after, simulated time, s
   std::optional<bool> fails_with_behaviour;
-  std::optional<bool> in_process;  // whether behaviours run as plug-ins in this process, and not as
-                                   // programs
+  // whether behaviours run as plug-ins in this process, and not as programs
+  std::optional<bool> in_process;
   std::vector<std::string> model_path;
   std::string record;  // a file or folder; empty if the run is not recorded
   std::vector<std::string> record_topics;

@@ -94,7 +94,7 @@ TEST(ScenarioFile, ReadsJson) {
   EXPECT_EQ(scenario.robots.at(0).start, (Place{1, -2, {}, 0}));
 }
 
-TEST(ScenarioFile, TheFormerNameOfTheRealTimeFactorIsAccepted) {
+TEST(ScenarioFile, FormerNameOfTheRealTimeFactorIsAccepted) {
   EXPECT_EQ(Parsed("{world: yard, factor: 2.5}").factor, 2.5);
   base::Problems problems;
   (void)ParseScenario("{world: yard, factor: 2, real_time_factor: 2}", "s.yaml", problems);
@@ -220,7 +220,7 @@ TEST(ScenarioFile, RejectsTrueAsTheNameOfARecording) {
   EXPECT_THAT(ProblemsIn("record: truth\n"), ElementsAre());
 }
 
-TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
+TEST(ScenarioFile, BehaviourIsChosenByNameOrByConstraint) {
   const Scenario scenario =
       Parsed("robots: [{model: pebble, behaviour_constraint: \"name == 'wander'\"}]");
   EXPECT_EQ(scenario.robots.at(0).behaviour_constraint, "name == 'wander'");
@@ -229,7 +229,7 @@ TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
                           "both"));
 }
 
-TEST(ScenarioFile, AFileThatIsNotAScenarioIsRefused) {
+TEST(ScenarioFile, FileThatIsNotAScenarioIsRefused) {
   EXPECT_THAT(ProblemsIn(""), ElementsAre(HasSubstr("room.yaml: the file is empty")));
   EXPECT_THAT(ProblemsIn("world: a\nrobots: ]\n"),
               ElementsAre("room.yaml:2:9: this is not valid YAML: illegal flow end"));
@@ -250,7 +250,7 @@ TEST(ScenarioFile, ContentAfterTheScenarioIsRefused) {
               ::testing::Not(IsEmpty()));
 }
 
-TEST(ScenarioFile, ATextThatIsNotUtf8IsRefused) {
+TEST(ScenarioFile, TextThatIsNotUtf8IsRefused) {
   for (const char* bytes : {"\xff", "\xc3", "\xe2\x82", "\xc3(", "\x80", "\xc0\xaf"}) {
     EXPECT_THAT(ProblemsIn("seed: 1\nworld: " + std::string(bytes)),
                 ElementsAre("room.yaml:2: the text is not UTF-8"));
@@ -271,7 +271,7 @@ TEST(ScenarioFile, EscapesThatYamlCppReadsWronglyAreRefused) {
   EXPECT_EQ(Parsed(R"(world: 'a\_b\N')").world, R"(a\_b\N)");
 }
 
-TEST(ScenarioFile, AControlCharacterIsRefused) {
+TEST(ScenarioFile, ControlCharacterIsRefused) {
   for (const char c : {'\0', '\x01', '\v', '\f', '\x1b', '\x7f'}) {
     EXPECT_THAT(ProblemsIn("seed: 1\nworld: a" + std::string(1, c) + "b"),
                 ElementsAre("room.yaml:2: the text contains a control character"));

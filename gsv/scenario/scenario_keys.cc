@@ -103,7 +103,7 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
   return rates;
 }
 
-// Returns the value if it is one of these words; empty if the key is absent.
+// Returns the value, which must be one of these words. Returns an empty text if the key is absent.
 std::string ReadWord(YamlMapping& mapping, const char* key,
                      std::initializer_list<const char*> words) {
   const std::string word = mapping.Text(key).value_or("");

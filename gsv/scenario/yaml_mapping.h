@@ -20,7 +20,7 @@ namespace gsv::scenario {
 inline constexpr std::size_t kMaxKeys = 64;
 inline constexpr std::size_t kMaxProblems = 100;
 
-// Collects problems, and formats their places.
+// Formats the places of nodes in a file or a request, and collects the problems with them.
 class YamlPlace {
  public:
   enum class Naming { kLines, kFields };
@@ -96,7 +96,7 @@ class YamlMapping {
     YAML::Mark mark;  // the place of the key
     YAML::Node value;
   };
-  // Reads a scalar that is written without quotes. In quotes, it would be a text.
+  // Reads a scalar that is not in quotes, because a scalar in quotes is a text.
   std::optional<std::string> Plain(const std::string& key, const std::string& expected);
   std::optional<std::string> Scalar(const std::string& key, const std::string& expected);
   void Expect(const std::string& key, const std::string& expected, const std::string& found);

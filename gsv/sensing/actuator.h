@@ -20,16 +20,17 @@ class Actuator : public Device {
  protected:
   using Device::Device;
 
-  // Returns its state from `followed.since` on. An actuator with light, sound or an attached body
-  // returns its own class of state. `before` is null before the first command.
+  // Returns the state of the actuator from `followed.since` on, when it follows this command. An
+  // actuator with light, sound or an attached body returns its own class of state. `before` is null
+  // before the first command.
   virtual world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                        const world::DeviceState* /*before*/) const {
     return std::make_shared<const world::ActuatorState>(std::move(mount), std::move(followed));
   }
 
-  // Refuses commands that do not have `count` finite values.
+  // Returns an error for a command that does not have exactly `count` values, all of them finite.
   base::Status CheckShape(const world::DeviceCommand& command, std::size_t count) const;
-  // Refuses a value outside of [low, high].
+  // Returns an error that names `what` if the value is outside of [low, high].
   base::Status CheckRange(const char* what, double value, double low, double high) const;
 };
 

@@ -14,8 +14,9 @@ using geometry::Pose;
 // For fewer rays, gathering the candidate set takes longer than it saves.
 constexpr std::size_t kMinPacket = 3;
 
-// The operations are those of world_from_link * link_from_sensor and of the product of its
-// orientation and the x axis, in the same order, so that the results are bit-identical.
+// Computes the rays of the beams. The results are bit-identical to world_from_link *
+// link_from_sensor, and to its orientation applied to the x axis, because the operations and their
+// order are the same.
 GSV_FOR_EACH_PROCESSOR
 void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPacket& rays) {
   const double tx = world_from_link.position.x, ty = world_from_link.position.y,

@@ -16,21 +16,21 @@ class Device : public Sensor {
  public:
   const Device* device() const final { return this; }
 
-  // Whether it has a state while it is open, like a radio. Other devices have a state from their
-  // first command until they are removed from the robot.
+  // Whether the device has a state while it is open, as a radio has. Other devices have a state
+  // from their first command until they are removed from the robot.
   virtual bool IsOnWhileOpen() const { return false; }
-  // Whether its commands are messages, each of which is sent: `word` is the receiving robot, and
-  // `content` the message. For other devices the last command of a step applies.
+  // Whether each command is a message to send, with the receiving robot in `word` and the message
+  // in `content`. For other devices, only the last command of a step applies.
   virtual bool SendsMessages() const { return false; }
   // The initial command.
   virtual std::optional<world::DeviceCommand> first() const { return std::nullopt; }
   // Rejects an invalid command.
   virtual base::Status Check(const world::DeviceCommand& command) const = 0;
 
-  // Returns its state when it is opened; for devices with IsOnWhileOpen().
+  // Returns the device's state when it is opened; for devices with IsOnWhileOpen().
   virtual world::DeviceStatePtr SwitchedOn(const std::string& /*robot*/) const { return nullptr; }
-  // Returns its state with `command` applied from the step's instant on. `before` is null if it has
-  // none.
+  // Returns the device's state after `command`, which applies from the step's instant on. `before`
+  // is the state before the command, or null.
   virtual world::DeviceStatePtr Apply(const std::string& robot, const world::DeviceStatePtr& before,
                                       const world::DeviceCommand& command,
                                       world::DeviceStep& step) const = 0;
@@ -41,7 +41,7 @@ class Device : public Sensor {
   world::DeviceMount MountOn(const std::string& robot) const {
     return {robot, description().name, description().link, description().link_from_sensor};
   }
-  // Returns its state, or null if it has none.
+  // Returns the device's state in the snapshot, or null if it has none.
   const world::DeviceState* StateIn(const Sampling& sampling) const {
     return world::FindDevice(sampling.snapshot()->state.devices.get(), sampling.robot().name,
                              description().name);

@@ -11,6 +11,7 @@
 
 namespace gsv::sensing {
 
+// Returns the header of a message at this simulated time.
 inline messages::std_msgs::Header HeaderOf(base::SimTime time, const std::string& frame_id) {
   messages::std_msgs::Header header;
   header.stamp = messages::ToMessage(time);

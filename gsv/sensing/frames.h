@@ -14,6 +14,7 @@ inline constexpr std::string_view kOdometryFrame = "odom";
 // The optical frame: z along the view, x to the right, y down.
 inline constexpr std::string_view kOpticalFrame = "optical";
 
+// Returns "BODY/PART".
 inline std::string FrameOf(std::string_view body, std::string_view part) {
   return std::string(body).append("/").append(part);
 }

@@ -17,6 +17,7 @@ namespace gsv::sensing {
 inline constexpr int kSensorInterface = 4;
 inline constexpr const char* kSensorModuleSymbol = "gsv_sensor_module";
 
+// The symbol that a plug-in exports: its interface version, and the function that adds its types.
 struct SensorModule {
   int interface_version = kSensorInterface;
   base::Status (*add)(SensorRegistry& registry) = nullptr;

@@ -1,18 +1,20 @@
 // The noise of sensors, by the parameters of SDFormat's <noise>.
 //
-// Parameters  under the prefix that the sensor documents ("noise", "angular_velocity.x.noise"):
-//             type ("none" turns all off), mean and stddev of white noise, bias_mean and
-//             bias_stddev of a bias that is drawn once, dynamic_bias_stddev (in units per root
-//             second) and dynamic_bias_correlation_time (s) of a drifting bias, precision (the
-//             step of the output). GSV adds outlier_probability, outlier_stddev and
-//             dropout_probability.
-// Model       value + N(mean, stddev) + bias + drift, sometimes + N(0, outlier_stddev), rounded to
-//             the nearest multiple of the precision; or a dropout (NaN). The drift has the standard
-//             deviation dynamic_bias_stddev sqrt(correlation time / 2), to which that of Gazebo
-//             converges.
-// Determinism random numbers are keyed by (seed, robot, sensor, step) and the channel.
-//             So a number does not depend on other values,
-//             and it does not depend on the order of readings.
+// Parameters  under a prefix that the sensor documents, such as "noise" or
+//             "angular_velocity.x.noise". SDFormat has no outliers and dropouts.
+//   type                    "none" switches all noise off
+//   mean, stddev            of the white noise
+//   bias_mean, bias_stddev  of a bias that is drawn once per run
+//   dynamic_bias_stddev (unit per root second), dynamic_bias_correlation_time (s)   of a drifting
+//                           bias
+//   precision               readings are rounded to multiples of this value
+//   outlier_probability, outlier_stddev   some readings have additional noise
+//   dropout_probability     some readings are lost
+// Model       value + N(mean, stddev) + bias + drift, and + N(0, outlier_stddev) for an outlier,
+//             rounded to the precision. A dropout reads NaN. The drift has the standard deviation
+//             dynamic_bias_stddev * sqrt(correlation time / 2), to which Gazebo's drift converges.
+// Determinism random numbers are keyed by (seed, robot, sensor, step) and the channel. So a number
+//             does not depend on other values or on the order of readings.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +25,7 @@
 
 namespace gsv::sensing {
 
+// The parameters of the noise of one quantity.
 struct NoiseModel {
   double mean = 0, stddev = 0;
   double bias_mean = 0, bias_stddev = 0;
@@ -35,7 +38,8 @@ struct NoiseModel {
   friend bool operator==(const NoiseModel&, const NoiseModel&) = default;
 };
 
-// Reads the parameters. `limit` is the limit of those in the unit of the quantity.
+// Reads the parameters. `limit` is the maximum of all parameters that have the unit of the measured
+// quantity.
 NoiseModel ReadNoise(ParameterReader& reader, const std::string& prefix, double limit);
 
 // The noise of one sensor at one instant.
@@ -47,9 +51,11 @@ class NoisyReading {
   double Read(const NoiseModel& model, std::uint64_t channel, double value) const;
   // Returns the bias and the drift, without white noise.
   double Bias(const NoiseModel& model, std::uint64_t channel) const;
+  // Whether the reading drops out at this instant.
   bool IsDropped(const NoiseModel& model, std::uint64_t channel) const;
 
  private:
+  // Returns the number of the random stream of a channel for one purpose.
   std::uint64_t StreamOf(std::uint64_t channel, std::uint64_t purpose) const;
 
   const std::uint64_t seed_;

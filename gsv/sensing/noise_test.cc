@@ -139,9 +139,8 @@ TEST_F(NoiseTest, ReadingsAreMultiplesOfThePrecision) {
   }
 }
 
-// If the deviation is below the precision, readings stay the same. Two readings with the deviation
-// d, rounded to steps of s, are equal with the probability 1 - 2 d / (sqrt(pi) s) over all true
-// values, for d well below s.
+// If the deviation d is well below the precision s, most readings stay the same. Over all true
+// values, two readings are then equal with the probability 1 - 2 d / (sqrt(pi) s).
 TEST_F(NoiseTest, ReadingsStayIfTheDeviationIsBelowThePrecision) {
   const double deviation = 0.0012, step = 0.01;
   const int values = 400, pairs = 10;

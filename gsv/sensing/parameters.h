@@ -1,4 +1,4 @@
-// Sensor parameters, checked as they are read.
+// Reads the parameters of a sensor and checks their types and ranges.
 #pragma once
 
 #include <limits>
@@ -29,7 +29,7 @@ class ParameterReader {
   // Returns a flag. A number is true unless it is 0.
   bool Flag(const std::string& name, bool otherwise);
 
-  // Returns a text. Numbers and flags are refused.
+  // Returns a text. A number or a flag is an error.
   std::string Text(const std::string& name, const std::string& otherwise);
 
   // Returns two numbers, written as text: "0.5 0.5". Each must be in [low, high].
@@ -40,7 +40,7 @@ class ParameterReader {
   geometry::Vector3 Triple(const std::string& name, geometry::Vector3 otherwise, double low,
                            double high);
 
-  // Records that the parameters are inconsistent.
+  // Records an error, for example that two parameters contradict each other.
   void Refuse(const std::string& why);
 
   const base::Status& status() const { return status_; }

@@ -30,11 +30,11 @@ std::vector<Preset> MakePresets() {
       {"imu", "adis16448",
        "noise model of the VI-Sensor's ADIS16448 in the EuRoC MAV data sets (Burri and others "
        "2016, "
-       "mav0/imu0/sensor.yaml); it names no bias instability",
+       "mav0/imu0/sensor.yaml); it states no bias instability",
        ImuParameters(1.6968e-4, 0, 1.9393e-5, 2.0e-3, 0, 3.0e-3)},
       {"imu", "mpu6050",
        "InvenSense's product specification PS-MPU-6000A-00, rev. 3.4, sections 6.1 and 6.2: "
-       "gyroscope 0.005 deg/s per root hertz, accelerometer 400 ug per root hertz; it names no "
+       "gyroscope 0.005 deg/s per root hertz, accelerometer 400 ug per root hertz; it states no "
        "bias "
        "instability and no random walk",
        ImuParameters(8.727e-5, 0, 0, 3.923e-3, 0, 0)},
@@ -42,7 +42,7 @@ std::vector<Preset> MakePresets() {
        "hokuyo_urg",
        "Hokuyo's SCIP 2.0 document C-42-03320B for the URG-04LX: steps 44 to 725 of 1024 a turn, "
        "step 384 ahead, 20 mm to 5.6 m (4.095 m with two-character data), 1 mm; beam of at most 40 "
-       "mm at 4 m by the data sheet; scatter of the beams at rest in a published arena log",
+       "mm at 4 m by the data sheet; noise of the beams at rest in a published arena log",
        {{"scan.horizontal.samples", 682.0},
         {"scan.horizontal.min_angle", -2.08621},
         {"scan.horizontal.max_angle", 2.09235},
@@ -57,7 +57,7 @@ std::vector<Preset> MakePresets() {
        "Slamtec's data sheet of the RPLIDAR A2M8, rev. 2.5: 8000 samples a second, 10 turns a "
        "second, up to 12 m; resolution 0.5 mm below 1.5 m and 1 % of the distance at most, taken "
        "as "
-       "three standard deviations; minimum of its sibling A1M8",
+       "three standard deviations; minimum range of the similar A1M8",
        {{"scan.horizontal.samples", 800.0},
         {"range.min", 0.15},
         {"range.max", 12.0},
@@ -65,9 +65,8 @@ std::vector<Preset> MakePresets() {
         {"range_noise", 0.0033}}},
       {"lidar",
        "sick_lms",
-       "data sheet of the LMS 200: 180 deg, 1 deg, up to 81.83 m, 10 mm steps; scatter and shares "
-       "of "
-       "beams fitted to one half of a published log of a corridor",
+       "data sheet of the LMS 200: 180 deg, 1 deg, up to 81.83 m, 10 mm steps; noise and "
+       "fractions of beams fitted to one half of a published log of a corridor",
        {{"scan.horizontal.samples", 180.0},
         {"scan.horizontal.min_angle", -1.562070},
         {"scan.horizontal.max_angle", 1.562070},
@@ -98,7 +97,7 @@ std::vector<Preset> MakePresets() {
       {"sonar",
        "hc_sr04",
        "fitted to one half of published beam tests of an HC-SR04, see docs/reality.md; range and "
-       "step of its data sheet",
+       "resolution of its data sheet",
        {{"beam", std::string("cone")},
         {"min", 0.02},
         {"max", 4.0},
@@ -115,7 +114,7 @@ std::vector<Preset> MakePresets() {
       {"sonar",
        "mb1010",
        "MaxBotix' data sheet of the LV-MaxSonar-EZ1: 42 kHz, 6 to 254 inches in steps of one inch, "
-       "transducer of 16.4 mm; its beam patterns are drawings without figures, so that threshold "
+       "transducer of 16.4 mm; its beam patterns are drawings without numbers, so threshold "
        "and gain_range are those of hc_sr04",
        {{"beam", std::string("cone")},
         {"min", 0.1524},
@@ -131,9 +130,8 @@ std::vector<Preset> MakePresets() {
       {"sonar",
        "polaroid_6500",
        "SensComp's data sheets of the 6500 module and the 600 transducer: 49.4 kHz, 6 inches to 35 "
-       "feet, a gain that grows with time; steps of 10 mm and a scatter of 1.2 mm as in a "
-       "published "
-       "log of a ring of sonars at rest",
+       "feet, a gain that grows with time; steps of 10 mm and noise of 1.2 mm as in a "
+       "published log of a ring of sonars at rest",
        {{"beam", std::string("cone")},
         {"min", 0.15},
         {"max", 10.7},

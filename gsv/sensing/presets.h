@@ -12,6 +12,7 @@
 
 namespace gsv::sensing {
 
+// A named set of sensor parameters.
 struct Preset {
   std::string type, name;
   std::string source;  // a sentence with the source of the numbers

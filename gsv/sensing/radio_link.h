@@ -1,8 +1,9 @@
 // The propagation of radio signals.
 //
 // Model  The received strength in dBm is power + the gains of both antennas - path loss - loss at
-//        walls. The path loss is that of free space over the first metre (Friis 1946), 20 log10(4
-//        pi f / c), and 10 n log10(d) beyond, with the exponent n. No fading and no interference.
+//        walls. The path loss is 20 log10(4 pi f / c) + 10 n log10(d), with the exponent n and the
+//        distance d in metres. The first term is the loss of free space over one metre (Friis
+//        1946). No fading and no interference.
 #pragma once
 
 #include <optional>
@@ -18,8 +19,8 @@ using world::Antenna;
 double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup& receiver,
                         double distance, int walls);
 
-// Returns the number of solids between two antennas, without the robots that carry them: half of
-// the number of surfaces on the line of sight, rounded up.
+// Returns the number of solids between two antennas, without the robots that carry them. It is half
+// of the number of surfaces on the line of sight, rounded up.
 int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenna& to);
 
 // Returns the strength at which `to` receives `from`; nothing if it does not. Casts rays only if

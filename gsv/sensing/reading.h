@@ -26,8 +26,8 @@ struct Reading {
   std::shared_ptr<const std::vector<std::string>> labels;
 };
 
-// Returns the struct of a reading; spans in it refer to the reading. kCorrupt, with the sensor's
-// name, if the reading does not have the size of the layout.
+// Returns the struct of a reading, whose spans refer to the reading. Fails with kCorrupt, and names
+// the sensor, if the reading does not have the size of the layout.
 template <typename Struct>
 base::Result<Struct> ValuesOf(const Reading& reading, const std::string& sensor) {
   std::span<const std::string> labels;

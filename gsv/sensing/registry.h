@@ -1,5 +1,5 @@
 // The registry of sensor types. A new type is one registration, which MakeSensorType() makes from a
-// class (sensor_type.h). No other code knows the types.
+// class (sensor_type.h). No other code depends on the set of types.
 #pragma once
 
 #include <functional>
@@ -25,8 +25,8 @@ enum class Overlay { kNone, kLines, kPoints, kImage };
 struct Companion {
   std::string topic;
   const messages::Schema* schema = nullptr;
-  // Whether it depends on the reading (the points of a lidar), and not only on the description (the
-  // lens of a camera).
+  // Whether this message depends on the reading (the points of a lidar), and not only on the
+  // description (the lens of a camera).
   bool of_readings = false;
 };
 
@@ -36,11 +36,12 @@ struct SensorMessages {
   std::optional<Companion> companion;
 };
 
+// A sensor type: its name, how a sensor is created, and its readings and messages.
 struct SensorType {
   std::string name;                  // name in services and recordings: "lidar"
   std::vector<std::string> aliases;  // other names in model files: "ray", "gpu_lidar"
 
-  // Creates a sensor. Refuses parameters out of range with a sentence that names them.
+  // Creates a sensor. If a parameter is invalid, returns an error that names it.
   std::function<base::Result<std::unique_ptr<Sensor>>(const model::SensorDescription&)> create;
 
   // the schema of Sensor::Encode(); null if there is no message
@@ -49,9 +50,11 @@ struct SensorType {
   std::optional<Companion> companion;  // for cameras only, which also have an optical frame
   Overlay overlay = Overlay::kNone;
 
-  // Set for a type whose messages depend on the description; empty: those above apply.
+  // Set only if the messages depend on the sensor's description. If it is empty, the messages above
+  // apply.
   std::function<SensorMessages(const model::SensorDescription&)> messages_of;
 
+  // Returns the messages of a sensor with this description.
   SensorMessages MessagesOf(const model::SensorDescription& description) const {
     return messages_of ? messages_of(description) : SensorMessages{schema, companion};
   }

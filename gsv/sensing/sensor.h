@@ -21,7 +21,8 @@
 
 namespace gsv::sensing {
 
-// All inputs of a reading. Sensors of a robot should share a sampling, as it caches common data.
+// All inputs of a reading. Sensors of a robot should share a sampling, because it caches common
+// data.
 class Sampling {
  public:
   // `body` is the robot's index in the snapshot's layout. `rays` outlives the sampling.

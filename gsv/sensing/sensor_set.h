@@ -1,6 +1,7 @@
-// Sensors by description. Equal descriptions, as of robots of one model, share one Sensor.
+// Creates sensors from their descriptions. Equal descriptions, for example of two robots of one
+// model, share one Sensor.
 //
-// Threads  one.
+// Threads  one thread at a time.
 #pragma once
 
 #include <map>

@@ -13,7 +13,7 @@ std::size_t BytesOf(const Reading& reading) {
          (reading.image != nullptr ? reading.image->pixels.size() : 0);
 }
 
-// Everything that a reading depends on.
+// Compares all parts of two descriptions on which a reading depends.
 bool SameSensor(const model::SensorDescription& a, const model::SensorDescription& b) {
   return a.name == b.name && a.type == b.type && a.link == b.link &&
          a.link_from_sensor == b.link_from_sensor && a.parameters == b.parameters;

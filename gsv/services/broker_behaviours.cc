@@ -45,8 +45,8 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);
     const BehaviourIdentity identity{described.name, PlaceOf(described), described.time_managed};
     orb::LimitCalls(offer.object, kCreateTimeout);
-    CountRobot(identity.place, +1);  // counted before the call, so that concurrent calls choose
-                                     // other programs
+    // counted before the call, so that concurrent calls choose other programs
+    CountRobot(identity.place, +1);
     auto behaviour = orb::Call(identity.name + " on " + identity.place, [&] {
       const sba::AgentBehaviourFactory_var factory =
           sba::AgentBehaviourFactory::_narrow(offer.object);

@@ -1,7 +1,7 @@
 // The CORBA servants of one robot's hardware: sba::Hardware with sensors, base and clocks, on top
 // of a simulation::Agent.
 //
-// Threads  ORB threads; all state is the agent's.
+// Threads  ORB threads. The servants have no state; all state is in the agent.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // The CORBA servants of one robot's joints, on top of a simulation::Agent.
 //
-// Threads  ORB threads; all state is the agent's.
+// Threads  ORB threads. The servants have no state; all state is in the agent.
 #pragma once
 
 #include <memory>

@@ -12,7 +12,7 @@ namespace {
 constexpr std::chrono::milliseconds kCallTimeout = StopTimeout::kNormal;
 constexpr std::chrono::milliseconds kPingTimeout{1500};
 
-// Limits the duration of this thread's calls while the object exists.
+// Sets the time limit of all remote calls of this thread, during the lifetime of this object.
 class ThreadTimeout {
   // The ORB stores the limit in an object of its own for each thread; this makes one for a
   // std::thread.
@@ -99,8 +99,8 @@ void RemoteBehaviour::Destroy() {
 
 bool RemoteBehaviour::IsDead() {
   const ThreadTimeout timeout(kPingTimeout);
-  // Call twice: a broken connection does not prove that the process has died; it may accept a new
-  // one.
+  // The call is repeated once. A broken connection does not prove that the process has died,
+  // because the process may accept a new connection.
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
       return behaviour_->_non_existent();

@@ -36,7 +36,8 @@ void ServantGroup::DeactivateId(const std::string& id) {
 }
 
 CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant, const char* type) {
-  const PortableServer::ServantBase_var owned(servant);  // the POA keeps a reference
+  const PortableServer::ServantBase_var owned(
+      servant);  // releases this function's reference; the POA has its own
   const base::MutexLock lock(mutex_);
   if (closed_) throw sba::Ended("the robot does not exist any more");
   const PortableServer::ObjectId_var id = poa_->activate_object(servant);

@@ -51,8 +51,8 @@ base::Result<std::shared_ptr<Simulation>> SimulationHost::Create(
 }
 
 base::Status SimulationHost::Remove(const std::string& name) {
-  std::shared_ptr<Simulation> removed;  // destroyed after the lock is released, because destroying
-                                        // may
+  // destroyed after the lock is released, because destroying a simulation may take long
+  std::shared_ptr<Simulation> removed;
   const base::MutexLock lock(mutex_);
   const auto it = std::find_if(simulations_.begin(), simulations_.end(),
                                [&](const auto& s) { return s->specification().name == name; });

@@ -28,7 +28,8 @@ class SimulationHost {
         max_simulations_(max_simulations) {}
 
   // Reads the world, unless `specification.world` is set, and creates a simulation. Chooses a name
-  // if it is empty; a taken name is an error. Adds problems of the files to `problems`.
+  // if the specification has none. Fails if another simulation has the name. Adds problems of the
+  // files to `problems`.
   base::Result<std::shared_ptr<simulation::Simulation>> Create(
       simulation::Specification specification, const std::string& world, base::Problems& problems);
   // Creates a simulation for a preview. It is not in the list and takes no name.
@@ -40,8 +41,8 @@ class SimulationHost {
   // Removes a simulation from the list. The simulation is destroyed when its last user releases it.
   base::Status Remove(const std::string& name);
 
-  std::shared_ptr<simulation::Simulation> Find(const std::string& name) const;  // Returns null if
-                                                                                // there is none.
+  // Returns the simulation with this name, or null if there is none.
+  std::shared_ptr<simulation::Simulation> Find(const std::string& name) const;
   std::vector<std::shared_ptr<simulation::Simulation>> List() const;  // in order of creation
 
   formats::ModelLibrary& library() { return *library_; }

@@ -7,7 +7,7 @@
 #include <malloc.h>
 
 #include "gsv/base/log.h"
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 #include "gsv/orb/errors.h"
 #include "gsv/orb/orb.h"
 #include "gsv/services/conversions.h"

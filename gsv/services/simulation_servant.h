@@ -18,7 +18,7 @@ namespace gsv::services {
 
 // Functions of the program that the services call.
 struct ServiceHooks {
-  // Returns the file of a world. An empty name means the default world. May be empty.
+  // Returns the file of a world. An empty name means the default world. The function may be empty.
   std::function<base::Result<std::string>(const std::string& world)> find_world;
   // Returns the URL of a simulation's viewer; may be empty.
   std::function<std::string(const std::string& simulation)> viewer_url;
@@ -29,6 +29,7 @@ struct ServiceHooks {
 
 class SimulationServiceServant;
 
+// One simulation, as a CORBA object.
 class SimulationServant final : public POA_sba::Simulation {
  public:
   SimulationServant(std::shared_ptr<simulation::Simulation> simulation,
@@ -64,6 +65,7 @@ class SimulationServant final : public POA_sba::Simulation {
   bool IsAbandoned() const;
 
  private:
+  // Adds a robot or an avatar, and returns its name.
   std::string Add(const sba::RobotSpecification& robot, bool is_avatar);
   void NoteContact() { last_contact_ = std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -74,6 +76,7 @@ class SimulationServant final : public POA_sba::Simulation {
   std::atomic<std::chrono::steady_clock::duration> last_contact_;
 };
 
+// Creates simulations and lists them. Destroys simulations whose creator no longer calls them.
 class SimulationServiceServant final : public POA_sba::SimulationService {
  public:
   // `host` and `behaviours` must outlive the object. If `behaviours` is null, clients must pass
@@ -111,8 +114,8 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   base::Mutex mutex_;
   base::ConditionVariable closing_changed_;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
-  bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;  // whether a simulation was destroyed since
-                                                       // the janitor's last round
+  // whether a simulation was destroyed since the janitor's last round
+  bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;
   std::map<std::string, SimulationServant*> servants_
       GSV_GUARDED_BY(mutex_);  // servants by simulation; the POA owns them
   std::jthread janitor_;

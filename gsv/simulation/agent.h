@@ -1,5 +1,6 @@
-// The interface of a simulation for one behaviour: its clocks, commands and readings. The CORBA
-// servants of the robot's hardware call it, and viewers steer avatars with it.
+// An agent is the interface through which the behaviour of one robot uses the simulation: clocks,
+// commands and readings. The CORBA servants of the robot's hardware call it, and viewers steer
+// avatars with it.
 //
 // Threads  any; SleepUntil() and Exchange() block for at most the given lease.
 // Errors   kNotRunning: the agent waits, and in lockstep a waiting agent may not call. kEnded: the
@@ -31,11 +32,13 @@ using ClockId = int;
 // waiting.
 enum class Wait { kReached, kNotYet };
 
+// A reading and the name of its sensor.
 struct NamedReading {
   std::string sensor;
   sensing::Reading reading;
 };
 
+// The result of an exchange.
 struct Exchanged {
   Wait wait = Wait::kNotYet;
   base::SimTime now{0};
@@ -45,6 +48,7 @@ struct Exchanged {
   bool holds_time = false;
 };
 
+// The state of a joint at a time.
 struct JointReading {
   base::SimTime time{0};
   double position = 0;  // rad or m
@@ -79,7 +83,9 @@ class Agent {
   // Reports that the behaviour's run has ended with an error, instead of CloseClock(). From this
   // instant on, the agent is dead. `reason` is logged on one line, truncated if it is long.
   virtual base::Status GiveUp(ClockId clock, const std::string& reason) = 0;
+  // Returns the current simulated time.
   virtual base::SimTime Now() const = 0;
+  // Makes the clock wait for `until`. Blocks until then, but at most for the lease.
   virtual base::Result<Wait> SleepUntil(ClockId clock, base::SimTime until,
                                         std::chrono::milliseconds lease) = 0;
   // Commands the base, waits, then reads the sensors. `cycle` numbers the exchanges of this clock
@@ -97,6 +103,7 @@ class Agent {
                                                base::SimTime until, std::chrono::milliseconds lease,
                                                const std::set<std::string>& sensors) = 0;
 
+  // Commands the base from this instant until the next command.
   virtual base::Status Command(const world::DriveCommand& command) = 0;
 
   // Joints, by their index in the robot's model. A command is applied from this instant until the

@@ -12,6 +12,7 @@
 
 namespace gsv::simulation {
 
+// An edit of a simulated world.
 struct Edit {
   enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace, kCommand };
   // When the edit was made between two steps, relative to the turns of behaviours.

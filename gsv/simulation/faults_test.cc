@@ -1,4 +1,4 @@
-// Faults in scenarios.
+// Tests the faults of scenarios.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -87,7 +87,7 @@ TEST(Faults, ImpossibleFaultFailsTheRunWithItsPlace) {
   const auto simulation = WithFault(onto);
   ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFailed);
-  EXPECT_THAT(simulation->status().failure, HasSubstr("t.yaml:1:1: the fault cannot happen: "));
+  EXPECT_THAT(simulation->status().failure, HasSubstr("t.yaml:1:1: cannot apply the fault: "));
 }
 
 // A box with an arm on a joint. It moves by rigid-body dynamics.

@@ -81,9 +81,9 @@ std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens =
 }
 
 // Returns the maximum time, in s, for which the post rocks if it starts at nine tenths of the angle
-// at which it would fall. Housner, "The behavior of inverted pendulum structures during
-// earthquakes", Bulletin of the Seismological Society of America 53 (1963): the fraction of the
-// energy that an impact leaves, and the time between two impacts.
+// at which it would fall. The energy that an impact leaves, and the time between two impacts, are
+// those of G. W. Housner, "The behavior of inverted pendulum structures during earthquakes",
+// Bulletin of the Seismological Society of America 53 (1963).
 double RockingTime() {
   const double half = kWidth / 2, height = 0.1, r = std::hypot(half, height);
   const double inertia = 1e-3 + kMass * r * r;  // moment of inertia about an edge

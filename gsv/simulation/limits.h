@@ -7,6 +7,7 @@
 
 namespace gsv::simulation {
 
+// The maximum numbers of robots and of sensors.
 struct Limits {
   std::size_t robots = 100'000;           // number of robots, including avatars
   std::size_t sensors_of_a_robot = 1024;  // sensors of a robot, including those of its model

@@ -69,7 +69,7 @@ TEST_F(LimitsTest, ClocksAreLimited) {
             }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(opened, std::vector<bool>(65, true));
-  EXPECT_EQ(refusal, "an agent has at most 64 clocks open");
+  EXPECT_EQ(refusal, "an agent has at most 64 clocks open; close one first");
 }
 
 TEST_F(LimitsTest, KeepsTenThousandEvents) {

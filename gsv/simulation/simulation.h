@@ -81,7 +81,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Adds many robots at once: all of them, or none in case of an error. See AddRobot().
   virtual base::Result<std::vector<std::string>> AddRobots(
       std::vector<RobotSpecification> robots) = 0;
-  // Removes a robot. Fails for stations, which count as objects.
+  // Removes a robot. Fails for stations (objects with sensors), which RemoveObject() removes.
   virtual base::Status RemoveRobot(const std::string& name) = 0;
   // Adds an object at rest, while the simulation is created or paused. Returns its name. Fails if
   // the place or the name is taken, or if the model has a drive.
@@ -167,7 +167,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Emits an event at the current step. Must not be called from Observer::OnEvent().
   virtual void Emit(std::string_view kind, const std::string& robot, const std::string& detail) = 0;
 
-  // Sets the object that expectations() asks. It may be destroyed before the simulation.
+  // Sets the source of the states that expectations() returns. It may be destroyed before the
+  // simulation.
   virtual void SetExpectations(std::weak_ptr<const ExpectationSource> source) = 0;
   // Returns the states of the expectations; empty if there are none.
   virtual std::vector<ExpectationState> expectations() const = 0;

@@ -60,7 +60,7 @@ TEST(Stations, AreAddedAndRemovedAsObjects) {
   EXPECT_EQ(simulation->sensors(*name).size(), 1u);
   const auto as_robot = simulation->RemoveRobot(*name);
   ASSERT_FALSE(as_robot);
-  EXPECT_EQ(as_robot.error().message, "it is not a robot, so remove it as an object");
+  EXPECT_EQ(as_robot.error().message, "the body is not a robot; remove it as an object");
   ASSERT_TRUE(simulation->RemoveObject(*name));
   EXPECT_EQ(simulation->agent(*name), nullptr);
   EXPECT_FALSE(simulation->Watch(*name, "front"));

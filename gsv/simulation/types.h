@@ -150,6 +150,7 @@ inline constexpr std::string_view kStdoutEvent = "stdout";
 inline constexpr std::string_view kStderrEvent = "stderr";
 inline constexpr std::string_view kProgramEndedEvent = "program_ended";
 
+// Whether the event is output of a behaviour's program.
 inline bool IsOutput(const Event& event) {
   return event.kind == kStdoutEvent || event.kind == kStderrEvent ||
          event.kind == kProgramEndedEvent;

@@ -53,7 +53,7 @@ base::Error CannotRead(const fs::path& file, const char* what) {
           file};
 }
 
-// The error for an internal failure of OpenSSL, such as no memory or no entropy.
+// Returns the error for an internal failure of OpenSSL, such as no memory or no entropy.
 base::Status Failed() {
   return base::Fail(ErrorCode::kUnavailable, "OpenSSL cannot be initialised");
 }
@@ -236,11 +236,12 @@ namespace {
 base::Status CheckDates(const X509* certificate, const fs::path& path) {
   if (X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "this certificate has expired; `gsv certificates` makes another", path);
+                      "this certificate has expired; make a new one with `gsv certificates make`",
+                      path);
   }
   if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "this certificate is not valid yet; is this machine's clock right?", path);
+                      "this certificate is not valid yet; check this machine's clock", path);
   }
   return {};
 }
@@ -254,7 +255,7 @@ base::Status CheckKeyPair(const fs::path& certificate, const fs::path& key) {
   if (!read_key) return base::Fail(read_key.error());
   if (X509_check_private_key(read->get(), read_key->get()) != 1) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "this key is not the one of " + certificate.string(), key);
+                      "this key does not belong to the certificate " + certificate.string(), key);
   }
   return CheckDates(read->get(), certificate);
 }

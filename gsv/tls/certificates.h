@@ -21,6 +21,7 @@ struct Validity {
   std::chrono::seconds ends{365 * 86'400};
 };
 
+// The content of a certificate to make.
 struct CertificateRequest {
   std::string name;                // the name in the certificate: letters, digits and -._
   std::vector<std::string> hosts;  // host names and addresses of the server

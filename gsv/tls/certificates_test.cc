@@ -48,7 +48,7 @@ TEST_F(CertificatesTest, AreValidAndAcceptedByOpenSsl) {
   EXPECT_NE(OpenSsl("verify -CAfile ca.pem -verify_hostname lab-8 server.pem"), 0);
 }
 
-TEST_F(CertificatesTest, OfAnotherAuthorityAreRejected) {
+TEST_F(CertificatesTest, RejectsCertificatesOfAnotherAuthority) {
   const auto other = base::TemporaryFolder::Make("gsv-certificates");
   ASSERT_TRUE(other);
   ASSERT_TRUE(MakeAuthority(other->path(), {}));

@@ -19,6 +19,7 @@
 
 namespace gsv::verdict {
 
+// The values of one condition of an expectation during the run.
 struct MeasuredAtom {
   scenario::Formula atom;
   bool was_measured = false;
@@ -28,6 +29,7 @@ struct MeasuredAtom {
   std::string about;                     // the robot, if the quantity concerns any robot
 };
 
+// The verdict on one expectation, and its reasons.
 struct Finding {
   std::string name, yaml, where;  // copied from the expectation
   bool holds = false;
@@ -41,12 +43,13 @@ struct Finding {
   std::string Sentence() const;
 };
 
+// The observer that evaluates the expectations.
 class Judge final : public simulation::Observer, public simulation::ExpectationSource {
  public:
   // Observes the simulation until the judge is destroyed. The simulation must have its robots and
   // must not have started. Fails, and names the place, if an expectation is about an unknown body.
-  // Each verdict before the end of the run is reported as an event, "expectation_violated" or
-  // "expectation_held"; so is a violation at the end.
+  // Each verdict before the end of the run is emitted as an event, "expectation_violated" or
+  // "expectation_held". A violation at the end of the run is emitted too.
   static base::Result<std::shared_ptr<Judge>> Attach(
       const std::vector<scenario::Expectation>& expectations, simulation::Simulation& simulation);
 

@@ -100,7 +100,7 @@ TEST(Judge, SeesFaultsAtTheirInstant) {
   EXPECT_EQ(lost.time, 2010ms);
 }
 
-TEST(Judge, ARobotIsStuckAfterItWasCommandedToMoveForTheGivenTime) {
+TEST(Judge, RobotIsStuckAfterItWasCommandedToMoveForTheGivenTime) {
   // The disc stops at the wall at 5.4 s. Its motion is sampled every 0.1 s.
   const Finding stuck = One("{never: {stuck: {robot: scout, after: 2}}}");
   EXPECT_FALSE(stuck.holds);
@@ -116,7 +116,7 @@ TEST(Judge, ARobotIsStuckAfterItWasCommandedToMoveForTheGivenTime) {
   EXPECT_TRUE(One("{eventually: {stuck: {robot: scout, after: 2}}}").holds);
 }
 
-TEST(Judge, TheStateOfEachExpectationIsKnownDuringTheRun) {
+TEST(Judge, ReportsTheStateOfEachExpectationDuringTheRun) {
   const auto scenario = ScenarioOf(
       "  - {name: hits nothing, never_collides: scout}\n"
       "  - {name: arrives, reaches: {robot: scout, x: 1.25, y: 0}}\n"

@@ -33,10 +33,12 @@ class Margin {
   base::SimTime at_{0};
 };
 
-// Returns nullopt for other formulas, and for conditions without a number, such as contacts.
+// Returns the margin of a formula. Returns nullopt for a formula that is not one condition over
+// time, and for a condition without a number, such as a contact.
 std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
-// Adds the circles and boxes in which bodies should be, or should not be.
+// Adds the regions of a formula to `state`: circles and boxes in which bodies must be, or must not
+// be.
 void AddShapes(const scenario::Formula& formula, simulation::ExpectationState& state);
 
 }  // namespace gsv::verdict

@@ -36,7 +36,7 @@ simulation::ExpectationState Noted(const std::string& expect,
   return state;
 }
 
-TEST(Margin, OfAlwaysIsTheSmallestDistance) {
+TEST(Margin, IsTheSmallestDistanceForAlways) {
   const auto state = Noted("{distance_at_least: {between: [a, b], metres: 2}}",
                            {{3.0}, {2.5}, {std::nullopt}, {2.75}});
   EXPECT_DOUBLE_EQ(state.margin.value(), 0.5);
@@ -50,20 +50,20 @@ TEST(Margin, IsNegativeBeyondTheLimit) {
   EXPECT_EQ(state.unit, "m/s");
 }
 
-TEST(Margin, OfEventuallyIsTheBest) {
+TEST(Margin, IsTheLargestDistanceForEventually) {
   // A robot has reached a place if it is within 0.25 m.
   const auto state = Noted("{reaches: {robot: a, x: 1, y: 0}}", {{2.0}, {0.75}, {1.0}});
   EXPECT_DOUBLE_EQ(state.margin.value(), -0.5);
   EXPECT_EQ(state.margin_at, 1s);
 }
 
-TEST(Margin, OfAConditionOfSeveralNumbersIsThatOfTheWorst) {
+TEST(Margin, IsThatOfTheWorstNumberOfACondition) {
   const auto state =
       Noted("{stays_within: {robot: a, x: [0, 4], y: [-1, 1]}}", {{2.0, 0.0}, {2.0, 0.75}});
   EXPECT_DOUBLE_EQ(state.margin.value(), 0.25);
 }
 
-TEST(Margin, OfNeverStuckIsTheRemainingTime) {
+TEST(Margin, IsTheRemainingTimeForNeverStuck) {
   const auto state = Noted("{never: {stuck: {robot: a, after: 5}}}", {{0.0}, {3.5}, {0.0}});
   EXPECT_DOUBLE_EQ(state.margin.value(), 1.5);
   EXPECT_EQ(state.unit, "s");
@@ -75,12 +75,12 @@ TEST(Margin, IsMeasuredInsideTheWindowOnly) {
   EXPECT_DOUBLE_EQ(state.margin.value(), 0.5);
 }
 
-TEST(Margin, IsMissingForContactsAndOrders) {
+TEST(Margin, DoesNotExistForContactsAndOrders) {
   EXPECT_FALSE(MarginOf(FormulaOf("{never_collides: a}")));
   EXPECT_FALSE(MarginOf(FormulaOf("{before: [{contact: a}, {contact: b}]}")));
 }
 
-TEST(Shapes, AreTheGoalsAndZones) {
+TEST(Shapes, ContainTheGoalsAndZones) {
   simulation::ExpectationState state;
   AddShapes(FormulaOf("{reaches: {robot: a, x: 1, y: 2, within: 0.5}}"), state);
   ASSERT_THAT(state.places, SizeIs(1));

@@ -49,8 +49,8 @@ int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   return 0;
 }
 
-// Whether both are windows over the same formula that are open now. Then one of them implies the
-// other.
+// Whether both obligations are windows over the same formula that are open now. If so, one of them
+// implies the other.
 bool OpenOverTheSame(const ObligationPtr& a, const ObligationPtr& b, Kind kind, SimTime now) {
   return a->kind == kind && b->kind == kind && a->is_judged && b->is_judged && a->from <= now &&
          b->from <= now && Compare(a->parts[0], b->parts[0]) == 0;
@@ -147,7 +147,8 @@ ObligationPtr Normal(const scenario::Formula& formula, bool is_negated,
   return std::make_shared<const Obligation>(std::move(obligation));
 }
 
-// Computes one step: what remains of an obligation for the states after this one.
+// Computes one step of the formula progression: the obligation that remains for the states after
+// this one.
 class Progression {
  public:
   Progression(SimTime now, SimTime step, const std::function<bool(int)>& holds)

@@ -127,7 +127,7 @@ base::Result<double> ParseFieldOfView(std::string_view text) {
                   std::string(text.substr(0, 64)) + "'");
 }
 
-base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side) {
+base::Status SetSide(const std::string& name, std::string_view text, OverviewSide& side) {
   const auto value = NumberOf(text);
   const auto set = [&](double& target, double low, double high, double unit,
                        const char* limits) -> base::Status {
@@ -147,7 +147,7 @@ base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSi
 base::Status Check(const Camera& camera) {
   if (auto fits = CheckSize(camera.width, camera.height); !fits) return fits;
   const bool has_place = camera.eye || camera.target || !camera.follow.empty();
-  if ((has_place || !camera.sensor.empty()) && camera.side != ViewOfAllSide{}) {
+  if ((has_place || !camera.sensor.empty()) && camera.side != OverviewSide{}) {
     return Fail(ErrorCode::kInvalidArgument,
                 "azimuth, elevation and zoom are for a view of the whole world; leave out eye, "
                 "target, follow and camera");
@@ -183,7 +183,7 @@ base::Result<rendering::CameraView> Place(const Camera& camera, const SceneLooku
   if (camera.eye) {
     return rendering::CameraView{Looking(*camera.eye, *camera.target), ParametersOf(camera)};
   }
-  rendering::CameraView all = ViewOfAll(lookup.corners(), camera.width, camera.height, camera.side);
+  rendering::CameraView all = Overview(lookup.corners(), camera.width, camera.height, camera.side);
   if (camera.field_of_view) all.parameters.horizontal_fov = ParametersOf(camera).horizontal_fov;
   return all;
 }

@@ -21,14 +21,15 @@ namespace gsv::view {
 inline constexpr int kMinSide = 16;
 inline constexpr double kMinFieldOfView = 1, kMaxFieldOfView = 150;  // degrees
 
+// The parameters of a view, as users give them.
 struct Camera {
   int width = 1280, height = 720;
   std::optional<geometry::Vector3> eye, target;
   std::optional<double> field_of_view;  // vertical angle in degrees; default: 45
   std::string follow;                   // name of a robot; empty if the camera follows none
-  std::string sensor;                   // "ROBOT/CAMERA": use the view of this camera sensor; empty
-                                        // for none
-  ViewOfAllSide side;                   // direction of the default view
+  // "ROBOT/CAMERA": use the view of this camera sensor; empty for none.
+  std::string sensor;
+  OverviewSide side;  // direction of the default view
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
@@ -42,9 +43,9 @@ base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::str
 // Parses a finite number from kMinFieldOfView to kMaxFieldOfView.
 base::Result<double> ParseFieldOfView(std::string_view text);
 // Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
-base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side);
-// Fails for an eye without a target unless a robot is followed, and for a sensor together with any
-// of them.
+base::Status SetSide(const std::string& name, std::string_view text, OverviewSide& side);
+// Fails for an eye without a target, unless the camera follows a robot. Fails if a camera sensor is
+// named together with an eye, a target or a followed robot.
 base::Status Check(const Camera& camera);
 
 // The view of a camera sensor at an instant.

@@ -98,7 +98,7 @@ TEST(ViewCamera, ShowsEverythingByDefault) {
   EXPECT_LT(std::hypot(middle.y, middle.z), 0.3 * middle.x);
 }
 
-TEST(ViewCamera, RefusesInvalidPlacements) {
+TEST(ViewCamera, RejectsInvalidPoses) {
   Camera robot;
   robot.follow = "nobody";
   EXPECT_EQ(SentenceOf(robot), "there is no robot 'nobody'");

@@ -237,8 +237,8 @@ class DrawnScene::Reader {
 
   const SceneJson& bodies_json_;
   const SceneJson& poses_json_;
-  std::vector<std::set<std::string>> moving_;  // names of the moving links of each body, in
-                                               // the
+  // Names of the moving links of each body, in the order of the scene's bodies.
+  std::vector<std::set<std::string>> moving_;
   std::map<std::pair<const model::Model*, std::set<std::string>>, SplitModel> splits_;
   std::set<std::string> names_;
   std::vector<world::Body> bodies_;

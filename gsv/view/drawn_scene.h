@@ -1,5 +1,5 @@
-// A scene of a recording that can be rendered. Messages of the recording give the poses of its
-// bodies.
+// The scene of a recording, prepared for rendering. The poses of its bodies come from the
+// recording's messages.
 //
 // Links   a link that moves relative to its body is a separate body in the snapshots, because
 //         recordings have the poses of links and not the positions of joints.
@@ -26,6 +26,7 @@ namespace gsv::view {
 // Returns the model with this identifier, or null if there is none.
 using FindModel = std::function<std::shared_ptr<const model::Model>(const std::string& id)>;
 
+// The bodies, models and lights of a recorded scene.
 class DrawnScene {
  public:
   // `json` must have the form that presentation::SceneJson() writes (docs/formats/live.md).

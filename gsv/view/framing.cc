@@ -39,7 +39,7 @@ void Grow(Bounds& bounds, const Bounds& other) {
   Grow(bounds, other.max);
 }
 
-// The bounds of one visual, in the world.
+// The bounding box of one visual, in the world.
 struct Seen {
   std::vector<Vector3> corners;
   Bounds bounds = Nothing();
@@ -114,7 +114,7 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
 }
 
 // Returns the bodies without the ground. If there is only ground, returns the ground.
-std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
+std::vector<const Seen*> WithoutGround(const std::vector<SeenBody>& bodies) {
   std::vector<const Seen*> all, standing;
   Bounds of_all = Nothing(), of_standing = Nothing();
   for (const SeenBody& body : bodies) {
@@ -141,15 +141,15 @@ std::vector<Vector3> CornersToShow(const world::Snapshot& snapshot) {
   }
   DropFarAway(bodies);
   std::vector<Vector3> corners;
-  for (const Seen* seen : WhatStands(bodies)) {
+  for (const Seen* seen : WithoutGround(bodies)) {
     corners.insert(corners.end(), seen->corners.begin(), seen->corners.end());
   }
   if (corners.empty()) corners = {{-1, -1, 0}, {1, 1, 1}};
   return corners;
 }
 
-rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height,
-                                const ViewOfAllSide& side) {
+rendering::CameraView Overview(const std::vector<Vector3>& corners, int width, int height,
+                               const OverviewSide& side) {
   constexpr double kMargin = 1.05;
   constexpr double kFieldOfView = 0.8;
   constexpr double kMaxCoordinate = 1e6;  // m; the renderer's maximum

@@ -15,16 +15,16 @@ namespace gsv::view {
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
 // The direction of a view of the whole world, and its zoom.
-struct ViewOfAllSide {
+struct OverviewSide {
   double azimuth = 0.75 * std::numbers::pi;  // heading of the view, counter-clockwise from x, rad
   double elevation = 0.6;                    // angle by which the view looks down, rad
   double zoom = 1;                           // zoom; 2 means half the distance
-  friend bool operator==(const ViewOfAllSide&, const ViewOfAllSide&) = default;
+  friend bool operator==(const OverviewSide&, const OverviewSide&) = default;
 };
 
 // Returns the view of these corners from `side` (default: from the front, right and above). The
 // distance is the smallest that shows all corners, divided by the zoom.
-rendering::CameraView ViewOfAll(const std::vector<geometry::Vector3>& corners, int width,
-                                int height, const ViewOfAllSide& side = {});
+rendering::CameraView Overview(const std::vector<geometry::Vector3>& corners, int width, int height,
+                               const OverviewSide& side = {});
 
 }  // namespace gsv::view

@@ -71,7 +71,7 @@ TEST(Framing, ShowsGroundThatIsAsLargeAsTheBodiesOnIt) {
 
 TEST(Framing, TheOverviewProjectsAllCornersIntoTheImage) {
   const std::vector<Vector3> corners{{-30, -0.5, 0}, {2.5, 4, 1}, {0, 0, 7}};
-  const rendering::CameraView all = ViewOfAll(corners, 640, 480);
+  const rendering::CameraView all = Overview(corners, 640, 480);
   const double focal = rendering::FocalLength(all.parameters);
   for (const Vector3& corner : corners) {
     const Vector3 p = geometry::Inverse(all.world_from_camera) * corner;
@@ -83,14 +83,14 @@ TEST(Framing, TheOverviewProjectsAllCornersIntoTheImage) {
 
 TEST(Framing, TheOverviewLooksFromTheRequestedSide) {
   const std::vector<Vector3> corners{{-1, -1, -1}, {1, 1, 1}};
-  const rendering::CameraView east = ViewOfAll(corners, 400, 400, {0, 0, 1});  // this view looks
-                                                                               // along x
+  // This view looks along x.
+  const rendering::CameraView east = Overview(corners, 400, 400, {0, 0, 1});
   EXPECT_LT(east.world_from_camera.position.x, -1);
   EXPECT_NEAR(east.world_from_camera.position.y, 0, 1e-9);
   EXPECT_NEAR(east.world_from_camera.position.z, 0, 1e-9);
-  const rendering::CameraView near = ViewOfAll(corners, 400, 400, {0, 0, 2});
+  const rendering::CameraView near = Overview(corners, 400, 400, {0, 0, 2});
   EXPECT_NEAR(near.world_from_camera.position.x, east.world_from_camera.position.x / 2, 1e-9);
-  const rendering::CameraView down = ViewOfAll(corners, 400, 400, {0, std::numbers::pi / 2, 1});
+  const rendering::CameraView down = Overview(corners, 400, 400, {0, std::numbers::pi / 2, 1});
   EXPECT_NEAR(down.world_from_camera.position.x, 0, 1e-9);
   EXPECT_GT(down.world_from_camera.position.z, 1);
 }

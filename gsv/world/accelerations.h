@@ -1,5 +1,6 @@
-// The parts of KeepVelocities() and FinishAccelerations() in snapshot.h that concern some of the
-// bodies, or the joints. Several threads can share the bodies of a large world.
+// Computes the mean accelerations of bodies and joints over a step. These functions do the work of
+// KeepVelocities() and FinishAccelerations() (snapshot.h) for a range of bodies or joints. So
+// several threads can divide the bodies of a large world.
 //
 // Threads  calls for different bodies may run concurrently.
 #pragma once

@@ -6,6 +6,7 @@
 
 namespace gsv::world {
 
+// The state of an actuator: its mount and its command. Actuators with more state derive from it.
 class ActuatorState : public DeviceState {
  public:
   ActuatorState(DeviceMount mount, FollowedCommand followed)

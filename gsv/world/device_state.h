@@ -79,6 +79,7 @@ class DeviceState;
 using DeviceStatePtr = std::shared_ptr<const DeviceState>;
 using DeviceStates = std::vector<DeviceStatePtr>;  // Ordered by robot, then by device.
 
+// The base class for the states of devices, such as radios and actuators.
 class DeviceState {
  public:
   explicit DeviceState(DeviceMount mount) : mount_(std::move(mount)) {}
@@ -107,8 +108,8 @@ class DeviceState {
                                    base::SimTime /*now*/) const {
     return nullptr;
   }
-  // Called after the bodies have moved to their poses at `time`. Moves the bodies that the device
-  // holds.
+  // Called after the bodies have moved to their poses at `time`. Moves the body that the device has
+  // grasped.
   virtual void AfterMove(const Layout&, base::SimTime /*time*/, State&) const {}
 
  private:

@@ -64,9 +64,8 @@ TEST(DeviceHash, IncludesDevicesWithoutACommand) {
   expected.Add(std::uint64_t{1});
   expected.Add(0.5);
   expected.Add(std::string_view("w"));
-  expected.Add(0.0);                                                     // opening of a gripper,
-  expected.Add(std::string_view());                                      // name of the grasped
-                                                                         // body,
+  expected.Add(0.0);                                                     // opening of a gripper
+  expected.Add(std::string_view());                                      // name of the grasped body
   for (const double value : {0, 0, 0, 1, 0, 0, 0}) expected.Add(value);  // pose of that body,
   expected.Add(0.0);                                                     // and its width
   EXPECT_EQ(hash.Digest(), expected.Digest());

@@ -17,9 +17,9 @@ struct DeviceStep {
   // The current state: poses as in `now`; devices that come earlier, by robot and name, are already
   // stepped.
   const State& state;
-  std::vector<Transmission>& transmissions;  // messages that were sent in this step, ordered by
-                                             // sender
-  std::uint64_t seed = 0;                    // seed of the simulation
+  // Messages that were sent in this step, ordered by sender.
+  std::vector<Transmission>& transmissions;
+  std::uint64_t seed = 0;  // seed of the simulation
 };
 
 }  // namespace gsv::world

@@ -17,12 +17,12 @@ namespace gsv::world {
 
 // How a body moves.
 enum class BodyKind : std::uint8_t {
-  kStatic,      // a part of the world that never moves
+  kStatic,      // never moves, such as a wall
   kUnmoved,     // not static, but nothing moves it: it has no drive and no collisions
   kPlanarBase,  // planar kinematics, by its drive
-  kAvatar,      // planar kinematics, steered by a person
+  kAvatar,      // planar kinematics, driven by a user
   kRigidBody,   // rigid-body dynamics: it can fall, tip over and be pushed, and its joints move
-  kActor,       // a script moves it; nothing stops it, and bodies that run into it stop
+  kActor,       // moved by a script; nothing stops it, and bodies that collide with it stop
   kPedestrian,  // planar kinematics by the social force model
 };
 
@@ -59,6 +59,7 @@ struct Body {
   int first_link = 0;
 };
 
+// The list of a world's bodies. State has the values that change from step to step.
 struct Layout {
   std::uint32_t version = 0;  // increases with each change of the layout
   std::vector<Body> bodies;   // ordered by name

@@ -25,8 +25,8 @@ TEST(KindOf, FollowsDriveMovementAndCollisions) {
       {true, true, Movement::kPlanar, BodyKind::kPlanarBase},
       {true, true, Movement::kRigid, BodyKind::kRigidBody},
       {true, false, Movement::kPlanar, BodyKind::kPlanarBase},
-      {true, false, Movement::kRigid, BodyKind::kPlanarBase},  // the body cannot stand on the
-                                                               // ground
+      // The body cannot stand on the ground.
+      {true, false, Movement::kRigid, BodyKind::kPlanarBase},
       {false, true, Movement::kPlanar, BodyKind::kRigidBody},
       {false, true, Movement::kRigid, BodyKind::kRigidBody},
       {false, false, Movement::kPlanar, BodyKind::kUnmoved},

@@ -12,8 +12,8 @@ namespace {
 
 using geometry::Vector2;
 
-// The numbers of random draws in a pedestrian's stream: 0 for its properties, then one for each
-// goal, then one for each attempt to start.
+// Indices of the random draws in a pedestrian's stream: 0 for its properties, then one for each
+// goal, then one for each attempt to find a start.
 constexpr std::uint64_t kFirstGoal = 1;
 constexpr std::uint64_t kFirstAttempt = 1ULL << 40;
 

@@ -6,7 +6,7 @@
 
 namespace gsv::world {
 
-RadioMessagePtr Sealed(RadioMessage message) {
+RadioMessagePtr WithDigest(RadioMessage message) {
   base::Hash hash;
   for (const std::string* text :
        {&message.sender, &message.radio, &message.receiver, &message.content}) {

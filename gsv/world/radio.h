@@ -28,23 +28,25 @@ struct RadioSetup {
 };
 using RadioSetupPtr = std::shared_ptr<const RadioSetup>;
 
+// A message with its sender, receiver and content.
 struct RadioMessage {
   std::string sender;    // robot
   std::string radio;     // name of the sending sensor
   std::string receiver;  // name of the receiving robot; empty for all
   base::SimTime sent{0};
   std::string content;       // bytes
-  std::uint64_t digest = 0;  // hash of all members above, set by Sealed()
+  std::uint64_t digest = 0;  // hash of all members above, set by WithDigest()
 };
 using RadioMessagePtr = std::shared_ptr<const RadioMessage>;
 
-RadioMessagePtr Sealed(RadioMessage message);
+RadioMessagePtr WithDigest(RadioMessage message);
 
+// A radio and its position.
 struct Antenna {
   RadioSetupPtr setup;
   geometry::Vector3 position;  // world
-  int body = -1;               // index of the body that carries the radio; -1 if it is not in the
-                               // world
+  // Index of the body that carries the radio; -1 if it is not in the world.
+  int body = -1;
 };
 
 // A message that was sent.

@@ -20,6 +20,7 @@ struct Hit {
   int body = -1;             // index of the body in the layout
 };
 
+// The interface for casting rays.
 class RayCaster {
  public:
   virtual ~RayCaster() = default;

@@ -54,6 +54,7 @@ struct Acceleration {
   geometry::Vector3 angular;  // rad/s²
 };
 
+// The bodies of a world and their state at one instant, with the contacts of the last step.
 struct Snapshot {
   std::shared_ptr<const Layout> layout;  // never null
   State state;
@@ -72,8 +73,8 @@ struct Snapshot {
 // step.
 geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse);
 
-// Called before and after a step: the first stores the velocities before the step, the second
-// computes closing speeds and accelerations.
+// Call KeepVelocities() before a step; it stores the velocities. Call the other functions after the
+// step: FinishContacts() computes closing speeds, and FinishAccelerations() computes accelerations.
 void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations,
                     std::vector<double>& joint_accelerations);
 void FinishContacts(const State& state, const std::vector<Acceleration>& kept,

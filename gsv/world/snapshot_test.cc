@@ -68,7 +68,7 @@ TEST(LinkPose, AgreesWithLinkPosesInTheWorld) {
   ExpectNear(LinkPose(snapshot, 0, 2).position, LinkPoses(snapshot, 0)[2].position);
 }
 
-TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
+TEST(Contacts, ClosingSpeedIsThatOfTheContactPoint) {
   // One body moves along x at 2 m/s and rotates at 3 rad/s about z. The other body moves in the
   // same direction at 0.5 m/s.
   State state;

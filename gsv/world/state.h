@@ -18,7 +18,7 @@
 namespace gsv::world {
 
 // A command to a base, in its own frame. It is applied from the step at which it is given until the
-// next command, or for Drive::command_timeout.
+// following command, but at most for Drive::command_timeout.
 struct DriveCommand {
   double linear = 0;   // m/s, forward
   double lateral = 0;  // velocity to the left, m/s; ignored by drives that cannot move sideways
@@ -30,6 +30,7 @@ inline bool IsFinite(const DriveCommand& command) {
   return geometry::IsFinite(geometry::Vector3{command.linear, command.lateral, command.angular});
 }
 
+// The command of a drive, and its current velocity.
 struct DriveState {
   DriveCommand command;
   base::SimTime command_time{0};  // time at which the command was given
@@ -43,6 +44,7 @@ struct Odometry {
   double linear = 0, angular = 0;  // linear and angular velocity over the last step, m/s, rad/s
 };
 
+// The pose and the motion of one body.
 struct BodyState {
   geometry::Pose world_from_model;
   geometry::Vector3 linear_velocity;
@@ -51,8 +53,8 @@ struct BodyState {
   Odometry odometry;
   double distance = 0;           // distance that the model's origin has travelled, m
   std::uint64_t collisions = 0;  // number of contacts that began, not of steps in contact
-  bool in_contact = false;       // whether the robot touched a body other than the ground in the
-                                 // last step
+  // Whether the robot touched a body other than the ground in the last step.
+  bool in_contact = false;
 };
 
 // A command to a joint of a rigid body. It applies until the next command.
@@ -76,12 +78,13 @@ class EngineState {
   virtual void AddToHash(base::Hash& hash) const = 0;
 };
 
+// The state of all bodies, joints and devices at one instant.
 struct State {
   std::int64_t step = 0;
   base::SimTime time{0};
-  std::vector<BodyState> bodies;        // in the order of Layout::bodies
-  std::vector<double> joint_positions;  // the joints of body b start at
-                                        // Layout::bodies[b].first_joint
+  std::vector<BodyState> bodies;  // in the order of Layout::bodies
+  // The joints of body b start at Layout::bodies[b].first_joint.
+  std::vector<double> joint_positions;
   // The values of a ball joint are its angular velocity about the three axes of the child.
   std::vector<double> joint_velocities;
   // in the order of joint_positions; empty before the first command

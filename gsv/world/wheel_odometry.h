@@ -4,12 +4,12 @@
 // Differential  drives with two rows of wheels: the wheels of one side roll by their mean angle
 //               times Drive::wheel_radius; the base follows the arc that both sides make with
 //               Drive::wheel_separation between them (Siegwart, Nourbakhsh, Scaramuzza,
-//               "Introduction to Autonomous Mobile Robots", chapter 5.2.4). Slip, wheels that
-//               differ from the drive's parameters, and external motion do not show.
-// Others        all other drives: the integral of DriveState::actual. For a planar base this is the
-//               motion that obstacles allow. So stops at obstacles appear in the odometry, as if a
-//               sensor measured the slip. For a rigid body it is the commanded motion of the
-//               wheels, as above.
+//               "Introduction to Autonomous Mobile Robots", chapter 5.2.4). Like real encoders, it
+//               does not measure slip, wheels whose size differs from the drive's parameters, or
+//               pushes from outside.
+// Others        all other drives: the integral of DriveState::actual. For a planar base, this is
+//               the actual motion, including stops at obstacles. For a rigid body it is the
+//               commanded motion of the wheels, as above.
 // Threads       one at a time, except Advance() for some bodies.
 #pragma once
 

@@ -81,8 +81,8 @@ TEST(WheelOdometry, FollowsTheActualVelocityOfOtherDrives) {
   wheels.SetLayout(*layout);
   State state = InitialState(*layout);
   state.bodies[0].odometry.place = {0, 0, 0, 1};
-  state.bodies[0].drive.actual = {0, 1, 0};  // the motion is to the left, which is backwards along
-                                             // x
+  // The motion is to the left, which is backwards along x.
+  state.bodies[0].drive.actual = {0, 1, 0};
   wheels.KeepWheels(state);
   wheels.Advance(0.5, state);
   EXPECT_NEAR(state.bodies[0].odometry.place.x, -0.5, 1e-12);

@@ -36,6 +36,7 @@ class Lamp : public Sensor {
   [[deprecated("use Read()")]] Glow Look() { return Read(); }
 };
 
+// Two fingers that grasp a body.
 class Gripper : public Sensor {
  public:
   static constexpr const char* kType = readings::Gripper::kType;
@@ -54,6 +55,7 @@ class Gripper : public Sensor {
   [[deprecated("use Read()")]] State Feel() { return Read(); }
 };
 
+// Plays sounds, which microphones hear.
 class Speaker : public Sensor {
  public:
   static constexpr const char* kType = readings::Speaker::kType;
@@ -61,7 +63,8 @@ class Speaker : public Sensor {
 
   using Sound = readings::Speaker;
 
-  // Plays a sound: "tone", "buzz", "chirp" or "noise".
+  // Plays a sound: "tone", "buzz", "chirp" or "noise". Frequency in Hz, duration in s, volume in
+  // [0, 1].
   base::Status Play(const std::string& sound, double frequency, double duration,
                     double volume = 1) {
     return port().CommandDevice({frequency, duration, volume}, sound);
@@ -73,6 +76,7 @@ class Speaker : public Sensor {
   Sound Playing() { return MeasureAs<Sound>(); }
 };
 
+// Measures the loudest sound at its place.
 class Microphone : public Sensor {
  public:
   static constexpr const char* kType = readings::Microphone::kType;

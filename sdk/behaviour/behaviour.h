@@ -10,6 +10,7 @@
 
 namespace gsv {
 
+// Derive a class from it, or from Controller, and implement Run() or Control().
 class Behaviour {
  public:
   virtual ~Behaviour() = default;
@@ -30,6 +31,7 @@ class Controller : public Behaviour {
  public:
   explicit Controller(SimTime period) : period_(period) {}
 
+  // Returns the command of the base for the next period. `readings` are those of all open sensors.
   virtual DriveCommand Control(const std::vector<Reading>& readings) = 0;
   SimTime period() const { return period_; }
 

@@ -13,6 +13,7 @@
 
 namespace gsv {
 
+// The name, the kind and the limits of a joint.
 struct JointTraits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   std::string name;
@@ -22,19 +23,22 @@ struct JointTraits {
   double max_effort = kNone;
 };
 
+// The position and the velocity of a joint at one instant.
 struct JointState {
   base::SimTime time{0};
   double position = 0;
   double velocity = 0;
 };
 
+// An open joint.
 class Joint {
  public:
   virtual ~Joint() = default;
   virtual const JointTraits& traits() const = 0;
 
-  // Each command applies until the next. MoveTo() respects the joint's limits of velocity and
-  // effort, MoveAt() and Apply() its limit of effort. Release() leaves only damping and friction.
+  // Each command applies until the next one. MoveTo() respects the joint's velocity limit and
+  // effort limit. MoveAt() and Apply() respect its effort limit. After Release(), only damping and
+  // friction act on the joint.
   virtual void MoveTo(double position) = 0;
   virtual void MoveAt(double velocity) = 0;
   virtual void Apply(double effort) = 0;

@@ -4,8 +4,8 @@
 //
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.
-// Errors   after the end of the run every call returns at once and does nothing: readings are empty
-//          or at their maximum, waits return false. error() returns the reason.
+// Errors   after the end of the run every call returns at once and does nothing. Readings are empty
+//          or at their maximum, and waits return false. error() returns the reason.
 // Threads  one behaviour, one thread.
 #pragma once
 
@@ -24,6 +24,7 @@ namespace gsv {
 
 using namespace std::chrono_literals;  // for durations such as in robot.SleepFor(50ms)
 
+// The commanded velocity of the base, in its own frame.
 struct DriveCommand {
   double linear = 0;   // m/s
   double angular = 0;  // rad/s
@@ -37,6 +38,7 @@ class Robot {
   virtual const std::string& name() const = 0;
   // The radius in m of a circle about the robot's origin that contains the robot.
   virtual double footprint_radius() const = 0;
+  // Returns the sensors of the robot's model.
   virtual std::vector<SensorTraits> Sensors() = 0;
 
   // Opens a sensor of the robot's model. Fails if it does not exist or has another type.
@@ -73,7 +75,7 @@ class Robot {
     return Create<PositioningSystem>(sensor, {});
   }
 
-  // Returns the joints that take commands. Joint() gives access to one by name.
+  // Returns the joints that accept commands. OpenJoint() opens one of them by name.
   virtual std::vector<JointTraits> Joints() = 0;
   virtual base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) = 0;
 
@@ -85,8 +87,9 @@ class Robot {
     Command({linear, angular, lateral});
   }
 
+  // Returns the time of the robot's clock. In a simulation, it is 0 at the start.
   virtual SimTime Now() = 0;
-  // Sleeps until the instant. Returns false after the end of the run; the behaviour should then
+  // Sleeps until the instant. Returns false after the end of the run. The behaviour must then
   // return.
   virtual bool SleepUntil(SimTime instant) = 0;
   bool SleepFor(SimTime duration) { return SleepUntil(Now() + duration); }

@@ -1,4 +1,4 @@
-// Runs a behaviour to its end.
+// Runs a behaviour to its end, and returns why it failed.
 #pragma once
 
 #include <exception>

@@ -41,6 +41,7 @@ using Picture [[deprecated("use gsv::Image")]] = Image;
 // Parameters by name; docs/sensors.md lists those of each type.
 using Parameters = std::map<std::string, std::variant<double, bool, std::string>>;
 
+// The name, the type, the pose and the parameters of a sensor.
 struct SensorTraits {
   std::string name;
   std::string type;
@@ -127,6 +128,7 @@ class Sensor {
   bool has_measured_ = false;  // whether the newest reading is valid
 };
 
+// Measures the distance to the nearest object in a cone.
 class Sonar : public Sensor {
  public:
   static constexpr const char* kType = readings::Sonar::kType;
@@ -140,6 +142,7 @@ class Sonar : public Sensor {
   double max_range_;
 };
 
+// A laser scanner, with one or more rows of beams.
 class Lidar : public Sensor {
  public:
   static constexpr const char* kType = readings::Lidar::kType;
@@ -155,9 +158,10 @@ class Lidar : public Sensor {
   const std::vector<double>& Ranges();
 
  private:
-  std::vector<double> ranges_;  // those of a reading that has intensities
+  std::vector<double> ranges_;  // the ranges of a reading that also has intensities
 };
 
+// A colour camera, with a pinhole or a wide-angle lens.
 class Camera : public Sensor {
  public:
   static constexpr const char* kType = readings::Camera::kType;
@@ -170,6 +174,7 @@ class Camera : public Sensor {
   [[deprecated("use TakeImage()")]] Image TakePicture() { return TakeImage(); }
 };
 
+// Measures its own pose in the world.
 class PositioningSystem : public Sensor {
  public:
   static constexpr const char* kType = readings::Positioning::kType;
@@ -178,6 +183,7 @@ class PositioningSystem : public Sensor {
   Placement Locate() { return MeasureAs<readings::Positioning>().world_from_sensor; }
 };
 
+// Measures angular velocity and specific force in the sensor frame.
 class Imu : public Sensor {
  public:
   static constexpr const char* kType = readings::Imu::kType;
@@ -188,6 +194,7 @@ class Imu : public Sensor {
   [[deprecated("use Read()")]] Motion Feel() { return Read(); }
 };
 
+// Estimates the robot's pose from the rotation of its wheels (dead reckoning).
 class Odometer : public Sensor {
  public:
   static constexpr const char* kType = readings::Odometry::kType;
@@ -198,6 +205,7 @@ class Odometer : public Sensor {
   [[deprecated("use Read()")]] Estimate Reckon() { return Read(); }
 };
 
+// Measures position and velocity in WGS84.
 class GnssReceiver : public Sensor {
  public:
   static constexpr const char* kType = readings::Navsat::kType;
@@ -208,6 +216,7 @@ class GnssReceiver : public Sensor {
 };
 using SatelliteReceiver [[deprecated("use gsv::GnssReceiver")]] = GnssReceiver;
 
+// Measures the magnetic field in the sensor frame, in tesla.
 class Magnetometer : public Sensor {
  public:
   static constexpr const char* kType = readings::Magnetometer::kType;
@@ -216,6 +225,7 @@ class Magnetometer : public Sensor {
   Vector Field() { return MeasureAs<readings::Magnetometer>().field; }
 };
 
+// Measures height above its reference, and vertical speed.
 class Altimeter : public Sensor {
  public:
   static constexpr const char* kType = readings::Altimeter::kType;
@@ -225,6 +235,7 @@ class Altimeter : public Sensor {
   Height Measured() { return MeasureAs<Height>(); }
 };
 
+// Reports the contacts of the robot with other bodies.
 class Bumper : public Sensor {
  public:
   static constexpr const char* kType = readings::Contact::kType;
@@ -235,6 +246,7 @@ class Bumper : public Sensor {
   std::vector<Touch> Touches() { return MeasureAs<readings::Contact>().touches; }
 };
 
+// Measures the force and the torque that a joint transmits.
 class ForceTorque : public Sensor {
  public:
   static constexpr const char* kType = readings::ForceTorque::kType;
@@ -244,6 +256,7 @@ class ForceTorque : public Sensor {
   Wrench Read() { return MeasureAs<readings::ForceTorque>(); }
 };
 
+// Measures the positions and the velocities of the robot's joints.
 class JointEncoders : public Sensor {
  public:
   static constexpr const char* kType = readings::JointEncoders::kType;
@@ -253,6 +266,7 @@ class JointEncoders : public Sensor {
   std::vector<Joint> Joints() { return MeasureAs<readings::JointEncoders>().joints; }
 };
 
+// Measures the charge of the robot's battery.
 class Battery : public Sensor {
  public:
   static constexpr const char* kType = readings::Battery::kType;
@@ -262,6 +276,7 @@ class Battery : public Sensor {
   Charge Level() { return MeasureAs<Charge>(); }
 };
 
+// Lists the models in its field of view, with their poses.
 class LogicalCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::LogicalCamera::kType;
@@ -288,7 +303,7 @@ class Radio : public Sensor {
   };
 
   // Sends to the robot with that name, without acknowledgement. Fails if the message is longer than
-  // the radio's max_size, if too many messages are sent in one step, and after the end of the run.
+  // the radio's max_size, if too many messages are sent in one step, or if the run has ended.
   base::Status Send(const std::string& receiver, const std::string& content) {
     return port().Send(receiver, content);
   }
@@ -315,6 +330,7 @@ class Ranging : public Sensor {
   double Distance() { return MeasureAs<readings::Ranging>().distance; }
 };
 
+// Measures the depth of each pixel.
 class DepthCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::DepthImage::kType;
@@ -331,6 +347,7 @@ class DepthCamera : public Sensor {
   }
 };
 
+// Labels each pixel with the model that it shows.
 class SegmentationCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::SegmentedImage::kType;
@@ -352,6 +369,7 @@ class SegmentationCamera : public Sensor {
   }
 };
 
+// Measures the temperature of each pixel.
 class ThermalCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::ThermalImage::kType;
@@ -372,6 +390,7 @@ class ThermalCamera : public Sensor {
   }
 };
 
+// Measures the surface normal at each pixel.
 class NormalsCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::NormalImage::kType;
@@ -389,6 +408,7 @@ class NormalsCamera : public Sensor {
   }
 };
 
+// Finds the models in its image, with their bounding boxes.
 class BoundingBoxCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::BoundingBoxes::kType;

@@ -9,10 +9,10 @@ namespace gsv {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMountedMin = 0.05;     // m
-constexpr double kMountedMax = 5.0;      // m
-constexpr double kMountedHeight = 0.12;  // height above the origin in m; low enough to detect low
-                                         // furniture
+constexpr double kMountedMin = 0.05;  // m
+constexpr double kMountedMax = 5.0;   // m
+// height above the origin in m; low enough to detect low furniture
+constexpr double kMountedHeight = 0.12;
 
 double AngleBetween(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)); }
 

@@ -1,4 +1,4 @@
-// Makes a C++ factory of behaviours written in Python.
+// Makes a BehaviourFactory from a class or another callable in Python.
 #pragma once
 
 #include "sdk/behaviour/behaviour.h"

@@ -130,7 +130,7 @@ void BindRobot(py::module_& module) {
       .def_property_readonly(
           "footprint_radius", &RemoteRobot::footprint_radius,
           "m: radius of a circle around the origin that contains the whole robot")
-      .def("sensors", &RemoteRobot::Sensors, LetOthersRun(), "of the robot's model")
+      .def("sensors", &RemoteRobot::Sensors, LetOthersRun(), "the sensors of the robot's model")
       .def("open", &OpenSensor, py::arg("name"), py::arg("kind") = py::none(),
            py::keep_alive<0, 1>(),
            "Returns a sensor of the robot's model, as an object of the class of its type. `kind` "
@@ -138,7 +138,7 @@ void BindRobot(py::module_& module) {
       .def("create", &CreateSensor, py::arg("type"), py::arg("name"),
            py::arg("robot_from_sensor") = Placement{}, py::arg("parameters") = Parameters{},
            py::arg("update_rate") = 0.0, py::keep_alive<0, 1>(),
-           "A further sensor, mounted on the base. `type` is a class or a name; its parameters are "
+           "Creates a sensor, mounted on the base. `type` is a class or a name; its parameters are "
            "those of docs/sensors.md.")
       .def("joints", &RemoteRobot::Joints, LetOthersRun(), "the joints that accept commands")
       .def(
@@ -153,7 +153,8 @@ void BindRobot(py::module_& module) {
             robot.Command({linear, angular, lateral});
           },
           py::arg("linear"), py::arg("angular"), py::arg("lateral") = 0.0, LetOthersRun(),
-          "m/s and rad/s; applies until the next command. `lateral` is to the left, for "
+          "Commands the base, in m/s and rad/s, until the next command. `lateral` is to the left, "
+          "for "
           "bases that can move sideways.")
       .def(
           "now", [](RemoteRobot& robot) { return SecondsOf(robot.Now()); }, LetOthersRun(),

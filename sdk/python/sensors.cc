@@ -192,7 +192,8 @@ void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
                                      "Estimates the pose from the wheels (dead reckoning).");
   odometer.def("read", &Odometer::Read, LetOthersRun());
   Deprecate(odometer, "reckon", "read");
-  BindReading<Odometer::Estimate>(odometer, "Estimate", "From where the robot started.");
+  BindReading<Odometer::Estimate>(odometer, "Estimate",
+                                  "Relative to the pose at which the robot started.");
   auto gnss = BindKind<GnssReceiver>(module, "GnssReceiver", sensor,
                                      "Receives satellite navigation signals.");
   gnss.def("fix", &GnssReceiver::Fix, LetOthersRun());
@@ -202,7 +203,8 @@ void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
       .def("field", &Magnetometer::Field, LetOthersRun(), "tesla, in the sensor's frame");
   auto altimeter = BindKind<Altimeter>(module, "Altimeter", sensor, "Measures its height.");
   altimeter.def("measured", &Altimeter::Measured, LetOthersRun());
-  BindReading<Altimeter::Height>(altimeter, "Height", "m above the reference, m/s.");
+  BindReading<Altimeter::Height>(altimeter, "Height",
+                                 "Height above the reference in m, and vertical speed in m/s.");
 }
 
 void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
@@ -214,17 +216,19 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
       module, "ForceTorque", sensor, "Measures the force and torque that a joint transmits.");
   force_torque.def("read", &ForceTorque::Read, LetOthersRun());
   BindReading<ForceTorque::Wrench>(force_torque, "Wrench",
-                                   "N and N m, the torque about the joint's origin.");
+                                   "Force in N and torque in N m, about the joint's origin.");
   auto encoders = BindKind<JointEncoders>(module, "JointEncoders", sensor,
                                           "Reads the positions of the robot's joints.");
   encoders.def("joints", &JointEncoders::Joints, LetOthersRun());
-  BindReading<JointEncoders::Joint>(encoders, "Joint", "rad and rad/s, or m and m/s.");
+  BindReading<JointEncoders::Joint>(encoders, "Joint",
+                                    "Position and velocity: rad and rad/s, or m and m/s.");
   auto battery =
       BindKind<Battery>(module, "Battery", sensor, "Measures the charge of the battery.");
   battery.def("level", &Battery::Level, LetOthersRun());
   BindReading<Battery::Charge>(battery, "Charge", "V, A drawn, Ah.");
   BindKind<Ranging>(module, "Ranging", sensor, "Measures the distance to one radio anchor.")
-      .def("distance", &Ranging::Distance, LetOthersRun(), "m; infinite if it is not received");
+      .def("distance", &Ranging::Distance, LetOthersRun(),
+           "distance in m; infinite if the anchor is not received");
   auto radio = BindKind<Radio>(module, "Radio", sensor,
                                "Sends messages to other robots and receives theirs.");
   const auto send = [](Radio& from, const std::string& receiver, const std::string& content) {
@@ -240,7 +244,7 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
            "Sends to the robot of this name. There is no confirmation that it was received.")
       .def(
           "broadcast", [send](Radio& from, const std::string& content) { send(from, "", content); },
-          py::arg("content"), "To all.")
+          py::arg("content"), "Sends to all robots in range.")
       .def("receive", &Radio::Receive, LetOthersRun(),
            "the messages received since the last call, oldest first")
       .def_property_readonly("missed", &Radio::missed);

@@ -70,7 +70,7 @@ class Looks final : public Behaviour {
   std::unique_ptr<Camera> camera_;
 };
 
-TEST_F(ASimulator, ACameraWithAWideAngleLensIsACamera) {
+TEST_F(ASimulator, OpensAWideAngleCameraAsACamera) {
   const auto folder = base::TemporaryFolder::Make("gsv-fixture");
   ASSERT_TRUE(folder);
   const std::string model = folder->path() / "eye.sdf";

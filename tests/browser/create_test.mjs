@@ -175,7 +175,7 @@ test("a robot inside another one shows an error at its row", async () => {
 test("the set-up is saved as a file and loaded again", async () => {
   await page.getByText("Parameters", { exact: true }).click();
   await fill("Name", "made here", page.locator("details"));
-  await fill("Seed of all noise", "7");
+  await fill("Random seed", "7");
   const download = page.waitForEvent("download");
   await press("Save as a scenario file");
   const file = path.join(folder, "made here.yaml");

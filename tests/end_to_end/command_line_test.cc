@@ -33,7 +33,7 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
   std::set<std::string> behaviours;
   for (const auto& robot : report["robots"]) {
     EXPECT_GT(robot["distance_m"], 0.1) << robot;
-    // at least one round of eight sonars, even on a slow machine
+    // at least one reading of each of eight sonars, even on a slow machine
     EXPECT_GE(robot["readings"]["sonar"], 8) << robot;
     behaviours.insert(robot["behaviour"]);
   }
@@ -268,6 +268,22 @@ TEST(CommandLine, UnknownCommandIsReported) {
             "gsv: there is no option --robott. Did you mean --robot? See gsv run --help\n");
   EXPECT_EQ(said({"ps", "office", "again"}), "gsv: unexpected argument again. See gsv ps --help\n");
   EXPECT_EQ(said({"rec"}), "gsv: a command is missing. See gsv rec --help\n");
+}
+
+TEST(CommandLine, NamesTheMissingArgumentOptionOrValue) {
+  const auto said = [](const Strings& arguments) {
+    const Outcome outcome = RunProgram("gsv", arguments);
+    EXPECT_EQ(outcome.ending, "exit code 2");
+    return outcome.err;
+  };
+  EXPECT_EQ(said({"ros2", "echo"}), "gsv: missing argument topic. See gsv ros2 echo --help\n");
+  EXPECT_EQ(said({"test"}), "gsv: missing argument scenarios. See gsv test --help\n");
+  EXPECT_EQ(said({"film", "run.mcap"}), "gsv: missing option --output FILE. See gsv film --help\n");
+  EXPECT_EQ(said({"run", "--seed"}), "gsv: --seed: missing value N. See gsv run --help\n");
+  EXPECT_EQ(said({"ros2", "echo", "/odom", "--count"}),
+            "gsv: --count: missing value N. See gsv ros2 echo --help\n");
+  EXPECT_EQ(said({"compare", "log", "--start", "1"}),
+            "gsv: --start: expected 3 values, found 1. See gsv compare --help\n");
 }
 
 TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {

@@ -134,12 +134,12 @@ TEST_F(Control, SetsTheRealTimeFactor) {
   const Outcome set = Gsv({"real-time-factor", "2.5"});
   EXPECT_EQ(set.ending, "exit code 0") << set.err;
   EXPECT_THAT(set.out, HasSubstr("(target 2.5)"));
-  ExpectError({"factor", "0"}, 2, "must lie above 0 and not above 1e6");
+  ExpectError({"factor", "0"}, 2, "it must be above 0 and at most 1e6");
   ExpectError({"factor", "fast"}, 2, "fast");
-  ExpectError({"real-time-factor"}, 2, "real_time_factor is required");
+  ExpectError({"real-time-factor"}, 2, "missing argument real_time_factor");
   EXPECT_EQ(Json({"ps"})["target_factor"], 2.5);
   EXPECT_EQ(Gsv({"factor", "1000000"}).ending, "exit code 0");
-  // at its first factor the run would take five and a half hours
+  // at the initial real-time factor, the run would take 5.5 hours
   EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");
 }
 

@@ -1,5 +1,5 @@
-// For tests: a behaviour that, after 200 ms, never returns from its turn. Only an in-process
-// behaviour can have this fault.
+// For tests: a behaviour that blocks forever in its code after 200 ms. Only an in-process behaviour
+// can have this fault.
 #include <CLI/CLI.hpp>
 
 #include "sdk/behaviour/module.h"

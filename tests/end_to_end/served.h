@@ -19,6 +19,7 @@ int Rounds();
 // Returns the process's ORB. Its calls have the timeout that a build with a sanitizer needs.
 base::Result<CORBA::ORB_var> StartOrbWithLongTimeout();
 
+// The test fixture that starts the broker and the server.
 class Served : public ::testing::Test {
  protected:
   static void SetUpTestSuite();
@@ -26,7 +27,7 @@ class Served : public ::testing::Test {
   Served();
 
   // Describes the playground with the fleet's seed, without an end, and with a deadline of 60 s.
-  // The simulation is kept after its creator has gone.
+  // The simulation continues after its creator has disconnected.
   static sba::SimulationSpecification Playground(sba::PacingMode pacing);
   static void SetOption(sba::SimulationSpecification& specification, const char* name,
                         const char* value);

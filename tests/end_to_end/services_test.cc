@@ -337,7 +337,7 @@ TEST_F(SimulationService, EndsAfterItsCreatorDisconnects) {
   specification.options[0].value = "1";
   const OwnSimulation simulation(service_->create_simulation(specification));
   simulation->start();
-  // A connected viewer does not count as a sign of life of the creator.
+  // A connected viewer does not keep the simulation alive, because it is not the creator.
   const CORBA::String_var viewer(simulation->viewer_url());
   const std::string url =
       std::string(viewer).substr(0, std::string(viewer).find('?')) + "api/simulations";

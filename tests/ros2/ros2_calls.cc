@@ -116,7 +116,8 @@ Json List(const Sequence& sequence) {
   return list;
 }
 
-// Converts a line of words to a call. Returns false if no response came.
+// Calls one of GSV's services, with the words of an input line as arguments. Returns false if no
+// response came.
 using Call = std::function<bool(const Words& words)>;
 
 class Calls {

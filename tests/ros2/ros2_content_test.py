@@ -310,7 +310,8 @@ class Contents(unittest.TestCase):
                 result = json.loads(done.stdout)
                 self.assertAlmostEqual(result["value"], float(value), 6)
                 self.assertFalse(result["moved_by_bad"])
-            self.assertEqual(gsv.log.count("from ROS 2 is refused"), 1, gsv.log)  # the first of the robot
+            # Only the robot's first refusal is logged.
+            self.assertEqual(gsv.log.count("from ROS 2 is refused"), 1, gsv.log)
 
     def test_ignores_malformed_samples(self):
         with running_gsv() as gsv:
@@ -322,7 +323,8 @@ class Contents(unittest.TestCase):
             self.assertIsNone(gsv.poll())
         for topic in ("/gsv/get_entity_state", "/gsv/set_parameters"):
             self.assertEqual(gsv.log.count(f"a request of ROS 2 to {topic} is ignored"), 1, gsv.log)
-        self.assertEqual(gsv.log.count("from ROS 2 is refused"), 1, gsv.log)  # the first of the robot
+        # Only the robot's first refusal is logged.
+        self.assertEqual(gsv.log.count("from ROS 2 is refused"), 1, gsv.log)
 
 
 if __name__ == "__main__":

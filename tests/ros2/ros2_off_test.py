@@ -27,7 +27,7 @@ def cache():
 
 
 def commands(build):
-    """The command for each output of a build, with the build's folder as BUILD."""
+    """Returns the command for each output of a build, with the build's folder as BUILD."""
     listed = subprocess.run(["ninja", "-C", build, "-t", "compdb"], capture_output=True, text=True, check=True)
     return {entry["output"]: re.sub(r"CMakeFiles/d/\w+\.d", "CMakeFiles/d", entry["command"].replace(build, "BUILD"))
             for entry in json.loads(listed.stdout) if "cmake.verify_globs" not in entry["output"]}

@@ -285,7 +285,7 @@ class Services(unittest.TestCase):
             self.assertEqual(result_of(client.call("load_world - - <sdf/>")), UNSUPPORTED)
 
     def try_features(self, client, features):
-        """Tries features in the order of FEATURES, then calls what no feature announces."""
+        """Tries features in the order of FEATURES, then calls services that no feature announces."""
         for feature, works in FEATURES.items():
             if feature in features:
                 self.assertTrue(works(client.call), f"feature {feature}")

@@ -204,7 +204,7 @@ class ForeignPeer(unittest.TestCase):
         self.assertIn("ROS_DOMAIN_ID: must be a number from 0 to 232, found '233'", done.stderr)
 
     def topics_alone(self, script="", domain=DOMAIN):
-        """`gsv ros2 topics` in a network of its own, after a script."""
+        """Runs `gsv ros2 topics` in its own network namespace, after a script."""
         done = subprocess.run(["unshare", "--map-root-user", "--net", "sh", "-c",
                                f'{script}\nexec "$1" ros2 topics --seconds 0.5', "sh", GSV],
                               env={**os.environ, "ROS_DOMAIN_ID": str(domain)},

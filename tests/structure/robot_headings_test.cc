@@ -30,7 +30,7 @@ constexpr double kStep = 0.01, kSettling = 0.3, kStarting = 0.7, kSeconds = 0.5;
 constexpr int kHeadings = 8;
 constexpr int kLawEvery = 5;  // steps between evaluations of the law
 
-// Tolerance in m and rad for planar kinematics and for bases that their drive holds.
+// Tolerance in m and rad for planar kinematics and for robots that move exactly as commanded.
 constexpr double kExact = 2e-3;
 // Tolerance as a fraction of the command, for robots that roll, about Coulomb's law
 // (coulomb_motion.h).

@@ -23,6 +23,7 @@ class Variable {
   bool was_set_ = false;
 };
 
+// The certificates of a group, in a temporary folder.
 class Group {
  public:
   Group();

@@ -9,6 +9,7 @@
 
 namespace gsv::testing {
 
+// A host in a network namespace, which exists as long as this object.
 class OtherHost {
  public:
   // Every round trip to the host takes `milliseconds` longer.

@@ -22,6 +22,7 @@ std::filesystem::path Program(const std::string& name);
 // A path below GSV_REAL_DIR. The file may be missing.
 std::filesystem::path RealFile(const std::string& path);
 
+// The output of a program that has ended, and how it ended.
 struct Outcome {
   std::string ending;  // such as "exit code 0" or "signal 9"
   std::string out, err;

@@ -22,7 +22,7 @@ constexpr const char* kSshd = "/usr/sbin/sshd";
 constexpr const char* kKeygen = "/usr/bin/ssh-keygen";
 
 // The fake ssh. Usage: ssh [-X | -o VALUE]... HOST COMMAND. A host exists as long as its file,
-// which has the processes of its tasks.
+// which lists the processes of its tasks.
 constexpr const char* kStandIn = R"(#!/bin/sh
 while [ "${1#-}" != "$1" ]; do
   [ "$1" = -o ] && shift

@@ -10,6 +10,7 @@
 
 namespace gsv::testing {
 
+// Hosts that tests reach by ssh.
 class SshHosts {
  public:
   enum class Kind { kSshd, kStandIn };

@@ -12,8 +12,8 @@ export interface PageHandle {
   readonly frames: number;
   // Whether a frame is being drawn or requested.
   readonly isDrawing: boolean;
-  // The times from a state of the world to its image on the screen, in ms, of the last images that
-  // the server drew.
+  // The delays of the server's last images, in ms: from a state of the world to its image on the
+  // screen.
   readonly imageDelaysMs: readonly number[];
   // The displayed simulated time, in seconds.
   readonly time: number;

@@ -40,9 +40,9 @@ using nlohmann::ordered_json;
 constexpr int kClients = 64;
 constexpr const char* kType = "BenchRobot";
 constexpr const char* kScan = "floor > 2 and battery >= 0.25 and speed < 4.5";
-constexpr std::size_t kShown = 10;  // how many offers of an answer a client reads
+constexpr std::size_t kShown = 10;  // number of offers that a client reads of each query
 
-// Returns ten properties, which are equal for equal numbers.
+// Returns the ten properties of offer `n`, which depend on `n` only.
 std::vector<Property> PropertiesOf(std::uint32_t n) {
   const double unit = static_cast<double>(n * 2654435761u) / 4294967296.0;
   return {{"battery", Value::Float(static_cast<float>(unit))},
@@ -61,7 +61,7 @@ std::vector<Property> PropertiesOf(std::uint32_t n) {
 
 std::string Serial(std::uint32_t n) { return "serial == " + std::to_string(n); }
 
-// The measured operations. Many threads may make each call.
+// The broker calls that are measured. Any number of threads may make them at once.
 struct Target {
   std::function<base::Status(int client, std::uint32_t number)> export_one;
   std::function<base::Status(int client, const std::string& constraint,
@@ -69,8 +69,9 @@ struct Target {
       query;
 };
 
-// Calls `work` for 0 … count-1 from `clients` threads. Returns the duration. Stops at an error.
-base::Result<Clock::duration> Spread(
+// Calls `work` for 0 … count-1 from `clients` threads and returns the duration. Stops at the first
+// error.
+base::Result<Clock::duration> CallFromThreads(
     int clients, std::uint32_t count,
     const std::function<base::Status(int client, std::uint32_t n)>& work) {
   std::atomic<std::uint32_t> next = 0;
@@ -104,17 +105,17 @@ base::Result<std::vector<Clock::duration>> Time(
     int clients, std::uint32_t count,
     const std::function<base::Status(int client, std::uint32_t n)>& work) {
   std::vector<Clock::duration> durations(count);
-  const auto spread = Spread(clients, count, [&](int client, std::uint32_t n) {
+  const auto duration = CallFromThreads(clients, count, [&](int client, std::uint32_t n) {
     const auto start = Clock::now();
     auto done = work(client, n);
     durations[n] = Clock::now() - start;
     return done;
   });
-  if (!spread) return base::Fail(spread.error());
+  if (!duration) return base::Fail(duration.error());
   return durations;
 }
 
-// Measures the process that runs the broker.
+// Reads the memory and the processor time of the process that runs the broker.
 struct BrokerProcess {
   std::function<double()> bytes_used;
   std::function<double()> processor_time;  // processor time of all its threads, s
@@ -125,23 +126,24 @@ struct BrokerProcess {
   }
 };
 
-// Exports offers to a durable broker. Its answer follows when the offer is on the disk.
+// Exports offers to a broker with a data file. Such a broker answers only when the offer is on the
+// disk.
 base::Status MeasureDurable(const Target& target, std::uint32_t offers,
                             const BrokerProcess& process, ordered_json& figures) {
   const double start = process.processor_time();
-  const auto exported = Spread(kClients, offers, target.export_one);
+  const auto exported = CallFromThreads(kClients, offers, target.export_one);
   if (!exported) return base::Fail(exported.error());
   figures["exports_durable_per_s"] = offers / Seconds(*exported);
   figures["export_durable_cpu_ms"] = process.ForEachCall(start, offers);
   return {};
 }
 
-// Exports offers and then queries them.
+// Exports offers to a broker without a data file, and then queries them.
 base::Status Measure(const Target& target, std::uint32_t offers, const BrokerProcess& process,
                      ordered_json& figures) {
   const double before = process.bytes_used();
   const double export_start = process.processor_time();
-  const auto exported = Spread(kClients, offers, target.export_one);
+  const auto exported = CallFromThreads(kClients, offers, target.export_one);
   if (!exported) return base::Fail(exported.error());
   figures["bytes_per_offer"] = (process.bytes_used() - before) / offers;
   figures["exports_per_s"] = offers / Seconds(*exported);
@@ -150,7 +152,7 @@ base::Status Measure(const Target& target, std::uint32_t offers, const BrokerPro
   const auto equal = [&](int client, std::uint32_t n) {
     return target.query(client, Serial((n * 7919) % offers), "");
   };
-  if (auto indexed = equal(0, 0); !indexed) return indexed;  // the first query makes the index
+  if (auto indexed = equal(0, 0); !indexed) return indexed;  // the first query builds the index
   constexpr std::uint32_t kIndexed = 2000, kScans = 40;
   const double indexed_start = process.processor_time();
   const auto alone = Time(1, kIndexed, equal);

@@ -46,7 +46,7 @@ class SnapshotWatch final : public simulation::Observer {
   }
   void OnEvent(const simulation::Event&) override {}
 
-  // Returns the latest snapshot that was not returned before, or null if there is none in time.
+  // Waits for a new snapshot and returns the latest one. Returns null if none comes within 10 s.
   std::shared_ptr<const world::Snapshot> Next() {
     base::MutexLock lock(mutex_);
     const bool came = is_new_.wait_for(lock, std::chrono::seconds(10), [&]() GSV_REQUIRES(mutex_) {
@@ -78,7 +78,7 @@ class ImageCheck {
   base::Status Check(const Images& images) {
     if (std::all_of(images.begin(), images.end(), IsBlank)) return Fail("images are blank");
     for (std::size_t i = 0; i < images.size(); ++i) {
-      if (IsBlank(images[i])) continue;  // if an image is blank, a robot is close to a wall
+      if (IsBlank(images[i])) continue;  // a robot that is close to a wall has a blank image
       if (i < last_.size() && last_[i]->pixels == images[i]->pixels)
         return Fail("a moving camera's image equals the previous one");
       if (i > 0 && images[i]->pixels == images[i - 1]->pixels)
@@ -112,7 +112,7 @@ struct Figures {
   std::uint64_t triangles = 0;
   int images = 0;
   double wall = 0, processor = 0;  // in s
-  double least_processor = 1e9;    // in s, for one batch
+  double least_processor = 1e9;    // the smallest of all batches, s
   std::vector<double> latencies;   // from the request to the images, ms
   std::vector<double> intervals;   // from one step to the next, ms
 };
@@ -167,7 +167,7 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
   ImageCheck check;
   Clock::time_point start;
   double processor_start = 0;
-  // In the first two rounds the renderer detects which objects move.
+  // The first two batches are not measured, because the renderer then detects which objects move.
   for (int round = -2;
        round <= 0 || Clock::now() - start < std::chrono::duration<double>(arguments.duration);
        ++round) {

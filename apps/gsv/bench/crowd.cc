@@ -16,7 +16,7 @@
 #include "apps/gsv/process/option_values.h"
 #include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/thread_team.h"
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 #include "gsv/hosting/hosted_behaviour.h"
 #include "gsv/sensing/devices/built_in.h"
 
@@ -55,7 +55,7 @@ double ResidentMebibytes() {
   return resident * 4096 / (1 << 20);
 }
 
-// A controller that passes its readings to the check.
+// Controls a robot of the crowd, and passes the robot's readings to the check by brute force.
 class CheckedController final : public CrowdController {
  public:
   CheckedController(std::shared_ptr<CrowdCheck> check,
@@ -113,16 +113,16 @@ base::Result<std::shared_ptr<simulation::Simulation>> LoadCrowd(const CrowdArgum
   return simulation;
 }
 
-// Waits until the run has ended. With --health, computes the health of all robots meanwhile, as
-// often as for a viewer that subscribes to it.
+// Waits until the run has ended. With --health, it also computes the health of all robots, as often
+// as gsv does for a viewer that subscribes to the health.
 void AwaitEnd(simulation::Simulation& simulation, const CrowdArguments& arguments, CrowdRow& row) {
   const std::vector<Phase> ends{Phase::kFinished, Phase::kFailed};
   if (arguments.health) {
-    health::HealthBook book;
+    health::HealthTracker tracker;
     for (Phase phase = Phase::kRunning; std::count(ends.begin(), ends.end(), phase) == 0;) {
       phase = simulation.WaitForPhase(ends, std::chrono::milliseconds(500));
-      (void)book.Update(simulation.status(), simulation.specification().stuck_after,
-                        health::SensorsOf(simulation));
+      (void)tracker.Update(simulation.status(), simulation.specification().stuck_after,
+                           health::SensorsOf(simulation));
       ++row.health_reports;
     }
   }
@@ -172,8 +172,8 @@ nlohmann::ordered_json ToJson(const CrowdRow& row) {
   return json;
 }
 
-// The slope of log(time per step) against log(robots), by least squares. A slope of 1 is linear
-// growth.
+// Returns the slope of log(time per step) against log(robots), by least squares. A slope of 1 is
+// linear growth.
 double GrowthExponent(const std::vector<CrowdRow>& rows) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const CrowdRow& row : rows) {

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kReadingTolerance = 1e-9;  // in m
-// The mover allows bodies to touch. Because of rounding they may seem to overlap by this much.
+// The mover allows bodies to touch. Because of rounding, the computed overlap of two touching
+// bodies may be this large.
 constexpr double kOverlapTolerance = 1e-6;  // in m
 constexpr std::uint64_t kOneIn = 100;
 
@@ -34,8 +35,8 @@ const geometry::Vector3& BoxSize(const world::Body& body) {
   return std::get<geometry::Box>(body.model->links[0].collisions[0].shape).size;
 }
 
-// The distance at which a ray in the plane (unit direction) enters a disc, or leaves it if it
-// starts inside.
+// Returns the distance at which a ray in the plane (unit direction) enters a disc, or leaves it if
+// the ray starts inside.
 double RayToDisc(Point from, Point along, Point centre, double radius) {
   const double x = centre.x - from.x, y = centre.y - from.y;
   const double b = x * along.x + y * along.y;
@@ -67,7 +68,8 @@ double RayToBox(Point from, Point along, const geometry::Pose& pose,
   return enter >= 0 ? enter : leave;
 }
 
-// The penetration depth of a robot's disc in a box. If negative, it is the distance between them.
+// Returns the penetration depth of a robot's disc in a box. If it is negative, its absolute value
+// is the distance between them.
 double DepthInBox(Point centre, const geometry::Pose& pose, const geometry::Vector3& size) {
   const Point p = InBox(pose, centre);
   const double out_x = std::abs(p.x) - size.x / 2, out_y = std::abs(p.y) - size.y / 2;

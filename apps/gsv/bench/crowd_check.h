@@ -1,8 +1,8 @@
-// Compares a crowd's run with brute force. It checks every overlap after each step, and one reading
-// in a hundred. Both are computed from the definitions of shapes, without the code that the run
-// uses.
+// Checks a run of a crowd by brute force. It checks the overlaps of all bodies after each step, and
+// one sonar reading in a hundred. The computation follows the definitions of the shapes and does
+// not use the code of the simulation.
 //
-// Threads  readings: any; overlaps: the stepping thread.
+// Threads  any thread may check readings; the stepping thread checks overlaps.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace gsv::app {
 
 class CrowdCheck final : public simulation::Observer {
  public:
-  // Checks readings. `readings` are the robot's eight rays at the snapshot.
+  // Checks the readings of the robot's eight rays at the snapshot.
   void TakeReadings(const world::Snapshot& snapshot, const std::string& robot,
                     const std::vector<double>& readings);
 

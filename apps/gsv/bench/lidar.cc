@@ -19,7 +19,7 @@ namespace {
 using Stopwatch = std::chrono::steady_clock;
 using Readings = std::vector<sensing::Reading>;
 
-// The scanner is above the robots' own drums.
+// height of the scanner above the robot's origin: the robot's own body does not block the rays
 constexpr double kScannerHeight = 0.4;  // in m
 
 struct LidarArguments {
@@ -71,8 +71,8 @@ struct ScanFigures {
   std::uint64_t triangles = 0;
   Solids solids;
   std::int64_t scans = 0, rays = 0;
-  double wall = 0, processor = 0;  // time of the readings, including the ray scenes, s
-  double least_processor = 1e9;    // for one instant, s
+  double wall = 0, processor = 0;  // time of all readings and of building the ray scenes, s
+  double least_processor = 1e9;    // the smallest of all instants, s
   std::vector<double> instants;    // time of the readings of one instant, ms
 };
 
@@ -87,7 +87,8 @@ base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simul
   return simulation.sensor_types().Find("lidar")->create(description);
 }
 
-// Takes the readings of all robots at one instant, as exchanges would take them.
+// Takes the readings of all robots at one instant, in the same way as the behaviours' `exchange`
+// calls.
 class Scanning {
  public:
   Scanning(const sensing::Sensor& lidar, std::vector<std::string> robots, base::ThreadTeam& team)

@@ -41,7 +41,7 @@ class Durations {
                            : std::accumulate(values_.begin(), values_.end(), 0.0) /
                                  static_cast<double>(values_.size());
   }
-  // The smallest value that is not less than the fraction `q` of the values (nearest rank).
+  // Returns the smallest value that is not less than the fraction `q` of the values (nearest rank).
   double quantile(double q) const {
     const base::MutexLock lock(mutex_);
     if (values_.empty()) return 0;
@@ -200,7 +200,7 @@ int Typical(const TypicalArguments& arguments) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!arguments.json) {
     std::printf(
-        "robots  real time   update interval (ms)       step    camera (ms)   pictures  cycles   "
+        "robots  real time   update interval (ms)       step    camera (ms)     images  cycles   "
         "late\n");
     std::printf(
         "             x      mean  median     p99       (ms)    mean    p99   a second  /robot s "

@@ -12,8 +12,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::chrono::seconds kCommandTimeout{60};
-constexpr std::size_t kMaxOutput = 1 << 20;  // maximum number of stored bytes
-constexpr int kMaxLines = 1000;              // number of lines that are read at a time
+constexpr std::size_t kMaxOutput = 1 << 20;  // maximum size of a program's stored output, bytes
+constexpr int kMaxLines = 1000;              // maximum number of lines that one call reads
 
 // Starts a command through the shell, which finds the program on the PATH and merges stderr into
 // stdout.

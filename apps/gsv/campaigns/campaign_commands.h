@@ -5,7 +5,8 @@
 
 namespace gsv::app {
 
-// Threads  one thread, which lives as long as the programs that it starts.
+// Starts the commands of a job queue, such as sbatch or ssh, as child processes. Use it on one
+// thread, which must live as long as the programs that it starts.
 class ChildCommands final : public campaign::CommandRunner {
  public:
   base::Result<campaign::CommandOutcome> Run(const std::vector<std::string>& command) override;

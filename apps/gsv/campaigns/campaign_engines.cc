@@ -64,8 +64,8 @@ campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted
 }
 
 // Executes the runs of the share that no earlier attempt has done, and writes a journal.
-int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& runs,
-              const EngineOptions& options, Signals& signals, bool until_stdin_closes = false) {
+int ExecuteShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& runs,
+                 const EngineOptions& options, Signals& signals, bool until_stdin_closes = false) {
   const auto earlier = spool.Collect(attempt.share);
   if (!earlier) return PrintError(earlier.error());
   std::set<std::int64_t> done;
@@ -84,23 +84,23 @@ int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& ru
     std::fprintf(stderr, "%s%s\n", std::string(campaign::kTaskBegins).c_str(),
                  attempt.share.c_str());
   }
-  const RunTaker taker(spool.campaign(), folder->path(), options.failures, options.timeout);
+  const RunExecutor executor(spool.campaign(), folder->path(), options.failures, options.timeout);
   bool is_interrupted = false;
   campaign::LocalEngine engine =
       EngineFor(options.jobs, signals, is_interrupted, until_stdin_closes);
   base::Mutex mutex;
   base::Status written GSV_GUARDED_BY(mutex);
-  engine.take = [&](std::int64_t run,
-                    const std::atomic<bool>& is_cancelled) -> std::optional<RunResult> {
+  engine.execute = [&](std::int64_t run,
+                       const std::atomic<bool>& is_cancelled) -> std::optional<RunResult> {
     auto ok = (*journal)->Begin(run);
-    auto result = ok ? taker.Take(run, is_cancelled) : std::nullopt;
+    auto result = ok ? executor.Execute(run, is_cancelled) : std::nullopt;
     if (result) ok = (*journal)->Add(*result);
     const base::MutexLock lock(mutex);
     if (!ok) written = ok;
     return result;
   };
   const auto ended =
-      engine.Take(left, {runs.size(), done.size()}, [&](const std::vector<RunResult>&) {
+      engine.Execute(left, {runs.size(), done.size()}, [&](const std::vector<RunResult>&) {
         const base::MutexLock lock(mutex);
         return written;
       });
@@ -140,7 +140,8 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
     if (!found) return PrintError(found.error());
     servers = *std::move(found);
   }
-  const RunTaker taker(campaign, folder->path(), options.failures, options.timeout, servers.get());
+  const RunExecutor executor(campaign, folder->path(), options.failures, options.timeout,
+                             servers.get());
   bool is_interrupted = false;
   const int jobs = servers != nullptr ? kRunsWithServers : Processors();
   campaign::LocalEngine engine =
@@ -150,8 +151,8 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
       return asked() || !servers->failure().empty();
     };
   }
-  engine.take = [&](std::int64_t run, const std::atomic<bool>& is_cancelled) {
-    return taker.Take(run, is_cancelled);
+  engine.execute = [&](std::int64_t run, const std::atomic<bool>& is_cancelled) {
+    return executor.Execute(run, is_cancelled);
   };
   engine.report = &ReportProgress;
   if (auto ok = engine.Run(results); !ok) return PrintError(ok.error());
@@ -212,7 +213,7 @@ int RunShard(const campaign::Campaign& campaign, const std::string& results_file
   attempt.submitted = attempt.started = campaign::UnixSeconds();
   EngineOptions here = options;
   if (here.jobs == 0) here.jobs = Processors();
-  return TakeShare(*spool, attempt, runs, here, signals);
+  return ExecuteShare(*spool, attempt, runs, here, signals);
 }
 
 int RunTask(const TaskArguments& arguments, Signals& signals) {
@@ -236,8 +237,8 @@ int RunTask(const TaskArguments& arguments, Signals& signals) {
   options.timeout = batch->timeout;
   options.failures = batch->failures;
   options.jobs = arguments.jobs;
-  return TakeShare(*spool, attempt, batch->RunsOf(arguments.task), options, signals,
-                   arguments.until_stdin_closes);
+  return ExecuteShare(*spool, attempt, batch->RunsOf(arguments.task), options, signals,
+                      arguments.until_stdin_closes);
 }
 
 }  // namespace gsv::app

@@ -1,6 +1,6 @@
-// Executes the runs of a campaign for `gsv campaign run`. They are executed on this machine, on
-// servers, or by a job queue; or a share of them is executed for another queue. Each function
-// prints errors and returns the exit code.
+// Executes the runs of a campaign for `gsv campaign run`. This machine, servers or a job queue
+// execute them. With --shard, this machine executes only one share of them. Each function prints
+// errors and returns the exit code.
 #pragma once
 
 #include <filesystem>
@@ -24,21 +24,23 @@ struct EngineOptions {
   std::string servers;   // a constraint on the servers; empty for any server
 };
 
-// Returns the folder of the spool, which is NAME.runs for NAME.sqlite.
+// Returns the spool of a results file: the folder in which tasks leave the results of their runs.
+// It is NAME.runs for NAME.sqlite.
 std::filesystem::path SpoolOf(const std::string& results_file);
 
 // Adds the results in the spool, if there is one. Creates the results file if necessary. Does
-// nothing if another driver is about to collect the results.
+// nothing if another process is collecting the results.
 int GatherSpool(const std::string& results_file);
 
-// Returns when all runs are done, after a signal, or when no server is left.
+// Executes the runs on this machine or on servers. Returns when all runs are done, after a signal,
+// or when no server is left.
 int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
             const EngineOptions& options, Signals& signals);
 int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals);
 
-// Executes the share's runs and stores them in the spool. Runs that an earlier attempt has done are
-// skipped.
+// Executes the runs of the share and stores their results in the spool. Skips the runs that an
+// earlier attempt has done.
 int RunShard(const campaign::Campaign& campaign, const std::string& results_file,
              const Shard& shard, const EngineOptions& options, Signals& signals);
 
@@ -48,7 +50,7 @@ struct TaskArguments {
   std::size_t task = 0;
   std::string job = "none", node;  // for the journal; `node` is empty for this machine's name
   int jobs = 1;                    // number of concurrent runs
-  // whether the task ends, as after a signal, when its stdin closes
+  // whether the task ends when its stdin is closed, in the same way as after a signal
   bool until_stdin_closes = false;
 };
 int RunTask(const TaskArguments& arguments, Signals& signals);

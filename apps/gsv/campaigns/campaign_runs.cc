@@ -11,7 +11,7 @@ using campaign::RunResult;
 
 namespace {
 
-// Returns the numbers in a run's report, by name.
+// Returns the metrics of a run: the numbers in its report, by name.
 nlohmann::ordered_json MetricsOf(const nlohmann::ordered_json& report) {
   auto metrics = nlohmann::ordered_json::object();
   const auto list = [&](const char* name) {
@@ -37,8 +37,8 @@ nlohmann::ordered_json MetricsOf(const nlohmann::ordered_json& report) {
 
 }  // namespace
 
-RunTaker::RunTaker(const campaign::Campaign& campaign, fs::path folder, fs::path failures,
-                   double timeout, ScenarioServers* servers)
+RunExecutor::RunExecutor(const campaign::Campaign& campaign, fs::path folder, fs::path failures,
+                         double timeout, ScenarioServers* servers)
     : campaign_(campaign), folder_(std::move(folder)), servers_(servers) {
   options_.timeout = timeout;
   options_.record = !failures.empty();
@@ -46,8 +46,8 @@ RunTaker::RunTaker(const campaign::Campaign& campaign, fs::path folder, fs::path
   options_.threads = 1;
 }
 
-std::optional<RunResult> RunTaker::Take(std::int64_t run,
-                                        const std::atomic<bool>& is_cancelled) const {
+std::optional<RunResult> RunExecutor::Execute(std::int64_t run,
+                                              const std::atomic<bool>& is_cancelled) const {
   const auto values = campaign_.ValuesOf(static_cast<std::size_t>(run));
   RunResult result{run, "error"};
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -75,8 +75,8 @@ std::optional<RunResult> RunTaker::Take(std::int64_t run,
   return result;
 }
 
-TestResult RunTaker::RunHere(std::int64_t run, const std::string& scenario,
-                             const std::atomic<bool>& is_cancelled) const {
+TestResult RunExecutor::RunHere(std::int64_t run, const std::string& scenario,
+                                const std::atomic<bool>& is_cancelled) const {
   const fs::path file = folder_ / fmt::format("run_{:06}.yaml", run);
   TestResult result;
   if (std::ofstream out(file); out << scenario << std::flush) {

@@ -12,19 +12,20 @@
 
 namespace gsv::app {
 
-// Threads  any number may call Take() at once, if they live until it returns.
-class RunTaker {
+// Executes single runs. Any number of threads may call Execute() at once; each must live until its
+// call returns.
+class RunExecutor {
  public:
   // `folder` is for temporary files. `failures` is a folder for the recordings of failed runs, or
   // empty if they are not recorded. `timeout` is the limit of wall-clock time per run, in s.
   // `servers` execute the runs and must outlive this object; if it is null, this machine executes
   // them.
-  RunTaker(const campaign::Campaign& campaign, std::filesystem::path folder,
-           std::filesystem::path failures, double timeout, ScenarioServers* servers = nullptr);
+  RunExecutor(const campaign::Campaign& campaign, std::filesystem::path folder,
+              std::filesystem::path failures, double timeout, ScenarioServers* servers = nullptr);
 
   // Executes a run. Returns nullopt if the run was cancelled.
-  std::optional<campaign::RunResult> Take(std::int64_t run,
-                                          const std::atomic<bool>& is_cancelled) const;
+  std::optional<campaign::RunResult> Execute(std::int64_t run,
+                                             const std::atomic<bool>& is_cancelled) const;
 
  private:
   TestResult RunHere(std::int64_t run, const std::string& scenario,

@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 using campaign::Campaign;
 using campaign::RunResult;
 
-constexpr std::chrono::seconds kLockTimeout{5};  // for a `status` command, which collects results
+// limit of the wait for another command's lock on the results file
+constexpr std::chrono::seconds kLockTimeout{5};
 
 struct CampaignArguments {
   std::string file, results, csv, svg, html, shard;

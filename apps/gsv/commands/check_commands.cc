@@ -38,7 +38,8 @@ std::string Listed(const std::vector<std::string>& names) {
   return list.empty() ? "none" : list;
 }
 
-// Describes the drive of the model as a robot, and the joints in <ros2_control>.
+// Returns one note about the drive that the model has as a robot, and one for each joint in
+// <ros2_control>.
 Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   Notes notes;
   if (const auto robot = model::AsRobot(model, "")) {
@@ -74,7 +75,7 @@ void Print(const CheckArguments& arguments, const char* severity, const std::str
 
 const char* SeverityName(bool is_error) { return is_error ? "error" : "warning"; }
 
-// Prints each problem once. Returns the exit code: 3 if there are errors.
+// Prints each problem once. Returns the exit code, which is 3 if there are errors.
 int Report(const CheckArguments& arguments, const base::Problems& problems, const Notes& notes,
            const base::Status& read) {
   std::uint64_t errors = read ? 0 : 1;

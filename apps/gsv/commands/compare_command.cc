@@ -220,7 +220,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
 
 void AddCompareCommands(const CommandLine& line) {
   CLI::App* compare = line.app.add_subcommand(
-      "compare", "Compare a real robot's log with simulated devices at the same places");
+      "compare", "Compare a real robot's log with simulated devices at the same poses");
   auto compared = AddOptions(*compare);
   compare->add_option("--plot", compared->plot, "SVG file for the distributions");
   compare->callback([compared, line] { line.exit_code = Compare(*compared); });

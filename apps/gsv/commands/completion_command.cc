@@ -26,8 +26,9 @@ struct CompletedOption {
 };
 
 struct CompletedCommand {
-  std::string path;                                           // "rec info"; empty for gsv itself
-  std::vector<std::pair<std::string, std::string>> commands;  // the names and the help texts
+  std::string path;  // the command's words, such as "rec info"; empty for gsv itself
+  std::vector<std::pair<std::string, std::string>>
+      commands;  // the names and the help texts of its subcommands
   std::vector<CompletedOption> options;
 };
 
@@ -76,7 +77,7 @@ std::string Joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// In single quotes, for bash, zsh and fish.
+// Returns the text in single quotes, as bash, zsh and fish read it.
 std::string ShellQuoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -96,12 +97,12 @@ std::vector<std::string> NamesOf(const CompletedCommand& command) {
   return names;
 }
 
-// The options whose values `gsv list` prints.
+// The options whose values the script gets from `gsv list`, with the kind of names.
 const std::array<std::pair<const char*, const char*>, 3> kListed{
     {{"--behaviour", "behaviours"}, {"--robot", "models"}, {"--avatar", "models"}}};
 
-// The part that bash and zsh share: sets $words_found from $so_far (the command so far), $prev and
-// the values of options.
+// Returns the part of the script that bash and zsh share. It sets $words_found from $so_far (the
+// command so far), $prev and the values of options.
 std::string Cases(const std::vector<CompletedCommand>& commands) {
   std::string text = "  case \"$so_far $prev\" in\n";
   for (const CompletedCommand& command : commands) {

@@ -29,8 +29,8 @@ using simulation::Phase;
 
 constexpr const char* kControlGroup = "Commands to control running simulations";
 
-// Returns the same object as for the viewer, with the server at the start and the state's hash at
-// the end.
+// Returns the JSON object that viewers get, with two more members: `server` at the start, and
+// `state_hash` at the end.
 std::string Json(const FoundSimulation& simulation) {
   const RemoteServer& server = simulation.server;
   nlohmann::ordered_json json = {{"server",
@@ -41,7 +41,7 @@ std::string Json(const FoundSimulation& simulation) {
   json.update(nlohmann::ordered_json::parse(gateway::StatusJson(simulation.status)));
   const auto healths = HealthOf(simulation);
   for (auto& robot : json["robots"]) {
-    robot.erase("health");  // the health was computed without the robot's motion
+    robot.erase("health");  // this health was computed here, without the robot's motion
     const auto found = healths.find(robot.value("name", ""));
     if (found == healths.end()) continue;
     const RemoteHealth& health = found->second;
@@ -76,7 +76,7 @@ struct Arguments {
   bool json = false, lists_all = false;
   std::uint64_t steps = 1;
   double factor = 1;
-  std::map<std::string, std::string> texts;  // values of commands in the table, by parameter
+  std::map<std::string, std::string> texts;  // arguments of a command, by parameter
   std::string robot;                         // the robot whose output is printed; empty for all
 };
 
@@ -138,8 +138,10 @@ int PrintOutput(const Arguments& arguments) {
   const auto printed = orb::Call(simulation->server.Describe(), [&] {
     sba::OutputLines_var lines = simulation->reference->output(arguments.robot.c_str());
     if (lines->length() == 0 && !arguments.json) {
-      std::fprintf(stderr, "gsv: %s has printed no output\n",
-                   arguments.robot.empty() ? "any behaviour" : arguments.robot.c_str());
+      const std::string none = arguments.robot.empty() ? "no behaviour has printed output"
+                                                       : "the behaviour of " + arguments.robot +
+                                                             " has printed no output";
+      std::fprintf(stderr, "gsv: %s\n", none.c_str());
     }
     for (CORBA::ULong i = 0; i < lines->length(); ++i) {
       const sba::OutputLine& line = lines[i];

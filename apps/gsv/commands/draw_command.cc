@@ -90,7 +90,7 @@ int Run(const DrawArguments& arguments) {
   auto renderer = rendering::Renderer::Start();
   if (!renderer) return PrintError(renderer.error());
   const rendering::CameraView overview =
-      view::ViewOfAll(view::CornersToShow(*snapshot), arguments.width, arguments.height);
+      view::Overview(view::CornersToShow(*snapshot), arguments.width, arguments.height);
   const auto image = (*renderer)->Draw(snapshot, overview, std::chrono::minutes(1));
   if (!image) return PrintError(image.error());
   if (auto written = WriteImage(**image, arguments.image); !written) {

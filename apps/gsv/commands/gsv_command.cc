@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -89,7 +90,8 @@ void UseCorbaOptions(const CorbaArguments& corba) {
   if (corba.is_insecure) setenv("GSV_INSECURE_CORBA", "1", 1);
 }
 
-// Programs that this process starts log in the same way.
+// Starts logging. Sets the variables with which programs that this process starts log in the same
+// way.
 void StartLog(const LogArguments& log, bool verbose) {
   if (!log.level.empty()) setenv("GSV_LOG_LEVEL", log.level.c_str(), 1);
   if (!log.format.empty()) setenv("GSV_LOG_FORMAT", log.format.c_str(), 1);
@@ -119,6 +121,31 @@ std::string UnknownWord(const CLI::App& command, const std::vector<std::string>&
   return "there is no command " + words.front() + base::DidYouMean(words.front(), known);
 }
 
+// Returns the sentence for a missing argument, option or value. `what` is CLI11's sentence, such as
+// "topic is required", "--seed: 1 required N missing" or "--start: At least 3 required but received
+// 1". Other sentences are returned unchanged.
+std::string MissingSentence(const CLI::App& command, const std::string& what) {
+  static const std::regex required("(\\S+) is required"), value("(\\S+): \\d+ required .* missing"),
+      values("(\\S+): At least (\\d+) required but received (\\d+)");
+  const auto name_and_value = [&](const std::string& name) {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    return option == nullptr ? std::string() : " " + ValueNameOf(*option);
+  };
+  std::smatch match;
+  if (std::regex_match(what, match, required)) {
+    const std::string name = match[1];
+    return name.starts_with('-') ? "missing option " + name + name_and_value(name)
+                                 : "missing argument " + name;
+  }
+  if (std::regex_match(what, match, value)) {
+    return match[1].str() + ": missing value" + name_and_value(match[1]);
+  }
+  if (std::regex_match(what, match, values)) {
+    return match[1].str() + ": expected " + match[2].str() + " values, found " + match[3].str();
+  }
+  return what;
+}
+
 // Returns one sentence, as for every error. CLI11 reports an unknown command as a missing one.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   const CLI::App* typed = app;  // the command that the user typed
@@ -127,7 +154,7 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
     typed = typed->get_subcommands().front();
     words += " " + typed->get_name();
   }
-  std::string what = error.what();
+  std::string what = MissingSentence(*typed, error.what());
   const bool is_required = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
   if (is_required && typed->get_require_subcommand_min() > 0) {
     const std::vector<std::string> unknown = typed->remaining();

@@ -234,7 +234,7 @@ struct ReplayArguments {
   ViewerOptions web;
   Ros2Arguments ros2;
   gateway::ReplayOptions options;
-  double at = -1;      // s; < 0: the start
+  double at = -1;      // start of the replay, simulated time in s; < 0: the recording's start
   std::string select;  // robot that the viewer selects
   bool headless = false;
   bool paused = false;

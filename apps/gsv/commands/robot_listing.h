@@ -1,4 +1,4 @@
-// The lines of `gsv ps` about the robots of one simulation.
+// Formats the lines of `gsv ps` about the robots of one simulation.
 #pragma once
 
 #include <map>
@@ -8,13 +8,13 @@
 
 namespace gsv::app {
 
-// The number of robots up to which all are listed, ordered by name. For a larger crowd, this number
-// of robots with the worst states is listed.
+// Up to this number of robots, all are listed, ordered by name. Of more robots, only this number is
+// listed: those with the most serious states.
 inline constexpr std::size_t kMaxListed = 20;
 
 // Returns one line per robot, with its health if the server reports it, else the detail of its
 // state. If robots are left out, the last line counts them by state. With `lists_all`, all robots
-// of a crowd are listed, the worst first.
+// are listed. If they are many, those with the most serious states come first.
 std::string RobotListing(const simulation::SimulationStatus& status,
                          const std::map<std::string, RemoteHealth>& healths, bool lists_all);
 

@@ -33,7 +33,7 @@ class RobotListingTest : public ::testing::Test {
   std::map<std::string, RemoteHealth> healths_;
 };
 
-TEST_F(RobotListingTest, FewRobotsAreListedInTheirOrder) {
+TEST_F(RobotListingTest, ListsFewRobotsByName) {
   Make(20);
   healths_["cart_19"] = {"dead", "has been dead for 2 s", 2, {}};
   const std::string text = Listing();
@@ -43,7 +43,7 @@ TEST_F(RobotListingTest, FewRobotsAreListedInTheirOrder) {
   EXPECT_THAT(text, Not(HasSubstr("more")));
 }
 
-TEST_F(RobotListingTest, ACrowdBeginsWithTheWorstAndCountsTheRest) {
+TEST_F(RobotListingTest, ListsTheWorstRobotsOfACrowdAndCountsTheOthers) {
   Make(50);
   healths_["cart_30"] = {"standing", "has not moved for 9 s", 0, {}};
   healths_["cart_31"] = {"contact", "has been in contact for 9 s", 1, {}};
@@ -60,14 +60,14 @@ TEST_F(RobotListingTest, ACrowdBeginsWithTheWorstAndCountsTheRest) {
   EXPECT_THAT(text, HasSubstr("  and 30 more robots: 30 move (--all lists them)\n"));
 }
 
-TEST_F(RobotListingTest, AllRobotsOfACrowdAreListedOnRequest) {
+TEST_F(RobotListingTest, ListsAllRobotsOfACrowdOnRequest) {
   Make(21);
   EXPECT_THAT(Listing(), HasSubstr("and 1 more robot: 1 moves (--all lists them)"));
   EXPECT_THAT(Listing(true), Not(HasSubstr("more")));
   EXPECT_THAT(Listing(true), HasSubstr("cart_20"));
 }
 
-TEST_F(RobotListingTest, WithoutHealthTheDeadBehavioursComeFirst) {
+TEST_F(RobotListingTest, ListsFailedBehavioursFirstWithoutHealth) {
   Make(30);
   healths_.clear();
   status_.robots[25].phase = simulation::AgentPhase::kDead;

@@ -118,7 +118,7 @@ int Nodes(const Ros2CommandArguments& arguments, Signals& signals) {
   return kOk;
 }
 
-// Returns the topic with the strictest QoS that all of its publishers offer.
+// Finds the topic. Returns it with the strictest QoS that all its publishers offer.
 base::Result<ros2::dds::Topic> Find(const Participant& participant,
                                     const Ros2CommandArguments& arguments, Signals& signals) {
   const std::string name = ros2::DdsTopicName(arguments.topic);
@@ -157,7 +157,7 @@ base::Result<messages::Definition> DefinitionOf(const std::string& type) {
   return base::Fail(base::ErrorCode::kNotFound, "gsv does not know the message type", type);
 }
 
-// The messages that have arrived on a topic.
+// A queue of the messages that have arrived on a topic.
 class Inbox {
  public:
   static constexpr std::size_t kMaxWaiting = 1000;
@@ -245,7 +245,7 @@ int Examine(const Ros2CommandArguments& arguments, Signals& signals) {
               participants.size(), topics.size(), endpoints.size());
   if (participants.empty()) {
     std::printf(
-        "problem: nobody was found in %g s. Compare ROS_DOMAIN_ID and the range of discovery "
+        "problem: no node was found in %g s. Compare ROS_DOMAIN_ID and the range of discovery "
         "with those of the other nodes\n",
         arguments.seconds);
     return kInfrastructure;

@@ -76,7 +76,8 @@ int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, S
   }
 }
 
-// Whether the scenario causes this end: a fault stops the behaviour, or a sensor that it reads.
+// Whether a fault in the scenario can be the cause of the behaviour's end, because the fault stops
+// the behaviour or a sensor.
 bool IsEndByFault(const Simulation& simulation, const std::string& robot) {
   const auto& faults = simulation.specification().faults;
   return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
@@ -108,8 +109,8 @@ void Warn(const std::vector<std::string>& sentences) {
   }
 }
 
-// Returns problems with selected topics that never existed. A robot that was added during the run
-// may have added topics that did not exist at the start.
+// Returns one sentence for each selected topic that never existed. A robot that was added during
+// the run may have added topics that did not exist at the start.
 std::vector<std::string> ProblemsAtTheEnd(const RunOptions& options,
                                           std::vector<std::string> topics_at_start) {
   const auto recorded = recording::McapReader::Open(options.record);
@@ -229,7 +230,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   } else {
     exit_code = JudgeExpectations(**judge, options, findings, exit_code);
   }
-  if (options.runtime.has_broker) (*runtime)->launcher().SettleOutput();
+  if (options.runtime.has_broker) (*runtime)->launcher().WaitForOutput();
   if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = PrintError(ok.error());
   if (is_quiet) return exit_code;
   if (!options.recording.topics.empty()) {

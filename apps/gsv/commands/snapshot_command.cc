@@ -21,7 +21,7 @@ namespace {
 
 struct SnapshotArguments {
   std::string output, token, authority;
-  Selection selection;  // the name of its simulation may also be a file
+  Selection selection;  // its member `simulation` may also be the file of a recording
   std::optional<double> at;
   view::Camera camera;
 };

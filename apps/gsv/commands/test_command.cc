@@ -241,7 +241,8 @@ void AddTestCommand(const CommandLine& line) {
       ->group("Limits");
   command
       ->add_option("--drive", arguments->options.drives,
-                   "drive, such as husky=skid,radius=0.16\nEach scenario must have the robot.")
+                   "drive of a robot, such as husky=skid,radius=0.16\nEvery scenario must contain "
+                   "this robot.")
       ->type_name("ROBOT=KIND[,KEY=VALUE]")
       ->group(kRunGroup);
   command->add_option("--junit", arguments->junit, "write the results as JUnit XML")

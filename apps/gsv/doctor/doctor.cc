@@ -44,7 +44,7 @@ base::Result<double> ImageRate(rendering::Renderer& renderer) {
 }
 
 // Returns true if images can be rendered.
-bool LookAtCameras(bool has_worlds) {
+bool CheckCameras(bool has_worlds) {
   const auto renderer = rendering::Renderer::Start();
   if (!renderer) {
     std::printf("cameras: none: %s\n", renderer.error().Sentence().c_str());
@@ -79,7 +79,7 @@ int Doctor(const std::string& broker) {
   std::error_code ignored;
   const bool viewer = std::filesystem::exists(ShareFolder() / "web" / "index.html", ignored);
   const bool worlds = FindWorld("office").has_value();
-  const bool cameras = LookAtCameras(worlds);
+  const bool cameras = CheckCameras(worlds);
   std::printf("viewer: %s %s\n", viewer ? "ok," : "missing:", (ShareFolder() / "web").c_str());
   std::printf("worlds: %s %s\n", worlds ? "ok," : "missing:", (ShareFolder() / "worlds").c_str());
   const bool machine = CheckMachine();

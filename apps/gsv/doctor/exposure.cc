@@ -83,8 +83,9 @@ int StatusOf(const std::string& answer) {
   return answer.starts_with("HTTP/1.1 ") && answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0;
 }
 
-// A LocateRequest of GIOP 1.0, little-endian, for an arbitrary object key (CORBA 3.0, 15.4.5)
-std::string AskingForAnObject() {
+// Returns a LocateRequest of GIOP 1.0, little-endian, for an arbitrary object key (CORBA 3.0,
+// 15.4.5)
+std::string LocateRequest() {
   const char request[] = "GIOP\1\0\1\3\x0c\0\0\0\1\0\0\0\4\0\0\0none";
   return {request, sizeof request - 1};
 }
@@ -161,11 +162,11 @@ Exposure Probe(const Listener& listener) {
     return exposure;
   }
   const std::string look = Asking(listener, "GET", "/api/server", "");
-  // The request needs the permission to control, but has no effect: it previews a scenario.
+  // This request has no effect, because it only previews a scenario. It needs the permission to
+  // control, so the answer shows whether a token is required.
   const std::string act = Asking(listener, "POST", "/api/preview", "{}");
   const std::string answer = Connection(listener).Exchange(look);
-  if (StatusOf(answer) == 0 &&
-      Connection(listener).Exchange(AskingForAnObject()).starts_with("GIOP")) {
+  if (StatusOf(answer) == 0 && Connection(listener).Exchange(LocateRequest()).starts_with("GIOP")) {
     exposure.speaks = Speaks::kCorba;
   } else if (StatusOf(answer) == 400 && answer.find("https://") != std::string::npos) {
     exposure.speaks = Speaks::kHttps;
@@ -181,8 +182,7 @@ Exposure Probe(const Listener& listener) {
     exposure.acting_takes_token = TakesToken(StatusOf(Connection(listener).Exchange(act)));
   } else {
     const Connection connection(listener);
-    const tls::ProbeResult reception =
-        tls::ProbeServer(connection.descriptor(), AskingForAnObject());
+    const tls::ProbeResult reception = tls::ProbeServer(connection.descriptor(), LocateRequest());
     const bool is_answered = reception.answer.starts_with("GIOP");
     if (is_answered || reception.asks_for_certificate) exposure.speaks = Speaks::kCorbaTls;
     exposure.takes_certificate = !is_answered && reception.asks_for_certificate;

@@ -11,16 +11,19 @@
 
 namespace gsv::app {
 
+// The protocol of a socket.
 enum class Speaks { kHttp, kHttps, kCorba, kCorbaTls, kRos2, kUnknown };
 
+// The result of testing a socket: its protocol, and the credentials that it requires from clients.
 struct Exposure {
   Speaks speaks = Speaks::kUnknown;
   bool watching_takes_token = false;  // for HTTP and HTTPS
-  bool acting_takes_token = false;
-  bool takes_certificate = false;  // for CORBA by TLS
-  bool takes_keys = false;         // for ROS 2 with DDS Security
+  bool acting_takes_token = false;    // for HTTP and HTTPS
+  bool takes_certificate = false;     // for CORBA by TLS
+  bool takes_keys = false;            // for ROS 2 with DDS Security
 };
 
+// Tests a socket.
 Exposure Probe(const Listener& listener);
 // Returns the reason why the exposure should be changed, and the remedy. Empty if no change is
 // needed.

@@ -10,14 +10,14 @@ using ::testing::HasSubstr;
 
 const Listener kOpen{"0.0.0.0", 8080}, kLocal{"127.0.0.1", 8080};
 
-TEST(Exposure, ListeningOnThisMachineOnlyGivesNoWarning) {
+TEST(Exposure, GivesNoWarningForASocketOfThisMachineOnly) {
   for (const Speaks speaks :
        {Speaks::kHttp, Speaks::kHttps, Speaks::kCorba, Speaks::kCorbaTls, Speaks::kUnknown}) {
     EXPECT_EQ(ExposureWarning(kLocal, {speaks}), "");
   }
 }
 
-TEST(Exposure, AViewerBeyondThisMachineNeedsTokensAndTls) {
+TEST(Exposure, ViewerBeyondThisMachineNeedsTokensAndTls) {
   Exposure exposure{Speaks::kHttp};
   EXPECT_THAT(ExposureWarning(kOpen, exposure),
               HasSubstr("everyone who can reach it can control it"));
@@ -45,7 +45,7 @@ TEST(Exposure, Ros2BeyondThisMachineNeedsKeys) {
   EXPECT_EQ(ExposureWarning({"127.0.0.1", 7410, true}, {Speaks::kRos2}), "");
 }
 
-TEST(Exposure, AListenerThatDoesNotAnswerGivesAWarning) {
+TEST(Exposure, WarnsAboutASocketThatDoesNotAnswer) {
   EXPECT_THAT(ExposureWarning(kOpen, {Speaks::kUnknown}), HasSubstr("it does not respond"));
 }
 

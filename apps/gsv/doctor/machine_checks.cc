@@ -25,7 +25,7 @@
 namespace gsv::app {
 namespace {
 
-// Enough for a hundred behaviours, a hundred viewers, and the program's own files.
+// This limit suffices for a hundred behaviours, a hundred viewers, and the program's own files.
 constexpr rlim_t kEnoughDescriptors = 512;
 constexpr double kEnoughRoom = 1;  // space for recordings, GB
 
@@ -44,7 +44,7 @@ bool CheckDescriptors() {
   return false;
 }
 
-// In real time, steps have priority over behaviours if the system allows that.
+// Checks whether the system allows real-time runs to give their steps priority over behaviours.
 void CheckPriority() {
   rlimit limit{};
   getrlimit(RLIMIT_NICE, &limit);

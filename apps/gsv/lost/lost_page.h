@@ -1,6 +1,6 @@
 // Serves crash reports of earlier servers over HTTP:
 //   GET    /api/lost          the list
-//   DELETE /api/lost/NUMBER   dismisses one, which is not shown again
+//   DELETE /api/lost/NUMBER   deletes the report with this number
 //
 // Threads  any.
 #pragma once

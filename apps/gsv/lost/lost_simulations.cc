@@ -67,7 +67,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
   }
   Keep(std::move(lost));
   Write();
-  if (!could_write_) return;  // another server may be able to write, and must find the notes
+  if (!could_write_) return;  // keeps the notes for a server that can write
   std::error_code ignored;
   for (const fs::path& file : done) fs::remove(file, ignored);
 }
@@ -82,7 +82,8 @@ void LostSimulations::Keep(std::vector<LostSimulation> lost) {
 
 void LostSimulations::Examine(const std::stop_token& stop) {
   for (auto& [number, simulation] : List()) {
-    // A server that ends at once still reports all of them, without reading their recordings.
+    // Reading a recording may take long, so a server that is ending reports the simulation without
+    // its recorded time.
     if (!simulation.recording.empty() && !stop.stop_requested()) {
       simulation.whole_until_s = WholeUntil(simulation.recording);
     }

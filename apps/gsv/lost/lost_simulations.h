@@ -1,6 +1,6 @@
-// The simulations that earlier servers have lost. A server that was killed left a note of its
-// simulations (server_note.h). The next server with the same folder of recordings takes over the
-// note. This class also writes the note of this server.
+// Crash reports: the simulations that ran on servers that were killed. Each server has a file with
+// a note of its simulations (server_note.h), which remains after a kill. The next server with the
+// same folder of recordings takes over the note. This class also writes the note of this server.
 //
 // Threads  any. One thread writes the note after changes, at most twice a second. Another one reads
 //          the recordings, which may take long.
@@ -36,21 +36,26 @@ class LostSimulations {
   // `recordings` must outlive this object.
   LostSimulations(const Server& server, services::SimulationHost& host,
                   gateway::RecordingSwitch& recordings);
-  // Called at a regular end. No simulation was lost, so this server's note is removed.
+  // Removes the note of this server, because no simulation is lost at a regular end.
   ~LostSimulations();
 
   // Returns the lost simulations by number. The numbers do not change during the lifetime of this
   // server.
   std::map<int, LostSimulation> List() const;
-  // Returns the name of its recording if that is in this server's folder, else an empty text.
+  // Returns the file name of the simulation's recording. Returns an empty text if the recording is
+  // not in this server's folder of recordings.
   std::string NameInFolder(const LostSimulation& lost) const;
-  // Dismisses a report. Returns false if there is none with that number.
+  // Deletes a report. Returns false if there is none with that number.
   bool Dismiss(int number);
 
  private:
+  // Adds the simulations in notes of ended servers, and removes these notes.
   void TakeOver(const std::filesystem::path& folder);
+  // Numbers the newest kMaxKept simulations, and adds them to lost_.
   void Keep(std::vector<LostSimulation> lost);
+  // The function of examiner_: reads the recordings of the lost simulations, and logs each.
   void Examine(const std::stop_token& stop);
+  // The function of watcher_: writes the note of this server after changes.
   void WatchOver(const std::stop_token& stop);
   void Write();
   std::vector<LostSimulation> Running() const;
@@ -64,7 +69,7 @@ class LostSimulations {
   std::condition_variable_any changed_;
   std::map<int, LostSimulation> lost_ GSV_GUARDED_BY(mutex_);
   int next_ GSV_GUARDED_BY(mutex_) = 1;
-  std::jthread examiner_, watcher_;  // the last members, because the threads use all others
+  std::jthread examiner_, watcher_;  // destroyed first, because the threads use the other members
 };
 
 }  // namespace gsv::app

@@ -1,6 +1,7 @@
-// A note of a server's simulations in this user's state folder. With it a later server reports what
-// a killed server has lost. The folder is $XDG_STATE_HOME/gsv/servers (~/.local/state). It has one
-// small file per server, which is removed at a regular end.
+// A server's note: a small file that lists the server's simulations. After the server was killed, a
+// later server reads the note and reports these simulations as lost. The file is in
+// $XDG_STATE_HOME/gsv/servers (default of XDG_STATE_HOME: ~/.local/state). The server removes it at
+// a regular end.
 //
 // Input    untrusted: a power failure, or another user, may have damaged a note.
 // Threads  any.
@@ -20,6 +21,7 @@
 
 namespace gsv::app {
 
+// A simulation that was running when its server was killed.
 struct LostSimulation {
   std::string name, world, phase;
   double time_s = 0;       // simulated time at the last update
@@ -37,18 +39,18 @@ std::string Sentence(const LostSimulation& lost);
 // whole_until_s?, sentence}.
 nlohmann::ordered_json Describe(const LostSimulation& lost);
 
+// The content of a server's note.
 struct ServerNote {
   pid_t pid = 0;
-  std::uint64_t started =
-      // start of the process, in clock ticks after that of the machine; with `boot` it detects a
-      // reused pid
-      0;
+  // start of the process, in clock ticks since the machine was booted; with `boot` it detects a
+  // reused pid
+  std::uint64_t started = 0;
   std::string boot, host;
   std::string server;                       // the name of the server
   std::string broker;                       // the reference of its broker
   std::string recordings;                   // its folder of recordings
   std::vector<LostSimulation> simulations;  // the simulations that it runs
-  std::vector<LostSimulation> lost;         // simulations that servers before it have lost
+  std::vector<LostSimulation> lost;         // lost simulations of earlier servers
 };
 
 // Returns the note of this process.
@@ -61,18 +63,21 @@ base::Result<std::filesystem::path> NotesFolder();
 // Returns the path of this process's note.
 std::filesystem::path NoteFile(const std::filesystem::path& folder, const ServerNote& note);
 
-// Writes a temporary file and renames it, so that no reader gets a part of it.
+// Writes a temporary file and renames it, so that no reader sees a partly written note.
 base::Status WriteNote(const std::filesystem::path& file, const ServerNote& note);
 
+// A note and its file.
 struct NoteFound {
   std::filesystem::path file;
   ServerNote note;
 };
+// The result of ReadNotes().
 struct NotesFound {
   std::vector<NoteFound> notes;               // at most a thousand notes
   base::Problems problems;                    // for example about a file that is not a note
   std::vector<std::filesystem::path> broken;  // the paths of those files
 };
+// Reads all notes in the folder.
 NotesFound ReadNotes(const std::filesystem::path& folder);
 
 // Returns all lost simulations in the notes: those of ended processes, and those that running

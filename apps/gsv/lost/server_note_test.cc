@@ -42,7 +42,7 @@ class ServerNoteTest : public ::testing::Test {
   const base::testing::TestFolder folder_{};
 };
 
-TEST_F(ServerNoteTest, IsReadUnchanged) {
+TEST_F(ServerNoteTest, ReadsBackWhatWasWritten) {
   ServerNote note = NewNote();
   note.server = "caf\xe9";  // invalid UTF-8
   note.broker = "IOR:01";
@@ -69,7 +69,7 @@ TEST_F(ServerNoteTest, IsReadUnchanged) {
   EXPECT_EQ(read.lost[0].whole_until_s, 11.9);
 }
 
-TEST_F(ServerNoteTest, AWriterIsAliveWhileItsProcessIs) {
+TEST_F(ServerNoteTest, ProcessRunsUnlessPidOrBootWasReused) {
   ServerNote note = NewNote();
   EXPECT_TRUE(IsProcessRunning(note));
   ++note.started;  // another process had this number
@@ -81,7 +81,7 @@ TEST_F(ServerNoteTest, AWriterIsAliveWhileItsProcessIs) {
   EXPECT_TRUE(IsProcessRunning(note)) << "nobody here can tell";
 }
 
-TEST_F(ServerNoteTest, AnInvalidFileIsReportedAndRenamedAsBroken) {
+TEST_F(ServerNoteTest, InvalidFileIsReportedAndRenamedAsBroken) {
   for (const char* text : {"", "{", "[]", "{\"pid\": 1}", "null"}) {
     const auto file = folder_.Write("7-7.json", text);
     const NotesFound found = ReadNotes(folder_.path());
@@ -106,7 +106,7 @@ TEST_F(ServerNoteTest, EveryFieldMustHaveItsType) {
               IsEmpty());
 }
 
-TEST_F(ServerNoteTest, OtherFilesAndFoldersAreLeftAlone) {
+TEST_F(ServerNoteTest, LeavesOtherFilesAndFoldersUnchanged) {
   folder_.Write("1-1.json.draft", "{");
   folder_.Write("README", "x");
   const NotesFound found = ReadNotes(folder_.path());

@@ -1,4 +1,5 @@
-// The folders and files of this installation.
+// Finds the folders and files of this installation: programs, built-in worlds, models and the
+// viewer.
 #pragma once
 
 #include <filesystem>

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMaxLineBytes = 16 * 1024;
 constexpr int kPauseMilliseconds = 200;
-constexpr std::chrono::milliseconds kSettleTimeout{500};
+constexpr std::chrono::milliseconds kWaitTimeout{500};
 constexpr int kMaxReadsAtEnd = 1000;  // reads of 4 KiB; together more than a pipe holds
 
 // Returns how the child ended. Does not reap it, because its owner does.
@@ -75,11 +75,11 @@ void OutputReader::AddOutput(ChildProcess& child) {
   Wake();
 }
 
-void OutputReader::Settle() {
+void OutputReader::WaitForOutput() {
   base::MutexLock lock(mutex_);
-  is_settling_ = true;
+  has_waiter_ = true;
   Wake();
-  settled_.wait_for(lock, kSettleTimeout, [this]() GSV_REQUIRES(mutex_) { return !is_settling_; });
+  all_read_.wait_for(lock, kWaitTimeout, [this]() GSV_REQUIRES(mutex_) { return !has_waiter_; });
 }
 
 void OutputReader::Emit(const Source& source, const std::string& line) {
@@ -126,11 +126,11 @@ void OutputReader::EndChild(pid_t pid) {
 void OutputReader::Run() {
   pthread_setname_np(pthread_self(), "output");
   for (;;) {
-    bool is_settling = false;
+    bool has_waiter = false;
     {
       const base::MutexLock lock(mutex_);
       if (is_stopping_) break;
-      is_settling = is_settling_;
+      has_waiter = has_waiter_;
       std::move(added_.begin(), added_.end(), std::back_inserter(sources_));
       added_.clear();
       for (const auto& [pid, descriptor] : added_children_) children_[pid] = {descriptor, false};
@@ -144,7 +144,7 @@ void OutputReader::Run() {
       watched.push_back(pid);
       events.push_back({child.pid_descriptor, POLLIN, 0});
     }
-    const int ready = poll(events.data(), events.size(), is_settling ? 0 : kPauseMilliseconds);
+    const int ready = poll(events.data(), events.size(), has_waiter ? 0 : kPauseMilliseconds);
     if (events[0].revents != 0) {
       std::array<char, 64> bytes;
       while (read(wake_ends_[0], bytes.data(), bytes.size()) > 0) {
@@ -163,10 +163,10 @@ void OutputReader::Run() {
       }
     }
     callbacks_.on_pause();
-    if (is_settling && ready == 0) {
+    if (has_waiter && ready == 0) {
       const base::MutexLock lock(mutex_);
-      is_settling_ = false;
-      settled_.notify_all();
+      has_waiter_ = false;
+      all_read_.notify_all();
     }
   }
   for (Source& source : sources_) ReadRest(source);

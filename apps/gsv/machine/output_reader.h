@@ -40,9 +40,10 @@ class OutputReader {
   // Starts to read stdout too; the caller must no longer read it.
   void AddOutput(ChildProcess& child);
   // Waits until all output so far was read, for at most half a second.
-  void Settle();
+  void WaitForOutput();
 
  private:
+  // One stream of a child.
   struct Source {
     pid_t pid = 0;
     int descriptor = -1;  // -1: closed
@@ -57,9 +58,11 @@ class OutputReader {
   void Run();
   // Returns false if the stream has ended.
   bool Read(Source& source);
+  // Reads the output that is left in the pipe after the child has ended.
   void ReadRest(Source& source);
   void Emit(const Source& source, const std::string& line);
   void EndChild(pid_t pid);
+  // Wakes the reader's thread from poll().
   void Wake();
 
   const Callbacks callbacks_;
@@ -68,8 +71,8 @@ class OutputReader {
   std::vector<Source> added_ GSV_GUARDED_BY(mutex_);
   std::map<pid_t, int> added_children_ GSV_GUARDED_BY(mutex_);  // their pid descriptors
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  bool is_settling_ GSV_GUARDED_BY(mutex_) = false;
-  base::ConditionVariable settled_;
+  bool has_waiter_ GSV_GUARDED_BY(mutex_) = false;
+  base::ConditionVariable all_read_;
   // used by the reader's thread only
   std::vector<Source> sources_;
   std::map<pid_t, Child> children_;

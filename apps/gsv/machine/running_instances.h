@@ -1,5 +1,5 @@
-// The gsv processes of this user, and their brokers. There is one small file for each process, in
-// $XDG_RUNTIME_DIR/gsv or, if that is not set, /tmp/gsv-UID.
+// Finds the running gsv processes of this user, and the addresses of their brokers. There is one
+// small file for each process, in $XDG_RUNTIME_DIR/gsv or, if that is not set, /tmp/gsv-UID.
 //
 // Threads  any.
 #pragma once
@@ -17,13 +17,13 @@
 
 namespace gsv::app {
 
-// Returns the start time of a process, in clock ticks after that of the machine. Returns nullopt if
-// there is no process with that number.
+// Returns the start time of a process, in clock ticks since the machine was booted. Returns nullopt
+// if there is no process with that number.
 std::optional<std::uint64_t> ProcessStart(pid_t pid);
 
 struct Instance {
   pid_t pid = 0;
-  // start, in clock ticks after that of the machine; detects a reused pid
+  // start of the process, in clock ticks since the machine was booted; detects a reused pid
   std::uint64_t started = 0;
   std::string broker;  // the reference of its broker
 };

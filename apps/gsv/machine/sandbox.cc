@@ -70,7 +70,8 @@ base::Status EnterSandbox(const Sandbox& bounds) {
                         Bound(RLIMIT_FSIZE, 0) && Bound(RLIMIT_CORE, 0);
   // Libraries write logs. Such a write then fails and does not kill the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  // Readers would report an exception as a bad file, so the process exits instead.
+  // If memory is exhausted, the process exits. Readers of files would report an exception as an
+  // error in the file.
   std::set_new_handler([] { _exit(kWantsMoreMemory); });
   std::vector<sock_filter> filter = Filter();
   const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};

@@ -4,6 +4,12 @@
 #include <sstream>
 
 namespace gsv::app {
+
+std::string ValueNameOf(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.substr(0, type.find(':'));
+}
+
 namespace {
 
 constexpr std::size_t kWidth = 80;
@@ -46,20 +52,22 @@ std::string NamesOf(const std::set<CLI::Option*>& options) {
   return names;
 }
 
-// CLI11 appends ":" and the descriptions of validators to the name of the type.
+// Returns the name of the option's value and the range of a number. CLI11 appends ":" and the
+// descriptions of validators to the name of the type.
 std::pair<std::string, std::string> TypeAndRange(const CLI::Option& option) {
   const std::string type = option.get_type_name();
+  const std::string name = ValueNameOf(option);
   const std::size_t colon = type.find(':');
-  if (colon == std::string::npos) return {type, ""};
+  if (colon == std::string::npos) return {name, ""};
   std::string range = type.substr(colon + 1);
   const bool is_range = range.find(" in [") != std::string::npos && range.back() == ']';
-  if (!is_range) return {type.substr(0, colon), ""};
+  if (!is_range) return {name, ""};
   range = range.substr(range.find('[') + 1);
   range.pop_back();
   if (const std::size_t dash = range.find(" - "); dash != std::string::npos) {
     range.replace(dash, 3, " to ");
   }
-  return {type.substr(0, colon), range};
+  return {name, range};
 }
 
 // Returns a short and a long name. A second long name is deprecated, and only the details mention

@@ -14,6 +14,9 @@
 
 namespace gsv::app {
 
+// Returns the name of an option's value as the help prints it, such as FILE.
+std::string ValueNameOf(const CLI::Option& option);
+
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name,

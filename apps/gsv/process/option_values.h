@@ -1,4 +1,4 @@
-// Checks on the values of options.
+// Validators for the values of command-line options.
 #pragma once
 
 #include <CLI/CLI.hpp>

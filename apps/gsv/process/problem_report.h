@@ -9,8 +9,8 @@
 
 namespace gsv::app {
 
-// Returns the problems of that severity, in the order of their first place: "where: message", with
-// "(and in 41 more places)" if others have the same message.
+// Returns the problems of that severity as "where: message". Problems with the same message are one
+// sentence, with "(and in 41 more places)". The order is that of the first places.
 std::vector<std::string> GroupedSentences(const base::Problems& problems,
                                           base::Problem::Severity severity);
 

@@ -1,4 +1,4 @@
-// The end of a program that ran simulations.
+// Ends a program that ran simulations.
 #pragma once
 
 namespace gsv::app {

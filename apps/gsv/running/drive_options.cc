@@ -11,7 +11,7 @@ namespace {
 
 using model::WorldDescription;
 
-// The names that --drive may have: those of the robots and of the models of the world.
+// Returns the names that --drive accepts: those of the scenario's robots and of the world's models.
 std::vector<std::string> DriveNames(const WorldDescription& world,
                                     const scenario::Scenario& scenario) {
   std::vector<std::string> names;
@@ -36,7 +36,8 @@ base::Result<std::string> NameOf(const scenario::RobotEntry& robot, const std::s
   return (*model)->name;
 }
 
-// Returns the names of --drive that belong to no robot in the scenario.
+// Sets the drives of the scenario's robots. Returns the names in --drive that belong to none of
+// these robots.
 base::Result<std::set<std::string>> OverrideDrives(const std::string& world,
                                                    formats::ModelLibrary& library,
                                                    RunOptions& options, base::Problems& problems) {

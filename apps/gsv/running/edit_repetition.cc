@@ -28,13 +28,13 @@ std::string AtInstant(base::SimTime time) {
   return fmt::format("at {:.3f} s", base::ToSeconds(time));
 }
 
-// Whether the event is an edit. Used for recordings by versions that did not record edits.
+// Whether the event is about an edit. Older versions recorded this event, but not the edit itself.
 bool IsEdit(const std::string& event) {
   return event == "body_placed" || event == "robot_removed" || event == "robot_added" ||
          event == "avatar_added";
 }
 
-bool IsHoldingUp(const std::string& event) {
+bool IsInterruption(const std::string& event) {
   return event == "paused" || event == "resumed" || event == "factor_set";
 }
 
@@ -162,11 +162,11 @@ bool IsOver(const Simulation& simulation) {
 
 }  // namespace
 
-base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
-                                        const std::string& file, bool by_commands) {
+base::Result<RecordedUserActions> ReadUserActions(const recording::McapReader& reader,
+                                                  const std::string& file, bool by_commands) {
   using messages::gsv_msgs::LifecycleEvent;
   const recording::Summary& summary = reader.summary();
-  RecordedDoings doings;
+  RecordedUserActions actions;
   std::vector<LifecycleEvent> told;  // the events that describe edits
   bool has_finished = false;
   recording::MessageCursor cursor = reader.Messages();
@@ -181,30 +181,30 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
       if (!message) return base::Fail(message.error());
       auto edit = presentation::EditFrom(*message);
       if (!edit) return base::Fail(edit.error());
-      doings.edits.push_back(*std::move(edit));
+      actions.edits.push_back(*std::move(edit));
     } else if (channel->second.topic == presentation::topics::kEvents.name) {
       auto message = messages::Decode<LifecycleEvent>((*record)->data);
       if (!message) return base::Fail(message.error());
-      doings.was_held_up = doings.was_held_up || IsHoldingUp(message->event);
+      actions.was_interrupted = actions.was_interrupted || IsInterruption(message->event);
       has_finished = has_finished || message->event == "finished";
-      doings.has_verdicts = doings.has_verdicts || message->event.starts_with("expectation_");
+      actions.has_verdicts = actions.has_verdicts || message->event.starts_with("expectation_");
       if (IsEdit(message->event)) told.push_back(*std::move(message));
     }
   }
-  doings.was_held_up = doings.was_held_up || !has_finished;
-  if (doings.edits.empty() && !told.empty()) {
+  actions.was_interrupted = actions.was_interrupted || !has_finished;
+  if (actions.edits.empty() && !told.empty()) {
     return NotAgain(file, "a viewer edited the world (" + told[0].event + " " + told[0].robot +
                               " " + AtInstant(messages::ToSimTime(told[0].stamp)) +
                               "), and this recording does not contain the edits");
   }
-  for (const Edit& edit : doings.edits) {
+  for (const Edit& edit : actions.edits) {
     if (by_commands || edit.moment != Edit::Moment::kAmidTurns) continue;
     return NotAgain(file, "\"" + (edit.body.empty() ? edit.command : edit.body) + "\" was edited " +
                               AtInstant(edit.time) +
                               " while behaviours ran, so it is unknown which of them ran before "
-                              "the edit; try --commands, which repeats their recorded commands,");
+                              "the edit. Use --commands to repeat their recorded commands");
   }
-  return doings;
+  return actions;
 }
 
 base::Result<int> RunWithEdits(Runtime& runtime, Simulation& simulation, const RunOptions& options,

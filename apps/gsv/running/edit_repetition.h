@@ -11,17 +11,18 @@
 namespace gsv::app {
 
 // The actions of users in a recording.
-struct RecordedDoings {
+struct RecordedUserActions {
   std::vector<simulation::Edit> edits;  // in the order in which they were made
-  bool was_held_up = false;   // whether the run was paused, resumed, ended early, or slowed
-  bool has_verdicts = false;  // whether there are events about expectations
+  bool was_interrupted = false;  // whether the run was paused, resumed, ended early, or slowed
+  bool has_verdicts = false;     // whether there are events about expectations
 };
 
-// Reads the actions. Fails, with the name of `file`, if the edits cannot be repeated: the actions
-// before the recording are unknown, or an edit was made while behaviours ran. The latter is allowed
-// with recorded commands (`by_commands`).
-base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
-                                        const std::string& file, bool by_commands);
+// Reads the actions of users from a recording. Fails if the edits cannot be repeated: because the
+// recording does not contain them, or because an edit was made while behaviours ran. With
+// `by_commands`, the robots repeat recorded commands, and edits during behaviours are allowed.
+// Errors contain `file`.
+base::Result<RecordedUserActions> ReadUserActions(const recording::McapReader& reader,
+                                                  const std::string& file, bool by_commands);
 
 // Starts a populated simulation, pauses it at each of `options.edits` to make the edit, and resumes
 // it. Edits at or after its end are skipped. Returns kOk, or kInterrupted after a signal, with the

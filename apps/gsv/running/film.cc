@@ -29,7 +29,7 @@ FilmKind KindOfFilm(const std::filesystem::path& path) {
   return extension.empty() ? FilmKind::kFolder : FilmKind::kUnknown;
 }
 
-// Removes the film unless it was completed.
+// Owns the file of a film. The destructor removes the file unless the film was completed.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(std::string path) : path_(std::move(path)) {}

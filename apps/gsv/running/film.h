@@ -1,8 +1,8 @@
 // Writes frames to a film: a video (.webm, .mp4) by ffmpeg, an animated PNG (.apng), or a new
 // folder of PNG files.
 //
-// Errors   kInvalidArgument for a name of another kind, or if it exists already; kUnavailable with
-//          the reason if it cannot be written, or if a video needs ffmpeg and there is none. An
+// Errors   kInvalidArgument if the name has another extension or exists already. kUnavailable with
+//          the reason if the film cannot be written, or if ffmpeg is missing for a video. An
 //          unfinished film is removed.
 #pragma once
 
@@ -26,6 +26,7 @@ struct FilmOptions {
 // Returns a sentence if the name is not valid for a film, else an empty text.
 std::string CheckFilmName(const std::string& path);
 
+// A film that is being written.
 class Film {
  public:
   static base::Result<std::unique_ptr<Film>> Start(const FilmOptions& options);

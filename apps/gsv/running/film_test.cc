@@ -69,7 +69,7 @@ TEST_F(FilmTest, PassesRawFramesToFfmpeg) {
   }
 }
 
-TEST_F(FilmTest, WithoutFfmpegAnErrorNamesTheFormatsThatWork) {
+TEST_F(FilmTest, NamesTheOtherFormatsIfFfmpegIsMissing) {
   options_.ffmpeg = folder_->path() / "missing";
   Name("out.webm");
   EXPECT_NE(ErrorSentence().find("Install it (apt-get install ffmpeg), or write to NAME.apng"),
@@ -79,7 +79,7 @@ TEST_F(FilmTest, WithoutFfmpegAnErrorNamesTheFormatsThatWork) {
   Make();
 }
 
-TEST_F(FilmTest, AFolderHasAFileForEachFrame) {
+TEST_F(FilmTest, WritesOneFilePerFrameToAFolder) {
   Name("frames");
   Make();
   EXPECT_EQ(Text(options_.output + "/000001.png").substr(1, 3), "PNG");
@@ -106,7 +106,7 @@ TEST_F(FilmTest, NeverOverwrites) {
   EXPECT_EQ(Text(options_.output), "mine");
 }
 
-TEST_F(FilmTest, RefusesNamesOfOtherKindsAndMissingFolders) {
+TEST_F(FilmTest, RejectsUnknownExtensionsAndMissingFolders) {
   Name("out.avi");
   EXPECT_NE(ErrorSentence().find("must end with .webm, .mp4 or .apng"), std::string::npos);
   Name("missing/frames");

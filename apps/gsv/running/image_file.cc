@@ -38,8 +38,8 @@ base::Status WriteImageFile(std::string_view bytes, const std::string& path) {
 
 base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,
                         const std::string& body, const std::string& path) {
-  constexpr double kBack = 5, kPitch = 0.9;  // distance behind the body in m, and pitch of the
-                                             // camera in rad
+  // distance behind the body in m, and pitch of the camera in rad
+  constexpr double kBack = 5, kPitch = 0.9;
   const int index = snapshot->layout->Find(body);
   const geometry::Pose pose =
       index < 0 ? geometry::Pose()

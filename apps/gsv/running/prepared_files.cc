@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t kMaxWorlds = 16;  // maximum number of worlds that are kept
 
-// Makes no renderer, because a renderer starts a thread and checks of sensors need none.
+// Creates a library without a renderer. Checks of sensors need no renderer, and a renderer would
+// start a thread.
 base::Result<std::shared_ptr<formats::ModelLibrary>> MakeLibrary(const RuntimeOptions& options) {
   auto sensors = MakeSensorTypes(
       options.sensors, base::Fail(base::ErrorCode::kUnavailable, "files are read without cameras"));

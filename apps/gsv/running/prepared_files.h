@@ -17,8 +17,8 @@ namespace gsv::app {
 
 class PreparedFiles {
  public:
-  // Reads the world and the models of a run with these options, and sets them in the options. The
-  // run itself reads the files that cannot be read here, and reports their problems.
+  // Reads the world and the models of a run with these options, and sets them in the options. Files
+  // that cannot be read here are left to the run, which reports their problems.
   void Provide(RunOptions& options);
 
  private:

@@ -26,7 +26,8 @@ class RecordedImages {
   // Returns kInvalidArgument, with the recorded range, if the time is outside the recording.
   base::Status Check(base::SimTime time) const;
 
-  // Renders the image at a time. A camera that follows no robot is placed at the first image.
+  // Renders the recorded world at a time. The pose of a camera that follows no robot is computed at
+  // the first call, and stays the same.
   base::Result<std::shared_ptr<const model::Image>> Draw(base::SimTime time,
                                                          const view::Camera& camera);
 

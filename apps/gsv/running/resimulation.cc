@@ -86,12 +86,12 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   return ParseArguments(arguments);
 }
 
-// The commands of a robot, and the state of its radios.
-struct RecordedActs {
+// The recorded commands of one robot, and whether it transmits by radio.
+struct RecordedRobot {
   hosting::TimedCommands commands;
   bool uses_radio = false;
 };
-using RecordedRobots = std::map<std::string, RecordedActs>;
+using RecordedRobots = std::map<std::string, RecordedRobot>;
 
 base::Error NotFinite(const char* topic, const std::string& robot) {
   return {base::ErrorCode::kCorrupt, "a recorded command is not finite",
@@ -117,12 +117,13 @@ base::Status Take(const messages::gsv_msgs::ActuatorCommand& message, RecordedRo
   return {};
 }
 
-// A message was sent one step before it was received.
+// Adds a radio message to the commands of its sender. A message is sent one step before it is
+// received.
 base::Status Take(const messages::gsv_msgs::Transmission& message, RecordedRobots& robots) {
   const base::SimTime heard = messages::ToSimTime(message.stamp);
   const auto step = static_cast<std::int64_t>(message.step);
   const base::SimTime sent = step > 0 ? heard - heard / step : base::SimTime(0);
-  RecordedActs& sender = robots[message.sender];
+  RecordedRobot& sender = robots[message.sender];
   sender.uses_radio = true;
   sender.commands.push_back(
       {sent,
@@ -165,7 +166,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
   }
   run.make_behaviour = [robots](const std::string& robot, const std::string& behaviour,
                                 base::SimTime from) {
-    const RecordedActs& acts = (*robots)[robot];
+    const RecordedRobot& acts = (*robots)[robot];
     hosting::TimedCommands commands = acts.commands;
     // An earlier robot, which was removed, may have had the same name.
     std::erase_if(commands, [&](const hosting::TimedCommand& each) { return each.time < from; });
@@ -176,8 +177,8 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
 }
 
 // Returns the topics of both recordings, except those about the actions of users.
-std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
-                                             const recording::McapReader& second) {
+std::vector<std::string> TopicsWithoutUserActions(const recording::McapReader& first,
+                                                  const recording::McapReader& second) {
   std::set<std::string> topics;
   for (const auto* reader : {&first, &second}) {
     for (const auto& [id, channel] : reader->summary().channels) topics.insert(channel.topic);
@@ -187,7 +188,7 @@ std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
 }
 
 // Rejects a run that was not recorded completely, because it cannot be repeated.
-base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
+base::Status CheckCompleteness(const recording::RecordingInfo& info) {
   const auto refuse = [&](const std::string& reason) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "cannot be simulated again: " + reason + "; replay it instead", info.path);
@@ -204,8 +205,8 @@ base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
   return {};
 }
 
-// The number of snapshots and messages that the recorder of a real-time run dropped because it was
-// too slow.
+// Returns the number of snapshots and messages that the recorder of a real-time run dropped because
+// it was too slow.
 std::uint64_t LeftOut(const recording::RecordingInfo& info) {
   std::uint64_t sum = 0;
   for (const recording::MetadataRecord& record : info.metadata) {
@@ -221,11 +222,11 @@ std::uint64_t LeftOut(const recording::RecordingInfo& info) {
   return sum;
 }
 
-// Returns the time at which the repeated run ends. If users' actions are not repeated, their end of
-// the run is not repeated either.
+// Returns the simulated time at which the repeated run ends: the end of the recording, or else the
+// end of its last step.
 base::Result<base::SimTime> EndOf(const recording::RecordingInfo& info,
-                                  const recording::McapReader& reader, bool with_people) {
-  if (with_people) return info.end;
+                                  const recording::McapReader& reader, bool to_end_of_recording) {
+  if (to_end_of_recording) return info.end;
   const auto end = recording::EndOfSteps(reader);
   if (!end || *end > base::SimTime(0)) return end;
   return base::Fail(base::ErrorCode::kInvalidArgument, "cannot be simulated again: it has no steps",
@@ -264,9 +265,9 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   if (!call) return base::Fail(call.error());
   const auto recorded = recording::McapReader::Open(options.file);
   if (!recorded) return base::Fail(recorded.error());
-  if (auto ok = CheckThatItIsWhole(*info); !ok) return base::Fail(ok.error());
-  auto doings = ReadDoings(**recorded, options.file, options.commands);
-  if (!doings) return base::Fail(doings.error());
+  if (auto ok = CheckCompleteness(*info); !ok) return base::Fail(ok.error());
+  auto actions = ReadUserActions(**recorded, options.file, options.commands);
+  if (!actions) return base::Fail(actions.error());
   auto folder = base::TemporaryFolder::Make("gsv-again");
   if (!folder) return base::Fail(folder.error());
 
@@ -283,13 +284,13 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   run->runtime.broker = options.broker;
   // The expectations were evaluated during the recorded run. If their verdicts are among its
   // events, they must be evaluated again.
-  if (!doings->has_verdicts) run->scenario.expect.clear();
+  if (!actions->has_verdicts) run->scenario.expect.clear();
   run->record = (folder->path() / "again.mcap").string();
-  const bool had_people = doings->was_held_up || !doings->edits.empty();
-  const auto end = EndOf(*info, **recorded, !options.commands && !had_people);
+  const bool had_user_actions = actions->was_interrupted || !actions->edits.empty();
+  const auto end = EndOf(*info, **recorded, !options.commands && !had_user_actions);
   if (!end) return base::Fail(end.error());
   run->specification.duration = *end;
-  run->edits = std::move(doings->edits);
+  run->edits = std::move(actions->edits);
   if (options.commands) {
     if (auto ok = UseRecordedCommands(**recorded, *run); !ok) return base::Fail(ok.error());
   }
@@ -301,8 +302,8 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   std::vector<std::string> topics;  // empty for all topics
   if (options.commands) {
     topics = MotionTopics();
-  } else if (had_people) {
-    topics = TopicsWithoutPeople(**recorded, **again);
+  } else if (had_user_actions) {
+    topics = TopicsWithoutUserActions(**recorded, **again);
   }
   const auto gaps = LeftOut(*info) > 0 ? recording::Gaps::kInFirst : recording::Gaps::kNone;
   const auto difference = recording::FirstDifference(**recorded, **again, topics, gaps);

@@ -1,4 +1,4 @@
-// One run of a simulation, from start to end.
+// Executes one run of a simulation, from start to end.
 #pragma once
 
 #include "apps/gsv/process/signals.h"

@@ -26,7 +26,7 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       "world", a.world,
       "world, built-in world, model, or scenario NAME.yaml (default: office with five robots)\n"
       "Built-in worlds are office, maze, warehouse, yard, playground and hall. The options "
-      "override what a scenario file says.");
+      "override the scenario file.");
   command.add_option("--robot", a.robots, "add a robot at a pose (m, rad; yaw also as 90deg)")
       ->type_name("MODEL[@X,Y[,YAW]]")
       ->group(kGroup);
@@ -55,8 +55,8 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--drive", a.drives,
-                  "drive, such as husky=skid,radius=0.16\nWithout this option, the model says it, "
-                  "or gsv guesses it.")
+                  "drive of a robot, such as husky=skid,radius=0.16\n"
+                  "Without this option, the model file defines the drive, or gsv guesses it.")
       ->type_name("ROBOT=KIND[,KEY=VALUE]")
       ->group(kGroup);
   command.add_option("--model-path", a.model_path, "folder to search for models")
@@ -105,7 +105,9 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
       ->check(Between(0.1, 1e9))
       ->type_name("SECONDS")
       ->group(kGroup);
-  command.add_option("--deadline", a.deadline, "wall-clock time between two waits of a behaviour")
+  command
+      .add_option("--deadline", a.deadline,
+                  "maximum wall-clock time between two waits of a behaviour")
       ->default_str("10")
       ->type_name("SECONDS")
       ->group(kGroup);
@@ -257,7 +259,8 @@ base::Status CheckTopics(const std::vector<std::string>& topics) {
 
 constexpr int kMaxPlaced = 2000;
 
-// "grid:50", "random:50": makes this number of copies of the robot that was given without a pose.
+// Parses --place, such as "grid:50" or "random:50". Makes this number of copies of the robot that
+// was given without a pose.
 base::Status ParsePlace(const std::string& text, std::vector<scenario::RobotEntry>& robots,
                         RunOptions& options) {
   if (text.empty()) return {};

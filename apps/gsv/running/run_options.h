@@ -27,6 +27,7 @@ struct PreparedWorld {
   base::Problems problems;
 };
 
+// The options of a run, after they were parsed.
 struct RunOptions {
   RuntimeOptions runtime;
   scenario::Scenario scenario;  // the scenario with the options that override it
@@ -36,9 +37,9 @@ struct RunOptions {
   std::map<std::string, model::Movement> movement_of;  // movements by robot
   std::map<std::string, std::string> drive_of;         // drives by robot, see model/drive_choice.h
   bool in_process = false;  // whether behaviours are plug-ins, and not programs
-  Placing placing;          // how to place robots that have no place
-  // If set, it makes the behaviour of a robot that is added at that time. The named behaviour is
-  // not used.
+  Placing placing;          // how to place robots without a pose
+  // If it is set, it makes the behaviour of each robot, and programs of the name `behaviour` are
+  // not used. `from` is the time at which the robot is added.
   std::function<std::shared_ptr<simulation::BehaviourPort>(
       const std::string& robot, const std::string& behaviour, base::SimTime from)>
       make_behaviour;
@@ -47,14 +48,14 @@ struct RunOptions {
   std::shared_ptr<const PreparedWorld> prepared_world;  // null if the run reads the world itself
   std::string record;                                   // a file; empty if the run is not recorded
   RecordingChoice recording;
-  double wall_timeout = 0;    // in s; 0 for no limit
+  double wall_timeout = 0;    // limit of the wall-clock time, s; 0 for none
   std::string failure_image;  // the file for an image of the first violation; may be empty
   bool open_browser = false;
   bool json = false;
   bool is_strict = false;  // whether to refuse the run if files have warnings
 };
 
-// The options as on the command line, before they are parsed.
+// The values of the options as the user wrote them, before they are parsed.
 struct RunArguments {
   std::string world, place;
   std::vector<std::string> robots, avatars, pedestrians, behaviours, movements, drives, model_path,

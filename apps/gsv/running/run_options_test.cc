@@ -37,7 +37,7 @@ std::string Refusal(const Words& words) {
   return options ? "taken" : options.error().Sentence();
 }
 
-TEST(RunOptions, DefaultIsTheDefaultScenarioInRealTime) {
+TEST(RunOptions, RunTheDefaultScenarioInRealTimeByDefault) {
   const auto options = Parse({});
   ASSERT_TRUE(options) << options.error().Sentence();
   EXPECT_EQ(options->scenario, scenario::DefaultScenario());
@@ -87,7 +87,7 @@ TEST(RunOptions, CommandLineOverridesTheScenarioFile) {
   EXPECT_EQ(options->specification.name, "n");
 }
 
-TEST(RunOptions, TheFormerNameOfTheRealTimeFactorIsAccepted) {
+TEST(RunOptions, FormerNameOfTheRealTimeFactorIsAccepted) {
   const auto options = Parse({"maze", "--factor", "2.5"});
   ASSERT_TRUE(options) << options.error().Sentence();
   EXPECT_EQ(options->specification.factor, 2.5);

@@ -18,7 +18,7 @@ namespace {
 using simulation::Simulation;
 
 // Returns the absolute path if a file with this name exists, else the name as given.
-std::string Whole(const std::string& name) {
+std::string AbsoluteIfExists(const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);
   if (name.empty() || !std::filesystem::exists(file, ignored)) return name;
@@ -52,8 +52,8 @@ base::Status OverrideMovements(const RunOptions& options, const Simulation& simu
                     "--movement " + *left.begin());
 }
 
-// Sets the behaviour of each robot: the robot's own behaviour on the command line, or else the
-// behaviour for all robots, or else that of the scenario.
+// Sets the behaviour of each robot. The first of these applies: the robot's own behaviour on the
+// command line, the behaviour for all robots, the behaviour in the scenario.
 base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRobot>& robots) {
   std::set<std::string> names;
   for (PlacedRobot& robot : robots) {
@@ -105,7 +105,7 @@ class RunBehaviours {
   RunBehaviours(Runtime& runtime, const RunOptions& options, base::SimTime from = {})
       : runtime_(runtime), options_(options), from_(from) {}
 
-  // Starts programs for behaviours that are not offered.
+  // Starts a program for each behaviour that the broker does not offer.
   base::Status Ensure(const std::vector<PlacedRobot>& robots) {
     if (options_.in_process || options_.make_behaviour) return {};
     std::map<std::string, int> programs;
@@ -151,7 +151,7 @@ class RunBehaviours {
   const base::SimTime from_;
 };
 
-// Returns the scenario, in which robots without a place have their actual start.
+// Returns the robots and avatars for which the scenario has a start, each with its actual start.
 scenario::Scenario StartsOf(const Population& population, const scenario::Scenario& asked) {
   scenario::Scenario starts;
   const auto add = [](const std::vector<PlacedRobot>& placed,
@@ -166,34 +166,36 @@ scenario::Scenario StartsOf(const Population& population, const scenario::Scenar
   return starts;
 }
 
-// Returns the actual scenario of the run.
+// Returns a scenario that repeats this run: with absolute paths, and with the actual names and
+// poses.
 scenario::Scenario ActualScenario(const Simulation& simulation, const RunOptions& options,
                                   const Population& population) {
-  scenario::Scenario told = recording::ScenarioOf(simulation);
+  scenario::Scenario actual = recording::ScenarioOf(simulation);
   const scenario::Scenario& given = options.scenario;
-  told.world = Whole(given.world);
-  told.in_process = options.in_process;
-  for (const std::string& path : given.model_path) told.model_path.push_back(Whole(path));
-  told.robots.clear();
-  told.avatars.clear();
+  actual.world = AbsoluteIfExists(given.world);
+  actual.in_process = options.in_process;
+  for (const std::string& path : given.model_path)
+    actual.model_path.push_back(AbsoluteIfExists(path));
+  actual.robots.clear();
+  actual.avatars.clear();
   for (const PlacedRobot& robot : population.robots) {
     const bool does_nothing = robot.entry.model.empty() && robot.entry.behaviour.empty() &&
                               robot.entry.behaviour_constraint.empty() && robot.entry.drive.empty();
-    if (!does_nothing) told.robots.push_back(robot.entry);
+    if (!does_nothing) actual.robots.push_back(robot.entry);
   }
-  for (const PlacedRobot& avatar : population.avatars) told.avatars.push_back(avatar.entry);
-  for (auto* entries : {&told.robots, &told.avatars}) {
-    for (scenario::RobotEntry& entry : *entries) entry.model = Whole(entry.model);
+  for (const PlacedRobot& avatar : population.avatars) actual.avatars.push_back(avatar.entry);
+  for (auto* entries : {&actual.robots, &actual.avatars}) {
+    for (scenario::RobotEntry& entry : *entries) entry.model = AbsoluteIfExists(entry.model);
   }
-  told.record_topics = given.record_topics;
+  actual.record_topics = given.record_topics;
   const RecordingChoice& choice = options.recording;
-  told.record_rates = {{"poses", choice.poses_rate},
-                       {"readings", choice.readings_rate},
-                       {"pictures", choice.images_rate},
-                       {"beams", choice.beams_rate}};
-  told.record_png = given.record_png;
-  told.expect = given.expect;
-  return told;
+  actual.record_rates = {{"poses", choice.poses_rate},
+                         {"readings", choice.readings_rate},
+                         {"pictures", choice.images_rate},
+                         {"beams", choice.beams_rate}};
+  actual.record_png = given.record_png;
+  actual.expect = given.expect;
+  return actual;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/base/counted.h"
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 
 namespace gsv::app {
 namespace {
@@ -43,7 +43,8 @@ const health::RobotHealth* HealthIn(const health::Report& report, const std::str
   return found == report.robots.end() ? nullptr : &*found;
 }
 
-// One line per robot. A crowd begins with the robots in trouble, the worst first.
+// Returns one line per robot. If there are more than kCrowd robots, those with the most serious
+// states come first.
 std::string RobotLines(const simulation::SimulationStatus& status, const health::Report& report) {
   struct Row {
     const simulation::RobotStatus* robot;

@@ -188,7 +188,7 @@ class RunServer {
   }
 
  private:
-  // Returns nullopt if stdin has ended, or after a signal.
+  // Returns the next line of stdin. Returns nullopt if stdin has ended, or after a signal.
   std::optional<std::string> NextLine() {
     for (;;) {
       if (const std::size_t end = buffer_.find('\n'); end != std::string::npos) {
@@ -206,7 +206,7 @@ class RunServer {
     }
   }
 
-  // Returns how the run ended, or nullopt if this process shall end.
+  // Executes one run. Returns how it ended, or nullopt if this process must end.
   std::optional<std::string> Serve(const RunRequest& request) {
     auto options = OptionsOf(request);
     if (options) {

@@ -139,7 +139,8 @@ class StartCheck {
     return static_cast<double>(hits) / kDirections;
   }
 
-  // Looks down at the next surface above this place: it belongs to a solid, or to a thin roof.
+  // Whether the place is inside a solid. A ray up from there ends at the top face of the solid, and
+  // so does a ray down from above. Below a roof, the two rays end at different faces.
   bool IsInSolid(double x, double y) {
     const double up = Rays().Range({{x, y, kRayHeight}, {0, 0, 1}, kSight}, -1);
     if (!std::isfinite(up)) return false;

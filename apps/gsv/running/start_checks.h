@@ -1,4 +1,4 @@
-// Finds starts of robots and avatars that are possible but most likely wrong.
+// Warns about start poses of robots and avatars that are valid, but probably a mistake.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,10 @@
 namespace gsv::app {
 
 // Warns of a heading beyond a full turn (degrees given as radians) and of a start far from
-// everything in the world. It also warns of a start outside of walls that enclose the rest, and of
-// a rigid robot without ground below. `snapshot` is the world with the robots. Ignores entries
-// without a start, and entries whose name is not in the world. Each sentence is about one entry.
+// everything in the world. It also warns of a start outside the walls that enclose the world, and
+// of a rigid robot without ground below it. `snapshot` is the world with the robots. Ignores
+// entries without a start, and entries whose name is not in the world. Each sentence is about one
+// entry.
 base::Problems CheckStarts(const std::shared_ptr<const world::Snapshot>& snapshot,
                            const scenario::Scenario& scenario);
 

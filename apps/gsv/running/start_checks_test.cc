@@ -35,7 +35,7 @@ std::vector<world::Body> Walls() {
   return bodies;
 }
 
-// Returns the warnings about a robot that starts there.
+// Returns the warnings about a robot that starts at this pose.
 std::vector<std::string> Warnings(std::vector<world::Body> bodies, double x, double y, double yaw,
                                   world::BodyKind kind = world::BodyKind::kPlanarBase) {
   world::Body robot;

@@ -67,7 +67,7 @@ class VideoExportTest : public testing::Test {
   VideoOptions options_;
 };
 
-TEST_F(VideoExportTest, AFrameShowsTheNewestImageAtItsInstant) {
+TEST_F(VideoExportTest, FrameShowsTheNewestImageAtItsInstant) {
   Record({{milliseconds(1000), 'a'}, {milliseconds(1250), 'b'}, {milliseconds(1300), 'c'}});
   // The frames are at 1.0, 1.1, 1.2 and 1.3 s.
   EXPECT_EQ(Export().value(), 4u);
@@ -92,7 +92,7 @@ TEST_F(VideoExportTest, MissingFfmpegIsReported) {
   EXPECT_NE(frames.error().Sentence().find("Install it"), std::string::npos);
 }
 
-TEST_F(VideoExportTest, AFailureOfFfmpegIsReported) {
+TEST_F(VideoExportTest, FailureOfFfmpegIsReported) {
   Record({{milliseconds(0), 'a'}});
   options_.ffmpeg = "false";
   EXPECT_NE(Export().error().Sentence().find("could not write the video"), std::string::npos);

@@ -1,5 +1,5 @@
-// The crowd with which other simulators were measured. Robots wander on a walled square with 10 m²
-// per robot. For every four robots there is a box of 1 m.
+// The scene of `gsv bench crowd`, in which other simulators were measured too. Robots wander on a
+// walled square with 10 m² per robot. For every four robots there is a box of 1 m.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ std::shared_ptr<const model::WorldDescription> CrowdWorld(int robots, std::uint6
 // Returns the robots of the crowd, without behaviours.
 std::vector<simulation::RobotSpecification> CrowdRobots(int robots, std::uint64_t seed);
 
-// Reads the eight rays every 50 ms. It drives forward if there is space, else it turns to the freer
-// side.
+// The behaviour of the crowd's robots. It reads the robot's eight rays every 50 ms. It drives
+// forward if there is space, else it turns to the side with more space.
 class CrowdController : public Controller {
  public:
   CrowdController() : Controller(std::chrono::milliseconds(50)) {}

@@ -13,7 +13,7 @@ using geometry::Pose;
 using geometry::Vector3;
 
 // Returns the height of the lowest visible point in the model's frame, at zero joint positions.
-double LowestToSee(const model::Model& model) {
+double LowestVisiblePoint(const model::Model& model) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const model::Link& link : model.links) {
     for (const model::Visual& visual : link.visuals) {
@@ -36,7 +36,7 @@ bool IsModelAlone(const model::WorldDescription& world) {
 
 void StandModelOnGround(model::WorldDescription& world) {
   model::PlacedModel& placed = world.models.back();
-  const double lowest = LowestToSee(*placed.model);
+  const double lowest = LowestVisiblePoint(*placed.model);
   if (std::isfinite(lowest)) placed.world_from_model.position.z = -lowest;
 }
 

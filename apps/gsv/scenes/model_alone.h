@@ -1,4 +1,4 @@
-// A world that is a single model, as it is read if a model is given as a world.
+// Worlds that consist of one model. gsv makes such a world if the user gives a model as the world.
 #pragma once
 
 #include "gsv/model/world_description.h"
@@ -7,7 +7,8 @@ namespace gsv::app {
 
 // Whether a world is a single model, with at most a ground besides.
 bool IsModelAlone(const model::WorldDescription& world);
-// Places such a model on the ground, since the origin of a model may be anywhere in it.
+// Places the model of such a world on the ground. The origin of a model may be anywhere, so its
+// lowest visible point is used.
 void StandModelOnGround(model::WorldDescription& world);
 
 }  // namespace gsv::app

@@ -13,7 +13,7 @@ std::shared_ptr<const model::Model> ModelOfBox(const geometry::Vector3& size) {
   return model;
 }
 
-TEST(ModelAlone, StandsOnItsGroundWhereverItsOriginIs) {
+TEST(ModelAlone, StandsOnTheGroundWhereverItsOriginIs) {
   model::WorldDescription world;
   world.name = "walker";
   auto walker = std::make_shared<model::Model>(*ModelOfBox({0.4, 0.4, 1.6}));

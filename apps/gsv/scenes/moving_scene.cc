@@ -165,7 +165,8 @@ std::vector<rendering::CameraView> MovingScene::Overviews(
         snapshot.state.bodies[static_cast<std::size_t>(body)].world_from_model.position;
     radius = std::max(radius, std::hypot(p.x, p.y));
   }
-  // From 45° above, the smaller of the two fields of view must cover the circle of the robots.
+  // The cameras look down at 45°. The smaller of their two fields of view must cover the circle of
+  // the robots.
   const double half_height = std::min(1.0, static_cast<double>(camera.height) / camera.width) *
                              std::tan(0.5 * camera.horizontal_fov);
   const double distance = radius / std::sin(std::atan(half_height));

@@ -21,6 +21,7 @@ struct MovingSceneOptions {
   bool collide_with_visuals = false;
 };
 
+// A running simulation with robots that drive in circles.
 struct MovingScene {
   // Creates the scene. Robots get the first free places on a spiral about the origin, or the places
   // of the crowd on the square.
@@ -30,7 +31,8 @@ struct MovingScene {
   // in different directions.
   std::vector<rendering::CameraView> RobotViews(const world::Snapshot& snapshot, int count,
                                                 const rendering::CameraParameters& camera) const;
-  // Returns views from above that circle, at such a distance that all robots are visible.
+  // Returns views from cameras that circle above the world, at such a distance that all robots are
+  // visible.
   std::vector<rendering::CameraView> Overviews(const world::Snapshot& snapshot, int count,
                                                const rendering::CameraParameters& camera) const;
 
@@ -40,7 +42,7 @@ struct MovingScene {
 
 // Returns the number of visible triangles.
 std::uint64_t TrianglesIn(const world::Layout& layout);
-// The objects that rays can hit: the triangles of meshes, and other shapes.
+// The numbers of objects that rays can hit: the triangles of meshes, and other shapes.
 struct Solids {
   std::uint64_t triangles = 0, shapes = 0;
 };

@@ -31,7 +31,7 @@ base::Error NoServers(const std::string& broker, const std::string& constraint) 
           broker};
 }
 
-// Decides whether a server is lost.
+// Decides from the errors of calls to a server whether the server is lost: ended, or unreachable.
 class LostServerCheck {
  public:
   bool IsLostAfter(const base::Error& error) {
@@ -125,7 +125,7 @@ void ScenarioServers::Merge(const std::vector<broker::FoundOffer>& offers) {
   servers_ = std::move(known);
 }
 
-std::shared_ptr<ScenarioServers::Server> ScenarioServers::Roomiest() {
+std::shared_ptr<ScenarioServers::Server> ScenarioServers::ServerWithMostFreeSlots() {
   const auto now = Clock::now();
   std::shared_ptr<Server> best;
   for (const auto& server : servers_) {
@@ -146,7 +146,7 @@ std::shared_ptr<ScenarioServers::Server> ScenarioServers::Acquire(
       (void)Refresh();  // if the broker does not answer, the known servers are used
       lock.lock();
     }
-    if (auto server = Roomiest()) {
+    if (auto server = ServerWithMostFreeSlots()) {
       ++server->given;
       served_ = Clock::now();
       return server;
@@ -168,7 +168,7 @@ void ScenarioServers::Release(Server& server, Ending ending) {
   const base::MutexLock lock(mutex_);
   --server.given;
   served_ = Clock::now();
-  if (ending == Ending::kNoRoom) server.avoided_until = Clock::now() + kRefreshPeriod;
+  if (ending == Ending::kNoFreeSlot) server.avoided_until = Clock::now() + kRefreshPeriod;
   if (ending == Ending::kLost) {
     if (Clock::now() >= server.avoided_until) {
       std::fprintf(stderr,
@@ -194,8 +194,8 @@ TestResult ScenarioServers::Run(const std::string& scenario, double timeout,
     if (ending == Ending::kDone) return result;
     lost += ending == Ending::kLost;
   }
-  result.message = fmt::format("{} servers ended one after the other while they executed this run",
-                               kMaxLostServers);
+  result.message = fmt::format(
+      "{} servers ended, one after the other, during this run; it may crash them", kMaxLostServers);
   return result;
 }
 
@@ -216,7 +216,7 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
   }
   if (!started) return Ending::kLost;
   const sba::ScenarioRun_var& run = *started;
-  if (CORBA::is_nil(run)) return Ending::kNoRoom;
+  if (CORBA::is_nil(run)) return Ending::kNoFreeSlot;
   orb::LimitCalls(run, kServerCallTimeout);
   LostServerCheck lost_check;
   while (!is_cancelled) {

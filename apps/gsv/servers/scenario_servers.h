@@ -1,5 +1,5 @@
-// Servers that run scenarios for other processes, found through a broker. They serve campaigns that
-// have more runs than one machine can do.
+// Executes the runs of a campaign on servers (`gsv serve --scenarios N`), which it finds through a
+// broker.
 //
 // Servers may be added and removed during the work: the broker is queried about once a second. A
 // server is lost if it was killed, or cannot be reached for ten seconds. Its runs in progress are
@@ -41,13 +41,13 @@ class ScenarioServers {
  private:
   using Clock = std::chrono::steady_clock;
   struct Server {
-    std::string key, name;  // its reference, and its name for users
+    std::string key, name;  // the server's reference, and its name in messages
     sba::ScenarioService_var service;
     int slots = 0, given = 0;
     // the time until which it gets no runs, because it was lost or has no free slot
     Clock::time_point avoided_until{};
   };
-  enum class Ending { kDone, kNoRoom, kLost };
+  enum class Ending { kDone, kNoFreeSlot, kLost };
 
   ScenarioServers(const CORBA::ORB_var& orb, broker::BrokerClient broker, std::string constraint)
       : orb_(orb), broker_(std::move(broker)), constraint_(std::move(constraint)) {}
@@ -56,7 +56,7 @@ class ScenarioServers {
   void Merge(const std::vector<broker::FoundOffer>& offers) GSV_REQUIRES(mutex_);
   std::shared_ptr<Server> Acquire(const std::atomic<bool>& is_cancelled);
   // Returns the server with most free slots, or null if none has a free slot.
-  std::shared_ptr<Server> Roomiest() GSV_REQUIRES(mutex_);
+  std::shared_ptr<Server> ServerWithMostFreeSlots() GSV_REQUIRES(mutex_);
   void Release(Server& server, Ending ending);
   Ending RunAt(Server& server, const std::string& scenario, double timeout,
                const std::atomic<bool>& is_cancelled, TestResult& result);

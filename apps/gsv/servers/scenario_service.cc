@@ -75,19 +75,19 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   ~ScenarioRunServant() override { Cancel(); }
 
   CORBA::Boolean await_end() override {
-    NoteQuestion();
+    NoteCall();
     base::MutexLock lock(mutex_);
     const bool is_over = ended_.wait_for(
         lock, kRunLease, [this]() GSV_REQUIRES(mutex_) { return result_.has_value(); });
-    if (is_over) RaiseIfGivenUp();
+    if (is_over) ThrowIfAborted();
     return is_over;
   }
 
   sba::ScenarioOutcome* outcome() override {
-    NoteQuestion();
+    NoteCall();
     const base::MutexLock lock(mutex_);
     if (!result_) throw sba::NotRunning("the scenario is still running");
-    RaiseIfGivenUp();
+    ThrowIfAborted();
     auto* outcome = new sba::ScenarioOutcome;
     outcome->status = StatusText(result_->status);
     outcome->message = result_->message.c_str();
@@ -105,24 +105,25 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   }
 
   void Cancel() { is_cancelled_ = true; }
-  bool is_under_way() const {
+  bool is_running() const {
     const base::MutexLock lock(mutex_);
     return !result_;
   }
   bool IsAbandoned() const {
-    return RunClock::now().time_since_epoch() - asked_.load() > RunSeconds(abandoned_after_);
+    return RunClock::now().time_since_epoch() - last_call_.load() > RunSeconds(abandoned_after_);
   }
 
  private:
-  // A run that the server has dropped has no outcome.
-  void RaiseIfGivenUp() const GSV_REQUIRES(mutex_) {
+  // Throws sba::Ended if the server has aborted the run, because the run then has no outcome.
+  void ThrowIfAborted() const GSV_REQUIRES(mutex_) {
     if (result_->status == TestResult::Status::kInterrupted)
       throw sba::Ended("the server aborted the scenario");
   }
-  // While destroy() returns, the object adapter still passes calls on.
-  void NoteQuestion() {
+  // Notes the time of a call. Until destroy() has returned, the object adapter still delivers
+  // calls; these fail.
+  void NoteCall() {
     if (is_destroyed_) throw CORBA::OBJECT_NOT_EXIST();
-    asked_ = RunClock::now().time_since_epoch();
+    last_call_ = RunClock::now().time_since_epoch();
   }
 
   void Work() {
@@ -149,13 +150,13 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   ScenarioServiceServant& service_;
   const std::string scenario_;
   const double timeout_, abandoned_after_;
-  std::atomic<RunClock::duration> asked_{RunClock::now().time_since_epoch()};
+  std::atomic<RunClock::duration> last_call_{RunClock::now().time_since_epoch()};
   std::atomic<bool> is_cancelled_{false};
   std::atomic<bool> is_destroyed_{false};
   mutable base::Mutex mutex_;
   base::ConditionVariable ended_;
   std::optional<TestResult> result_ GSV_GUARDED_BY(mutex_);
-  std::jthread thread_;  // the last member, because the thread uses all others
+  std::jthread thread_;  // destroyed first, because the thread uses the other members
 };
 
 namespace {
@@ -185,8 +186,8 @@ sba::ScenarioRun_ptr ScenarioServiceServant::run(const char* scenario,
   RefuseUnlessRunnable(scenario);
   const base::MutexLock lock(mutex_);
   if (closing_) throw sba::Failed("the server is shutting down");
-  const auto busy = std::count_if(runs_.begin(), runs_.end(),
-                                  [](const auto* run) { return run->is_under_way(); });
+  const auto busy =
+      std::count_if(runs_.begin(), runs_.end(), [](const auto* run) { return run->is_running(); });
   if (busy >= capacity_ || runs_.size() >= kMaxKept) return sba::ScenarioRun::_nil();
   auto* run = new ScenarioRunServant(*this, scenario, timeout, abandoned);
   const PortableServer::ServantBase_var owned(run);
@@ -195,10 +196,10 @@ sba::ScenarioRun_ptr ScenarioServiceServant::run(const char* scenario,
   return run->_this();
 }
 
-int ScenarioServiceServant::under_way() const {
+int ScenarioServiceServant::running() const {
   const base::MutexLock lock(mutex_);
-  return static_cast<int>(std::count_if(runs_.begin(), runs_.end(),
-                                        [](const auto* run) { return run->is_under_way(); }));
+  return static_cast<int>(
+      std::count_if(runs_.begin(), runs_.end(), [](const auto* run) { return run->is_running(); }));
 }
 
 void ScenarioServiceServant::Forget(ScenarioRunServant* run) {

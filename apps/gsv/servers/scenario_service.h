@@ -1,5 +1,5 @@
-// Implements sba::ScenarioService. It runs whole scenarios, each in a child process, as `gsv test`
-// does.
+// Implements sba::ScenarioService, through which campaigns run scenarios on this server. Each
+// scenario runs in a child process, as with `gsv test`.
 //
 // Threads  those of the ORB, one more per run, and one that ends abandoned runs.
 #pragma once
@@ -23,7 +23,7 @@ class ScenarioServiceServant final : public POA_sba::ScenarioService {
 
   sba::ScenarioRun_ptr run(const char* scenario, const sba::NameValues& options) override;
 
-  int under_way() const;
+  int running() const;
   // Ends all runs. Later calls on their references fail.
   void Close();
 

@@ -1,4 +1,4 @@
-// Starts the behaviour programs of gsv, for behaviours that are not offered yet.
+// Starts the program gsv-NAME for a behaviour NAME that the broker does not offer yet.
 //
 // Threads  the thread that created it.
 #pragma once
@@ -31,8 +31,8 @@ class BehaviourLauncher {
   // Sets the wall-clock time limit for all programs together to end (default: 2 s).
   void SetEndTimeout(std::chrono::milliseconds timeout) { end_timeout_ = timeout; }
 
-  // See BehaviourOutput::Settle().
-  void SettleOutput() { output_.Settle(); }
+  // See BehaviourOutput::WaitForOutput().
+  void WaitForOutput() { output_.WaitForOutput(); }
 
   // Makes sure that the behaviour is offered. If it is not, starts `programs` processes of
   // gsv-NAME, which is beside this program or on PATH, and waits until they offer it. `behaviour`

@@ -1,5 +1,5 @@
-// Passes the output of behaviour programs that this process starts on to stderr, and emits each
-// line as an event of the simulations whose robots the program serves (IsOutput()).
+// Handles the output of the behaviour programs that this process starts. Each line is printed on
+// stderr. It is also an event (IsOutput()) of the simulations whose robots the program serves.
 //
 // A line belongs to the robot that the program serves, or, if it serves several robots, to its
 // behaviour. Lines are kept until a robot has the behaviour.
@@ -22,8 +22,9 @@ namespace gsv::app {
 
 class ChildProcess;
 
-// Returns the last error of a program's stderr: a Python exception with its file and line, such as
-// "ValueError: too far in wander.py line 12", else the last line, else an empty text.
+// Returns the last error in a program's stderr. For a Python exception, this includes file and
+// line, as in "ValueError: too far in wander.py line 12". Otherwise it is the last line, or an
+// empty text.
 std::string LastError(const std::vector<std::string>& lines);
 
 class BehaviourOutput {
@@ -34,15 +35,16 @@ class BehaviourOutput {
   explicit BehaviourOutput(ListSimulations list);
   ~BehaviourOutput();
 
-  // Starts to pass on the program's stderr.
+  // Begins to handle the program's stderr.
   void Begin(const ChildProcess& program, const std::string& behaviour);
-  // Starts to pass on the program's stdout. Called after the program has reported that it is ready.
+  // Begins to handle the program's stdout too. Called after the program has reported on stdout that
+  // it is ready.
   void BeginOutput(ChildProcess& program);
   // Returns the last error of a program that has ended; see LastError(). Waits for its last lines,
   // for at most a second.
   std::string LastErrorOf(const ChildProcess& program);
   // Waits until all output of the programs so far was emitted.
-  void Settle() { reader_->Settle(); }
+  void WaitForOutput() { reader_->WaitForOutput(); }
   // After this call, the ends of programs are expected and not reported.
   void ExpectEnds();
 
@@ -56,7 +58,7 @@ class BehaviourOutput {
     std::vector<Line> waiting;                       // lines that wait for a robot
     std::vector<std::string> errors{};               // the last lines of stderr
     std::chrono::steady_clock::time_point second{};  // the start of the current second
-    int lines = 0;                                   // in it
+    int lines = 0;                                   // number of lines in that second
     int left_out = 0;
     bool has_ended = false;
   };
@@ -67,7 +69,7 @@ class BehaviourOutput {
       GSV_REQUIRES(mutex_);
   // Emits the waiting lines if a robot has the behaviour.
   void Flush(pid_t pid, Program& program) GSV_REQUIRES(mutex_);
-  void FlushAll();
+  void FlushAll();  // calls Flush() for each program
 
   const ListSimulations list_;
   base::Mutex mutex_;

@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::Contains;
 
-TEST(LastError, OfAnExceptionNamesFileAndLineOfTheInnermostFrame) {
+TEST(LastError, NamesTheInnermostFrameOfAPythonException) {
   EXPECT_EQ(LastError({"warming up", "Traceback (most recent call last):",
                        "  File \"/home/me/wander.py\", line 40, in <module>", "    run()",
                        "  File \"/home/me/wander.py\", line 12, in run", "    raise ValueError(1)",
@@ -18,7 +18,7 @@ TEST(LastError, OfAnExceptionNamesFileAndLineOfTheInnermostFrame) {
             "ValueError: too far in wander.py line 12");
 }
 
-TEST(LastError, WithoutAnExceptionIsTheLastLine) {
+TEST(LastError, IsTheLastLineIfThereIsNoException) {
   EXPECT_EQ(LastError({"one", "two", ""}), "two");
   EXPECT_EQ(LastError({}), "");
   EXPECT_EQ(LastError({"Traceback (most recent call last):", "  File \"x.py\"", "KeyError: 1",

@@ -1,5 +1,5 @@
-// Serves the request of the viewer's page "Join" over HTTP: GET /api/instances   all gsv processes
-//   at the broker, with their simulations
+// Serves the request of the viewer's page "Join" over HTTP:
+//   GET /api/instances   all gsv processes at the broker, with their simulations
 //
 // Threads  any. One query of the instances runs at a time. Other requests during that time get the
 //          last answer.

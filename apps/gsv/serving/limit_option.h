@@ -11,9 +11,9 @@ class Option;
 
 namespace gsv::app {
 
-// Adds the option. `limits` must outlive the parsing.
+// Adds --limit. `limits` must outlive the parsing.
 CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits);
-// Adds the option for commands that serve simulations.
+// Adds --limit for commands that serve simulations, whose server has further limits.
 CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits, ServerLimits& server);
 
 }  // namespace gsv::app

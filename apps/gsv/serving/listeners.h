@@ -11,16 +11,18 @@
 
 namespace gsv::app {
 
+// A socket on which a program listens.
 struct Listener {
   // such as "127.0.0.1", "0.0.0.0" or "::"; or the path of a Unix domain socket
   std::string address;
   std::uint16_t port = 0;   // 0 for a Unix domain socket
   bool is_dds = false;      // whether it is a UDP socket of ROS 2
-  bool takes_keys = false;  // whether it is one of a process that DDS Security protects
+  bool takes_keys = false;  // whether its process uses DDS Security
 
   bool IsLocal() const;  // Whether only this machine can reach it.
 };
 
+// A running program of GSV, and its sockets.
 struct ListeningProcess {
   pid_t pid = 0;
   std::vector<std::string> arguments;  // tokens are removed

@@ -49,7 +49,7 @@ TEST(Listener, IsLocalOnLoopbackAndInTheFileSystem) {
   EXPECT_TRUE((Listener{"/run/socket", 0}.IsLocal()));
 }
 
-TEST(Listeners, OfDdsAreUdpSocketsAtThePortsOfTheDomain) {
+TEST(Listeners, FindsDdsSocketsAtThePortsOfTheDomain) {
   const std::string table =
       "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout "
       "inode\n"

@@ -14,6 +14,7 @@
 
 namespace gsv::app {
 
+// A server that a broker offers.
 struct RemoteServer {
   std::string name;   // such as "gsv run"
   std::string place;  // the process as "host:pid"
@@ -24,13 +25,14 @@ struct RemoteServer {
   std::string Describe() const { return name + " (" + place + ")"; }
 };
 
+// A simulation on a server.
 struct FoundSimulation {
   RemoteServer server;
   sba::Simulation_var reference;
   simulation::SimulationStatus status;  // the status at the time of the search
 };
 
-// Selects simulations.
+// The options by which a command selects a simulation or a server.
 struct Selection {
   std::string broker;  // empty for the brokers of this user's running instances, the newest first
   std::string server;  // an offer's name, its pid or "host:pid"; empty for any server
@@ -66,6 +68,7 @@ base::Error NoSuchSimulation(const Selection& selection);
 
 base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simulation);
 
+// The health of a robot, as its server reports it.
 struct RemoteHealth {
   std::string state, sentence;
   int level = 0;

@@ -1,4 +1,5 @@
-// ROS 2 for a command: options, the plug-in with the DDS library, the published simulation.
+// Connects a gsv command to ROS 2: its options, the plug-in with the DDS library, and the
+// simulation that is published as topics.
 //
 // Without --ros2 the plug-in is not loaded.
 #pragma once
@@ -107,15 +108,18 @@ class Ros2Access final : public Ros2Publisher {
         factory_(factory),
         library_(library),
         list_(std::move(list)) {}
+  // Creates the DDS participant, if there is none.
   base::Status Join() GSV_REQUIRES(publishing_);
+  // Publishes the simulation instead of the previous one, or none if it is null.
   void Show(const SimulationPointer& simulation, ros2::Options options) GSV_REQUIRES(publishing_);
-  // Publishes the simulation that the list requests.
+  // Removes a published simulation that has ended. If follows_, publishes the first one in the
+  // list.
   void Update() GSV_REQUIRES(publishing_);
   // Publishes `next`, if it is not null, and removes the published simulation.
   base::Status Replace(const SimulationPointer& next);
   // Returns the currently published simulation, or null.
   SimulationPointer Published() GSV_REQUIRES(publishing_);
-  void Watch();
+  void Watch();  // the function of watcher_: calls Update() periodically
 
   const std::optional<ros2::Options> options_;
   gateway::SimulationFactory& factory_;
@@ -127,7 +131,8 @@ class Ros2Access final : public Ros2Publisher {
   std::unique_ptr<ros2::dds::Participant> participant_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<Ros2Spawner> spawner_ GSV_GUARDED_BY(publishing_);
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(publishing_);
-  // With --ros2 they exist until the end. Else they end with the published simulation.
+  // With --ros2, these two exist until this object ends. Without it, they end with the published
+  // simulation.
   std::unique_ptr<ros2::SimulationServices> services_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<ros2::Bridge> bridge_ GSV_GUARDED_BY(publishing_);
   bool follows_ GSV_GUARDED_BY(publishing_) = false;

@@ -15,13 +15,14 @@ namespace gsv::app {
 
 class Ros2Spawner final : public ros2::Spawner {
  public:
-  // Both must outlive this. `reads_files`: URIs may also name files. Only for clients on this
-  // machine, because other clients could make gsv read any file of the user.
+  // `factory` and `library` must outlive this object. With `reads_files`, a URI may also name a
+  // file. Set it only if all clients are on this machine, because other clients could read any file
+  // of the user.
   Ros2Spawner(gateway::SimulationFactory& factory, formats::ModelLibrary& library, bool reads_files)
       : factory_(factory), library_(library), reads_files_(reads_files) {}
 
-  // Publishes a simulation instead of the present one, which ends. With null, no simulation is
-  // published. Fails with kNotFound if none was published before.
+  // Ends the published simulation and publishes another one, or none if the argument is null. Fails
+  // with kNotFound if no simulation is published.
   using Replace = std::function<base::Status(const std::shared_ptr<simulation::Simulation>&)>;
   // Lets clients load worlds. Call it before there are clients.
   void AllowLoadingWorlds(Replace replace) { replace_ = std::move(replace); }

@@ -29,7 +29,7 @@ namespace {
 
 // Starting a broker takes 0.1 s, but must also succeed on a very busy machine.
 constexpr std::chrono::seconds kBrokerStartTimeout{60};
-// Time limit for the programs of behaviours to end if somebody waits for it.
+// Time limit for behaviour programs to end after EndSoon().
 constexpr std::chrono::milliseconds kHurriedPrograms{500};
 
 std::vector<broker::Property> WithLoad(std::vector<broker::Property> properties,
@@ -124,8 +124,8 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
   if (!normalised) return base::Fail(normalised.error());
   orb::OrbOptions orb_options;
   orb_options.local_socket = true;
-  orb_options.check_request = &broker::CheckRequest;  // checks calls of evalDP, which request the
-                                                      // load
+  // checks calls of evalDP, which request the load
+  orb_options.check_request = &broker::CheckRequest;
   if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
     auto local = orb::LocalAddressTowards(host);
     if (!local) return base::Fail(local.error());
@@ -191,7 +191,7 @@ base::Status Runtime::OfferService(const std::string& name, int scenarios) {
   const PortableServer::POA_var poa = orb::RootPoa(orb_);
   if (scenarios > 0) scenarios_ = new ScenarioServiceServant(poa, scenarios);
   load_ = new services::ServerLoad(
-      *host_, [this] { return scenarios_.in() == nullptr ? 0 : scenarios_->under_way(); });
+      *host_, [this] { return scenarios_.in() == nullptr ? 0 : scenarios_->running(); });
   const PortableServer::ObjectId_var load_id = poa->activate_object(load_);
   service_ = new services::SimulationServiceServant(poa, *host_, behaviours_.get(), Hooks());
   for (const auto& simulation : host_->List()) service_->Publish(simulation);

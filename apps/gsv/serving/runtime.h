@@ -1,5 +1,6 @@
-// The parts of a gsv process that runs simulations: an ORB, a broker (its own or an existing one),
-// sensors with a renderer, simulations, behaviours, the services, and the gateway.
+// Owns the parts of a gsv process that runs simulations: the ORB, the connection to a broker (its
+// own or an existing one), sensor types, simulations, behaviour programs, services, and the
+// gateway.
 //
 // Threads  created and destroyed on the main thread.
 #pragma once
@@ -45,7 +46,8 @@ struct RuntimeOptions {
   bool viewer = true;
   ViewerOptions web;
   std::optional<ros2::Options> ros2;  // empty if there is no ROS 2 bridge
-  // The name of the server, whose crash the next start reports. Empty if it needs no crash reports.
+  // The name of the server in crash reports. If it is empty, there are no crash reports about this
+  // process.
   std::string noted_as;
 };
 

@@ -28,7 +28,7 @@ TEST(ServerLimits, EachNameCanBeSet) {
   EXPECT_FALSE(IsServerLimit(""));
 }
 
-TEST(ServerLimits, AreAppliedWhereTheyAreUsed) {
+TEST(ServerLimits, SetTheLimitsOfTheServer) {
   ServerLimits limits;
   for (const char* text : {"robots=500", "connections=7", "reading_seconds=3", "upload_bytes=9"})
     ASSERT_TRUE(SetServerLimit(text, limits)) << text;

@@ -1,4 +1,5 @@
-// Options for the viewer of a command: its address, and what it can show besides simulations.
+// The options of commands that serve the viewer: address, tokens, certificate, recordings and
+// history.
 #pragma once
 
 #include <functional>
@@ -37,7 +38,8 @@ void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
 // Adds --broker, for commands that start a broker if none is given.
 void AddBrokerOption(CLI::App& command, std::string& broker);
 
-// Starts a gateway if the user requested it. `gateway` has the rest of its options.
+// Starts the gateway, with the address, tokens and certificate from `options`, and everything else
+// from `gateway`.
 base::Result<std::unique_ptr<gateway::Gateway>> StartViewer(
     const ViewerOptions& options, gateway::GatewayOptions gateway,
     const std::function<

@@ -1,4 +1,4 @@
-// Behaviours that run in this process, by name.
+// Loads behaviours by name that run in this process.
 #pragma once
 
 #include <memory>

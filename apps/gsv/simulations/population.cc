@@ -16,7 +16,7 @@ using simulation::Simulation;
 
 constexpr int kPlacesTried = 400;
 
-// Adds the element of the list to the path of the invalid field.
+// Adds the list and the index to the path of the invalid field, as in "robots[1].model".
 tl::unexpected<FieldError> WrongIn(const char* list, std::size_t i, FieldError wrong) {
   std::string element = std::string(list) + "[" + std::to_string(i) + "]";
   wrong.field = wrong.field.empty() ? element : element + "." + wrong.field;
@@ -96,8 +96,8 @@ FieldResult<RobotSpecification> Specify(const Simulation& simulation,
   return robot;
 }
 
-// Sets the entry's name and place to the actual ones. Tries the places from number `next` on, which
-// becomes the one after the place that was free.
+// Adds the robot at the first free place, from place number `next` on. Sets the entry's name and
+// place to the actual ones, and `next` to the number after that place.
 base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
                             scenario::RobotEntry& entry, const Placing& placing, int& next) {
   base::Error refusal;

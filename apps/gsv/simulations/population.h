@@ -27,20 +27,22 @@ struct Placing {
   std::uint64_t seed = 0;  // seed of kRandom
 };
 
+// A robot of the scenario that was added to the simulation.
 struct PlacedRobot {
   scenario::RobotEntry entry;  // with its actual name, and with its place if it has a model
   std::size_t index = 0;       // the index in the scenario's list
 };
 
+// The robots and avatars that were added.
 struct Population {
-  std::vector<PlacedRobot> robots, avatars;  // both in the order in which they were added
+  std::vector<PlacedRobot> robots, avatars;  // each list is in the order in which they were added
 };
 
 // Adds the robots and the avatars, without behaviours. A robot without a model must exist in the
-// world. A robot without a place gets a free one. By default it is the
-// first on a spiral about the origin. On a grid, robots get one cell of 1 m after the other, from
-// the origin outwards. Random places are in a disc that grows with the number of robots. Adds the
-// problems of model files to `problems`.
+// world. A robot without a place gets a free one. By default it is the first on a spiral about the
+// origin. On a grid, robots get one cell of 1 m after the other, from the origin outwards. Random
+// places are in a disc whose size grows with the number of robots. Adds the problems of model files
+// to `problems`.
 FieldResult<Population> Populate(simulation::Simulation& simulation, formats::ModelLibrary& library,
                                  const scenario::Scenario& scenario, base::Problems& problems,
                                  const Placing& placing = {});

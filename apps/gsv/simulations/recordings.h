@@ -53,6 +53,7 @@ base::Status SetRate(const std::string& text, RecordingChoice& choice);
 // if it is not a folder.
 base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path& folder);
 
+// Starts and stops recordings.
 class Recordings final : public gateway::RecordingSwitch {
  public:
   // `folder` is for recordings that are started in the viewer.
@@ -63,8 +64,8 @@ class Recordings final : public gateway::RecordingSwitch {
   // process, with which the recording can be simulated again.
   void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
 
-  // Sets what the scenario of this simulation's recordings says about ROS 2, if the caller of
-  // Start() gives no scenario.
+  // Sets the ROS 2 settings of the scenario that is attached to this simulation's recordings. They
+  // are not used if the caller of Start() gives a scenario.
   void SetRos2(const std::shared_ptr<simulation::Simulation>& simulation,
                const scenario::Ros2Settings& settings);
 
@@ -108,10 +109,10 @@ class Recordings final : public gateway::RecordingSwitch {
   std::map<std::string, Recording> recordings_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, State> last_
       GSV_GUARDED_BY(mutex_);  // recordings that have ended, by the name of the simulation
-  Totals ended_ GSV_GUARDED_BY(mutex_);     // totals of those
+  Totals ended_ GSV_GUARDED_BY(mutex_);     // totals of the ended recordings
   Totals reported_ GSV_GUARDED_BY(mutex_);  // the totals that were last returned
   std::weak_ptr<simulation::Simulation> of_command_ GSV_GUARDED_BY(mutex_);
-  // The simulation that is published to ROS 2 nodes, and how.
+  // The simulation that is published to ROS 2 nodes, and its ROS 2 settings.
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(mutex_);
   scenario::Ros2Settings ros2_ GSV_GUARDED_BY(mutex_);
 };

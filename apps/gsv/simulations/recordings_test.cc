@@ -49,7 +49,7 @@ TEST(RecordingRate, IsSetByKind) {
   }
 }
 
-TEST_F(RecordingsTest, TheFileNamesTheProgramThatWroteIt) {
+TEST_F(RecordingsTest, FileNamesTheProgramThatWroteIt) {
   ASSERT_TRUE(recordings_.Start(simulation_, path_));
   ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);
   ASSERT_TRUE(recordings_.Stop("simulation"));
@@ -87,7 +87,7 @@ TEST_F(RecordingsTest, ArgumentsAreRecordedOnlyForTheSimulationOfTheCommand) {
   EXPECT_FALSE(keys().contains("arguments"));
 }
 
-TEST_F(RecordingsTest, ASimulationIsRecordedOnceAtATime) {
+TEST_F(RecordingsTest, SimulationIsRecordedOnceAtATime) {
   ASSERT_TRUE(recordings_.Start(simulation_, path_));
   const base::Status again = recordings_.Start(simulation_, path_ + ".other");
   ASSERT_FALSE(again);
@@ -114,7 +114,7 @@ TEST_F(RecordingsTest, NameWithoutExtensionBecomesABagFolder) {
   std::filesystem::remove_all(folder);
 }
 
-TEST_F(RecordingsTest, ASimulationWithoutARecordingCannotBeStopped) {
+TEST_F(RecordingsTest, SimulationWithoutARecordingCannotBeStopped) {
   EXPECT_EQ(recordings_.Stop("simulation").error().code, base::ErrorCode::kNotFound);
   EXPECT_TRUE(recordings_.StopAll());
 }

@@ -40,7 +40,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
 
   // Sets the publisher for simulations whose scenario has the key `ros2`. Null removes it.
   void PublishThrough(Ros2Publisher* publisher);
-  // Sets the service that also lists simulations that are created later. Null removes it.
+  // Sets the CORBA service that offers the created simulations to other programs. Null removes it.
   void OfferThrough(services::SimulationServiceServant* service);
 
   std::vector<std::string> Worlds() override;
@@ -74,7 +74,8 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
   gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
       const scenario::RobotEntry& robot);
-  // Makes the behaviours of a simulation's robots. `published`: its ROS 2 options; null: none.
+  // Returns the function that makes the behaviours of a simulation's robots. `published` is the ROS
+  // 2 options of the simulation, or null if it is not published to ROS 2.
   BehaviourMaker BehaviourChoice(const ros2::Options* published);
   // Returns the ROS 2 options of a scenario, or nullopt if it is not published to ROS 2 nodes.
   gateway::FieldResult<std::optional<ros2::Options>> Ros2OptionsOf(

@@ -2,7 +2,7 @@
 // everything that SDFormat cannot express.
 //
 // The SDFormat text has the models with their current poses (formats/world_writer.h). The scenario
-// names that text as its world. It has the behaviours, the avatars, and each robot whose movement
+// names this file as its world. It has the behaviours, the avatars, and each robot whose movement
 // or drive was chosen when it was added.
 #pragma once
 

@@ -66,7 +66,7 @@ class WorldSavingTest : public testing::Test {
   }();
 };
 
-TEST_F(WorldSavingTest, AnEditedWorldIsReadBackAndMovesToTheSameHash) {
+TEST_F(WorldSavingTest, SavedWorldSimulatesToTheSameHash) {
   const auto edited = Open(folder_.Write("room.sdf", kWorld));
   ASSERT_NE(edited, nullptr);
   ASSERT_TRUE(edited->PlaceBody(
@@ -97,7 +97,7 @@ TEST_F(WorldSavingTest, AnEditedWorldIsReadBackAndMovesToTheSameHash) {
   EXPECT_EQ(HashAfter(*again, 500), HashAfter(*edited, 500));  // the crate falls and tumbles
 }
 
-TEST_F(WorldSavingTest, TheScenarioNamesTheWorldAndAddsWhatSdformatCannotExpress) {
+TEST_F(WorldSavingTest, ScenarioNamesTheWorldAndAddsWhatSdformatCannotExpress) {
   const auto simulation = Open(folder_.Write("room.sdf", kWorld));
   ASSERT_NE(simulation, nullptr);
   simulation::RobotSpecification avatar;

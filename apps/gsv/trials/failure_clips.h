@@ -1,4 +1,5 @@
-// The parts of a recording that are kept of a failed test: some seconds around each violation.
+// Selects the parts of a failed test's recording that `gsv test` keeps: some seconds around each
+// violation.
 #pragma once
 
 #include <vector>
@@ -18,8 +19,8 @@ inline constexpr double kMaxClipSpan = 120;
 // The maximum number of clips. Later violations are in no clip.
 inline constexpr std::size_t kMaxClips = 5;
 
-// Returns the times of the violations in a report of `gsv run`, in ascending order; if there are
-// none, the time at which the run ended.
+// Returns the times of the violations in a report of `gsv run`, in ascending order. If there are
+// none, returns the time at which the run ended.
 std::vector<double> ViolationTimes(const nlohmann::ordered_json& report);
 
 // Returns clips that span the violations, with `before` and `after` seconds around them. Violations

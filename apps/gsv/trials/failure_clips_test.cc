@@ -17,7 +17,7 @@ TEST(FailureClips, ViolationTimesAreInAscendingOrder) {
   EXPECT_THAT(ViolationTimes(Report()), ElementsAre(3.13, 12.4));
 }
 
-TEST(FailureClips, WithoutAViolationTheEndOfTheRunIsTheTime) {
+TEST(FailureClips, UsesTheEndOfTheRunIfThereIsNoViolation) {
   EXPECT_THAT(ViolationTimes({{"sim_time_s", 7.5}}), ElementsAre(7.5));
 }
 
@@ -29,7 +29,7 @@ TEST(FailureClips, OneClipSpansNearViolations) {
   EXPECT_THAT(clips[0].violations, ElementsAre(3.13, 12.4));
 }
 
-TEST(FailureClips, ADistantViolationHasItsOwnClip) {
+TEST(FailureClips, DistantViolationHasItsOwnClip) {
   const auto clips = ClipsOf({50, 170, 170.5}, 10, 2);
   ASSERT_EQ(clips.size(), 2u);
   EXPECT_EQ(clips[0].from, 40);
@@ -39,7 +39,7 @@ TEST(FailureClips, ADistantViolationHasItsOwnClip) {
   EXPECT_THAT(clips[1].violations, ElementsAre(170.5));
 }
 
-TEST(FailureClips, TheNumberOfClipsIsLimited) {
+TEST(FailureClips, NumberOfClipsIsLimited) {
   std::vector<double> times;
   for (int i = 0; i < 20; ++i) times.push_back(1000.0 * i);
   const auto clips = ClipsOf(times, 10, 2);

@@ -1,7 +1,8 @@
-// Runs of scenarios. Each is in a process that is forked from one that has read the files.
+// Executes runs of scenarios, each in its own process. The process is forked from a run server
+// (running/run_server.h).
 //
-// A run costs only its simulation, because the program is linked, and worlds and models are read,
-// once for all runs. Files are not read again while this object lives.
+// The run server links the program, and reads worlds and models, once for all runs. So a run costs
+// only the time of its simulation. Files are not read again during the lifetime of this object.
 //
 // Threads  one at a time. The thread that creates this object must live as long as it
 //          (machine/child_process.h).

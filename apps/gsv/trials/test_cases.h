@@ -31,24 +31,26 @@ base::Result<Shard> ParseShard(const std::string& text);
 // Returns every n-th case, so that shares have about equal sizes.
 std::vector<TestCase> ShareOf(std::vector<TestCase> cases, const Shard& shard);
 
+// The options of `gsv test` for each scenario.
 struct TestOptions {
   std::filesystem::path failures;   // folder for the files of failures; empty if none are kept
   int threads = 0;                  // number of threads per run; 0 if `gsv run` chooses it
   double timeout = 300;             // wall-clock time limit per run, s
   double kept_seconds = 10;         // how many seconds of the recording before a violation are kept
-  double kept_after = 2;            // the same after a violation
+  double kept_after = 2;            // how many seconds after a violation are kept
   std::vector<std::string> drives;  // see the option --drive of `gsv run`
   int repeat = 1;
   bool record = true;
 };
 
+// The result of a scenario, over all its repetitions.
 struct TestResult {
   enum class Status { kPassed, kFailed, kError, kInterrupted };
   TestCase test;
   Status status = Status::kError;
   std::string message;        // the reason why it did not pass
   std::string health;         // a line for each robot that stood, was stuck or dead at the end
-  bool is_bad_input = false;  // whether a file that it names is missing or invalid
+  bool is_bad_input = false;  // whether a file that the scenario names is missing or invalid
   std::string folder;         // the folder with the files of the failure; may be empty
   double failed_at = 0;       // simulated time of the first violation, else of the end, s
   std::string about;          // the robot that the failure is about; may be empty

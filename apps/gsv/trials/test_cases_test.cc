@@ -46,7 +46,7 @@ TEST_F(TestCasesTest, FileNamedTwiceIsOneCase) {
   EXPECT_THAT(Names({b, path(), a}), ElementsAre("b", "a"));
 }
 
-TEST_F(TestCasesTest, AMissingFileIsAnError) {
+TEST_F(TestCasesTest, MissingFileIsAnError) {
   EXPECT_THAT(
       Names({path() + "/none.yaml"}),
       ElementsAre(HasSubstr("none.yaml: there is no scenario file or folder of this name")));
@@ -62,7 +62,7 @@ TEST_F(TestCasesTest, EveryProblemOfEveryFileIsReported) {
   EXPECT_THAT(problems_[1].Sentence(), HasSubstr("b.yaml:3:1: there is no key \"wrld\" here"));
 }
 
-TEST(Shards, AreParsedAsIOfN) {
+TEST(Shards, ParsesIOfN) {
   const auto shard = ParseShard("2/3");
   ASSERT_TRUE(shard);
   EXPECT_EQ(shard->index, 2u);

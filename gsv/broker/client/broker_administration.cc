@@ -37,7 +37,7 @@ typename Interface::_var_type Resolve(CORBA::ORB_ptr orb, const std::string& ref
   return narrowed;
 }
 
-// Calls `call` with the broker's Lookup.
+// Calls `call` with a reference to the broker's interface Lookup.
 template <typename Call>
 auto WithLookup(const std::string& broker, std::chrono::milliseconds timeout, const Call& call)
     -> decltype(call(CORBA::ORB_ptr(), CosTrading::Lookup_ptr())) {
@@ -56,7 +56,7 @@ auto WithLookup(const std::string& broker, std::chrono::milliseconds timeout, co
   });
 }
 
-// Calls `call` with the broker's Link.
+// Calls `call` with a reference to the broker's interface Link.
 template <typename Call>
 auto WithLink(const std::string& broker, std::chrono::milliseconds timeout, const Call& call)
     -> decltype(call(CORBA::ORB_ptr(), CosTrading::Link_ptr())) {

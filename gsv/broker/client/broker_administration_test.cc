@@ -38,9 +38,9 @@ TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
 }
 
 // A service that answers only when this many calls are in progress at the same time.
-class Sociable : public POA_CosTradingDynamic::DynamicPropEval {
+class ConcurrentEvaluator : public POA_CosTradingDynamic::DynamicPropEval {
  public:
-  explicit Sociable(std::latch& others) : others_(others) {}
+  explicit ConcurrentEvaluator(std::latch& others) : others_(others) {}
   CORBA::Any* evalDP(const char*, CORBA::TypeCode_ptr, const CORBA::Any&) override {
     return new CORBA::Any;
   }
@@ -66,7 +66,7 @@ TEST(BrokerAdministration, CallsTheTargetsOfLinksConcurrently) {
   const CORBA::Object_var root = TestOrb()->resolve_initial_references("RootPOA");
   const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
   for (int i = 0; i < kLinks; ++i) {
-    const PortableServer::Servant_var<Sociable> target(new Sociable(others));
+    const PortableServer::Servant_var<ConcurrentEvaluator> target(new ConcurrentEvaluator(others));
     const PortableServer::ObjectId_var id = poa->activate_object(target);
     const CORBA::Object_var object =
         poa->create_reference_with_id(id, CosTrading::Lookup::_PD_repoId);
@@ -91,10 +91,10 @@ TEST(BrokerAdministration, ReportsTheErrorOfALink) {
   EXPECT_EQ(add("1st", FollowOption::kAlways, FollowOption::kAlways),
             "\"1st\" is not a valid name of a link");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kLocalOnly),
-            "the default policy of the link exceeds its limiting policy");
+            "the default follow policy of the link is more permissive than its limiting policy");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways), "");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways),
-            "the link north exists already");
+            "a link named north exists already; remove it first, or choose another name");
   EXPECT_EQ(administration.RemoveLink("west").error().message, "the broker has no link west");
   EXPECT_EQ(administration.AddLink("west", "nonsense", {}, {}).error().code,
             base::ErrorCode::kInvalidArgument);

@@ -121,7 +121,7 @@ base::Status BrokerClient::Resolve(CORBA::ORB_ptr orb, unsigned long timeout_ms)
                       "no broker is given; use --broker corbaloc::1.2@HOST:PORT/TradingService or "
                       "-ORBInitRef TradingService=...");
   }
-  // The timeout belongs to the reference, so it also applies to narrowing it.
+  // The timeout is stored in the reference, so it also limits the call that _narrow() makes.
   SetTimeout(object, timeout_ms);
   lookup_ = CosTrading::Lookup::_narrow(object);
   if (CORBA::is_nil(lookup_)) {

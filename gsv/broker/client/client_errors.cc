@@ -18,8 +18,9 @@ using Repository = CosTradingRepos::ServiceTypeRepository;
 constexpr ErrorCode kWrong = ErrorCode::kInvalidArgument;
 constexpr ErrorCode kMissing = ErrorCode::kNotFound;
 
-// The reason why the broker refused a text. The exception contains only the text, so it is parsed
-// again to find the error. A text that is correct has an operand of a wrong type.
+// Returns the reason why the broker rejected a constraint or preference. The exception contains
+// only the text, so `parsed` is the result of parsing it here again. If it parses, an operand has
+// the wrong type.
 std::string WhyRefused(const base::Status& parsed) {
   return parsed ? "its operands do not have the types that the service type declares"
                 : parsed.error().Sentence();
@@ -84,10 +85,14 @@ Error OfOffer(const std::string& where) {
                         e.type.in()),
             where};
   } catch (const Register::ReadonlyProperty& e) {
-    return {kWrong, fmt::format("the property {} of {} is read-only", e.name.in(), e.type.in()),
+    return {kWrong,
+            fmt::format("the property {} of {} is read-only and cannot be changed", e.name.in(),
+                        e.type.in()),
             where};
   } catch (const Register::MandatoryProperty& e) {
-    return {kWrong, fmt::format("the property {} of {} is mandatory", e.name.in(), e.type.in()),
+    return {kWrong,
+            fmt::format("the property {} of {} is mandatory and cannot be removed", e.name.in(),
+                        e.type.in()),
             where};
   } catch (const CosTrading::IllegalOfferId& e) {
     return {kWrong, fmt::format("\"{}\" is not a valid id of an offer", e.id.in()), where};
@@ -104,13 +109,23 @@ Error OfLink(const std::string& where) {
   } catch (const CosTrading::Link::IllegalLinkName& e) {
     return {kWrong, fmt::format("\"{}\" is not a valid name of a link", e.name.in()), where};
   } catch (const CosTrading::Link::DuplicateLinkName& e) {
-    return {kWrong, fmt::format("the link {} exists already", e.name.in()), where};
+    return {kWrong,
+            fmt::format("a link named {} exists already; remove it first, or choose another name",
+                        e.name.in()),
+            where};
   } catch (const CosTrading::Link::UnknownLinkName& e) {
-    return {kMissing, fmt::format("the broker has no link {}", e.name.in()), where};
+    return {
+        kMissing,
+        fmt::format("the broker has no link named {}; `gsv links` lists its links", e.name.in()),
+        where};
   } catch (const CosTrading::Link::DefaultFollowTooPermissive&) {
-    return {kWrong, "the default policy of the link exceeds its limiting policy", where};
+    return {kWrong,
+            "the default follow policy of the link is more permissive than its limiting policy",
+            where};
   } catch (const CosTrading::Link::LimitingFollowTooPermissive&) {
-    return {kWrong, "the limiting policy of the link exceeds the broker's max_link_follow_policy",
+    return {kWrong,
+            "the limiting policy of the link is more permissive than the broker's "
+            "max_link_follow_policy",
             where};
   } catch (const CosTrading::InvalidLookupRef&) {
     return {kWrong, "the target of the link is not a broker, or does not respond", where};

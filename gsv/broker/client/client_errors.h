@@ -34,8 +34,8 @@ auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
   }
 }
 
-// Like WithErrors(), for a call that may be repeated. After a restart of the broker, the first call
-// over the old connection fails, and so is repeated.
+// Like Guarded(), but repeats the call once if it fails with a lost connection. After a restart of
+// the broker, the first call over the old connection fails. `call` must be safe to repeat.
 template <typename Call>
 auto GuardedRepeatable(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;

@@ -7,7 +7,7 @@
 
 namespace gsv::broker {
 
-// Returns the type for the constraint language, with `encoded` empty. Aliases are resolved.
+// Returns the type that the constraint language uses: aliases are resolved, and `encoded` is empty.
 PropertyType Classify(CORBA::TypeCode_ptr type);
 PropertyType ToPropertyType(CORBA::TypeCode_ptr type);
 // Returns a new reference, which the caller releases.

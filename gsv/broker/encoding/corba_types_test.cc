@@ -93,7 +93,7 @@ TEST_F(CorbaTypesTest, OtherTypesAreSpeltAsInIdl) {
   }
 }
 
-TEST_F(CorbaTypesTest, AreUnchangedAfterEncoding) {
+TEST_F(CorbaTypesTest, TypesAreUnchangedAfterEncoding) {
   std::vector<CORBA::TypeCode_var> types = {Struct(), AliasOf(Struct()), AliasOf(CORBA::_tc_long),
                                             SequenceOf(SequenceOf(CORBA::_tc_string))};
   for (const ScalarCase& each : ScalarCases()) {

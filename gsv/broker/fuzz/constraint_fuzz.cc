@@ -1,5 +1,5 @@
-// Parses any text as a constraint and as a preference. It must be rejected, or the evaluators of
-// offers and of columns must agree with the naive one.
+// Fuzz target: parses the input as a constraint and as a preference. If the input is valid, the
+// evaluators for single offers and for columns must return the same results as a naive evaluator.
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
-// Takes any bytes as messages, as the arguments of a request, and as a reply. After the check,
-// omniORB must unmarshal or reject them without harm.
+// Fuzz target: uses the input as messages, as the arguments of a request, and as a reply. After the
+// broker's check, omniORB must unmarshal or reject them, and must not crash.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -57,7 +57,7 @@ void Unmarshal(std::string_view operation, const std::string& arguments) {
   }
 }
 
-// Takes the body as the reply of a service or of another trader.
+// Checks and unmarshals the body as the reply of a service or of another trader.
 void TakeAsReply(const std::string& body, bool of_a_service) {
   constexpr std::uint32_t kId = 7;
   const std::string request = RawRequest("k", of_a_service ? "evalDP" : "next_n", "", kId);

@@ -1,5 +1,5 @@
-// Takes any bytes as the properties of an offer, from a message or a file. They must be rejected,
-// or be equal after they are written and read again. Only the padding between them may differ,
+// Fuzz target: decodes the input as the properties of an offer, as from a message or a file. If it
+// is valid, encoding and decoding it again must give equal properties. Only the padding may differ,
 // because omniORB does not set it.
 #include <cstdint>
 #include <string>

@@ -55,8 +55,8 @@ class Evaluator {
     return !*truth;
   }
 
-  // Evaluates `and` or `or`. A left operand that is TRUE decides `or`, and one that is FALSE
-  // decides `and`.
+  // Evaluates `and` or `or`. If the left operand is `deciding` (TRUE for `or`, FALSE for `and`), it
+  // is the result, and the right operand is not evaluated.
   Operand Decide(const Node& node, bool deciding) const {
     const Operand left = Left(node);
     const auto* truth = std::get_if<bool>(&left);

@@ -54,8 +54,8 @@ struct Expression {
   const Node& root() const { return nodes.back(); }
 };
 
-// Parses a constraint, which is an expression, or the empty text, which is TRUE.
-// Errors  kInvalidArgument with the position of the error in the text, counted from 1.
+// Parses a constraint. The empty text is a constraint that is TRUE for every offer. Returns
+// kInvalidArgument with the position of the error in the text, counted from 1.
 base::Result<Expression> ParseConstraint(std::string_view text, const ExpressionLimits& limits);
 
 struct Preference {

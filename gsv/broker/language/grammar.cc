@@ -346,7 +346,7 @@ struct Action<StringText> {
   template <typename Input>
   static void apply(const Input& in, Building& building) {
     building.AddLiteral(in, Unescaped(in.string_view()));
-    --building.expression.nodes.back().position;  // at the opening quote
+    --building.expression.nodes.back().position;  // the position of the opening quote
   }
 };
 

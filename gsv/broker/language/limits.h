@@ -18,8 +18,8 @@ struct ExpressionLimits {
 struct DynamicLimits {
   std::chrono::milliseconds call_timeout{500};   // time limit of one evaluation
   std::chrono::milliseconds query_budget{2000};  // limit of the sum of all waits of one query
-  std::chrono::milliseconds lifetime{1000};      // how long a value, or a failure, is cached
-  std::size_t value_bytes = 2048;                // a larger encoding counts as unavailable
+  std::chrono::milliseconds lifetime{1000};  // how long a value or a failed evaluation is cached
+  std::size_t value_bytes = 2048;  // maximum encoded size; a larger value counts as unavailable
   std::size_t per_offer = 8;
   std::size_t answers = 10'000;  // number of cached values
 };
@@ -54,7 +54,7 @@ struct TraderLimits {
   std::size_t super_types = 64;        // maximum number of direct and indirect super types
   std::size_t iterators = 1000;
   std::size_t offers_in_iterators = 2'000'000;
-  std::chrono::seconds iterator_lifetime{60};  // an unused iterator is removed after it
+  std::chrono::seconds iterator_lifetime{60};  // an unused iterator is removed after this time
 };
 
 }  // namespace gsv::broker

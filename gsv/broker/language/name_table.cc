@@ -20,7 +20,8 @@ void NameTable::Share(PropertyList& properties) {
   if (known_.size() > enough_) ForgetUnused();
 }
 
-// If only this table holds a list of names, no other thread can start to use it at the same time.
+// A list of names that only this table uses can be removed: no other thread can start to use it at
+// the same time.
 void NameTable::ForgetUnused() {
   std::erase_if(known_, [](const Names& names) { return names.use_count() == 1; });
   enough_ = std::max(enough_, 2 * known_.size());

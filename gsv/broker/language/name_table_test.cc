@@ -25,7 +25,7 @@ TEST(NameTable, ListsWithTheSameNamesShareThem) {
   EXPECT_EQ(*c.names(), PropertyNames{"name"});
 }
 
-TEST(NameTable, AChangedListLeavesTheOthersUnchanged) {
+TEST(NameTable, ChangedListLeavesTheOthersUnchanged) {
   NameTable table;
   PropertyList a = WithNames({"speed", "name"});
   PropertyList b = a;

@@ -20,23 +20,25 @@ using Operand = std::variant<std::monostate, bool, std::int64_t, double, std::st
 inline constexpr std::monostate kNoOperand{};
 
 Operand ToOperand(const ScalarValue& value);
-// A sequence and a value of any other type have no operand.
+// Returns kNoOperand for a sequence and for a value of type kOther.
 Operand ToOperand(const Value& value);
 std::optional<long double> ToNumber(const Operand& operand);
 
-// The result of the comparison `op`, or none if the operands cannot be compared.
+// Returns the result of the comparison `op`, or kNoOperand if the operands cannot be compared.
 Operand Compare(Operator op, const Operand& left, const Operand& right);
-// The result of +, -, * or /, or none if an operand is not a number or the divisor is 0.
+// Returns the result of +, -, * or /, or kNoOperand if an operand is not a number or the divisor is
+// 0.
 //
 // It applies the numeric promotion of IDL's constant expressions and C. Two integers give an
 // integer, and quotients are truncated. An integer and a real number give a real number. An integer
 // result beyond 64 bits becomes a real number.
 Operand Calculate(Operator op, const Operand& left, const Operand& right);
 double RealResult(Operator op, double left, double right);
-// Whether `sequence` has an element that is equal to `element`, or none if the sequence is null or
-// an element before that cannot be compared. `element` has a value.
+// Returns whether `sequence` has an element that is equal to `element`. Returns kNoOperand if the
+// sequence is null, or if an element before the equal one cannot be compared. `element` must not be
+// kNoOperand.
 Operand Contains(const Value::Sequence* sequence, const Operand& element);
-// Whether `part` is contained in `whole`, or none if one of them is not a text.
+// Returns whether `part` is contained in `whole`, or kNoOperand if one of them is not a text.
 Operand Substring(const Operand& part, const Operand& whole);
 
 // Calls `use` with the function object of the comparison `op`.

@@ -1,4 +1,4 @@
-// The named values that describe an offer.
+// Properties: the named values that describe an offer.
 #pragma once
 
 #include <memory>

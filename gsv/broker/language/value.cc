@@ -11,7 +11,8 @@
 namespace gsv::broker {
 namespace {
 
-// The bytes of the TypeCode of a simple type, a length, and alignment.
+// Upper bound of the encoded bytes besides the content: the TypeCode of a simple type, a length,
+// and padding.
 constexpr std::size_t kValueOverhead = 24;
 
 std::size_t ContentSize(const ScalarValue& value) {
@@ -42,7 +43,7 @@ struct Value::Shared {
   Content content;
 };
 
-// The text follows this head in the same block of memory.
+// The head of a shared text. The characters follow it in the same block of memory.
 struct Value::LongText {
   std::atomic<std::uint32_t> owners = 1;
   std::uint32_t size;

@@ -55,7 +55,7 @@ struct PropertyType {
 struct OtherValue {
   std::string type_name;
   std::string encoded;
-  // For a dynamic property the type of its value. Null for all others.
+  // The type of the value of a dynamic property. Null if the property is not dynamic.
   std::shared_ptr<const PropertyType> promised_type{};
 };
 
@@ -109,7 +109,7 @@ class Value {
  private:
   static constexpr std::size_t kInlineText = 14;
 
-  // How `content_` is to be read. Values up to kInlineText are the length of a text in it.
+  // The kind of data in `content_`. Values up to kInlineText mean a text of that length.
   enum class Form : std::uint8_t {
     kBoolean = kInlineText + 1,
     kInteger,

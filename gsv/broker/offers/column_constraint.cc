@@ -21,7 +21,8 @@ Truth ToTruth(const Operand& operand) {
   return truth == nullptr ? kNoTruth : *truth ? kTrue : kFalse;
 }
 
-// The operands of many offers. It is one literal for all offers, a column, or computed numbers.
+// One operand of an operator, for many offers: a literal that is the same for all, a column, or
+// computed numbers.
 struct Operands {
   const ScalarValue* literal = nullptr;
   const PropertyColumn* column = nullptr;
@@ -48,7 +49,7 @@ struct Operands {
   }
 };
 
-// Reads the same number for every offer, or one for each.
+// OneNumber is the same number for every offer. ManyNumbers has one number per offer.
 template <typename T>
 struct OneNumber {
   T number;
@@ -178,8 +179,8 @@ class Evaluation {
     return truths;
   }
 
-  // Evaluates `and` or `or`. A left operand that is `deciding` decides alone, and one without a
-  // value leaves the result without a value.
+  // Evaluates `and` or `or`. If an offer's left operand is `deciding`, it is the result. If it has
+  // no value, the result has no value.
   Truths Decide(const Node& node, Truth deciding) const {
     Truths left = TruthsOf(node.left);
     const Truth other = deciding == kTrue ? kFalse : kTrue;
@@ -245,7 +246,7 @@ class Evaluation {
     return truths;
   }
 
-  // Sets the truths of offers without a value of the sole kind to kNoTruth.
+  // Sets the result to kNoTruth for each offer whose operand has no value of the kind `sole_kind`.
   static void OmitMissing(const Operands& operands, Truths& truths) {
     if (operands.literal != nullptr) return;
     const CellKind kind = *operands.sole_kind;

@@ -80,7 +80,7 @@ TEST(ColumnConstraint, NumbersBeyondDoublesAreExact) {
             (Choices{Choice::kNo, Choice::kYes, Choice::kYes}));
 }
 
-TEST(ColumnConstraint, OfferAnswersOnlyIfNoOtherTermIsFalse) {
+TEST(ColumnConstraint, EvaluatesAnOfferOnlyIfNoOtherTermIsFalse) {
   const auto promised = std::make_shared<const PropertyType>(PropertyType{.scalar = Scalar::kLong});
   const Value dynamic = Value::Other({"struct", "", promised});
   const Offers offers = {OfferWith(PropertyList({{"a", dynamic}, {"b", Value::Long(1)}})),

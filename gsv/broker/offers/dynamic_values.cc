@@ -31,9 +31,9 @@ const Value* DynamicValues::Find(const Offer& offer, std::string_view name) {
   std::optional<Value>& known = place->second;
   if (is_new) {
     if (!deadline_) deadline_ = DynamicEvaluator::Clock::now() + budget_;
-    if (turn_ != nullptr) turn_->Pause();
+    if (slot_ != nullptr) slot_->Pause();
     known = evaluator_->Evaluate(place->first.second, *value->AsOther(), *deadline_);
-    if (turn_ != nullptr) turn_->Resume();
+    if (slot_ != nullptr) slot_->Resume();
   }
   return known ? &*known : nullptr;
 }

@@ -20,7 +20,7 @@
 
 namespace gsv::broker {
 
-// Threads  any.
+// Gets the values of dynamic properties from the services that compute them. Any thread may use it.
 class DynamicEvaluator {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,8 +33,8 @@ class DynamicEvaluator {
 };
 
 // The values of dynamic properties in one query. Each is evaluated only if it is needed, and at
-// most once, so that constraint, preference and answer agree. When the query's time is over,
-// properties that were not evaluated have no value.
+// most once, so that the constraint, the preference and the answer use the same value. When the
+// query's time is over, properties that were not evaluated have no value.
 //
 // Threads  not safe; each query has its own.
 class DynamicValues {
@@ -43,7 +43,7 @@ class DynamicValues {
   DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget);
 
   // Sets the slot that is paused during calls to services, or null.
-  void set_slot(ScanSlot* turn) { turn_ = turn; }
+  void set_slot(ScanSlot* slot) { slot_ = slot; }
 
   // Returns the property's value, or null if there is none. Evaluates dynamic properties. The
   // pointer is valid as long as this object and the offer. The search is fast if successive offers
@@ -62,14 +62,14 @@ class DynamicValues {
   const Value* FindStatic(const Offer& offer, std::string_view name);
 
   DynamicEvaluator* const evaluator_;
-  ScanSlot* turn_ = nullptr;
+  ScanSlot* slot_ = nullptr;
   const std::chrono::milliseconds budget_;
   std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // set by the first evaluation
   std::map<Key, std::optional<Value>> known_;
   std::vector<Place> places_;
 };
 
-// An offer with its dynamic properties evaluated as needed.
+// An offer as a source of properties: dynamic properties are evaluated when they are needed.
 class EvaluatedOffer : public PropertySource {
  public:
   EvaluatedOffer(const Offer& offer, DynamicValues& values) : offer_(offer), values_(values) {}

@@ -1,5 +1,5 @@
-// The offers that a query found, in order. The list refers to offers in views and does not count
-// references to each of them, so a query that finds many offers does not access their memory.
+// The offers that a query found, in order. The list points to offers in views and has no shared
+// pointer to each of them. So a query that finds many offers does not access their memory.
 //
 // Threads  not safe. The memory of KeptOffers may be released by any thread.
 #pragma once
@@ -14,12 +14,13 @@
 
 namespace gsv::broker {
 
-// Keeps found offers alive.
+// Keeps found offers alive. Several lists may share it.
 struct KeptOffers {
   std::vector<OfferView> views{};
   std::deque<OfferPtr> others{};  // offers that are not in a view, at constant addresses
 };
 
+// The list of found offers. Its elements point into views of KeptOffers.
 class FoundOffers {
  public:
   class Iterator {

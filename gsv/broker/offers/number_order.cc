@@ -23,7 +23,8 @@ std::size_t Digit(std::uint64_t key, int digit) {
   return (key >> (kDigitBits * digit)) % kDigitValues;
 }
 
-// The key increases with the number, and is equal for both zeros.
+// Returns a sort key that increases with the number. +0 and -0 have the same key, and NaN has the
+// largest.
 std::uint64_t KeyOf(double number) {
   if (std::isnan(number)) return std::numeric_limits<std::uint64_t>::max();
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
@@ -53,7 +54,7 @@ void SortByKey(std::vector<Keyed>& entries) {
 
 bool HasSmallerKey(const Keyed& a, const Keyed& b) { return a.key < b.key; }
 
-// Equal keys keep their order.
+// Sorts by key. Entries with equal keys keep their order.
 void Sort(std::vector<Keyed>& entries) {
   constexpr std::size_t kFew = 512;
   if (entries.size() < kFew) {

@@ -1,4 +1,4 @@
-// Sorts many numbers.
+// Sorts large arrays of numbers, for the preferences `min` and `max`.
 #pragma once
 
 #include <cstdint>

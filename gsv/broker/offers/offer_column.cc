@@ -27,7 +27,7 @@ std::vector<Choice> OfferChunk::Choose(const ColumnConstraint& constraint) const
   }
   std::vector<Choice> choices = constraint.Choose(columns, offers_.size());
   if (IsPlain()) return choices;
-  // A proxy may match every constraint.
+  // The columns cannot decide for a proxy, which may match every constraint.
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (offers_[i]->proxy != nullptr) choices[i] = Choice::kUnknown;
   }

@@ -25,9 +25,9 @@ class OfferChunk {
   explicit OfferChunk(Offers offers) : offers_(std::move(offers)) {}
 
   const Offers& offers() const { return offers_; }
-  // Returns null if the column does not exist (yet).
+  // Returns the column of a property, or null if it does not exist (yet).
   std::shared_ptr<const PropertyColumn> ColumnOf(const std::string& property) const;
-  // Returns what the columns decide for each offer.
+  // Returns for each offer whether it matches, as far as the columns determine it.
   std::vector<Choice> Choose(const ColumnConstraint& constraint) const;
   // Whether none of the offers is a proxy or has a dynamic property.
   bool IsPlain() const { return columns_.ArePlain(offers_); }
@@ -68,7 +68,7 @@ class OfferColumn {
   std::size_t size() const { return size_; }
   OfferView View() const { return OfferView(chunks_); }
 
-  // Returns null if there is no offer with this number.
+  // Returns the offer with this number, or null if there is none.
   OfferPtr Find(std::uint64_t number) const;
   // Returns all offers.
   Offers All() const;

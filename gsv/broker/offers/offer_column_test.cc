@@ -34,7 +34,7 @@ TEST(OfferColumn, KeepsTheOrderOfNumbers) {
   EXPECT_EQ(column.size(), 4u);
 }
 
-TEST(OfferColumn, AViewDoesNotChange) {
+TEST(OfferColumn, ViewDoesNotChange) {
   OfferColumn column;
   column.Put(Numbered(1, "before"));
   column.Put(Numbered(2));

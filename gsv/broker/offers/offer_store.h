@@ -32,7 +32,7 @@ class OfferStore {
   void Replace(Offer offer);
   // Removes an offer. Returns false if there is none with that number.
   bool Remove(std::uint64_t number);
-  // Returns null if there is no such offer.
+  // Returns the offer with this number, or null if there is none.
   OfferPtr Find(std::uint64_t number) const;
 
   // Returns the offers of `types`, type by type, and within a type in the order of export.
@@ -41,9 +41,9 @@ class OfferStore {
   // Returns all offers in the order of export.
   Offers All() const;
 
-  // Returns a part of OfTypes() in the same order. It has all offers for which one of `terms` is
-  // TRUE; that term is the one with the fewest offers. Returns nullopt if no term has an index in
-  // every type.
+  // Returns the offers that the index of one of `terms` finds, in the order of OfTypes(). They
+  // include all offers for which this term is TRUE. It is the term that finds the fewest offers.
+  // Returns nullopt if no term has an index in every type.
   std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
                                                     const std::vector<EqualityTerm>& terms) const;
   // Makes indices for the first few of `terms`. Each type keeps a few indices, and the oldest one
@@ -51,6 +51,7 @@ class OfferStore {
   void Index(const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms);
 
  private:
+  // The offers of one service type, and their indices.
   struct Bucket {
     OfferColumn offers{};
     std::deque<PropertyIndex> indices{};  // in the order in which they were made

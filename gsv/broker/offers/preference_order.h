@@ -20,8 +20,8 @@ namespace gsv::broker {
 // property.
 const std::string* PropertyToOrderBy(const Preference& preference);
 
-// Orders `offers`. `seed` is that of `random`. `known` has the numbers of the first few offers if
-// min or max orders by a property; it has NaN for an offer without a number.
+// Orders `offers`. `seed` is the seed of the preference `random`. If min or max orders by a
+// property, `known` has the numbers of the first few offers, or NaN for an offer without a number.
 void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
              DynamicValues& values, FoundOffers& offers);
 

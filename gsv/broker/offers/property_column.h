@@ -26,7 +26,7 @@ enum class CellKind : std::uint8_t {
   kText,
   kSequence,
   kOther,  // a value of any other type
-  kOffer,  // only the offer can answer: its property is dynamic, or it is a proxy
+  kOffer,  // not in the column: the property is dynamic, or the offer is a proxy
 };
 
 class PropertyColumn {
@@ -38,13 +38,14 @@ class PropertyColumn {
   // The kind of all cells that are neither kNone nor kOffer, or nullopt if their kinds differ. It
   // is kNone if there are no such cells.
   std::optional<CellKind> sole_kind() const { return sole_kind_; }
-  // By the kind of the cell: 0 or 1, the integer, the representation of the real number, the index
-  // of the text in texts(), or a sequence for ElementsOf(). 0 for all other kinds.
+  // The contents of the cells. A cell's kind determines what it holds: 0 or 1, the integer, the
+  // bits of the real number, the index of the text in texts(), or a sequence for ElementsOf(). It
+  // is 0 for all other kinds.
   std::span<const std::uint64_t> bits() const { return bits_; }
   // The different texts of the column.
   std::span<const std::string_view> texts() const { return texts_; }
 
-  // The value of the cell in the constraint language.
+  // Returns the value of a cell as an operand of the constraint language.
   Operand At(std::size_t index) const { return ToOperand(kinds_[index], bits_[index]); }
   // Whether the sequence of the cell contains `element`, see Contains(). `element_text` is the
   // index of `element` in texts() if it is a text; see IndexOf().
@@ -65,18 +66,18 @@ class PropertyColumn {
   // The elements of all sequences, one sequence after the other.
   std::vector<CellKind> element_kinds_;
   std::vector<std::uint64_t> element_bits_;
-  std::string short_texts_;  // to which most of texts_ refer; the others refer to the offers
+  std::string short_texts_;  // the characters of short texts_; long ones are in the offers
   std::vector<std::string_view> texts_;
 };
 
-// The columns of offers that do not change. A column is made at the second request for its
-// property. So columns cost nothing if every query has other offers.
+// The property columns of a list of offers that does not change. A column is made at the second
+// request for its property, so a list that is queried only once needs none.
 //
 // Threads  any thread may call Of() and ArePlain().
 class PropertyColumns {
  public:
-  // Returns null if the column does not exist (yet). `offers` must be the same in every call until
-  // Clear().
+  // Returns the column of a property, or null if it does not exist (yet). `offers` must be the same
+  // in every call until Clear().
   std::shared_ptr<const PropertyColumn> Of(const Offers& offers, const std::string& property);
   // Whether none of the offers is a proxy or has a dynamic property.
   bool ArePlain(const Offers& offers);

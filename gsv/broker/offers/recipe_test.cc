@@ -34,7 +34,7 @@ TEST(Recipe, InsertsTheConstraintAndTheValues) {
   EXPECT_EQ(follow("x == $(strange)"), std::nullopt) << "NaN has no literal";
 }
 
-TEST(Recipe, IsRejectedIfItIsInvalid) {
+TEST(Recipe, RejectsInvalidRecipes) {
   for (const char* good : {"", "$*", "$$", "$(n)$(name)$(strange)", "*()"}) {
     EXPECT_TRUE(IsRecipe(good, kProperties)) << good;
   }

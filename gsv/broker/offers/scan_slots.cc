@@ -5,23 +5,23 @@
 
 namespace gsv::broker {
 
-ScanSlots::ScanSlots(std::size_t at_once) : at_once_(std::max<std::size_t>(at_once, 1)) {}
+ScanSlots::ScanSlots(std::size_t slots) : slot_count_(std::max<std::size_t>(slots, 1)) {}
 
 std::size_t ScanSlots::ForThisMachine() {
   const std::size_t cores = std::thread::hardware_concurrency();
   return cores > 1 ? cores - 1 : 1;
 }
 
-void ScanSlots::Take() {
+void ScanSlots::Acquire() {
   base::MutexLock lock(mutex_);
-  const std::uint64_t mine = asked_++;
-  changed_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return mine < ended_ + at_once_; });
+  const std::uint64_t mine = requests_++;
+  changed_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return mine < released_ + slot_count_; });
 }
 
-void ScanSlots::Give() {
+void ScanSlots::Release() {
   {
     const base::MutexLock lock(mutex_);
-    ++ended_;
+    ++released_;
   }
   changed_.notify_all();
 }

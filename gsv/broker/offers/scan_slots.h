@@ -1,5 +1,6 @@
-// Limits the number of threads that scan many offers at the same time. One core remains free for
-// short queries. Long queries take turns in the order of their arrival.
+// Limits the number of threads that scan many offers at the same time, so that one core remains
+// free for short queries. A long query waits for a slot. Slots are given in the order of the
+// requests.
 //
 // Threads  any.
 #pragma once
@@ -13,40 +14,41 @@ namespace gsv::broker {
 
 class ScanSlots {
  public:
-  // `at_once` is the number of concurrent turns, >= 1.
-  explicit ScanSlots(std::size_t at_once);
+  // `slots` is the number of scans that run at the same time, >= 1.
+  explicit ScanSlots(std::size_t slots);
   // Returns the number of cores minus one, but at least 1.
   static std::size_t ForThisMachine();
 
-  void Take();
-  void Give();
+  void Acquire();
+  void Release();
 
  private:
-  const std::uint64_t at_once_;
+  const std::uint64_t slot_count_;
   base::Mutex mutex_;
   base::ConditionVariable changed_;
-  std::uint64_t asked_ GSV_GUARDED_BY(mutex_) = 0;
-  std::uint64_t ended_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t requests_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t released_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
-// Holds a turn during its lifetime. Null stands for a scan that needs no turn.
+// Holds a slot during its lifetime. With a null argument it does nothing, for a scan that needs no
+// slot.
 class ScanSlot {
  public:
-  explicit ScanSlot(ScanSlots* turns) : turns_(turns) { Resume(); }
+  explicit ScanSlot(ScanSlots* slots) : slots_(slots) { Resume(); }
   ~ScanSlot() { Pause(); }
   ScanSlot(const ScanSlot&) = delete;
   ScanSlot& operator=(const ScanSlot&) = delete;
 
-  // Releases the turn while the holder waits for something else.
+  // Releases the slot while the thread waits for something else. Resume() waits for a slot again.
   void Pause() {
-    if (turns_ != nullptr) turns_->Give();
+    if (slots_ != nullptr) slots_->Release();
   }
   void Resume() {
-    if (turns_ != nullptr) turns_->Take();
+    if (slots_ != nullptr) slots_->Acquire();
   }
 
  private:
-  ScanSlots* const turns_;
+  ScanSlots* const slots_;
 };
 
 }  // namespace gsv::broker

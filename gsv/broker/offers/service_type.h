@@ -26,6 +26,7 @@ inline PropertyMode Stronger(PropertyMode a, PropertyMode b) {
   return static_cast<PropertyMode>(static_cast<int>(a) | static_cast<int>(b));
 }
 
+// A property that a service type declares.
 struct PropertyDefinition {
   std::string name{};
   PropertyType type{};

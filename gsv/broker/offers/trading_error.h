@@ -64,6 +64,7 @@ enum class Refusal {
   kNotStored,
 };
 
+// A property that two service types define differently.
 struct Redefinition {
   std::string type_1;
   PropertyDefinition definition_1;
@@ -71,6 +72,7 @@ struct Redefinition {
   PropertyDefinition definition_2;
 };
 
+// A service type whose interface does not derive from that of its super type.
 struct InterfaceMismatch {
   std::string base_service;
   std::string base_interface;
@@ -84,6 +86,7 @@ struct FollowConflict {
   FollowOption bound;
 };
 
+// An error of the trader. `refusal` determines which other members are set.
 struct TradingError {
   Refusal refusal = Refusal::kLimit;
   std::string type{};

@@ -1,4 +1,5 @@
-// Implements CosTrading::Admin: the trader's attributes, and the ids of all offers.
+// Implements the CORBA interface CosTrading::Admin: sets the trader's attributes, and lists the ids
+// of all offers.
 #pragma once
 
 #include <string>
@@ -49,12 +50,15 @@ class AdminServant : public POA_CosTrading::Admin,
                     CosTrading::OfferIdIterator_out id_itr) override;
 
  private:
+  // Sets an attribute and returns its previous value.
   template <typename T>
   T Exchange(T TraderAttributes::*attribute, T value);
+  // Returns the first `how_many` ids, and an iterator for the others.
   void HandOut(std::vector<std::string> all, CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,
                CosTrading::OfferIdIterator_out id_itr);
 };
 
+// Serves all iterators over ids: the object id is the cursor's key.
 class OfferIdIteratorServant : public POA_CosTrading::OfferIdIterator {
  public:
   explicit OfferIdIteratorServant(TradingObjects& objects) : objects_(objects) {}

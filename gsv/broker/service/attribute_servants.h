@@ -7,6 +7,7 @@
 
 namespace gsv::broker {
 
+// Implements the attributes for the references of the trader's interfaces.
 class ComponentsServant : public virtual POA_CosTrading::TraderComponents {
  public:
   CosTrading::Lookup_ptr lookup_if() override;
@@ -20,6 +21,7 @@ class ComponentsServant : public virtual POA_CosTrading::TraderComponents {
   TradingObjects& objects_;
 };
 
+// Implements the attributes for what the trader supports.
 class SupportServant : public virtual POA_CosTrading::SupportAttributes {
  public:
   CORBA::Boolean supports_modifiable_properties() override;
@@ -34,6 +36,7 @@ class SupportServant : public virtual POA_CosTrading::SupportAttributes {
   TradingObjects& trading_;
 };
 
+// Implements the attributes for the limits of queries.
 class ImportServant : public virtual POA_CosTrading::ImportAttributes {
  public:
   CORBA::ULong def_search_card() override;

@@ -10,8 +10,8 @@
 namespace gsv::broker {
 namespace {
 
-// A service that answers `value`, a double. If the test requests it, it fails, answers a string or
-// hangs instead.
+// A service that returns the double `value`. The test can make it fail, return a string or hang
+// instead.
 class Evaluator : public POA_CosTradingDynamic::DynamicPropEval {
  public:
   enum class Mood { kAnswer, kFail, kWrongType, kHang };

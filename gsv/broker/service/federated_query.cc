@@ -12,7 +12,7 @@
 namespace gsv::broker {
 namespace {
 
-// The properties that the importer requests, and the ones that are needed to order the offers.
+// Returns the properties that the importer requests and those that the preference needs.
 DesiredProperties WithThoseOf(const Preference& preference, DesiredProperties desired) {
   if (desired.all) return desired;
   for (const Node& node : preference.expression.nodes) {

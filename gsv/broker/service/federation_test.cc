@@ -177,7 +177,7 @@ TEST_F(FederationTest, TypeThatAnotherTraderDoesNotKnowIsNoError) {
   EXPECT_EQ(Limits(answer), Names{});
 }
 
-TEST_F(FederationTest, AQueryCanStartAtAnotherTrader) {
+TEST_F(FederationTest, QueryCanStartAtAnotherTrader) {
   Start(3);
   Node(0).LinkTo(Node(1), "near", CosTrading::local_only, CosTrading::local_only);
   Node(1).LinkTo(Node(2), "far", CosTrading::local_only, CosTrading::local_only);
@@ -240,7 +240,7 @@ TEST_F(FederationTest, RepeatedRequestIsNotAnsweredAgain) {
                "request_id");
 }
 
-TEST_F(FederationTest, AKilledTraderIsReported) {
+TEST_F(FederationTest, KilledTraderIsReported) {
   Start(3);
   Connect(0, 1);
   Connect(0, 2);

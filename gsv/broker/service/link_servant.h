@@ -1,4 +1,5 @@
-// Implements CosTrading::Link.
+// Implements the CORBA interface CosTrading::Link: adds, changes, lists and removes links to other
+// traders.
 #pragma once
 
 #include <COS/CosTrading.hh>

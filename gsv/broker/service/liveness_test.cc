@@ -48,7 +48,7 @@ TEST_F(LivenessTest, OnlyTheOfferOfAKilledProgramIsWithdrawn) {
   EXPECT_EQ(Query("Service").offers->length(), 1u);
 }
 
-TEST_F(LivenessTest, TheOfferOfADestroyedObjectIsWithdrawn) {
+TEST_F(LivenessTest, OfferOfADestroyedObjectIsWithdrawn) {
   ServiceProcess living(broker_.reference());
   const CORBA::Object_var root = TestOrb()->resolve_initial_references("RootPOA");
   const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);

@@ -35,7 +35,8 @@ bool IsDesired(const DesiredProperties& desired, const std::string& name) {
          std::find(desired.names.begin(), desired.names.end(), name) != desired.names.end();
 }
 
-// The size before dynamic properties are evaluated. A dynamic value has at most `dynamic_bytes`.
+// Returns an upper bound of the encoded size of an offer whose dynamic properties are not evaluated
+// yet. Each dynamic value has at most `dynamic_bytes`.
 std::size_t EncodedSize(const Offer& offer, const DesiredProperties& desired,
                         std::size_t dynamic_bytes) {
   constexpr std::size_t kOverhead = 32;
@@ -48,7 +49,7 @@ std::size_t EncodedSize(const Offer& offer, const DesiredProperties& desired,
   return size;
 }
 
-// Omits a dynamic property whose value is not available.
+// Converts an offer and evaluates its dynamic properties. Omits those whose value is not available.
 CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer, const DesiredProperties& desired,
                           DynamicValues& values) {
   CosTrading::Offer result;
@@ -82,16 +83,18 @@ CosTrading::PolicyNameSeq* ToCorba(const std::vector<std::string>& names) {
   return result._retn();
 }
 
-// Another trader that waits for this one's answer must not wait long.
+// Returns the time limit for evaluating dynamic properties. It is shorter for a query from another
+// trader, because that trader waits for the answer.
 std::chrono::milliseconds DynamicBudget(const TraderLimits& limits, const ImportPolicies& import) {
   if (!import.request_id) return limits.dynamic.query_budget;
   return std::min(limits.dynamic.query_budget, limits.federation.per_hop / 2);
 }
 
-// Calls `query`, which calls the trader that the importer named. If that trader is unavailable, the
-// error must not look as if this trader were unavailable, because the client's ORB would retry.
+// Calls `query`, which forwards the query to the trader in the policy starting_trader. If that
+// trader is unavailable, it throws TIMEOUT, because after TRANSIENT or COMM_FAILURE the client's
+// ORB would repeat the call.
 template <typename Call>
-void AskInstead(const Call& query) {
+void QueryStartingTrader(const Call& query) {
   try {
     query();
   } catch (const CORBA::TRANSIENT&) {
@@ -118,7 +121,7 @@ void LookupServant::query(const char* type, const char* constr, const char* pref
     const CosTrading::Lookup_var next = StartingTrader(objects_, import, policies);
     const TraderName rest(import.starting_trader.begin() + 1, import.starting_trader.end());
     const CosTrading::PolicySeq passed = PoliciesToPassOn(policies, {.starting_trader = rest});
-    AskInstead([&] {
+    QueryStartingTrader([&] {
       next->query(type, constr, pref, passed, desired_props, how_many, offers, offer_itr,
                   limits_applied);
     });

@@ -1,4 +1,5 @@
-// Implements CosTrading::Lookup, and the iterators over the results of a query.
+// Implements the CORBA interface CosTrading::Lookup: answers queries, and serves the iterators over
+// their results.
 #pragma once
 
 #include <COS/CosTrading.hh>

@@ -1,4 +1,4 @@
-// Reads the policies of a query.
+// Converts the policies of a query from and to CORBA.
 #pragma once
 
 #include <cstdint>

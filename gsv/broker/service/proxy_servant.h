@@ -1,4 +1,5 @@
-// Implements CosTrading::Proxy.
+// Implements the CORBA interface CosTrading::Proxy: exports and withdraws proxy offers, which stand
+// for the offers of another trader.
 #pragma once
 
 #include <COS/CosTrading.hh>

@@ -166,7 +166,7 @@ TEST_F(ProxyServantTest, DistinguishesOffersFromProxies) {
   EXPECT_EQ(rest->max_left(), 1u) << "a proxy is withdrawn by its id alone";
 }
 
-TEST_F(ProxyServantTest, AProxyStandsForTheOffersOfItsTarget) {
+TEST_F(ProxyServantTest, ProxyStandsForTheOffersOfItsTarget) {
   Add("($*) and n < $(most)", {{"most", Value::Long(3)}});
   near_.Export("Robot", {{"n", Value::Long(1)}});
   EXPECT_EQ(Found("n >= 1"), 3u) << "one here, 1 and 2 there";
@@ -199,7 +199,7 @@ TEST_F(ProxyServantTest, ProxyForItsOwnTraderDoesNotLoop) {
   EXPECT_EQ(Found(""), 1u);
 }
 
-TEST_F(ProxyServantTest, AMissingTargetIsReported) {
+TEST_F(ProxyServantTest, MissingTargetIsReported) {
   Add("$*");
   near_.Export("Robot");
   far_.broker_.Send(SIGKILL);

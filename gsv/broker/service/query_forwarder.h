@@ -26,6 +26,7 @@ struct DesiredProperties {
   std::vector<std::string> names;
 };
 
+// The parts of a query that are equal for all traders.
 struct ForwardedQuery {
   std::string type;
   std::string preference;
@@ -34,6 +35,7 @@ struct ForwardedQuery {
   std::chrono::steady_clock::time_point deadline;
 };
 
+// A trader to which a query is forwarded, and the parts of the query that are different for each.
 struct QueryDestination {
   std::string name;    // the name in messages, such as "link north"
   std::string target;  // the trader's Lookup: "IOR:…"
@@ -41,6 +43,7 @@ struct QueryDestination {
   CosTrading::PolicySeq policies;
 };
 
+// The answer of one trader.
 struct ForwardedAnswer {
   Offers offers{};
   std::vector<std::string> limits_applied{};
@@ -62,11 +65,12 @@ class QueryForwarder {
   // Returns false if the trader is silent and another query is calling it, or if too many calls are
   // in progress.
   bool Enter(const std::string& target);
+  // Ends a call for which Enter() returned true, and notes whether the trader is silent.
   void Leave(const QueryDestination& destination, bool answered);
 
   const FederationLimits limits_;
   base::Mutex mutex_;
-  std::size_t underway_ GSV_GUARDED_BY(mutex_) = 0;
+  std::size_t underway_ GSV_GUARDED_BY(mutex_) = 0;  // number of calls in progress
   std::map<std::string, bool> silent_
       GSV_GUARDED_BY(mutex_);  // silent traders, and whether a query calls them now
 };

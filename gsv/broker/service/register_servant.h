@@ -1,4 +1,5 @@
-// Implements CosTrading::Register.
+// Implements the CORBA interface CosTrading::Register: exports, describes, changes and withdraws
+// offers.
 #pragma once
 
 #include <COS/CosTrading.hh>

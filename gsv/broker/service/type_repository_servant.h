@@ -1,4 +1,5 @@
-// Implements CosTradingRepos::ServiceTypeRepository.
+// Implements the CORBA interface CosTradingRepos::ServiceTypeRepository: adds, describes and
+// removes service types.
 #pragma once
 
 #include <COS/CosTradingRepos.hh>

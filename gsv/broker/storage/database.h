@@ -15,6 +15,7 @@
 
 namespace gsv::broker {
 
+// A prepared SQL statement.
 class Statement {
  public:
   // Binds an argument. `place` counts from 1. A string_view is bound as text; BindBlob() binds
@@ -38,6 +39,7 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
+// An open database.
 class Database {
  public:
   [[nodiscard]] static base::Result<Database> Open(const std::string& path);

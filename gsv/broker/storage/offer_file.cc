@@ -68,8 +68,8 @@ void OfferFile::Close() {
   works_ = false;
   waiting_.clear();
   written_.notify_all();
-  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // if this fails, the next Open() empties
-                                                           // the log
+  // if this fails, the next Open() empties the log
+  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 
 base::Result<TraderState> OfferFile::Load() {
@@ -186,21 +186,21 @@ bool OfferFile::works() const {
   return works_;
 }
 
-Journal::Ticket OfferFile::Append(StateChange change) {
-  Ticket ticket = 0;
+Journal::ChangeNumber OfferFile::Append(StateChange change) {
+  ChangeNumber number = 0;
   {
     const base::MutexLock lock(mutex_);
     if (works_) waiting_.push_back(std::move(change));
-    ticket = ++last_appended_;
+    number = ++last_appended_;
   }
   appended_.notify_one();
-  return ticket;
+  return number;
 }
 
-bool OfferFile::Wait(Ticket ticket) {
+bool OfferFile::Wait(ChangeNumber number) {
   base::MutexLock lock(mutex_);
-  written_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return last_written_ >= ticket || !works_; });
-  return last_written_ >= ticket;
+  written_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return last_written_ >= number || !works_; });
+  return last_written_ >= number;
 }
 
 void OfferFile::Write() {
@@ -209,7 +209,7 @@ void OfferFile::Write() {
     appended_.wait(lock, [this]() GSV_REQUIRES(mutex_) { return ending_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
     const std::vector<StateChange> changes = std::exchange(waiting_, {});
-    const Ticket last = last_appended_;
+    const ChangeNumber last = last_appended_;
     lock.unlock();
     const base::Status written = WriteWithRetries(changes);
     lock.lock();

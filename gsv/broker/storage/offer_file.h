@@ -38,8 +38,8 @@ class OfferFile : public Journal {
   [[nodiscard]] base::Status LimitPages(int pages);
 
   bool works() const override;
-  Ticket Append(StateChange change) override;
-  [[nodiscard]] bool Wait(Ticket ticket) override;
+  ChangeNumber Append(StateChange change) override;
+  [[nodiscard]] bool Wait(ChangeNumber number) override;
   // Also empties the write-ahead log.
   void Close() override;
 
@@ -57,7 +57,7 @@ class OfferFile : public Journal {
   base::Status LoadLinks(TraderState& state);
   base::Status LoadAttributes(TraderState& state);
 
-  void Write();
+  void Write();  // the function of writer_
   base::Status WriteWithRetries(const std::vector<StateChange>& changes);
   base::Status WriteAll(const std::vector<StateChange>& changes);
   base::Status Apply(const OfferStored& change);
@@ -78,11 +78,11 @@ class OfferFile : public Journal {
   base::ConditionVariable appended_;
   base::ConditionVariable written_;
   std::vector<StateChange> waiting_ GSV_GUARDED_BY(mutex_);
-  Ticket last_appended_ GSV_GUARDED_BY(mutex_) = 0;
-  Ticket last_written_ GSV_GUARDED_BY(mutex_) = 0;
+  ChangeNumber last_appended_ GSV_GUARDED_BY(mutex_) = 0;
+  ChangeNumber last_written_ GSV_GUARDED_BY(mutex_) = 0;
   bool works_ GSV_GUARDED_BY(mutex_) = true;
   bool ending_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread writer_;  // the last member, because it uses the others
+  std::thread writer_;  // destroyed first, because it uses the other members
 };
 
 }  // namespace gsv::broker

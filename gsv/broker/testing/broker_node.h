@@ -1,4 +1,4 @@
-// For tests: one of several brokers.
+// For tests: one of several linked brokers, in its own process.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ struct NoValue {};
 // Holds every sum and product of two 64-bit integers.
 __extension__ typedef __int128 Integer;
 
-// A number as the quotient of two integers. `whole` is true if it was written as an integer.
+// A number. If `integer` is true, its value is `whole`, else `real`.
 struct Number {
   bool integer;
   Integer whole;
@@ -189,7 +189,7 @@ class Reader {
     return Number{false, 0, Real(sign, a, b)};
   }
 
-  // Computes with doubles if integers overflow.
+  // Returns the exact integer, or the result computed with doubles if there is none.
   static Result Reals(const Number& exact, const Number& a, const Number& b, char sign) {
     if (exact.integer) return exact;
     return Number{false, 0, Real(sign, a, b)};

@@ -85,6 +85,8 @@ class CursorTable {
     return batch;
   }
 
+  // Returns the number of entries that are not fetched yet. Returns nullopt if there is no such
+  // cursor.
   std::optional<std::size_t> Left(std::uint64_t key) {
     const base::MutexLock lock(mutex_);
     const Cursor* cursor = Use(key);
@@ -113,6 +115,7 @@ class CursorTable {
   }
 
  private:
+  // The results of one iterator that are not fetched yet: `entries` from `next` on.
   struct Cursor {
     std::vector<Entry> entries;
     std::size_t next = 0;
@@ -121,6 +124,7 @@ class CursorTable {
   };
   using Cursors = std::map<std::uint64_t, Cursor>;
 
+  // Returns the cursor and notes that it is used now. Returns null if there is no such cursor.
   Cursor* Use(std::uint64_t key) GSV_REQUIRES(mutex_) {
     RemoveExpired();
     const auto found = cursors_.find(key);
@@ -153,7 +157,7 @@ class CursorTable {
   const Clock clock_;
   mutable base::Mutex mutex_;
   Cursors cursors_ GSV_GUARDED_BY(mutex_);
-  std::size_t held_ GSV_GUARDED_BY(mutex_) = 0;
+  std::size_t held_ GSV_GUARDED_BY(mutex_) = 0;  // number of entries of all cursors
   std::uint64_t next_key_ GSV_GUARDED_BY(mutex_) = 1;
 };
 

@@ -1,4 +1,5 @@
-// Determines the links that a query follows, and the policies for the traders at their ends.
+// Determines the links that a query follows, and the policies of the queries that are forwarded
+// over them.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), "link follow behavior", "hop_count".
 #pragma once

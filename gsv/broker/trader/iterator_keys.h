@@ -1,4 +1,5 @@
-// Converts between the keys of iterators and their object ids.
+// Converts between the keys of cursors (cursor_table.h) and the references of the iterators that
+// use them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The durable state of a trader. The trader passes it to its storage change by change.
+// The state of a trader that survives a restart, the changes to it, and the interface through which
+// the trader stores each change (Journal).
 #pragma once
 
 #include <cstdint>
@@ -55,17 +56,17 @@ struct TraderState {
 // Threads  any.
 class Journal {
  public:
-  using Ticket = std::uint64_t;  // increases with each change
+  using ChangeNumber = std::uint64_t;  // the number of a change; increases by one
 
   virtual ~Journal() = default;
   // Returns false once a change could not be written.
   virtual bool works() const = 0;
   // Queues the change without waiting. A caller must wait for it before appending another one. So
   // there are at most as many queued changes as callers.
-  virtual Ticket Append(StateChange change) = 0;
+  virtual ChangeNumber Append(StateChange change) = 0;
   // Blocks until this change and all changes before it are stored. Returns false if they cannot be
   // stored.
-  [[nodiscard]] virtual bool Wait(Ticket ticket) = 0;
+  [[nodiscard]] virtual bool Wait(ChangeNumber number) = 0;
   // Stores all queued changes. Later changes are not stored, and works() returns false.
   virtual void Close() = 0;
 };

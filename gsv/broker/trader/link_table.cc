@@ -34,7 +34,8 @@ TradingResult<void> LinkTable::Add(TraderLink link, FollowOption bound) {
   if (auto fits = CheckRules(link.def_pass_on, link.limiting, bound); !fits) return fits;
   if (links_.size() >= limit_) {
     return Refuse(
-        {.refusal = Refusal::kLimit, .detail = fmt::format("there are {} links already", limit_)});
+        {.refusal = Refusal::kLimit,
+         .detail = fmt::format("the broker already has {} links, which is its limit", limit_)});
   }
   Restore(std::move(link));
   return {};

@@ -61,7 +61,8 @@ std::shared_ptr<const LivenessMonitor::Service> LivenessMonitor::Next(base::Mute
     if (!is_over) share = share / static_cast<int>(round_.size()) * static_cast<int>(next_);
     const auto due = round_start_ + share;
     if (Clock::now() < due) {
-      // Another thread may have taken the service, or begun a round, meanwhile. So it checks again.
+      // The loop checks again, because meanwhile another thread may have taken the service or begun
+      // a round.
       ending_changed_.wait_until(lock, due, [this]() GSV_REQUIRES(mutex_) { return ending_; });
     } else if (is_over) {
       StartRound();

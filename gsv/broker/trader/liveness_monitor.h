@@ -6,8 +6,8 @@
 // after `max_silence`. An address that does not answer is called once per period, for all its
 // services.
 //
-// The offer of a dead service is visible for at most two periods plus the time for the silent
-// addresses, which is their number times `timeout` / `concurrent`.
+// The offer of a dead service is visible for at most two periods plus the time for silent
+// addresses. This time is the number of these addresses times `timeout` / `concurrent`.
 //
 // Threads  it has threads of its own.
 #pragma once
@@ -34,6 +34,7 @@ struct LivenessOptions {
   int concurrent = 4;                        // number of calls at a time
 };
 
+// The state of a service.
 enum class Liveness {
   kAlive,
   kGone,    // the service reported its end, or its port refuses connections
@@ -56,16 +57,18 @@ class LivenessMonitor {
  private:
   using Clock = std::chrono::steady_clock;
 
+  // A service, and the numbers of its offers.
   struct Service {
     std::string reference;
     std::string address;
     std::vector<std::uint64_t> offers;
   };
 
-  void Work();
+  void Work();  // the function of each thread
   void AskDueServices();
   // Waits for the next service that is due. Returns null at the end.
   std::shared_ptr<const Service> Next(base::MutexLock& lock) GSV_REQUIRES(mutex_);
+  // Begins to check all offered services again.
   void StartRound() GSV_REQUIRES(mutex_);
   // Returns true if the service is dead.
   bool Judge(const Service& service, Liveness pulse) GSV_REQUIRES(mutex_);
@@ -84,7 +87,7 @@ class LivenessMonitor {
   // addresses that did not answer in this round
   std::set<std::string> silent_addresses_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, Clock::time_point> silent_since_ GSV_GUARDED_BY(mutex_);  // by reference
-  std::vector<std::thread> workers_;  // the last member, because the threads use the others
+  std::vector<std::thread> workers_;  // destroyed first, because they use the other members
 };
 
 }  // namespace gsv::broker

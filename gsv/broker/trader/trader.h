@@ -49,6 +49,7 @@ struct MatchingOffers {
   std::vector<std::string> limits_applied{};
 };
 
+// The result of a query: ordered and limited.
 struct QueryResult {
   FoundOffers offers{};
   // The names of the policies that limited the result.
@@ -134,9 +135,9 @@ class Trader {
     if (journal_ != nullptr) journal_->Close();
   }
 
-  // ---- Queries
-  // The offers of this trader only. Find() does both steps; between them, the caller may add offers
-  // of other traders.
+  // ---- Queries Queries search the offers of this trader only. FindMatching() finds the offers,
+  // and Rank() orders and limits them. Find() calls both. A caller may call them separately and add
+  // offers of other traders in between.
   TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
   QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
   TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;
@@ -149,8 +150,9 @@ class Trader {
   // memory; later ones change nothing.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
+  // Appends a change to the journal, if there is one.
   void Record(StateChange change) GSV_REQUIRES(mutex_) {
-    if (journal_ != nullptr) last_ticket_ = journal_->Append(std::move(change));
+    if (journal_ != nullptr) last_change_ = journal_->Append(std::move(change));
   }
   void RecordType(const std::string& name) GSV_REQUIRES(mutex_);
 
@@ -181,7 +183,7 @@ class Trader {
   TypeRepository types_ GSV_GUARDED_BY(mutex_);
   mutable OfferStore offers_ GSV_GUARDED_BY(mutex_);  // mutable, because a query may add an index
   LinkTable links_ GSV_GUARDED_BY(mutex_);
-  Journal::Ticket last_ticket_ GSV_GUARDED_BY(mutex_) = 0;
+  Journal::ChangeNumber last_change_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 // A change is on disk before its caller gets an answer. No thread holds the lock while it waits for
@@ -190,14 +192,14 @@ template <typename Apply>
 std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
   const TradingError not_stored{.refusal = Refusal::kNotStored};
   if (journal_ != nullptr && !journal_->works()) return Refuse(not_stored);
-  Journal::Ticket ticket = 0;
+  Journal::ChangeNumber number = 0;
   auto result = [&] {
     const base::WriterLock lock(mutex_);
     auto applied = apply();
-    ticket = last_ticket_;
+    number = last_change_;
     return applied;
   }();
-  if (journal_ != nullptr && result && !journal_->Wait(ticket)) return Refuse(not_stored);
+  if (journal_ != nullptr && result && !journal_->Wait(number)) return Refuse(not_stored);
   return result;
 }
 

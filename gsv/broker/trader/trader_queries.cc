@@ -15,8 +15,8 @@
 namespace gsv::broker {
 namespace {
 
-// A search with fewer steps ends soon and needs no turn.
-constexpr std::size_t kWorthATurn = 20'000;
+// A search with fewer steps is short and needs no slot (scan_slots.h).
+constexpr std::size_t kMinStepsForSlot = 20'000;
 
 // With fewer offers, a scan is as fast as an index.
 constexpr std::size_t kWorthAnIndex = 256;
@@ -85,14 +85,14 @@ class Trader::Search {
   void Run() {
     for (const OfferView& view : matches_.offers.views()) {
       for (const auto& chunk : view.chunks()) {
-        if (!LookThrough(*chunk)) return;
+        if (!Scan(*chunk)) return;
       }
     }
   }
 
  private:
   // Returns false when the limit of searched or found offers is reached.
-  bool LookThrough(const OfferChunk& chunk) {
+  bool Scan(const OfferChunk& chunk) {
     // If there is a limit on the number of offers, the result for an offer depends on every offer
     // before it.
     const std::vector<Choice> choices =
@@ -120,13 +120,12 @@ class Trader::Search {
     return true;
   }
 
-  // How many more offers may match.
+  // Returns the number of matches that may still be added.
   std::size_t Room() const {
     return candidates_.cardinalities.match - matches_.offers.size() - matches_.proxies.size();
   }
 
-  // Takes the chosen offers of a plain chunk, all of which are admitted. Does not access the
-  // offers.
+  // Adds the chosen offers of a plain chunk, without reading the offers. All of them are admitted.
   void TakeChosen(const OfferChunk& chunk, const std::vector<Choice>& choices,
                   const PropertyColumn* order) {
     for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -200,8 +199,8 @@ TradingResult<MatchingOffers> Trader::FindMatching(const Query& query,
                          .preference = std::move(*preference),
                          .cardinalities = candidates.cardinalities,
                          .limits_applied = std::move(candidates.limits_applied)};
-  ScanSlot turn(steps > kWorthATurn ? &scan_slots_ : nullptr);
-  values.set_slot(&turn);
+  ScanSlot slot(steps > kMinStepsForSlot ? &scan_slots_ : nullptr);
+  values.set_slot(&slot);
   Search(candidates, *constraint, values, matches).Run();
   values.set_slot(nullptr);
   return matches;

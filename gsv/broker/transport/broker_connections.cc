@@ -27,10 +27,10 @@ constexpr std::chrono::seconds kMessageTime{3};
 // not delay others.
 //
 // Threads  any.
-class RequestTurns {
+class RequestSlots {
  public:
-  bool Take() { return free_.try_acquire_for(std::chrono::milliseconds(1)); }
-  void Give() { free_.release(); }
+  bool Acquire() { return free_.try_acquire_for(std::chrono::milliseconds(1)); }
+  void Release() { free_.release(); }
 
  private:
   std::counting_semaphore<> free_{1 + static_cast<int>(std::thread::hardware_concurrency())};
@@ -38,8 +38,8 @@ class RequestTurns {
 
 class ClientConnection;
 
-// The open connections of clients. A connection without a thread waits here for the rest of its
-// message.
+// The open connections of clients. For a connection that has no thread, the table receives the
+// message until it is complete.
 //
 // Threads  any.
 class ConnectionTable {
@@ -48,10 +48,10 @@ class ConnectionTable {
 
   void Add(orb::ConnectionControl* control, ClientConnection* connection);
   void Remove(orb::ConnectionControl* control);
-  // Called when bytes have arrived. Returns true if the ORB shall read them now. Returns false if
-  // they were read here and more must follow.
+  // Called when bytes have arrived. Returns true if the ORB must read the message now. Returns
+  // false if the bytes were read here and the message is still incomplete.
   bool Readable(orb::ConnectionControl* control);
-  RequestTurns& turns() { return turns_; }
+  RequestSlots& slots() { return slots_; }
 
  private:
   struct Entry {
@@ -60,10 +60,10 @@ class ConnectionTable {
   };
 
   void EndLate(SteadyClock::time_point now) GSV_REQUIRES(mutex_);
-  void EndSilent() GSV_REQUIRES(mutex_);
+  void EndMostIdle() GSV_REQUIRES(mutex_);
 
   const std::size_t limit_;
-  RequestTurns turns_;
+  RequestSlots slots_;
   base::Mutex mutex_;
   std::map<orb::ConnectionControl*, Entry> connections_ GSV_GUARDED_BY(mutex_);
 };
@@ -75,47 +75,47 @@ class ClientConnection final : public orb::ConnectionHooks {
     table_->Add(&control_, this);
   }
   ~ClientConnection() override {
-    GiveTurn();
+    ReleaseSlot();
     table_->Remove(&control_);
   }
 
-  void OnWait() override { GiveTurn(); }  // called if the previous request had no reply
-  void OnBytes() override { Hear(); }
+  void OnWait() override { ReleaseSlot(); }  // called if the previous request had no reply
+  void OnBytes() override { NoteActivity(); }
   void OnMessage(std::string& message) override {
-    TakeTurn();
+    AcquireSlot();
     CheckRequest(message);
   }
-  void OnSend(std::string_view /*bytes*/) override { GiveTurn(); }
+  void OnSend(std::string_view /*bytes*/) override { ReleaseSlot(); }
 
   // The time at which the last bytes were received, or at which the connection was opened.
-  SteadyClock::time_point heard() const {
-    return SteadyClock::time_point(SteadyClock::duration(heard_.load()));
+  SteadyClock::time_point last_activity() const {
+    return SteadyClock::time_point(SteadyClock::duration(last_activity_.load()));
   }
-  // Ends the most silent connection. The ORB destroys it later; until then another connection
-  // counts as the most silent.
-  void EndAsSilent() {
-    Hear();
+  // Closes this connection because it has been idle longest. The ORB destroys it later. Until then
+  // it does not count as idle, so that the next call closes another connection.
+  void EndAsIdle() {
+    NoteActivity();
     control_.End();
   }
 
  private:
-  void Hear() { heard_ = SteadyClock::now().time_since_epoch().count(); }
-  void TakeTurn() {
-    if (table_->turns().Take() && has_turn_.exchange(true)) table_->turns().Give();
+  void NoteActivity() { last_activity_ = SteadyClock::now().time_since_epoch().count(); }
+  void AcquireSlot() {
+    if (table_->slots().Acquire() && has_slot_.exchange(true)) table_->slots().Release();
   }
-  void GiveTurn() {
-    if (has_turn_.exchange(false)) table_->turns().Give();
+  void ReleaseSlot() {
+    if (has_slot_.exchange(false)) table_->slots().Release();
   }
 
   orb::ConnectionControl& control_;
   const std::shared_ptr<ConnectionTable> table_;
-  std::atomic<SteadyClock::rep> heard_ = SteadyClock::now().time_since_epoch().count();
-  std::atomic<bool> has_turn_ = false;  // true from a request to its reply
+  std::atomic<SteadyClock::rep> last_activity_ = SteadyClock::now().time_since_epoch().count();
+  std::atomic<bool> has_slot_ = false;  // true from a request to its reply
 };
 
 void ConnectionTable::Add(orb::ConnectionControl* control, ClientConnection* connection) {
   const base::MutexLock lock(mutex_);
-  if (connections_.size() >= limit_) EndSilent();
+  if (connections_.size() >= limit_) EndMostIdle();
   connections_[control] = {connection};
 }
 
@@ -151,9 +151,11 @@ void ConnectionTable::EndLate(SteadyClock::time_point now) {
   }
 }
 
-void ConnectionTable::EndSilent() {
-  const auto heard = [](const auto& each) { return each.second.connection->heard(); };
-  std::ranges::min_element(connections_, {}, heard)->second.connection->EndAsSilent();
+void ConnectionTable::EndMostIdle() {
+  const auto last_activity = [](const auto& each) {
+    return each.second.connection->last_activity();
+  };
+  std::ranges::min_element(connections_, {}, last_activity)->second.connection->EndAsIdle();
 }
 
 // A connection to a service or another trader.

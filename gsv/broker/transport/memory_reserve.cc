@@ -11,14 +11,14 @@
 namespace gsv::broker {
 namespace {
 
-// A range of addresses that is usable for both objects and stacks of threads.
+// A reserved range of addresses. After it is freed, both objects and stacks of threads can use it.
 class Reserve {
  public:
-  explicit Reserve(std::size_t bytes) : bytes_(bytes) { (void)PutBy(); }
+  explicit Reserve(std::size_t bytes) : bytes_(bytes) { (void)Refill(); }
 
   // Reserves the range if necessary. Returns true if it is reserved, or if as much memory is free
   // in the heap.
-  bool PutBy() {
+  bool Refill() {
     const base::MutexLock lock(mutex_);
     if (range_ != MAP_FAILED) return true;
     range_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
@@ -27,7 +27,7 @@ class Reserve {
   }
 
   // Frees the range. Returns false if it was not reserved.
-  bool Spend() {
+  bool Release() {
     const base::MutexLock lock(mutex_);
     if (range_ == MAP_FAILED) return false;
     munmap(range_, bytes_);
@@ -50,12 +50,12 @@ void HoldMemoryReserve(std::size_t bytes) {
   if (g_reserve != nullptr) return;
   g_reserve = new Reserve(bytes);
   std::set_new_handler([] {
-    if (!g_reserve->Spend()) throw std::bad_alloc();
+    if (!g_reserve->Release()) throw std::bad_alloc();
   });
 }
 
 void RequireMemoryReserve() {
-  if (g_reserve != nullptr && !g_reserve->PutBy()) {
+  if (g_reserve != nullptr && !g_reserve->Refill()) {
     throw CORBA::NO_MEMORY(0, CORBA::COMPLETED_NO);
   }
 }

@@ -1,5 +1,5 @@
-// Checks the messages of those operations of the trading service that need it, according to the
-// IDL.
+// Checks the messages of the Trading Service before omniORB reads them. Only operations that pass
+// an `any` or a TypeCode are checked (orb/giop/message_check.h). trading.idl defines their types.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // A model as a tree of rigid parts. Links that cannot move relative to each other form one part.
 //
-// Frames  the model's, at zero joint positions. A part's own frame lies in its centre of mass, with
-//         its axes along the principal axes of its inertia.
+// Frames  Poses are in the model's frame, with all joints at zero. The origin of a part's frame is
+//         its centre of mass. The axes are the principal axes of its inertia.
 // Units   kg, kg m², metres.
 #pragma once
 
@@ -12,6 +12,7 @@
 
 namespace gsv::dynamics {
 
+// A rigid part of a model: one or more links that cannot move relative to each other.
 struct Part {
   // The joint of the model between this part and its parent; -1 for the base. A ball joint is three
   // joints of the model, and this is the last of them.
@@ -21,10 +22,11 @@ struct Part {
   double mass = 0;
   geometry::Pose model_from_part;
   geometry::Vector3 inertia;  // principal moments
-  double heaviness = 1;       // the fraction of its mass on which gravity acts
-  bool is_kinematic = false;  // forces do not move it
+  double heaviness = 1;       // the fraction of the part's mass on which gravity acts
+  bool is_kinematic = false;  // forces do not move this part
 };
 
+// A model as a tree of rigid parts.
 struct Articulation {
   std::vector<Part> parts;  // parents come before their children; the first part is the base
   std::vector<int> part_of_link;

@@ -1,12 +1,14 @@
 #include "gsv/dynamics/motion/attached_layout.h"
 
 #include <algorithm>
+#include <string>
 #include <tuple>
+#include <utility>
 
 namespace gsv::dynamics {
 namespace {
 
-// The body's own copy of its model.
+// Replaces the model of the body, which other bodies may share, by a copy. Returns the copy.
 model::Model& OwnModel(world::Body& body) {
   auto model = std::make_shared<model::Model>(*body.model);
   body.model = model;
@@ -44,22 +46,25 @@ bool AttachedLayout::IsHolder(int body) const {
 
 base::Status AttachedLayout::Check(const Attachment& attachment) const {
   const std::vector<world::Body>& bodies = layout_->bodies;
-  const auto refuse = [](const char* message, std::string where = {}) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, message, std::move(where));
+  const auto refuse = [](std::string message, std::string where = {}) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, std::move(message), std::move(where));
   };
   const auto exists = [&](int body) { return body >= 0 && body < static_cast<int>(bodies.size()); };
   if (!exists(attachment.holder_body) || !exists(attachment.held_body)) {
-    return refuse("cannot attach: there is no body with this index");
+    return refuse("cannot attach body " + std::to_string(attachment.held_body) + " to body " +
+                  std::to_string(attachment.holder_body) + ": the world has only " +
+                  std::to_string(bodies.size()) + " bodies");
   }
   const world::Body& holder = bodies[attachment.holder_body];
   const world::Body& held = bodies[attachment.held_body];
   if (attachment.holder_link < 0 ||
       attachment.holder_link >= static_cast<int>(holder.model->links.size())) {
-    return refuse("cannot attach: the holder has no link with this index", holder.name);
+    return refuse("cannot attach: the holder has no link " + std::to_string(attachment.holder_link),
+                  holder.name);
   }
   if (holder.is_static() || IsHeld(attachment.holder_body) ||
       attachment.holder_body == attachment.held_body) {
-    return refuse("cannot attach: the holder is static or attached itself", holder.name);
+    return refuse("cannot attach: the holder is static or is attached itself", holder.name);
   }
   if (!held.is_rigid() || IsHeld(attachment.held_body) || IsHolder(attachment.held_body)) {
     return refuse("cannot attach: only a rigid body without attachments can be attached",

@@ -1,8 +1,8 @@
 // Converts a layout with attachments to the layout that engines use. The shapes of an attached body
 // belong to the link that holds it. The attached body itself is static and collides with nothing.
 //
-// Determinism  the outcome depends on which attachments there are, not on the order in which they
-//              were made.
+// Determinism  the result depends on the set of attachments, not on the order in which they were
+//              made.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class AttachedLayout {
   // Removes all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
-  // The same as the functions of Engine.
+  // The same as Engine::Attach() and Engine::Detach().
   base::Status Attach(const Attachment& attachment, const world::State& state);
   void Detach(int held_body);
 
@@ -31,9 +31,11 @@ class AttachedLayout {
     std::vector<geometry::Pose> held_from_links;
   };
 
+  // Returns an error if the attachment is invalid, see Engine::Attach().
   base::Status Check(const Attachment& attachment) const;
   bool IsHeld(int body) const;
   bool IsHolder(int body) const;
+  // Returns the layout in which held shapes belong to their holders.
   std::shared_ptr<const world::Layout> Derive() const;
 
   std::shared_ptr<const world::Layout> layout_;

@@ -13,6 +13,7 @@ namespace gsv::dynamics {
 
 class BallAngles {
  public:
+  // For a part on a ball joint.
   BallAngles(const model::Model& model, const Part& part);
 
   // Indices of the model's joints, from parent to child.

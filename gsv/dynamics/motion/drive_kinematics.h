@@ -1,15 +1,15 @@
-// The motion of a wheeled base according to its commands: limits, the resulting twist, and the
-// rotation of its wheels.
+// Computes how a wheeled base follows its commands: its velocity within its limits, the twist of
+// its frame, and the rotation of its wheels.
 //
-// Frames   the model's; the commanded velocity is that of the drive's reference point: halfway
-//          between the wheels along x, on the rear axle for Ackermann steering, the model's origin
-//          for a base without wheels.
+// Frames   the model's frame. A command is the velocity of the drive's reference point. This point
+//          is halfway between the wheels along x, or on the rear axle for Ackermann steering. For a
+//          base without wheels, it is the model's origin.
 // Slip     with a drive's slip (model::Slip) the forces follow from the motion at a constant speed.
 //          On an arc, the side force m v w makes the base drift outwards at lateral * v w / g *
-//          |v|. The base rotates by the fraction b² / (b² + longitudinal / lateral * x²) of the
-//          rotation that the wheels command, where b is half of the wheel separation and x² the
-//          mean square of the wheels' distances along x from the reference point. This applies if
-//          both compliances are above 0. Slip during acceleration is not modelled.
+//          |v|. The base rotates by only a fraction of the rotation that the wheels command: b² /
+//          (b² + longitudinal / lateral * x²). Here b is half of the wheel separation, and x² is
+//          the mean square of the wheels' distances along x from the reference point. This applies
+//          if both compliances are above 0. Slip during acceleration is not modelled.
 // Source   for the wheels' equations: Siegwart, Nourbakhsh, Scaramuzza, "Introduction to Autonomous
 //          Mobile Robots", 2nd edition, chapter 3.
 #pragma once
@@ -26,7 +26,7 @@
 
 namespace gsv::dynamics {
 
-// The maximum speeds of all bases, whatever their own limits are.
+// The maximum speeds of every base, even if its own limits are higher.
 inline constexpr double kMaxLinearSpeed = 100;   // m/s
 inline constexpr double kMaxAngularSpeed = 100;  // rad/s
 
@@ -41,7 +41,8 @@ class DriveKinematics {
   // Rejects invalid limits and dimensions, and joints that do not exist.
   static base::Result<DriveKinematics> Create(const model::Model& model);
 
-  // The base of a person, or a base without a body: accepts any velocity.
+  // Returns the kinematics of a person or of any other body without a drive: it accepts any
+  // velocity.
   static DriveKinematics Free();
 
   // Returns the motion in the next step from the present motion and the command. A command that is
@@ -91,13 +92,17 @@ class DriveKinematics {
     double lateral = 0;  // distance to the left, m
   };
 
+  // Adds the wheels of one side. `side` is 1 for the left and -1 for the right.
   void AddWheels(const model::Model& model, const std::vector<int>& joints, double side);
+  // Computes from the drive's slip how much less the base turns than its wheels command.
   void SetSlip(const model::Model& model);
   // Limits the rotation to what the steering allows.
   void LimitTurn(world::DriveCommand& motion) const;
   // TrueMotion() without slip: the motion of wheels that roll.
   world::DriveCommand RolledMotion(const world::DriveCommand& motion) const;
+  // Returns the rotation of a wheel (rad) while the base travels.
   double RollOf(const Wheel& wheel, const Travel& travel) const;
+  // Returns the angle of a steering joint (rad) for a path of this curvature (1/m).
   double SteeringAngle(const Steered& steered, double curvature) const;
 
   model::Drive drive_;

@@ -17,7 +17,8 @@ void HoldBase(const DriveServo& servo, const geometry::Pose& world_from_model, c
   const double most = grip * seconds;
   const double missing_x = wanted_x - velocity_of_point.x;
   const double missing_y = wanted_y - velocity_of_point.y;
-  // The grip of the base is the same in every direction.
+  // The limit applies to the length of the change of velocity, so it is the same in every
+  // direction.
   const double missing = std::sqrt(missing_x * missing_x + missing_y * missing_y);
   const double share = missing > most ? most / missing : 1;
   velocity_of_point.x += share * missing_x;

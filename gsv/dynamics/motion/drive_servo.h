@@ -29,10 +29,10 @@ class DriveServo {
   base::SimTime now_;
 };
 
-// Some drives have no wheels that could roll (synchro, mecanum, velocity). They control the
-// base itself: its horizontal velocity and its turn rate about the vertical approach the target
-// velocity, by at most `grip` (m/s², rad/s²) times `seconds`. There must be no friction between
-// such a base and the bodies that carry it.
+// Some drives have no wheels that could roll (synchro, mecanum, velocity). Such a drive controls
+// the base directly: its horizontal velocity and its turn rate about the vertical approach the
+// target. They change by at most `grip` (m/s², rad/s²) times `seconds`. There must be no friction
+// between such a base and the bodies that carry it.
 void HoldBase(const DriveServo& servo, const geometry::Pose& world_from_model,
               const geometry::Vector3& point, double grip, double seconds,
               geometry::Vector3& velocity_of_point, geometry::Vector3& angular_velocity);

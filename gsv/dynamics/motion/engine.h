@@ -36,13 +36,15 @@ class Engine {
   // keep their positions in `state`. All attachments and detachments since the last Step(),
   // Overlaps() or OverlapsOf() cost together as much as one SetLayout().
   //
-  // Returns kInvalidArgument for a missing body or link, a static or held holder, and a held body
-  // that rigid-body dynamics does not move, that already holds a body, or that is already held.
+  // Returns kInvalidArgument if a body or the link does not exist, or if the holder is static or
+  // itself held. The same applies if the held body is not rigid, holds a body itself, or is already
+  // held.
   virtual base::Status Attach(const Attachment& attachment, const world::State& state) = 0;
-  // Lets the body move by itself again, from its pose in the state. Ignored if it is not attached.
+  // Ends the attachment: the engine moves the body again, from its pose in the state. Does nothing
+  // if the body is not attached.
   virtual void Detach(int held_body) = 0;
 
-  // Advances `state`, which must match the layout, from its time t to t + step: drives follow their
+  // Advances `state`, which must match the layout, from its time t to t + step. Drives follow their
   // commands within their limits, bodies do not overlap, and wheel joints turn. The caller sets
   // state.step and state.time. Replaces `contacts` by the contacts at t + step, in the order of
   // (first, second, supports). `began` compares with BodyState::in_contact and the contacts of the
@@ -50,8 +52,9 @@ class Engine {
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
 
-  // Returns the pairs of bodies, of which at least one is a robot, that overlap in `state` by more
-  // than `tolerance` metres. Examples are two robots at one place, and a robot inside a wall.
+  // Returns the pairs of bodies that overlap in `state` by more than `tolerance` metres, if at
+  // least one of the two is a robot. Examples are two robots at one position, and a robot inside a
+  // wall.
   virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
 
   // Returns the overlaps of one body, which costs much less than Overlaps(). For an object, these

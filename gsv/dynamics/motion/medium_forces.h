@@ -36,10 +36,12 @@ struct PartMedium {
 std::vector<PartMedium> MakeMedium(const world::Layout& layout, const world::Body& body,
                                    const Articulation& articulation);
 
+// A force and a torque on a part.
 struct Wrench {
   geometry::Vector3 force, torque;
 };
 
+// The pose and velocities of a part.
 struct PartMotion {
   geometry::Pose world_from_part;
   geometry::Vector3 velocity, angular_velocity;

@@ -1,14 +1,13 @@
-// An engine of rigid-body dynamics, as WorldEngine uses it. rigid/ implements it.
+// The interface of an engine of rigid-body dynamics. WorldEngine uses it, and rigid/ implements it.
 //
 // Bodies       the engine moves the bodies of kind kRigidBody. It reads all others from the states:
-//              planar bodies and actors move during a step, and the rest is static.
-// Attachments  are given to it as another layout, in which the shapes of the held body belong to
-//              the link that holds it, and the held body is static (AttachedLayout).
+//              planar bodies and actors move during a step, and all other bodies are static.
+// Attachments  A change of attachments is a new layout (AttachedLayout). In this layout, the shapes
+//              of the held body belong to the link that holds it, and the held body is static.
 // Threads      one thread at a time.
-// Determinism  Step() is a function of only the layout and its arguments. Data that an
-//              engine needs from the previous step are in State::engine, which is
-//              hashed. It is null after a change of the layout, unless only attachments
-//              changed.
+// Determinism  Step() is a function of only the layout and its arguments. Data that an engine needs
+//              from the previous step are in State::engine, which is hashed. It is null after a
+//              change of the layout, unless only attachments changed.
 #pragma once
 
 #include <memory>
@@ -24,7 +23,7 @@ namespace gsv::dynamics {
 // robot's speed. The force is limited and never pulls.
 struct Push {
   int robot = 0, object = 0;  // indices of the bodies in the layout
-  geometry::Vector3 point;    // in the world; the engine chooses z where the two face each other
+  geometry::Vector3 point;    // in the world; the engine sets z to a height that both bodies have
   double low = 0;             // the robot pushes above this z, m
   geometry::Vector3 normal;   // in the world, unit length, from the robot to the body
   double speed = 0;           // speed of the robot along the normal, m/s, > 0
@@ -43,18 +42,19 @@ class RigidEngine {
   // Prepares for another set of bodies. Returns kBadModel for invalid drives.
   virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
 
-  // Whether the layout has bodies that this engine moves. Otherwise nothing below is called.
+  // Whether the layout has bodies that this engine moves. If not, the functions below are not
+  // called.
   virtual bool has_bodies() const = 0;
 
   // Moves the rigid bodies of `state`, which are as in `before`, from before.time to before.time +
-  // step: poses, velocities, joints, drives, distances. Planar bodies have their start of the step
-  // in `before` and its end in `state`. Sets the results of `pushes`.
+  // step: poses, velocities, joints, drives, distances. The poses of planar bodies are in `before`
+  // for the start of the step, and in `state` for its end. Sets the results of `pushes`.
   //
-  // Replaces `contacts` by the contacts of rigid bodies in this step, with their points and
-  // impulses (of the contact, and of each point with friction), in any order. The first body of a
-  // contact is rigid. `began` means that the two did not touch at the start of the step. A pair has
-  // at most two contacts. One of them has `supports`: its points are those at which the second
-  // body, static or planar, carries the first from below, as the ground does.
+  // Replaces `contacts` by the contacts of rigid bodies in this step, in any order. The first body
+  // of a contact is rigid. Each contact has its points, its impulse, and the impulse at each point
+  // with friction. `began` means that the two bodies did not touch at the start of the step. A pair
+  // has at most two contacts. One of them may have `supports`: at its points, the second body
+  // carries the first from below, as the ground does. The second body is then static or planar.
   virtual void Step(base::SimTime step, const world::State& before, std::span<Push> pushes,
                     world::State& state, std::vector<world::Contact>& contacts) = 0;
 

@@ -1,8 +1,8 @@
 // The slip of wheels: the velocity at which a wheel's contact slides under a friction force.
 //
 // Model   slip velocity = friction force * compliance * |rate| * radius / normal force, along the
-//         rolling direction and along the axle. It is proportional to the force, as the normal
-//         force is a constant of the wheel.
+//         rolling direction and along the axle. It is proportional to the friction force, because
+//         the normal force is a constant of the wheel.
 // Source  gz-sim's system WheelSlip. The force is limited by Coulomb friction as well.
 #pragma once
 
@@ -12,14 +12,17 @@
 
 namespace gsv::dynamics {
 
+// A part that rolls as a wheel.
 struct RollingWheel {
   model::SlippingWheel wheel;
   geometry::Vector3 axle;  // direction of the axle in the part's frame, unit length
 
-  // Slip per friction force, m/(s N), for each rad/s of the wheel; the ground adds its slip.
+  // Slip velocity along the rolling direction per friction force and per rate of the wheel, in m/s
+  // for each N and rad/s. The slip of the ground is added.
   double PerRateAlong(const model::Slip& ground) const {
     return (wheel.slip.longitudinal + ground.longitudinal) * wheel.radius / wheel.normal_force;
   }
+  // The same for slip along the axle.
   double PerRateAcross(const model::Slip& ground) const {
     return (wheel.slip.lateral + ground.lateral) * wheel.radius / wheel.normal_force;
   }

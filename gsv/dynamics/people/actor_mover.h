@@ -1,8 +1,8 @@
 // Moves the actors of a world along their scripts.
 //
-// Animations    the joints have the positions of the current frame. It follows from the time, or
-//               for an animation by distance from the distance travelled since the trajectory's
-//               start, divided by the distance that the animation covers.
+// Animations    the joints have the positions of the current frame. The frame follows from the
+//               time. For an animation by distance, it follows from the distance travelled since
+//               the trajectory's start, divided by the distance that the animation covers.
 // Velocities    the mean over the step. An actor whose script restarts at another place jumps: its
 //               velocity is zero in that step, and it touches nothing in between.
 // Threads       one thread at a time.
@@ -19,6 +19,7 @@ namespace gsv::dynamics {
 
 class ActorMover {
  public:
+  // Finds the actors of a new layout.
   void SetLayout(const std::shared_ptr<const world::Layout>& layout);
 
   // Writes the poses and velocities of the actors at state.time + step. `before` is the state
@@ -34,6 +35,7 @@ class ActorMover {
     int first_joint = 0;
     std::vector<std::vector<double>> ways;  // distances by trajectory, see WaysAlong()
   };
+  // Writes the pose and joint positions that the actor has at this instant of its script.
   static void Pose(const Actor& actor, const ScriptInstant& instant, world::State& state);
 
   std::shared_ptr<const world::Layout> layout_;  // keeps the scripts alive

@@ -69,7 +69,7 @@ TEST(ActorMover, StopsARobotThatRunsIntoIt) {
   EXPECT_EQ(world.body("robot").collisions, 1u);
 }
 
-TEST(ActorMover, WalksThroughAStandingRobot) {
+TEST(ActorMover, WalksThroughARobotAtRest) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", WalkerOf(false), {});
   world.AddRobot("robot", testing::DiscRobot(), PlanarPose(4.3, 0, 0, 0));
@@ -120,7 +120,7 @@ std::shared_ptr<model::Model> AnimatedWalker(bool by_distance) {
   return model;
 }
 
-TEST(ActorMover, ShowsTheAnimationFrameOfTheTime) {
+TEST(ActorMover, SelectsTheAnimationFrameByTime) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", AnimatedWalker(false), {});
   ASSERT_TRUE(world.Start());
@@ -130,7 +130,7 @@ TEST(ActorMover, ShowsTheAnimationFrameOfTheTime) {
   EXPECT_EQ(world.joint("walker", 0), 1);
 }
 
-TEST(ActorMover, ShowsTheAnimationFrameOfTheDistance) {
+TEST(ActorMover, SelectsTheAnimationFrameByDistance) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", AnimatedWalker(true), {});
   ASSERT_TRUE(world.Start());
@@ -139,7 +139,7 @@ TEST(ActorMover, ShowsTheAnimationFrameOfTheDistance) {
     world.Step(kActorStep);
     const double u = i * kActorStep / 4, x = 6 * u * u - 4 * u * u * u + 2 * u;
     const double frames = 4 * (x - std::floor(x));
-    // Skips instants at the change of a frame.
+    // The test skips instants that are close to a change of frame.
     if (std::abs(frames - std::round(frames)) < 0.02) continue;
     ASSERT_EQ(world.joint("walker", 0), std::floor(frames)) << x;
   }

@@ -130,7 +130,8 @@ void Crowd::SortOthers(const world::State& state) {
     ++cell_start_[cell_of_[i]];
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  // Each cell's run is filled from its end. Afterwards cell_start_ is the start of the run.
+  // Fills the entries of each cell from last to first. Then cell_start_ is the first entry of each
+  // cell.
   for (std::size_t i = others_.size(); i-- > 0;) {
     const std::uint32_t place = --cell_start_[cell_of_[i]];
     sorted_[place] = others_[i];
@@ -150,7 +151,7 @@ void Crowd::AddForcesOfOthers(const Walker& walker, std::uint32_t index,
   const int column = static_cast<int>((at.x - left_) * per_cell_);
   const int row = static_cast<int>((at.y - bottom_) * per_cell_);
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
-    // Cells of one row lie next to each other.
+    // The cells of one row are adjacent in sorted_.
     const int first = r * columns_ + std::max(0, column - 1);
     const int last = r * columns_ + std::min(columns_ - 1, column + 1);
     const std::uint32_t end = cell_start_[static_cast<std::size_t>(last) + 1];

@@ -1,15 +1,14 @@
-// Decides for the pedestrians of a world how they want to move in the next step, by the social
-// force model (social_force.h). Planar kinematics then moves them, so that they do not overlap each
-// other or anything else.
+// Computes the commands of all pedestrians for the next step by the social force model
+// (social_force.h). Planar kinematics then moves the pedestrians without overlaps.
 //
-// Others        are all bodies that planar kinematics moves, actors, and rigid bodies within
-//               kMaxRadius of their origin. Each counts as a disc about its origin.
-// Walls         are the static bodies, sliced between kStep above a pedestrian's feet and its top.
-//               Each acts with its nearest point. A point within 60 degrees of a nearer one is
+// Others        Pedestrians avoid planar bodies, actors and rigid bodies. Each counts as a disc
+//               about its origin. Bodies with a radius above kMaxRadius are ignored.
+// Walls         All static bodies are walls, sliced between kStep above a pedestrian's feet and its
+//               top. Each acts with its nearest point. A point within 60 degrees of a nearer one is
 //               ignored, so that a wall of many pieces acts as one wall.
 // Goals         A goal is reached within kArrival of it. There is no path planning.
 // Heading       The body rotates towards its direction of motion.
-// Threads       One thread at a time, which a team helps.
+// Threads       One thread at a time. The work runs on a thread team.
 // Determinism   The result is a function of the layout, the state and the step.
 #pragma once
 
@@ -36,6 +35,7 @@ class Crowd {
 
   explicit Crowd(std::shared_ptr<base::ThreadTeam> team) : team_(std::move(team)) {}
 
+  // Finds the pedestrians and the walls of a new layout.
   void SetLayout(std::shared_ptr<const world::Layout> layout);
 
   // Writes the commands of all pedestrians for a step that starts at state.time, and counts the
@@ -66,6 +66,7 @@ class Crowd {
     Repulsions repulsions;
   };
 
+  // Slices the static bodies again, if one of them has moved.
   void SliceWalls(const world::State& state);
   void SortOthers(const world::State& state);
   // Decides for the walkers with these indices.
@@ -74,10 +75,13 @@ class Crowd {
   // Returns the direction to the walker's goal. If the walker has reached the goal, increments its
   // count.
   Vector2 DirectionOf(Walker& walker, world::State& state) const;
+  // Adds the forces of all bodies in range on a walker. `index` is its index in the block.
   void AddForcesOfOthers(const Walker& walker, std::uint32_t index, const world::BodyState& body,
                          Block& block) const;
+  // Sets the walker's drive command from the direction of its goal and the sum of forces.
   void Command(const Walker& walker, Vector2 direction, Vector2 force, double seconds, double left,
                world::State& state) const;
+  // Returns the force of all walls on a walker at this position.
   Vector2 ForceOfWalls(const Walker& walker, Vector2 at) const;
 
   const std::shared_ptr<base::ThreadTeam> team_;
@@ -86,7 +90,7 @@ class Crowd {
 
   std::vector<Interval> levels_;       // heights at which walls are sliced
   std::vector<ObstacleField> walls_;   // by level
-  std::vector<int> standing_;          // bodies that are walls
+  std::vector<int> standing_;          // static bodies, which are walls
   std::vector<geometry::Pose> poses_;  // the poses of these bodies when they were sliced
   bool is_sliced_ = false;
 

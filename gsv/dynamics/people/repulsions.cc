@@ -1,5 +1,5 @@
-// This file is compiled without errno and floating-point traps, so that the compiler vectorises
-// loops with square roots and divisions. The results are the same.
+// Implements Repulsions. This file is compiled without errno and floating-point traps, so that the
+// compiler vectorises loops with square roots and divisions. The results are the same.
 #include "gsv/dynamics/people/repulsions.h"
 
 #include <cmath>

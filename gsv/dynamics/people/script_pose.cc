@@ -79,8 +79,8 @@ geometry::Pose PoseOn(const Trajectory& trajectory, SimTime time) {
 ScriptInstant InstantOf(const model::Script& script, SimTime time) {
   SimTime length{0};
   for (const Trajectory& trajectory : script.trajectories) length += LengthOf(trajectory);
-  // Even if no waypoint takes time, time continues, because an animation without a trajectory needs
-  // it.
+  // The script has no duration, but `since` still grows, because an animation without a trajectory
+  // needs the time.
   if (length.count() == 0) {
     ScriptInstant instant = WithinScript(script, SimTime{0});
     if (script.starts_by_itself) instant.since = std::max(SimTime{0}, time - script.delay);

@@ -10,8 +10,9 @@
 // Orientations  are interpolated spherically, the shorter way round. (Gazebo uses a spline here as
 //               well, which differs between waypoints.)
 // Times         follow SDFormat: the script waits for its delay, then runs its trajectories one
-//               after the other. If it loops, it starts again, including the delay. Before it first
-//               runs, the actor is at the first waypoint; later, at the last.
+//               after the other. If it loops, it starts again, including the delay. Before the
+//               first run, the actor is at its first waypoint. During later delays, it is at its
+//               last waypoint.
 // Determinism   a function of the arguments only.
 #pragma once
 
@@ -21,6 +22,7 @@
 
 namespace gsv::dynamics {
 
+// The state of a script at one instant: which trajectory runs, and since when.
 struct ScriptInstant {
   geometry::Pose pose;         // trajectory_from_actor
   std::int64_t cycle = 0;      // number of times that the script has restarted

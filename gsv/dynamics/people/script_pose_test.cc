@@ -88,7 +88,7 @@ TEST(PoseOnTrajectory, RotatesUniformlyAlongTheShorterArc) {
               0, 1e-12);
 }
 
-TEST(ScriptInstant, WaitsBeforeEachTime) {
+TEST(ScriptInstant, WaitsForTheDelayBeforeEachCycle) {
   model::Script script =
       ScriptOf(TrajectoryOf({{0, PlanarPose(1, 0, 0, 0)}, {4, PlanarPose(5, 0, 0, 0)}}));
   script.delay = FromSeconds(2);

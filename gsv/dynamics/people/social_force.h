@@ -1,22 +1,25 @@
-// The social force model: how a pedestrian wants to move next.
+// The social force model: computes the acceleration of a pedestrian towards its goal and away from
+// others.
 //
 // Source     D. Helbing, P. Molnár, "Social force model for pedestrian dynamics", Physical Review
 //            E 51, 4282 (1995), with that paper's parameters. A pedestrian is at x, has the
 //            velocity v, and wants to walk at v0 in the direction e. It accelerates by
 //              dv/dt = (v0 e - v) / tau + sum of w(e, f) f over the others + sum of f over walls,
 //            and is never faster than 1.3 v0.
-// Others     f = -grad V0 exp(-b / sigma), where 2 b = sqrt((|r| + |r - s|)² - |s|²) is the smaller
-//            diameter of an ellipse through the pedestrian, r = x - x_other, and s is the other's
-//            velocity times dt: the distance that it is expected to walk.
+// Others     f = -grad V0 exp(-b / sigma). Here 2 b = sqrt((|r| + |r - s|)² - |s|²) is the smaller
+//            diameter of an ellipse through the pedestrian, with r = x - x_other. s is the other's
+//            velocity times dt, which is the distance that it is expected to walk.
 //              V0 = 2.1 m²/s², sigma = 0.3 m, dt = 2 s
 // Sight      w is 1 for pedestrians within 100 degrees of e, and 0.5 for those behind.
 // Walls      f = (U0 / R) exp(-d / R) away from the nearest point of the wall, which is at the
 //              distance d. U0 = 10 m²/s², R = 0.2 m
-// Driving    tau = 0.5 s. The driving term is integrated exactly, the forces by Euler's method: a
-//            single pedestrian has the speed v0 (1 - exp(-t / tau)) at time t for any step size.
-// Ours       differs from the paper in two ways. Each force of another pedestrian is rotated by
-//            kAside to the right, instead of the paper's fluctuations, so that two who meet head on
-//            pass each other. Both radii reduce the distance: see Apart().
+// Driving    tau = 0.5 s. The driving term is integrated exactly, and the forces by Euler's method.
+//            So a single pedestrian has the speed v0 (1 - exp(-t / tau)) at time t for any step
+//            size.
+// Ours       This implementation differs from the paper in two ways. It has no random fluctuations.
+//            Instead, each force of another pedestrian is rotated by kAside to the right, so that
+//            two pedestrians who meet head on pass each other. Both radii reduce the distance: see
+//            Apart().
 // Units      metres, seconds. Vectors in the plane of the world.
 #pragma once
 

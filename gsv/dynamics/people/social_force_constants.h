@@ -9,7 +9,8 @@ inline constexpr double kOtherStrength = 2.1, kOtherRange = 0.3;  // m²/s², m
 inline constexpr double kStride = 2;                              // s
 inline constexpr double kHalfSight = 1.7453292519943295;          // rad: 100 degrees
 inline constexpr double kUnseen = 0.5;
-inline constexpr double kClosest = 0.05;    // smaller distances count as this, m
+// Minimum distance, m; smaller distances are replaced by it.
+inline constexpr double kClosest = 0.05;
 inline constexpr double kMinSquare = 4e-6;  // m²: minimum of (2 b)²
 inline constexpr double kNoLength = 1e-9;   // m
 

@@ -36,7 +36,8 @@ void BroadPhase::Sort(std::span<const Vector2> centres, std::span<const double> 
     ++cell_start_[cell_of_[i]];
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  // Each cell's run is filled from its end. Afterwards cell_start_ is the start of the run.
+  // Fills the entries of each cell from last to first. Then cell_start_ is the first entry of each
+  // cell.
   for (std::size_t i = centres.size(); i-- > 0;) {
     const std::uint32_t at = --cell_start_[cell_of_[i]];
     entries_[at] = {centres[i].x, centres[i].y, radii[i], static_cast<std::uint32_t>(i)};

@@ -32,10 +32,13 @@ class BroadPhase {
     std::uint32_t index;
   };
 
+  // Sorts the discs into the cells of the grid.
   void Sort(std::span<const geometry::Vector2> centres, std::span<const double> radii);
+  // Adds the pairs of overlapping discs within one range of entries, or between two ranges.
   void PairWithin(std::uint32_t begin, std::uint32_t end);
   void PairAcross(std::uint32_t begin, std::uint32_t end, std::uint32_t other_begin,
                   std::uint32_t other_end);
+  // Adds the pair if the two discs overlap.
   void AddIfNear(const Entry& a, const Entry& b);
 
   int columns_ = 0, rows_ = 0;

@@ -9,13 +9,13 @@ namespace {
 // repeated. With a larger value, each step has more candidates to check.
 constexpr double kRoom = 0.25;
 
-// With this number of pairs, a further thread saves time.
+// Number of pairs that one thread checks at a time. With fewer, another thread saves no time.
 constexpr std::size_t kPairsAtOnce = 32;
 
 // Pieces whose height ranges overlap by no more than this do not touch.
 constexpr double kSameHeight = 1e-9;
 
-// This is far larger than the rounding errors of distances, and far smaller than distances that
+// Margin for rounding errors, m: far larger than these errors, and far smaller than distances that
 // matter.
 constexpr double kPairRounding = 1e-6;
 
@@ -140,7 +140,7 @@ void MoverCollisions::Stop(std::span<const geometry::PlanarPosition> starts,
   }
 }
 
-// Finds the impacts of the pairs with a mover that has a new outcome in this round.
+// Finds the impact of each pair in which a mover has a new stop time in this iteration.
 void MoverCollisions::FindImpacts(const Motions& motions, int round) {
   impacts_.resize(pairs_.size());
   team_.ParallelFor(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {

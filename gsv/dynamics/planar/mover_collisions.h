@@ -1,13 +1,14 @@
-// Finds the movers that may collide with each other, and when they do.
+// Finds which movers collide with each other, and when. A mover is a body that planar kinematics
+// moves.
 //
 // Method       Candidates are pairs that may come close within some steps. They are searched for
 //              only when a mover leaves the space for which they were found (a Verlet list). Find()
-//              selects the candidates that may meet now. Stop() handles all of these at once. A
-//              mover whose own motion closes a gap is stopped where the pair meets. The affected
+//              selects the candidates that may meet in this step. Stop() checks all of these pairs.
+//              A mover whose own motion closes a gap is stopped where the pair meets. The affected
 //              pairs are then checked again with the shortened motions, until nothing changes. So
-//              the result does not depend on the order of movers, and no intermediate state has
-//              overlaps: after kIterations iterations, movers still in conflict stay at their
-//              starts, which were free. So the time of the search has no effect.
+//              the result does not depend on the order of the movers. After kIterations iterations,
+//              movers that still collide stay at their starts, where they do not overlap. The
+//              result does not depend on when the candidates were searched for.
 // Units        metres, seconds, world frame. Spans are as long as PlanarScene::movers().
 #pragma once
 
@@ -31,14 +32,16 @@ class MoverCollisions {
   // Removes all pairs. Must be called when the scene has been sliced again.
   void Reset();
 
-  // Whether the candidates are still valid for the mover: no part of it leaves the space that was
-  // searched if it moves no further than `travel` from `at`. Threads: may run concurrently.
+  // Whether the candidates are still valid for a mover that moves no further than `travel` from
+  // `at`. They are valid if no part of it leaves the space that was searched. Threads: may run
+  // concurrently.
   bool HasRoom(std::uint32_t mover, const geometry::PlanarPosition& at, double travel) const {
     const Room& room = rooms_[mover];
     const double left = room.radius - travel;
     const Vector2 moved = Vector2{at.x, at.y} - room.centre;
     return left > 0 && Dot(moved, moved) < left * left;
   }
+  // Searches for the candidates of all movers again, if mover m moves by up to travels[m].
   void FindCandidates(std::span<const geometry::PlanarPosition> starts,
                       std::span<const double> travels);
 
@@ -51,7 +54,7 @@ class MoverCollisions {
               std::span<const geometry::PlanarPosition> starts);
 
   // Stops movers, which start at starts[m] and move for times[m], where they meet. Sets times[m] to
-  // the time of the meeting, and normals[m] to the direction of the obstacle.
+  // the time of the meeting, and normals[m] to the direction towards the other mover.
   void Stop(std::span<const geometry::PlanarPosition> starts,
             std::span<const geometry::Twist> twists, std::span<double> times,
             std::span<Vector2> normals);
@@ -78,10 +81,10 @@ class MoverCollisions {
     Vector2 centre;
     double radius = -1;
   };
-  // The result for a mover, during the search.
+  // The result for a mover so far.
   struct Outcome {
     double time;           // time until the mover stops
-    int since, new_since;  // iteration that found this, for this iteration and the next
+    int since, new_since;  // first iteration with this time, now and after this iteration
   };
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;
@@ -90,13 +93,18 @@ class MoverCollisions {
   };
 
   void Clear();
+  // Adds the pair if two of its pieces are closer than `within`.
   void AddIfNear(std::uint32_t first, std::uint32_t second,
                  std::span<const geometry::PlanarPosition> starts, double within);
+  // Returns the separation of two pieces of a pair with the movers at these positions.
   Separation SeparationAt(const MoverPair& pair, const PiecePair& pieces,
                           const geometry::PlanarPosition& first_at,
                           const geometry::PlanarPosition& second_at) const;
+  // Computes impacts_ for the pairs with a mover whose stop time has changed in this iteration.
   void FindImpacts(const Motions& motions, int round);
+  // Returns the first impact of two movers, also after one of them has stopped.
   std::optional<Impact> PairImpact(const Motions& motions, const MoverPair& pair) const;
+  // Returns the first impact of any two pieces of the pair before `end`.
   std::optional<Impact> FirstImpact(const MoverPair& pair, MovingPiece a, MovingPiece b,
                                     double end) const;
 

@@ -1,6 +1,8 @@
-// The positions of all movers within a step, and their motions in the current leg.
+// The positions of all movers within a step, and their motions in the current leg. A mover is a
+// body that planar kinematics moves. A leg is a part of the step with a constant twist.
 //
-// Units    metres, radians, seconds; positions in the world frame, motions in each base's own.
+// Units    metres, radians, seconds; positions in the world frame, motions in the frame of each
+//          base.
 // Threads  calls for different movers may run concurrently.
 #pragma once
 
@@ -14,7 +16,8 @@
 
 namespace gsv::dynamics {
 
-// Returns position and heading of a body, without computing angles.
+// Returns the position and heading of a body in the plane. The heading is a cosine and a sine, so
+// no angle is computed.
 inline geometry::PlanarPosition PositionOf(const geometry::Pose& pose) {
   const geometry::Quaternion& q = pose.orientation;
   const double cosine = 1 - 2 * (q.y * q.y + q.z * q.z), sine = 2 * (q.w * q.z + q.x * q.y);
@@ -23,14 +26,15 @@ inline geometry::PlanarPosition PositionOf(const geometry::Pose& pose) {
   return {pose.position.x, pose.position.y, cosine / length, sine / length};
 }
 
+// Returns the linear speed of the origin, m/s.
 inline double SpeedOf(const geometry::Twist& twist) {
   return twist.y == 0 ? std::abs(twist.x) : std::sqrt(twist.x * twist.x + twist.y * twist.y);
 }
 
-// The path of a mover within a step.
+// The sum of a mover's motions over the legs of a step.
 struct Journey {
   Travel travel;
-  double distance = 0;  // distance that the model's origin has travelled
+  double distance = 0;  // length of the path of the model's origin, m
 };
 
 class MoverMotions {
@@ -42,8 +46,9 @@ class MoverMotions {
 
   // Sets a mover's position from `state`.
   void Load(std::uint32_t mover, const world::State& state);
-  // Starts the first leg, of `seconds`: the mover follows its command. With 0 s it stays.
+  // Starts the first leg, which takes `seconds`. The mover follows its command; with 0 s it stays.
   void FollowCommand(std::uint32_t mover, const world::State& state, double seconds);
+  // Starts a leg with this twist.
   void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);
   // Moves the mover to the end of its leg.
   void RunLeg(std::uint32_t mover, Journey& journey);
@@ -60,7 +65,7 @@ class MoverMotions {
   std::vector<world::DriveCommand> drives;  // during the leg, then at its end
   std::vector<geometry::Twist> twists;      // twist in this leg
   std::vector<double> times;                // duration in this leg; 0 at rest
-  std::vector<double> reaches;   // the largest distance that any part may move in this step
+  std::vector<double> reaches;              // maximum distance that any part moves in this step, m
   std::vector<Vector2> normals;  // for a stopped mover, the direction towards the obstacle
 
  private:

@@ -7,7 +7,7 @@
 namespace gsv::dynamics {
 namespace {
 
-// This is far larger than the rounding errors of distances, and far smaller than distances that
+// Margin for rounding errors, m: far larger than these errors, and far smaller than distances that
 // matter.
 constexpr double kRounding = 1e-6;
 

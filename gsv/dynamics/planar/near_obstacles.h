@@ -26,7 +26,7 @@ class NearObstacles {
   // 0.
   void Reset(std::size_t chunks);
 
-  // Starts a chunk's list. Then add its movers in ascending order.
+  // Empties a chunk's list. Then call Find() for the movers of the chunk in ascending order.
   void Clear(std::size_t chunk);
   // Adds the obstacles that a mover at `at` may touch if no part of it moves further than `travel`.
   void Find(std::size_t chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
@@ -41,7 +41,7 @@ class NearObstacles {
 
   // Appends to `touching` the pairs that touched when they were found.
   void AddTouching(std::vector<BodyPair>& touching) const;
-  // Passes on the contacts of all movers at `positions` with the obstacles that were found.
+  // Passes the contacts of all movers at `positions` with the found obstacles to the collector.
   void Collect(std::span<const geometry::PlanarPosition> positions,
                ContactCollector& contacts) const;
 
@@ -67,9 +67,11 @@ class NearObstacles {
     return scene_.footprint(near.mover).pieces[near.piece];
   }
   const Obstacle& ObstacleOf(const Near& near) const { return (*near.field)[near.obstacle]; }
+  // Returns the separation of the piece from the obstacle if the mover is at `at`.
   Separation SeparationAt(const Near& near, const geometry::PlanarPosition& at) const;
-  // Lists the obstacles within reach. Returns the distance from the mover's origin to the nearest
-  // obstacle within `look`. `look` must be at least the mover's radius and `within`.
+  // Lists the obstacles within `within` of the mover: the dynamic ones if `loose`, else the static
+  // ones. Returns the distance from the mover's origin to the nearest obstacle within `look`.
+  // `look` must be at least the mover's radius and `within`.
   double Search(Chunk& chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
                 double within, double look, bool loose) const;
 

@@ -40,7 +40,7 @@ std::shared_ptr<model::Model> TwoWheeled(double left_scale, double right_scale) 
 }
 
 // Borenstein and Feng's UMBmark: the robot drives once around a square of 10 m and stops at each
-// corner; counter-clockwise for turn = 1, clockwise for -1.
+// corner. It drives counter-clockwise for turn = 1, clockwise for -1.
 TestWorld AroundTheSquare(std::shared_ptr<model::Model> robot, double turn) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", std::move(robot), {});

@@ -11,6 +11,7 @@
 
 namespace gsv::dynamics {
 
+// Moves the commanded joints of all planar robots by one step.
 void MovePlanarJoints(const world::Layout& layout, double seconds, world::State& state);
 
 }  // namespace gsv::dynamics

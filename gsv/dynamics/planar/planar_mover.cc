@@ -15,8 +15,8 @@ namespace {
 // Movers are processed in chunks with their own lists, so that results do not depend on the number
 // of threads.
 constexpr std::size_t kChunk = 32;
-// A thread processes this number at a time. For fewer than the second number, a further thread saves
-// no time.
+// The number of chunks that one thread processes at a time, and the minimum number for which another
+// thread saves time.
 constexpr std::size_t kChunksAtOnce = 2, kMinChunks = 8;
 
 // A step has up to three legs: the commanded arc; after a contact, a slide along the obstacle; then
@@ -117,7 +117,7 @@ void TeamMover::SliceVisibleObstacles(const world::State& state, double seconds)
   scene_.SliceDynamicObstacles(state, sights_);
 }
 
-// Nothing moves in a step of 0 s.
+// Finds the obstacles and pairs for a step of `seconds`. Nothing moves in a step of 0 s.
 void TeamMover::Begin(const world::State& state, double seconds) {
   if (!scene_.StandsAsSliced(state)) Slice(state);
   SliceVisibleObstacles(state, seconds);

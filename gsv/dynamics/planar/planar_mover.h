@@ -1,11 +1,13 @@
-// The mover of wheeled bases on level ground: kinematics, limits and contacts, no forces.
+// Moves wheeled bases on level ground by planar kinematics: with drive limits and contacts, without
+// forces.
 //
 // Bodies      The mover moves bodies that have a drive and are neither static nor rigid, and
-//             avatars (an avatar without a drive accepts any velocity). Others keep their poses.
+//             avatars (an avatar without a drive accepts any velocity). Other bodies keep their
+//             poses.
 // How         A base follows its command within its drive's limits (DriveKinematics) along an exact
-//             arc; its z, roll and pitch stay as the caller placed it. It does not
-//             move joints other than wheels and steering (planar_joints.h). Footprints are those at
-//             zero joint positions.
+//             arc. Its z, roll and pitch stay as the caller placed it. It does not move joints
+//             other than wheels and steering (planar_joints.h does). Footprints are those at zero
+//             joint positions.
 // Ground      Obstacles lower than a robot can climb count as ground: see PlanarScene and
 //             ClimbHeight.
 // Contact     A base stops about half a micrometre before an obstacle in its way, at any speed and
@@ -16,9 +18,8 @@
 //             A base that starts inside an obstacle can leave it, but cannot move deeper.
 // Mesh        A mesh is a surface: a robot completely inside a closed mesh touches nothing.
 //
-// Errors      SetLayout() refuses invalid drives (kBadModel) and poses that are not
-//             finite.
-// Threads     one thread at a time, which a team helps where there are many robots.
+// Errors      SetLayout() refuses invalid drives (kBadModel) and poses that are not finite.
+// Threads     one thread at a time. With many robots, the work runs on a thread team.
 // Determinism Step() is a function of only layout, state and step size. It does not depend on
 //             earlier calls or on the size of the team.
 #pragma once
@@ -32,7 +33,7 @@
 
 namespace gsv::dynamics {
 
-// These functions are the same as in Engine.
+// Moves all bases of a layout. See Engine (motion/engine.h) for the functions.
 class PlanarMover {
  public:
   virtual ~PlanarMover() = default;
@@ -44,7 +45,7 @@ class PlanarMover {
                                                  double tolerance) = 0;
 };
 
-// Without a team, the caller works alone.
+// If `team` is null, the calling thread does all work.
 std::unique_ptr<PlanarMover> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team = nullptr);
 
 }  // namespace gsv::dynamics

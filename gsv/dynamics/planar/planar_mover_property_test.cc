@@ -255,7 +255,7 @@ void CommandAll(TestWorld& world, Random& random) {
   }
 }
 
-TEST(PlanarMoverProperty, TestDetectsOverlaps) {
+TEST(PlanarMoverProperty, OverlapCheckOfThisTestFindsAnOverlap) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", testing::DiscRobot(0.25), geometry::PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {0.1, 4, 1}, 0.299, 0);  // a millimetre deep in the wall

@@ -25,13 +25,14 @@ double SpinRadius(const Footprint& footprint, double reference_x) {
   double radius = 0;
   for (const Footprint::Piece& piece : footprint.pieces) {
     const Vector2 centre = piece.shape.vertices[0];
-    // A disc about the origin covers the same area at every heading.
+    // A rotation about the origin moves only the centre of a disc, but also the corners of other
+    // pieces.
     const double reach = piece.shape.vertex_count == 1
                              ? std::sqrt(Dot(centre, centre))
                              : std::sqrt(Dot(piece.centre, piece.centre)) + piece.radius;
     radius = std::max(radius, reach);
   }
-  // A slide along an obstacle and a turn in place may follow an arc.
+  // When a base rotates about its reference point, the model's origin moves as well.
   return radius + 2 * std::abs(reference_x);
 }
 

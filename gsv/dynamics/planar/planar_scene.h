@@ -1,10 +1,11 @@
-// The planar mover's view of a layout: the movers, their footprints and the obstacles.
+// Data that the planar mover derives from a layout: the movers, which are the bodies that it moves,
+// their footprints, and the obstacles.
 //
 // Levels   Obstacles are sliced once for each distinct range of heights of a piece of a footprint.
-//          The range begins at the height up to which the robot can climb (ClimbHeight above its
-//          lowest point) or at the lowest point of the piece, whichever is higher, and ends at the
-//          highest point of the piece. So the floor, a ground plane and a door sill are no
-//          obstacles. A table is an obstacle only for pieces that reach its top or its legs. Beyond
+//          The range begins at the lowest point of the piece, but not below the height that the
+//          robot can climb (ClimbHeight above its lowest point). It ends at the highest point of
+//          the piece. So the floor, a ground plane and a door sill are no obstacles. A table is an
+//          obstacle only for pieces that reach its top or its legs. If there are more than
 //          kMaxLevels ranges, their ends are rounded to a grid.
 // Dynamic  Rigid bodies and actors are separate obstacles. Only those in the sight of some mover
 //          are sliced, and again when one of them has moved. A body that extends less than kRides
@@ -38,6 +39,7 @@ struct MoverKind {
   double spin_radius = 0;  // no part of the mover is faster than speed + spin_radius * turning rate
 };
 
+// A body that the planar mover moves.
 struct Mover {
   int body = 0;  // index of the body in the layout; movers are in the order of bodies
   std::uint32_t kind = 0;
@@ -63,9 +65,10 @@ class PlanarScene {
   // Slices the dynamic obstacles that reach into one of the sights, if that is not yet done. The
   // levels are those of the last Slice().
   void SliceDynamicObstacles(const world::State& state, std::span<const Sight> sights);
-  // Whether Slice() was called, and all bodies other than movers are where they were then.
+  // Whether the slices of static bodies are valid: Slice() was called, and no static body has moved
+  // since.
   bool StandsAsSliced(const world::State& state) const;
-  // Whether the mover at height z has the height of the last Slice().
+  // Whether the mover had the height z at the last Slice().
   bool IsAsSliced(std::size_t mover, double z) const { return heights_[mover] == z; }
 
   const world::Layout& layout() const { return *layout_; }
@@ -79,14 +82,18 @@ class PlanarScene {
     return levels_[mover.first_level + piece];
   }
   const ObstacleField& field(int level) const { return fields_[level]; }
+  // Whether there are dynamic obstacles: rigid bodies or actors.
   bool has_loose() const { return !loose_.empty(); }
   const ObstacleField& loose_field(int level) const { return loose_fields_[level]; }
   // The height of a mover's origin, as last sliced.
   double height(std::size_t mover) const { return heights_[mover]; }
 
  private:
+  // Assigns each piece of a mover to a level. Returns the height intervals of the levels.
   std::vector<Interval> AssignLevels();
+  // Slices the static bodies at each level.
   void SliceLevels(const world::State& state);
+  // Returns, for each level, the largest radius of a mover plus kLookAround.
   std::vector<double> MarginsOfLevels() const;
   // Lists in `seen_` the dynamic obstacles that reach into one of the sights.
   void FindDynamicObstacles(const world::State& state, std::span<const Sight> sights);

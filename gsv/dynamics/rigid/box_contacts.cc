@@ -1,5 +1,5 @@
-// Contacts of two boxes, by their separating axes (Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH
-// 1996) and by clipping one face by the other.
+// Finds the contacts of two boxes by their separating axes (Gottschalk, Lin, Manocha, "OBBTree",
+// SIGGRAPH 1996) and by clipping one face by the other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,7 @@ struct Polygon {
   }
 };
 
-// Returns the part of the polygon within |coordinate| <= half, on one side.
+// Returns the part of the polygon with sign * coordinate <= half.
 template <double Corner::*Coordinate>
 Polygon Clip(const Polygon& polygon, double sign, double half) {
   Polygon clipped;
@@ -155,8 +155,8 @@ void AddEdgePoint(const BoxAt& first, int first_edge, const BoxAt& second, int s
 
 void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                   std::vector<TouchPoint>& points) {
-  // An edge axis is used only if its overlap is smaller by this. So boxes that lie on each other
-  // keep their face contacts.
+  // An edge axis is used only if its overlap is clearly smaller than that of all face axes. So
+  // boxes that lie on each other keep their face contacts.
   constexpr double kBetter = 0.05, kLeast = 1e-6, kParallel = 1e-3;
   const BoxAt a(first), b(second);
   const Vector3 between = b.position - a.position;
@@ -197,7 +197,7 @@ void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double ma
       const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const double square = 1 - cosines[i][j] * cosines[i][j];
       if (square < kParallel * kParallel) continue;
-      // between . (a_i x b_j)|, by components along the axes of the first box
+      // |between . (a_i x b_j)|, by components along the axes of the first box
       const double distance = std::abs(at_a[i2] * cosines[i1][j] - at_a[i1] * cosines[i2][j]);
       const double reach = a.half[i1] * absolute[i2][j] + a.half[i2] * absolute[i1][j] +
                            b.half[j1] * absolute[i][j2] + b.half[j2] * absolute[i][j1];

@@ -1,6 +1,6 @@
-// Finds the points at which two pieces touch, by Bullet's algorithms, for shapes without a closed
-// form here: cones, hulls, meshes, and cylinders that are not on a plane. Private to this folder:
-// it includes Bullet.
+// Finds the points at which two pieces touch by Bullet's algorithms. It is used where
+// placed_piece.h has no closed form: for cones, hulls, meshes, and cylinders that are not on a
+// plane. Private to this folder: it includes Bullet.
 //
 // Determinism  no data is kept from one call to the next.
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace gsv::dynamics {
 
-// Bullet's algorithms. A sphere touches any convex shape at one point, so it needs none of the
-// further points that Bullet finds by rotating a shape slightly.
+// Selects Bullet's collision algorithms. Bullet finds more contact points by rotating a shape
+// slightly. This is switched off for spheres, which touch any convex shape at one point.
 class PairAlgorithms final : public btDefaultCollisionConfiguration {
  public:
   PairAlgorithms();
@@ -31,6 +31,7 @@ class BulletPairs {
                       std::vector<TouchPoint>& points);
 
  private:
+  // Adds the points of Bullet's manifold that are closer than `margin`.
   void Read(const btPersistentManifold& manifold, double margin, std::vector<TouchPoint>& points);
 
   PairAlgorithms algorithms_;

@@ -1,4 +1,4 @@
-// Tests collision bitmasks, in both movements.
+// Tests collision bitmasks, in rigid-body dynamics and in planar kinematics.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"

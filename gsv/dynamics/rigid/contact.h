@@ -40,10 +40,10 @@ void SetSurfaces(const PlacedPiece& first, const PlacedPiece& second, const Slip
 // m: penetration of resting bodies, so that they stay in contact.
 inline constexpr double kRestingDepth = 1e-5;
 
-// The velocity that the first body must have relative to the second at the end of a substep: a
-// minimum along the normal, and values along the axes if friction can reach them. `meeting` is that
-// velocity along the normal when the bodies meet. `free` are the velocities at the end of the
-// substep without impulses.
+// Returns the velocity that the first body must have relative to the second at the end of a
+// substep. The value along the normal is a minimum. Friction reaches the values along the axes if
+// it is strong enough. `meeting` is that velocity along the normal when the bodies meet. `free` are
+// the velocities at the end of the substep without impulses.
 std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double meeting,
                                 const std::array<double, 3>& free, double substep);
 

@@ -181,7 +181,8 @@ Vector3 ContactFinder::PointOnFirst(const Contact& contact) const {
   return TransposeTimes(tree.rotation(first.part), contact.on_first() - tree.position(first.part));
 }
 
-// Whether the drive of one body moves it over the other body, which carries it.
+// Whether one body is a base without wheels, and the other one carries it. The drive moves such a
+// base directly.
 bool ContactFinder::GlidesOn(const Collider& first, const Collider& second,
                              const Vector3& normal) const {
   const auto is_held = [&](const Collider& collider) {
@@ -190,7 +191,7 @@ bool ContactFinder::GlidesOn(const Collider& first, const Collider& second,
   return (is_held(first) && normal.z > kCarries) || (is_held(second) && normal.z < -kCarries);
 }
 
-// A wheel that slips on this surface.
+// Returns the collider as a wheel that slips on this ground; null if it does not slip.
 std::optional<SlippingContact> ContactFinder::SlippingOf(const Collider& collider,
                                                          const model::Surface& ground,
                                                          const Vector3& normal) const {

@@ -1,8 +1,8 @@
 // Finds the contacts of rigid bodies with each other and with all other bodies. Private to this
 // folder: it includes Bullet.
 //
-// Broad phase   rigid and planar bodies by sort and sweep, static ones by a tree of boxes that is
-//               kept while they do not move, planes one by one.
+// Broad phase   sort and sweep for rigid and planar bodies; for static bodies a BVH, which is kept
+//               until one of them moves. Planes are tested one by one.
 // Margin        contacts begin where two pieces may touch within a substep.
 // Order         by the first body, the second, and their pieces. It depends on nothing else, so
 //               that bodies far away do not change it.
@@ -37,21 +37,21 @@ class ContactFinder {
   // Prepares for the bodies of a scene. `bodies` are in the order of scene.bodies().
   void SetScene(const RigidScene& scene, std::span<const std::unique_ptr<MovingBody>> bodies);
 
-  // Places the static bodies as the state has them, and forgets the planar ones.
+  // Reads the poses of the static bodies from the state, and removes all planar bodies.
   void Start(const world::State& state);
   // Adds a planar body for this step. Returns its index among the planar ones.
   int AddPlanar(const Solid& solid);
+  // Sets the pose and velocities of a planar body. `index` is the result of AddPlanar().
   void MovePlanar(int index, const geometry::Pose& pose, const geometry::Vector3& velocity,
                   const geometry::Vector3& angular_velocity);
-  // Places the pieces of the rigid bodies.
+  // Computes the poses of all pieces of the rigid bodies.
   void PlaceBodies();
 
   // Finds all contacts. They stay until the next call.
   std::vector<Contact>& Find(double substep);
 
   const Collider& collider(int index) const { return colliders_[static_cast<std::size_t>(index)]; }
-  // Returns the velocity of a point of a collider. It follows from the collider's own motion,
-  // whatever touches it.
+  // Returns the velocity of a point of a collider, in the world.
   geometry::Vector3 VelocityOf(const Collider& collider, const geometry::Vector3& point) const;
   // Returns the contact's point in the frame of the first collider's part.
   geometry::Vector3 PointOnFirst(const Contact& contact) const;
@@ -73,15 +73,22 @@ class ContactFinder {
   };
 
   void PlaceStatic(const world::State& state);
+  // Computes the poses of a group's pieces.
   void PlaceGroup(Group& group);
+  // Adds the contacts between groups whose bounding boxes overlap, found by sort and sweep.
   void AddGroupPairs(double substep);
   void AddGroupPair(const Group& a, const Group& b);
+  // Adds the contacts of a group with static bodies.
   void AddStaticPairs(const Group& group);
+  // Adds the contacts of two pieces.
   void AddPair(int first, const PlacedPiece& first_piece, int second,
                const PlacedPiece& second_piece, double margin);
+  // Returns the collider as a wheel that slips on this ground; null if it does not slip.
   std::optional<SlippingContact> SlippingOf(const Collider& collider, const model::Surface& ground,
                                             const geometry::Vector3& normal) const;
+  // Converts the slip of each contact to the softness of its friction in this substep.
   void SetSoftness(double substep);
+  // Whether a base without wheels stands on the other body, so that there is no friction.
   bool GlidesOn(const Collider& first, const Collider& second,
                 const geometry::Vector3& normal) const;
 
@@ -90,8 +97,9 @@ class ContactFinder {
   std::vector<Collider> colliders_;
   std::vector<PlacedPiece> pieces_;  // pieces of the groups
   std::vector<int> collider_of_piece_;
-  std::vector<Group> groups_;         // rigid bodies, then planar ones
-  std::size_t static_colliders_ = 0;  // colliders that stay from step to step
+  std::vector<Group> groups_;  // rigid bodies, then planar ones
+  // Number of colliders of rigid and static bodies, which stay from step to step.
+  std::size_t static_colliders_ = 0;
   std::size_t rigid_pieces_ = 0;
   std::vector<geometry::Pose> static_poses_;
   std::vector<StaticPiece> statics_, planes_;

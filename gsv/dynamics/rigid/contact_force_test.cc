@@ -41,7 +41,7 @@ TEST(ContactForce, BoxAtRestPressesWithItsWeight) {
   }
 }
 
-TEST(ContactForce, BoxOnASlopePressesAndPullsByItsAngle) {
+TEST(ContactForce, NormalAndFrictionForceOnASlopeFollowItsAngle) {
   const double angle = 0.3;
   const geometry::Quaternion turn = geometry::FromAxisAngle({0, 1, 0}, angle);
   TestWorld world(MakeWorldEngine());

@@ -21,7 +21,7 @@ Vector3 DirectionOf(const PlacedPiece& piece) {
   return piece.rotation * direction;
 }
 
-// Whether the friction across `direction` differs from that along it.
+// Sets the axes of friction along and across `direction`, with these two friction coefficients.
 void TakeDirections(const Vector3& direction, double along, double across, Contact& contact) {
   constexpr double kShortest = 1e-6;
   const double most = std::max(along, across);

@@ -1,11 +1,11 @@
-// The contacts of a large island of bodies without joints, by projected Gauss-Seidel, contact by
-// contact.
+// Solves the contacts of a large island of bodies without joints by projected Gauss-Seidel, one
+// contact after the other.
 //
 // Batches  of four contacts that have no body in common are solved at once, in the four values of a
 //          vector.
-// Order    level by level from the contacts with what does not move outwards, then back, in turn: a
-//          heap is carried from below, so that its lowest contacts must carry the sum of all above.
-// Start    from given impulses, as those of the step before.
+// Order    level by level, from contacts with fixed bodies upwards, and in every second sweep
+//          downwards. The lowest contacts of a heap must carry the weight of all bodies above.
+// Start    from the impulses that AddContact() is given, such as those of the previous step.
 // Cone     friction of a contact is at most its coefficient times the normal impulse, and is
 //          opposite to the slip where it is that large.
 // Threads  one thread at a time for each object.
@@ -32,12 +32,15 @@ class ContactSweeps {
     geometry::Vector3 arm;  // vector from the body's centre of mass to the contact
   };
 
+  // Removes all bodies and contacts.
   void Clear();
+  // Adds a body, and returns its index.
   int AddBody(const Body& body);
-  // `axes` are the normal, from the second side to the first, and two axes of friction. Along each,
-  // the first side must move at `targets` relative to the second. `impulse`, along the axes, is the
-  // start of the solution; it is not applied yet. Friction reaches its targets up to `softness`
-  // times its impulse.
+  // Adds a contact. `axes` are the normal, from the second side to the first, and two axes of
+  // friction. Along each, the first side must move at `targets` relative to the second. Along an
+  // axis of friction, the velocity may differ from its target by `softness` times the impulse.
+  // `impulse`, along the axes, is a first guess of the solution, which this function applies to
+  // both bodies.
   void AddContact(const Side& first, const Side& second,
                   const std::array<geometry::Vector3, 3>& axes,
                   const std::array<double, 3>& targets, double friction,
@@ -81,14 +84,20 @@ class ContactSweeps {
     std::array<int, kFour> contacts, first, second;  // -1: none
   };
 
+  // Applies an impulse along an axis to both bodies of a contact.
   void Apply(const Contact& contact, std::size_t axis, double impulse);
+  // Orders the contacts by level.
   void Order();
   // The number of bodies between a contact and a body that does not move; -1: there is none.
   int LevelOf(int contact) const;
   void MakeBatches();
+  // Writes a contact into one of the four values of a batch.
   void Fill(Batch& batch, std::size_t value, const Contact& contact) const;
+  // Whether the batch has space, and no contact with one of these bodies.
   static bool CanTake(const Batch& batch, int first, int second);
+  // Solves the contacts of a batch once. Returns the largest change of a velocity, m/s.
   static double Solve(Batch& batch, double* motions);
+  // Solves all batches once. Returns the largest change of a velocity, m/s.
   static double Sweep(std::vector<Batch>& batches, bool is_forwards, double* motions);
 
   std::vector<Body> bodies_;

@@ -27,8 +27,9 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
   // The fraction of the slip that friction removes in this substep. A contact that closes during
   // the substep keeps a part of its closing speed, so that the bodies meet at the end of the
-  // substep. The next substep removes the rest. Friction must not be faster than that: if one point
-  // stuck before it touched, a body that lands on two edges at once would be thrown to one side.
+  // substep. The next substep removes the rest. Friction must not act faster than that. If one
+  // point stuck before it touched, a body that lands on two edges at once would be thrown to one
+  // side.
   const double kept = gap / substep, taken = wanted - free[0];
   const double share = kept > kImpact && taken > 0 ? taken / (taken + kept) : 1;
   return {wanted, (1 - share) * free[1], (1 - share) * free[2]};

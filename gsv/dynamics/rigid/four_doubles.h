@@ -9,8 +9,10 @@ inline constexpr int kFour = 4;
 // The next multiple of four.
 constexpr int RoundUpToFour(int count) { return (count + kFour - 1) / kFour * kFour; }
 
+// Four values, which the processor computes together.
 typedef double FourDoubles __attribute__((vector_size(32), aligned(8), may_alias));
 
+// Returns the four values that begin at `values`.
 inline const FourDoubles& FourAt(const double* values) {
   return *reinterpret_cast<const FourDoubles*>(values);
 }

@@ -1,4 +1,4 @@
-// The effect of a command must be the same for every heading, and must follow the command or
+// Tests that the effect of a command is the same for every heading, and follows the command or
 // Coulomb's friction.
 #include <array>
 #include <cmath>

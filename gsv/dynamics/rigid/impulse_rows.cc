@@ -111,7 +111,8 @@ void ImpulseRows::Weigh(Row& row) const {
   row.mass_inverse = moved > kNothing ? moved + row.softness : 0;
 }
 
-// A joint's row changes one velocity of its tree, and no velocity of the other side's tree.
+// Shortens each block to the range in which its jacobian is not zero. A joint's row, for example,
+// acts on one velocity only.
 void ImpulseRows::Trim() {
   for (Row& row : rows_) {
     for (Block& side : row.sides) {
@@ -186,7 +187,7 @@ std::array<double, 2> ImpulseRows::ConeImpulse(int cone) const {
 [[gnu::always_inline]] inline void ImpulseRows::SolveCone(Cone& cone) {
   Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
   const double radius = RadiusOf(cone);
-  // One of the bodies can move in one direction only.
+  // If the bodies can move in one direction only, each row has its own bounds.
   if (a.mass_inverse == 0 || b.mass_inverse == 0) {
     for (Row* row : {&a, &b}) {
       row->lower = -radius;

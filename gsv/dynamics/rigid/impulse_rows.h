@@ -1,24 +1,24 @@
-// Constraints on velocities, and the impulses that keep them: the problem that a substep poses, in
-// numbers alone.
+// Finds the impulses that satisfy the velocity constraints of a substep. The constraints are given
+// as numbers, without shapes or joints.
 //
 // Row       J v + softness x = target, where v is the change of velocities (of all bodies, one
 //           after the other) and x the row's impulse, between a lower and an upper bound. A row
 //           acts on at most two bodies.
 // Cone      two rows whose impulses together are at most friction times that of a normal row
-//           (Coulomb). Where they are that large they point against the slip, whatever axes the
-//           two rows were given along.
+//           (Coulomb). At this limit they are opposite to the slip, for any axes of the two rows.
 // Method    projected Gauss-Seidel, row by row and cone by cone (each cone is solved exactly),
-//           which finds the rows that are within their bounds. For these, up to kMaxDirect, linear
-//           equations are solved now and then: Silcowitz, Niebur, Erleben, "Projected Gauss-Seidel
-//           subspace minimization method for interactive rigid body dynamics" (GRAPP 2010). They
-//           hold how friction turns with the slip, too (a semismooth Newton step). Larger
-//           problems are accelerated as a nonsmooth nonlinear conjugate gradient: Silcowitz-Hansen
-//           and others, The Visual Computer 26 (2010). Masses of a thousand to one and long chains
-//           of joints would take Gauss-Seidel alone thousands of iterations.
-// Start     from zero impulses. A body that moves along a surface slips, and all other contacts
-//           stick and carry. Linear equations give the impulses of this guess.
-// Loads     where there are more rows than are needed (a base on two wheels and two casters), they
-//           share the load as equal springs would, up to kMaxDirect.
+//           which finds the rows that are within their bounds. For at most kMaxDirect of these
+//           rows, linear equations are solved after some iterations: Silcowitz, Niebur, Erleben,
+//           "Projected Gauss-Seidel subspace minimization method for interactive rigid body
+//           dynamics" (GRAPP 2010). These equations include how the friction rotates with the slip
+//           (a semismooth Newton step). Larger problems are accelerated as a nonsmooth nonlinear
+//           conjugate gradient: Silcowitz-Hansen and others, The Visual Computer 26 (2010). Masses
+//           of a thousand to one and long chains of joints would take Gauss-Seidel alone thousands
+//           of iterations.
+// Start     from zero impulses. The first guess is that a body which moves along a surface slips,
+//           and that all other contacts stick. Linear equations give the impulses of this guess.
+// Loads     redundant rows, as of a base on two wheels and two casters, share the load as equal
+//           springs would. This applies to at most kMaxDirect rows.
 // Threads   one thread at a time.
 // Determinism  Solve() is a function of the added rows and bodies, in their order.
 #pragma once
@@ -98,35 +98,54 @@ class ImpulseRows {
     int normal_row, first_row;
     double friction;
     Axes axes;
-    double coupling;  // softness between its two rows; that of each row is the row's
+    double coupling;  // softness that couples its two rows
     double shift;  // the shift of the last solution on the circle, from which the next one begins
   };
 
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
+  // Stores the jacobian and the response of a row on one body.
   Block AddSide(const Side& side);
+  // Computes the row's mass_inverse.
   void Weigh(Row& row) const;
+  // Limits each block to the range in which its jacobian is not zero.
   void Trim();
+  // Returns the effect of a unit impulse of one row on the velocity of the other.
   double Coupling(const Row& a, const Row& b) const;
+  // Replaces two rows by weighted sums of both.
   void Combine(int first_row, const Axes& axes);
   double VelocityOf(const Row& row) const;
   void Apply(Row& row, double impulse);
   void SolveRow(Row& row);
   void SolveCone(Cone& cone);
   void Sweep(bool backwards);
+  // Continues each impulse in the direction of its last change.
   void Accelerate(double beta);
+  // Returns the largest change of a row's velocity in the last iteration.
   double MaxChange() const;
+  // Returns the maximum friction impulse of a cone.
   double RadiusOf(const Cone& cone) const;
+  // Computes couplings_, unless they are known.
   void CoupleAll();
+  // Lists in free_ the rows of the linear equations.
   void ChooseFree();
+  // Returns the velocity that the softness of a cone's rows permits.
   std::array<double, 2> GiveOf(const Cone& cone) const;
+  // Returns the velocity that a cone's rows lack to reach their targets.
   std::array<double, 2> MissingOf(const Cone& cone) const;
+  // Writes the linear equations of a contact that slips.
   void WriteSlip(const Cone& cone);
   void WriteEquations(bool shares_loads);
+  // Applies the solution of the linear equations, within the bounds of all rows.
   void TakeSolution();
+  // Solves the linear equations of the rows within their bounds. Returns false if this fails.
   bool SolveFree(bool shares_loads);
+  // Lists in free_ the rows that probably have an impulse.
   bool ChooseLikely();
+  // Tries to find the solution from the velocities alone. Returns false, and changes nothing, if
+  // this fails.
   bool Guess();
   bool TakeGuess();
+  // Stores the impulses and velocities. GoBack() restores them.
   void Remember();
   void GoBack();
   double ChangeOfEnergy() const;
@@ -136,13 +155,14 @@ class ImpulseRows {
   std::vector<Cone> cones_;
 
   // The linear equations of the rows that are within their bounds.
-  std::vector<double> couplings_;         // J M⁻¹ Jᵀ of all rows, computed on first use
-  std::vector<int> free_;                 // rows
-  std::vector<int> place_;                // index of each row in free_, or -1
-  std::vector<int> last_block_;           // index of each body's last block, or -1
-  std::vector<bool> slips_;               // for each cone, whether its friction is at its limit
-  std::vector<int> slipping_;             // cones that slip without turning
-  std::vector<bool> turns_;               // for each cone that slips, whether its rows are free
+  std::vector<double> couplings_;  // J M⁻¹ Jᵀ of all rows, computed on first use
+  std::vector<int> free_;          // rows
+  std::vector<int> place_;         // index of each row in free_, or -1
+  std::vector<int> last_block_;    // index of each body's last block, or -1
+  std::vector<bool> slips_;        // for each cone, whether its friction is at its limit
+  std::vector<int> slipping_;      // cones that slip in a direction that does not change
+  // For each cone that slips, whether its direction may change.
+  std::vector<bool> turns_;
   std::vector<double> matrix_, unknown_;  // matrix and unknowns of free_
   std::vector<double> velocities_before_, impulses_before_;
 };

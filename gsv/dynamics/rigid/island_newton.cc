@@ -149,7 +149,8 @@ void IslandSolver::TakeImpulses() {
   }
 }
 
-// Returns how far the contact is from its law, in m/s.
+// Chooses whether the contact is open, sticks or slips. Returns by how much the contact violates
+// its law, in m/s.
 double IslandSolver::ChooseMode(ContactRows& rows) const {
   Row& normal = rows.normal;
   const double wanted = normal.impulse + normal.stiffness * (normal.target - rows.velocity[0] -

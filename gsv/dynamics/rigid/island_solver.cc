@@ -331,7 +331,8 @@ void IslandSolver::SolveBySweeps(const ContactFinder& finder,
     pending_.push_back(
         {sides[0], sides[1], axes, targets, contact.friction, softness, contact.impulse});
   }
-  // The free velocities are the velocities before any of the given impulses.
+  // AddContact() applies the given impulse. So all velocities above were computed before the first
+  // call.
   for (const auto& each : pending_) {
     sweeps_.AddContact(each.first, each.second, each.axes, each.targets, each.friction,
                        each.softness, each.impulse);
@@ -351,7 +352,7 @@ void IslandSolver::SolveBySweeps(const ContactFinder& finder,
   }
 }
 
-// A row with its values in the form that ImpulseRows takes.
+// Adds the row to impulse_rows_, with the jacobian `values`.
 void IslandSolver::AddRowTo(const Row& row, const double* values, const ImpulseRows::Limits& limits,
                             std::span<const std::unique_ptr<MovingBody>> bodies) {
   ImpulseRows::Side sides[2];
@@ -378,7 +379,7 @@ void IslandSolver::AddRowTo(const Row& row, const double* values, const ImpulseR
 }
 
 void IslandSolver::SolveByRows(std::span<const std::unique_ptr<MovingBody>> bodies) {
-  // An island of few bodies has time for many iterations.
+  // The fewer bodies an island has, the more iterations are allowed.
   constexpr int kMaxIterations = 80, kMinIterations = 25, kIterationsOfAll = 1600;
   constexpr double kTolerance = 1e-7;  // m/s
   impulse_rows_.Clear();

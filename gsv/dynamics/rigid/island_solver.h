@@ -1,19 +1,20 @@
-// The impulses and velocities of one island: bodies that act on each other, directly or through
-// others. Private to this folder: it includes Bullet.
+// Computes the impulses and velocities of one island: bodies that act on each other, directly or
+// through other bodies. Private to this folder: it includes Bullet.
 //
-// Method   the velocities v and the impulses f solve M v = momenta + Jᵀ f. Each contact has
-//          Coulomb's cone, each joint row its bounds (Alart and Curnier, "A mixed formulation for
-//          frictional contact problems prone to Newton like solution methods", 1991). A semismooth
-//          Newton method finds them: whether a contact is open, sticks or slips follows from the
-//          iteration before, its impulses are linear in the velocities, and linear equations in the
-//          velocities alone remain. Contacts begin as their velocities suggest. Most islands take
-//          two to four iterations.
-// Loads    impulses grow from zero by a small compliance, in proportion to the inverse mass, which
-//          later iterations take back. So redundant contacts share the load as equal springs would.
-// Heaps    islands of more than kMaxHeap velocities in which no body has joints are left to
-//          ContactSweeps. Newton's method takes many iterations where such islands collide.
-// Else     other islands of more than kMaxVelocities, and the few in which Newton's method does not
-//          end, are left to ImpulseRows.
+// Method   the velocities v and the impulses f solve M v = momenta + Jᵀ f. Contacts are limited by
+//          Coulomb's cone, and joint rows by their bounds (Alart and Curnier, "A mixed formulation
+//          for frictional contact problems prone to Newton like solution methods", 1991). A
+//          semismooth Newton method finds the solution. The previous iteration determines whether a
+//          contact is open, sticks or slips. Then its impulses are linear in the velocities, and
+//          linear equations for the velocities remain. The first guess follows from the contacts'
+//          velocities. Most islands take two to four iterations.
+// Loads    each iteration gives impulses a small compliance, in proportion to the inverse mass; the
+//          following iterations remove its effect. So redundant contacts share the load as equal
+//          springs would.
+// Heaps    ContactSweeps solves islands of more than kMaxHeap velocities in which no body has joints,
+//          because Newton's method takes many iterations where such islands collide.
+// Others   ImpulseRows solves all other islands of more than kMaxVelocities, and the few for which
+//          Newton's method does not converge.
 // Overlaps of bodies without joints: see OverlapRemoval.
 // Threads  one thread at a time for each object.
 // Determinism  Solve() is a function of its bodies and contacts, in their order.
@@ -45,7 +46,9 @@ class IslandSolver {
  public:
   static constexpr int kMaxVelocities = 96, kMaxHeap = 48;
 
+  // Removes all bodies, contacts and pushes.
   void Clear();
+  // Adds a body, contact or push of the island, by its index in the arguments of Solve().
   void AddBody(int moving) { bodies_.push_back(moving); }
   void AddContact(int contact) { contacts_.push_back(contact); }
   void AddPush(int push) { pushes_.push_back(push); }
@@ -91,38 +94,57 @@ class IslandSolver {
     std::array<double, 3> velocity{};
   };
 
+  // Add the rows of joints, of a push, and of a contact.
   void AddJointRows(std::span<const std::unique_ptr<MovingBody>> bodies);
   void AddPushRow(std::span<const std::unique_ptr<MovingBody>> bodies, const PushRow& push);
   void AddContactRows(const ContactFinder& finder,
                       std::span<const std::unique_ptr<MovingBody>> bodies, const Contact& contact,
                       int index, double substep);
+  // Adds the velocities of one body of a contact. Returns its part of J M⁻¹ Jᵀ along the normal.
   double AddSide(const MovingBody& body, const Collider& collider, const geometry::Vector3& point,
                  double sign, const Contact& contact);
+  // Sets the target velocities of a contact. `known` is the velocity due to bodies with a
+  // prescribed motion.
   void SetTargets(const Contact& contact, bool has_tree, const std::array<double, 3>& known,
                   double substep, ContactRows& rows) const;
+  // Returns the velocity at a contact or of a row, for the velocities `v` of the island.
   std::array<double, 3> VelocityAt(const ContactRows& rows, const std::vector<double>& v) const;
   double VelocityOf(const Row& row, const std::vector<double>& v) const;
+  // Returns the index in bodies_ of the body that has this velocity.
   int BodyAt(int column) const;
 
+  // Returns false if Newton's method does not converge.
   bool SolveByNewton(std::span<const std::unique_ptr<MovingBody>> bodies);
+  // Chooses the modes of all rows and contacts from the velocities without impulses.
   void Guess();
   void WriteEquations(std::span<const std::unique_ptr<MovingBody>> bodies);
+  // Adds a row to the linear equations.
   void AddRow(const Row& row);
   void AddContactEquations(const ContactRows& rows);
+  // Computes the impulses that belong to the new velocities.
   void TakeImpulses();
+  // Updates which rows are active, and whether contacts are open, stick or slip. Returns the
+  // largest error, m/s.
   double ChooseModes();
   double ChooseMode(ContactRows& rows) const;
+  // Returns the velocity across the direction of slip that the softness permits for a unit normal
+  // impulse.
   static double CouplingOf(const ContactRows& rows);
 
+  // Whether no body of the island has joints or is pushed.
   bool CanSweep(std::span<const std::unique_ptr<MovingBody>> bodies) const;
+  // Solves the island with ContactSweeps.
   void SolveBySweeps(const ContactFinder& finder,
                      std::span<const std::unique_ptr<MovingBody>> bodies,
                      std::vector<Contact>& contacts, double substep);
   void StoreVelocities(std::span<const std::unique_ptr<MovingBody>> bodies,
                        std::span<const int> starts, std::span<double> velocities) const;
 
+  // Computes the velocities from the impulses.
   void ApplyImpulses(std::span<const std::unique_ptr<MovingBody>> bodies);
+  // Solves the island with ImpulseRows.
   void SolveByRows(std::span<const std::unique_ptr<MovingBody>> bodies);
+  // Adds a row, whose jacobian is `values`, to impulse_rows_.
   void AddRowTo(const Row& row, const double* values, const ImpulseRows::Limits& limits,
                 std::span<const std::unique_ptr<MovingBody>> bodies);
 

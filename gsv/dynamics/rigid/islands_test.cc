@@ -39,8 +39,8 @@ std::shared_ptr<model::Model> Rover() {
   return model;
 }
 
-// A rover that pushes a box, and another box that slides. `others` bodies fall and come to rest 20
-// m away.
+// A rover that pushes a box, and another box that slides. `far_bodies` more bodies fall and come to
+// rest 20 m away.
 TestWorld WorldWith(int far_bodies, int threads = 1) {
   TestWorld world(MakeWorldEngine(std::make_shared<base::ThreadTeam>(threads)));
   world.AddStatic("ground", testing::GroundOf(), {});

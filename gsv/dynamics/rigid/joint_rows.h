@@ -31,7 +31,7 @@ class JointRows {
     AddValue(velocity, 1);
     return rows_.back();
   }
-  // On none yet.
+  // Adds a row without velocities. AddValue() then adds them.
   JointRow& AddEmpty() {
     return rows_.emplace_back(
         JointRow{static_cast<int>(values_.size()), 0, 0, 0, -kNoBound, kNoBound});
@@ -44,6 +44,7 @@ class JointRows {
   }
 
   const std::vector<JointRow>& rows() const { return rows_; }
+  // The velocities on which a row acts, and its jacobian: one value for each of them.
   std::span<const int> velocities(const JointRow& row) const {
     return std::span(velocities_)
         .subspan(static_cast<std::size_t>(row.begin), static_cast<std::size_t>(row.count));

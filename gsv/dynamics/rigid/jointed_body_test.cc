@@ -85,7 +85,7 @@ TEST(JointedBody, ALimitStopsAJoint) {
   EXPECT_NEAR(world.joint_velocity("slider", 0), 0, 1e-6);
 }
 
-TEST(JointedBody, DampingLetsALinkSinkAtItsTerminalSpeed) {
+TEST(JointedBody, DampedLinkSinksAtItsTerminalSpeed) {
   auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
   model->joints[0].damping = 20;
   TestWorld world(MakeWorldEngine());
@@ -232,14 +232,14 @@ TEST(JointedBody, RobotTurnsByTheDifferenceOfItsWheels) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0, 0, 1});
   world.Run(1.5, 0.01);
-  // Its tyres are 2 cm wide and slip sideways. Their grip may be anywhere within this width, 14 to
-  // 16 cm from the centre of the robot.
+  // Its tyres are 2 cm wide and slip sideways. The friction may act anywhere within this width, 14
+  // to 16 cm from the centre of the robot.
   EXPECT_WITHIN_PERCENT(world.yaw("robot"), 1.5, 100 * (1 - 0.15 / 0.16));
   EXPECT_NEAR(world.position("robot").x, 0, 0.02);
   EXPECT_NEAR(world.position("robot").y, 0, 0.02);
 }
 
-TEST(JointedBody, RobotSlidesOnASlopeWithoutOdometry) {
+TEST(JointedBody, SlidingDownASlopeDoesNotRotateTheWheels) {
   const double angle = 0.2, mu = 0.1;
   const Pose incline{{0, 0, 0}, geometry::FromAxisAngle({0, 1, 0}, angle)};
   TestWorld world(MakeWorldEngine());

@@ -1,5 +1,5 @@
-// The impulses at the contacts of heaps, with which ContactSweeps starts in the next substep. They
-// are a part of the state.
+// Stores the impulses at the contacts of heaps. ContactSweeps starts the next substep from them.
+// They are a part of the world's state.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Dense linear equations of moderate size.
+// Solves dense linear equations of moderate size.
 #pragma once
 
 #include <span>

@@ -234,8 +234,8 @@ void LinkTree::WriteMass() {
   Factorise();
 }
 
-// Returns the momentum of all parts that hang from this part, due to `velocity`, along the
-// velocities of all parts that carry it.
+// Writes the row of the mass matrix for `velocity`. It is the momentum of this part and all parts
+// below it due to `velocity`, along each velocity from there to the base.
 void LinkTree::WriteMassesOf(int part, int velocity) {
   const Inertia& inertia = inertias_[Index(part)];
   const auto& [turning, moving] = motions_[Index(velocity)];
@@ -371,7 +371,8 @@ void LinkTree::AddBias() {
     bias_turning_[i] = bias_turning_[parent] + Cross(spins_[i], turning);
     bias_moving_[i] = bias_moving_[parent] + Cross(spins_[i], moving) + Cross(speeds_[i], turning);
   }
-  // From here on, they are the wrenches that the motion requires, about the base's centre of mass.
+  // Replaces the bias accelerations by the wrenches that the motion requires, about the base's
+  // centre of mass.
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3 at = positions_[i] - positions_[0];
     const Vector3& spin = spins_[i];

@@ -1,10 +1,11 @@
 // The equations of motion of a rigid body, or of parts that joints connect, in joint coordinates.
 // So joints cannot drift apart.
 //
-// Velocities  one number for each degree of freedom: those of the base (angular, then linear of its
-//             centre of mass, in the world) unless it is fixed, then those of the joints, part by
-//             part. A ball joint has three, its angular velocity in the child's frame.
-// Frames      each part's own lies in its centre of mass (Articulation).
+// Velocities  one number for each degree of freedom. Those of the base come first, unless it is
+//             fixed: its angular velocity, then the velocity of its centre of mass, in the world.
+//             Those of the joints follow, part by part. A ball joint has three, its angular
+//             velocity in the child's frame.
+// Frames      the origin of a part's frame is its centre of mass (Articulation).
 // Method      mass matrix by composite bodies, and a factorisation that keeps its zeros
 //             (Featherstone, Rigid Body Dynamics Algorithms, 2008, sections 6.2 and 6.5). A body
 //             without joints has gyroscopic torques by one implicit Newton step (Catto, Numerical
@@ -32,13 +33,14 @@ class LinkTree {
   // Computes the mass matrix and factorises it. Call it after Place().
   void WriteMass();
 
-  // Adds forces that apply until the next ClearForces().
+  // Removes all forces that were added. AddForce() adds a force and a torque at a part's centre of
+  // mass, and AddEffort() a force or torque of a joint.
   void ClearForces();
   void AddForce(int part, const geometry::Vector3& force, const geometry::Vector3& torque);
   void AddEffort(int velocity, double effort) { efforts_[Index(velocity)] += effort; }
-  // Returns the momenta after `seconds` of these forces and of the motion itself, without any
-  // impulse. They are the mass matrix times the velocities that free() then returns. Call it after
-  // WriteMass().
+  // Computes free(), the velocities after `seconds` of these forces and of the motion itself,
+  // without any impulse. Also computes free_momenta(), the mass matrix times these velocities. Call
+  // it after WriteMass().
   void Accelerate(double seconds);
 
   // Moves the tree by `velocities` for `seconds`.
@@ -64,6 +66,7 @@ class LinkTree {
 
   const geometry::Vector3& position(int part) const { return positions_[Index(part)]; }
   const Matrix3& rotation(int part) const { return rotations_[Index(part)]; }
+  // Returns the pose of a part's centre of mass, and its angular velocity, in the world.
   geometry::Pose pose(int part) const;
   geometry::Vector3 angular_velocity(int part) const;
   // Returns the velocity of a point of a part.
@@ -86,6 +89,7 @@ class LinkTree {
   struct Motion {
     geometry::Vector3 turning, moving;
   };
+  // Computes the velocity of a point of a part due to a unit of each velocity of the part's chain.
   void PointMotions(int part, const geometry::Vector3& point,
                     std::vector<geometry::Vector3>& motions) const;
   const geometry::Vector3& turning(int velocity) const { return motions_[Index(velocity)].turning; }
@@ -114,11 +118,16 @@ class LinkTree {
   };
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
   Link LinkOf(int part) const;
+  // Computes the pose of a part from the pose of its parent.
   void PlaceLink(int part);
+  // Writes the mass matrix of a body without joints.
   void WriteSingle();
+  // Writes the row of the mass matrix for `velocity`.
   void WriteMassesOf(int part, int velocity);
   void Factorise();
+  // Accelerates a body without joints.
   void AccelerateSingle(double seconds);
+  // Adds the forces, and subtracts the efforts that the motion itself requires.
   void AddBias();
   double& MassAt(int row, int column) { return masses_[Index(row * size_ + column)]; }
 

@@ -225,7 +225,7 @@ TEST(LinkTree, FloatingTreeKeepsItsMomenta) {
 }
 
 // The kinetic energy is that of the parts, and the response to a row inverts the mass matrix.
-TEST(LinkTree, MassMatrixHoldsTheKineticEnergyAndRespondInvertsIt) {
+TEST(LinkTree, MassMatrixGivesTheKineticEnergyAndRespondInvertsIt) {
   const model::Model model = Satellite();
   const auto parts = MakeArticulation(model).parts;
   Tree body(model);

@@ -26,7 +26,8 @@ geometry::Quaternion FromZTo(const Vector3& axis) {
   return geometry::Normalized({1 + axis.z, across.x, across.y, across.z});
 }
 
-// The velocities that move either end, each once.
+// Returns the indices of the velocities that move one of the two parts, in ascending order and each
+// once.
 std::vector<int> VelocitiesOf(const LinkTree& tree, int first, int second) {
   std::vector<int> velocities;
   for (const int part : {first, second}) {
@@ -50,7 +51,7 @@ void LoopJoint::AddRows(const LinkTree& tree, double seconds, JointRows& rows) c
                                : 0.5 * (Cross(a.x, b.x) + Cross(a.y, b.y) + Cross(a.z, b.z));
   const Vector3 axes[] = {a.x, a.y, a.z};
   const std::vector<int> velocities = VelocitiesOf(tree, first_.part, second_.part);
-  // Returns the motion of the first end relative to the second, due to each velocity.
+  // The motion of the first end relative to the second, due to a unit of each velocity.
   std::vector<LinkTree::Motion> motions(velocities.size());
   std::vector<Vector3> of_point;
   for (const double sign : {1.0, -1.0}) {

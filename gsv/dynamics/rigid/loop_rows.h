@@ -1,9 +1,9 @@
-// The rows of a joint that closes a loop of links (a four-bar linkage, a scissor lift): it holds
-// two parts of one tree together.
+// Constraint rows of a loop joint. A loop joint connects two parts of one tree of links, so that
+// the links form a loop, as in a four-bar linkage or a scissor lift.
 //
-// Drift  what the linear velocity constraints leave open is taken back in part each substep
-//        (Baumgarte, "Stabilization of constraints and integrals of motion in dynamical systems",
-//        1972).
+// Drift  with constraints on velocities alone, the two ends drift apart. Each substep corrects a
+//        fraction of this drift (Baumgarte, "Stabilization of constraints and integrals of motion
+//        in dynamical systems", 1972).
 #pragma once
 
 #include "gsv/dynamics/rigid/joint_rows.h"
@@ -13,8 +13,8 @@ namespace gsv::dynamics {
 
 class LoopJoint {
  public:
-  // `kind` is fixed, revolute, continuous, prismatic or ball. Parts as in the articulation. The z
-  // axis of the joint's frames is its axis.
+  // `kind` is fixed, revolute, continuous, prismatic or ball. `part` is an index in the
+  // articulation. The joint's axis is the z axis of its frame at each end.
   struct End {
     int part = 0;
     geometry::Pose part_from_joint;

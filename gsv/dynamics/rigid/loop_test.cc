@@ -19,8 +19,9 @@ using Kind = world::JointCommand::Kind;
 // coupler A B, the rocker B0 B.
 constexpr double kGround = 1.0, kCrank = 0.4, kCoupler = 0.9, kRocker = 0.7;
 
-// The rocker's angle above the x axis, for the crank's, by Freudenstein's equation (1954):
-// K1 cos(rocker) - K2 cos(crank) + K3 = cos(crank - rocker); the solution with B above.
+// Returns the rocker's angle above the x axis for the crank's angle, by Freudenstein's equation
+// (1954): K1 cos(rocker) - K2 cos(crank) + K3 = cos(crank - rocker). Of its two solutions, this is
+// the one with B above the ground link.
 double RockerAngle(double crank) {
   const double k1 = kGround / kCrank, k2 = kGround / kRocker;
   const double k3 =

@@ -1,4 +1,4 @@
-// Tests joints that follow others, in both movements.
+// Tests joints that follow others, in rigid-body dynamics and in planar kinematics.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"

@@ -226,7 +226,7 @@ double MovingBody::AddControl(const Motor& motor, const world::JointCommand& com
   return demand.rate - rate;
 }
 
-// Limits the velocity of a joint, whatever its cause.
+// Limits the velocity of a joint, whatever force causes it.
 void MovingBody::AddVelocityLimit(const Motor& motor, double force, double seconds) {
   const double limit = JointOf(motor).velocity_limit, most = kNoLimit * seconds;
   const double rate = tree_.joint_velocity(motor.part);
@@ -238,7 +238,7 @@ void MovingBody::AddVelocityLimit(const Motor& motor, double force, double secon
   row.upper = is_upper ? 0 : most;
 }
 
-// A joint may reach its limit at the end of the substep.
+// Adds rows that stop the joint at its limits. It may reach a limit only at the end of the substep.
 void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
   const model::Joint& joint = JointOf(motor);
   if (joint.kind == model::JointKind::kContinuous) return;
@@ -348,7 +348,7 @@ void MovingBody::StoreJoints(bool rests, world::State& state) const {
       continue;
     }
     const auto index = static_cast<std::size_t>(plan_.first_joint + part(i).joint);
-    // A limit stops a joint within a substep. The joint may have exceeded it by this much.
+    // A limit stops a joint only after a substep, so the joint may have exceeded it slightly.
     const model::Range& limits = joint.position_limits;
     if (!rests) {
       state.joint_positions[index] = std::clamp(tree_.joint_position(i), limits.min, limits.max);

@@ -40,17 +40,20 @@ class MovingBody {
   LinkTree& tree() { return tree_; }
   const LinkTree& tree() const { return tree_; }
   const JointRows& rows() const { return rows_; }
-  // Whether the body moves at its own velocity, whatever it touches.
+  // Whether the body moves at its own velocity, and contacts have no effect on it.
   bool is_kinematic() const { return is_kinematic_; }
   // Whether its drive controls the base directly.
   bool is_held() const { return servo_.has_value() && !rolls_; }
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
-  // Returns the rate without sign, in rad/s; 0 for a part on a ball joint, which has no axle.
+  // Returns the absolute rate of a wheel about its axle, in rad/s; 0 for a part on a ball joint,
+  // which has no axle.
   double WheelRate(int part) const;
 
  private:
   struct Motor {
-    int part, joint, velocity;  // indices in the articulation, in the model, in the tree
+    // Index of the part in the articulation, of the joint in the model, of the velocity in the
+    // tree.
+    int part, joint, velocity;
   };
 
   const Part& part(int index) const {
@@ -59,21 +62,31 @@ class MovingBody {
   const model::Joint& JointOf(const Motor& motor) const {
     return plan_.model->joints[static_cast<std::size_t>(motor.joint)];
   }
+  // Adds gravity, wind, fluids and the decay of velocities for each part.
   void AddForces(double seconds);
+  // Advances the drive, and computes the rates of its joints.
   void Drive(double seconds);
+  // Returns the command of a joint, which comes from the drive or from outside.
   world::JointCommand CommandOf(int joint) const;
   void AddJointRows(double seconds);
+  // Adds the rows and efforts by which a joint follows its command.
   void AddMotor(const Motor& motor, double seconds);
+  // Adds an effort of the joint, and its friction.
   void AddPush(const Motor& motor, double force, double seconds);
+  // Adds the row of a joint's controller. Returns the sign of its effort.
   double AddControl(const Motor& motor, const world::JointCommand& command, double seconds);
   void AddVelocityLimit(const Motor& motor, double force, double seconds);
   void AddPositionLimits(const Motor& motor, double seconds);
+  // Adds a row that moves the joint at `rate`, with at most this impulse.
   void AddRow(const Motor& motor, double rate, double impulse);
+  // Adds the row of a joint that follows another joint, as gears do.
   void Follow(const Motor& motor, const model::Mimic& mimic, double seconds);
   void StoreJoints(bool rests, world::State& state) const;
   void StoreBall(int part, bool rests, world::State& state) const;
+  // Returns the speed of a part's joint, rad/s or m/s.
   double Rate(int part) const;
   geometry::Pose WorldFromModel() const;
+  // Returns the speed that is compared with kResting: the maximum of all linear and angular speeds.
   double RestingSpeed() const;
 
   const RigidBody& plan_;

@@ -47,7 +47,8 @@ void AddSphereOnSphere(const Vector3& first, double first_radius, const Vector3&
   points.push_back({second + second_radius * normal, normal, distance});
 }
 
-// The piece is above the plane, on the side of the normal.
+// Finds the points at which a piece touches a plane. The solid side of the plane is opposite to its
+// normal.
 class OnPlane {
  public:
   OnPlane(const PlacedPiece& piece, const PlacedPiece& plane, double margin,
@@ -197,7 +198,8 @@ int LowestOfCylinder(const PlacedPiece& cylinder, const Vector3& normal,
     down = Normalized(down);
     aside = Cross(axis, down);
   } else {
-    // Uses the same points of the rim as before, in whatever direction the cylinder leans.
+    // If the cylinder is nearly upright, these points do not depend on the direction in which it
+    // leans.
     down = cylinder.rotation.x;
     aside = cylinder.rotation.y;
   }

@@ -8,6 +8,7 @@
 
 namespace gsv::dynamics {
 
+// A piece of a solid with its pose and bounding box in the world.
 struct PlacedPiece {
   const Piece* piece = nullptr;
   geometry::Vector3 position;
@@ -28,8 +29,8 @@ struct TouchPoint {
   double distance = 0;          // m, negative if they overlap
 };
 
-// Adds the points at which two pieces are closer than `margin`, in closed form. False for a pair of
-// kinds that it does not know.
+// Adds the points at which two pieces are closer than `margin`, in closed form. Returns false if it
+// has no closed form for this pair of kinds.
 //
 // Sphere and capsule  one point, or one at each end. A sphere on triangles: see TriangleSurface.
 // Cylinder            on a plane: the lowest point of both rims, or four points of the rim on which
@@ -39,8 +40,9 @@ struct TouchPoint {
 bool AddTouchPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                     std::vector<TouchPoint>& points);
 
-// Computes, as vectors from a cylinder's centre, the points nearest to a plane below it: the lowest
-// point of both rims, or four points of the rim on which it stands. Returns their number.
+// Computes the points of a cylinder that are nearest to a plane below it: the lowest point of both
+// rims, or four points of the rim on which it stands. The results are vectors from its centre.
+// Returns their number.
 int LowestOfCylinder(const PlacedPiece& cylinder, const geometry::Vector3& normal,
                      std::array<geometry::Vector3, 4>& lowest);
 

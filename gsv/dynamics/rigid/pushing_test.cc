@@ -74,7 +74,7 @@ TEST(Pushing, ABoxAgainstAWallStopsARobot) {
   }
 }
 
-TEST(Pushing, ABallBouncesOffARobotThatStands) {
+TEST(Pushing, ABallBouncesOffARobotAtRest) {
   TestWorld world = WorldOnGround({0, 0, 0});
   world.AddRobot("robot", Robot(), At(0, 0, 0));
   world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 5), At(-2, 0, 0.1));

@@ -39,11 +39,12 @@ struct Piece {
 struct Solid {
   int body = 0;  // index in the layout
   std::vector<Piece> pieces;
-  // half of the smallest extent of its thinnest child, if that is less than 1 m
+  // half of the smallest extent of its thinnest piece, if that is less than 1 m
   double thickness = 1;
   double radius = 0;                  // radius about the origin of the shape's frame
   std::optional<RollingWheel> wheel;  // set for a part that rolls
 
+  // Whether a surface of the solid has a restitution above 0.
   bool bounces() const;
 };
 

@@ -1,5 +1,5 @@
-// The contacts of rigid bodies over a step, for the world. Private to this folder: it includes
-// Bullet.
+// Collects the contacts of rigid bodies over the substeps of a step as a list of world::Contact.
+// Private to this folder: it includes Bullet.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// The rigid engine's view of a layout: rigid bodies, their shapes and the other bodies. Private to
-// this folder: it includes Bullet.
+// Data that the rigid engine derives from a layout: the rigid bodies, their shapes, and the other
+// bodies as obstacles. Private to this folder: it includes Bullet.
 #pragma once
 
 #include <memory>
@@ -35,6 +35,8 @@ class RigidScene {
   const std::vector<Solid>& planar() const { return planar_; }
 
  private:
+  // Each adds a body of the layout, by its index: to bodies_, to standing_ (static bodies), or to
+  // planar_ (planar bodies and actors).
   base::Status AddRigid(int index);
   void AddStanding(int index);
   void AddPlanar(int index);

@@ -1,9 +1,10 @@
 // Collision shapes in Bullet's form. Private to this folder: it includes Bullet.
 //
-// Exact      box, sphere, upright cylinder, capsule, cone, plane; a mesh that stands still is its
-//            triangles.
-// Not exact  a mesh that moves is the convex hulls of its connected pieces (more than kMaxPieces:
-//            the hull of all); an ellipsoid is a hull of points on its surface.
+// Exact      box, sphere, upright cylinder, capsule, cone, plane, and the triangles of a static
+//            mesh.
+// Not exact  a mesh that moves is replaced by the convex hulls of its connected pieces, or by one
+//            hull if there are more than kMaxPieces. An ellipsoid is replaced by a hull of points
+//            on its surface.
 #pragma once
 
 #include <map>
@@ -49,8 +50,12 @@ class RigidShapes {
  private:
   template <typename T, typename... Arguments>
   T* Own(Arguments&&... arguments);
+  // Returns the convex hull of the points.
   btCollisionShape* HullOf(const std::vector<geometry::Vector3>& points);
+  // Returns the shape as a primitive of Bullet (an ellipsoid as a hull); null for a plane or a
+  // mesh.
   btCollisionShape* Primitive(const geometry::Shape& shape);
+  // Returns the shape of a mesh, and creates it on first use.
   btBvhTriangleMeshShape* MeshOf(const geometry::Mesh& mesh);
 
   struct MeshKey {

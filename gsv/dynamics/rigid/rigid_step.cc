@@ -15,7 +15,7 @@ constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
 // In a substep, a body moves by at most this fraction of its smallest thickness, so that it passes
 // through nothing.
 constexpr double kPassable = 0.4;
-// m: planar bodies that are closer than this to the area of a rigid body take part in the step
+// m: planar bodies that are closer than this to the area of a rigid body are obstacles in the step
 constexpr double kNear = 0.05;
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
@@ -120,8 +120,7 @@ void RigidStep::AddPushes(std::span<const Push> pushes) {
     push.row.speed = pushes[i].speed;
     Vector3 low, high;
     finder_.Bounds(push.row.moving, low, high);
-    // Returns the point at which a tipping body leans on the robot: the lowest height at which they
-    // face each other.
+    // The point at which a tipping body leans on the robot: the lowest height that both have.
     Vector3 point = pushes[i].point;
     point.z = std::max(pushes[i].low, low.z);
     push.point_in_body = Inverse((*found)->tree().pose(0)) * point;
@@ -163,13 +162,14 @@ int RigidStep::RootOf(int moving) {
   return moving;
 }
 
-// The first body represents the others.
+// Merges the islands of two bodies (union-find). The body with the lowest index represents its
+// island.
 void RigidStep::Join(int a, int b) {
   const int x = RootOf(a), y = RootOf(b);
   parents_[At(std::max(x, y))] = std::min(x, y);
 }
 
-// In the order of their first bodies.
+// Lists the islands in the order of their first bodies.
 void RigidStep::MakeIslands() {
   const int count = static_cast<int>(bodies_.size());
   parents_.resize(bodies_.size());

@@ -1,7 +1,7 @@
 // Takes a step of all rigid bodies of a scene. Private to this folder: it includes Bullet.
 //
-// Determinism  memory is kept from step to step, but nothing that a result depends on: a step is a
-//              function of the scene, the states and the step size alone.
+// Determinism  a step is a function of the scene, the states and the step size alone. Data that is
+//              kept from step to step does not change the result.
 #pragma once
 
 #include <deque>
@@ -22,7 +22,7 @@ class RigidStep {
   // `team` may be null, must outlive this object, and does not change results.
   explicit RigidStep(base::ThreadTeam* team) : team_(team) {}
 
-  // `scene` must outlive this object, or must exist until the next call.
+  // Sets the scene of the next steps. It must exist until the next call, or as long as this object.
   void SetScene(const RigidScene& scene);
 
   // Runs a step from `before`. In `after`, the planar bodies have their poses at the end of the
@@ -56,19 +56,27 @@ class RigidStep {
   };
 
   void Start(const world::State& before, const world::State& after, double seconds);
+  // Adds the planar bodies that may touch a rigid body in this step.
   void AddPlanarNear(const world::State& before, const world::State& after);
+  // Moves these planar bodies to their poses at `time` after the start of the step.
   void MovePlanar(double time);
   void AddPushes(std::span<const Push> pushes);
+  // Returns the length of the next substep, if `left` seconds of the step are left.
   double SubstepFor(double left) const;
   void TakeSubstep(double time, double substep, std::span<const Push> pushes,
                    RigidContacts& contacts);
+  // Prepares the rows of the pushes for a substep.
   void StartPushes(std::span<const Push> pushes, double time, double substep);
   void MakeIslands();
+  // Merges the islands of two bodies.
   void Join(int a, int b);
+  // Returns the body that represents the island of a body.
   int RootOf(int moving);
   void SolveIslands(double substep);
+  // Stores the impulses of heaps for the next substep.
   void KeepImpulses(double substep);
   void MoveBodies(double substep);
+  // Returns the moving body on which impulses on a collider act, or -1.
   int MovedBy(int collider) const;
   template <typename Work>
   void ForEachBody(const Work& work);

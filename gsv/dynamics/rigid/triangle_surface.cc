@@ -14,9 +14,9 @@ namespace {
 
 using geometry::Vector3;
 
-// Two triangles count as one plane if the sine of the angle between them is below this.
+// Two triangles are in one plane if the sine of the angle between them is below this.
 constexpr double kOnePlane = 1e-4;
-// Tolerance of the cosine by which a direction may lie outside of the region of an edge or vertex.
+// Tolerance, as a cosine, for a direction outside of the Voronoi region of an edge or vertex.
 constexpr double kBeyond = 1e-4;
 
 std::size_t IndexOf(int i) { return static_cast<std::size_t>(i); }
@@ -49,7 +49,8 @@ TriangleSurface::TriangleSurface(const geometry::TriangleMesh& mesh, const Vecto
   vertices_.reserve(mesh.positions.size());
   for (const Vector3& position : mesh.positions) vertices_.push_back(Scaled(position, scale));
   const std::vector<int> numbers = Weld(vertices_);
-  // Meshes for drawing have a second triangle for the back of each.
+  // Skips a triangle whose vertices were used before: meshes made for rendering often have a second
+  // triangle for the back of each.
   std::set<std::array<int, 3>> known;
   for (const auto& [a, b, c] : mesh.triangles) {
     std::array<int, 3> vertices{numbers[a], numbers[b], numbers[c]};
@@ -208,7 +209,8 @@ class TriangleSurface::SphereContacts {
   const Vector3 middle_;
   const double radius_;
   MeshPoints& list_;
-  std::unordered_set<int> answered_;  // vertices; thousands of triangles may share one
+  // Vertices that were already checked; thousands of triangles may share one.
+  std::unordered_set<int> answered_;
 };
 
 // Works in the frame of the cylinder, whose axis is z.

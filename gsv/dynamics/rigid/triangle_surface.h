@@ -1,10 +1,10 @@
-// The triangles of a static mesh with their neighbours, and the contacts of wheels and spheres with
-// them.
+// The triangles of a static mesh. Finds the contacts of wheels and spheres with them.
 //
-// Sides        both sides of a triangle are solid: a body is on the side on which its middle is.
+// Sides        bodies can touch a triangle on both sides. A body is on the side on which its centre
+//              is.
 // Inner edges  a body that rolls over the edge between two triangles is not caught by it. An edge
-//              or vertex may be touched from those directions only in which no triangle beside it
-//              is nearer (Ericson, "Real-Time Collision Detection", 2005, 3.6: Voronoi regions).
+//              or vertex has contacts only in directions in which no adjacent triangle is nearer
+//              (Ericson, "Real-Time Collision Detection", 2005, 3.6: Voronoi regions).
 #pragma once
 
 #include <array>
@@ -24,12 +24,12 @@ class TriangleSurface {
   TriangleSurface(const geometry::TriangleMesh& mesh, const geometry::Vector3& scale);
 
   // Adds the points at which a cylinder or sphere is closer than `margin` to the triangles, as
-  // AddTouchPoints() of placed_piece.h does. For pieces of other kinds: returns false if they may
-  // touch, and adds nothing.
+  // AddTouchPoints() of placed_piece.h does. For pieces of other kinds, it adds nothing, and
+  // returns false if they may touch.
   //
   // Sphere    the nearest point of each face, edge or vertex.
-  // Cylinder  the lowest points of its rims above a face; of an edge the point nearest to its axis
-  //           and those at its rims; vertices.
+  // Cylinder  for a face, the lowest points of the cylinder's rims; for an edge, the point nearest
+  //           to its axis and the points at its rims; all vertices.
   bool AddPoints(const PlacedPiece& piece, const PlacedPiece& mesh, double margin,
                  std::vector<TouchPoint>& points) const;
 
@@ -37,8 +37,8 @@ class TriangleSurface {
   enum class Edge : std::uint8_t {
     kOpen,   // no neighbour, or several neighbours
     kFlat,   // the neighbour is in the same plane
-    kOwn,    // shared with one neighbour
-    kOther,  // the same, and the neighbour has it as its own
+    kOwn,    // shared with one neighbour, and assigned to this triangle
+    kOther,  // shared with one neighbour, and assigned to the neighbour
   };
   // Edges run from each corner to the next.
   struct Triangle {
@@ -52,8 +52,11 @@ class TriangleSurface {
   class SphereContacts;
   class CylinderContacts;
 
+  // Adds a triangle without neighbours.
   void AddTriangle(const std::array<int, 3>& vertices);
+  // Finds the neighbour of each edge, and whether the two triangles are in one plane.
   void JoinNeighbours();
+  // Lists for each vertex those with which it shares an edge.
   void ListVerticesBeside();
   const geometry::Vector3& CornerOf(const Triangle& triangle, std::size_t corner) const {
     return vertices_[static_cast<std::size_t>(triangle.vertices[corner])];

@@ -282,7 +282,8 @@ TEST(TriangleSurface, NearestPointOfAWheelIsThatOfABruteForceSearch) {
   ExpectNearestPoints(kWheel, 0.3, 1e-6);
 }
 
-// The search would otherwise look at all neighbours of the tip once for each triangle.
+// Without a list of checked vertices, the search would check all neighbours of the tip once for
+// each triangle.
 TEST(TriangleSurface, TipOfManyTrianglesIsFoundOnce) {
   constexpr int kCount = 20'000;
   TriangleMesh fan;

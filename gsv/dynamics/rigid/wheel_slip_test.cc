@@ -98,8 +98,8 @@ double TurnOf(const model::Slip& slip) {
   return world.body("rover").angular_velocity.z;
 }
 
-// Each wheel drives along by (1 - w) B / 2 and slides aside by w L / 2; the torques of both
-// balance.
+// Each wheel slips along its rolling direction by (1 - w) B / 2 and sideways by w L / 2. The
+// torques of both are in balance.
 TEST(WheelSlip, SkidSteeredRobotTurnsMoreSlowlyThanItsWheels) {
   for (const auto& [along, across] : {std::pair{2.0, 2.0}, {2.0, 6.0}, {3.0, 1.5}}) {
     const double b2 = kTrack * kTrack, l2 = kWheelbase * kWheelbase;

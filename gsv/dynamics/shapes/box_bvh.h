@@ -15,6 +15,7 @@ class BoxBvh {
     geometry::Vector3 low, high;
   };
 
+  // Builds the tree, and discards an earlier one.
   void Build(std::span<const Box> boxes);
 
   // Calls `use` with the index of each box that overlaps the box from `low` to `high`. The order
@@ -53,10 +54,12 @@ class BoxBvh {
     int first = 0, count = 0;
   };
 
+  // Whether a box overlaps the box from `low` to `high`, or touches it.
   static bool Meets(const Box& box, const geometry::Vector3& low, const geometry::Vector3& high) {
     return box.low.x <= high.x && low.x <= box.high.x && box.low.y <= high.y &&
            low.y <= box.high.y && box.low.z <= high.z && low.z <= box.high.z;
   }
+  // Builds the subtree of `count` entries from `first` on. Returns the index of its root.
   int BuildNode(int first, int count);
 
   std::vector<Entry> entries_;

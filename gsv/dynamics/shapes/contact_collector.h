@@ -1,4 +1,4 @@
-// Makes the list of contacts: one for each pair of bodies, ordered by (first, second).
+// Makes the list of contacts of a step: one for each pair of bodies, ordered by (first, second).
 #pragma once
 
 #include <vector>

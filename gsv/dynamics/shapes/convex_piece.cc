@@ -14,7 +14,7 @@ using geometry::kInfinity;
 // A hull omits corners that are closer than this to the line between their neighbours.
 constexpr double kFlat = 1e-9;
 
-// Larger than the rounding errors in comparisons of squared distances.
+// Factor that exceeds the rounding errors of compared squared distances.
 constexpr double kClearly = 1 + 1e-6;
 
 // The closest pair of points of two sets of vertices and edges that do not overlap.
@@ -70,8 +70,8 @@ double Lowest(const ConvexPiece& piece, Vector2 direction) {
   return lowest;
 }
 
-// Tries the outward normal of every edge of `from`, and for a segment also the directions of its
-// ends, as the axis with the smallest overlap.
+// Finds the axis with the smallest overlap among the outward normals of all edges of `from`. For a
+// segment, the directions of its ends are also tried.
 void TryAxes(const ConvexPiece& from, const ConvexPiece& other, double sign, double& distance,
              Vector2& normal) {
   const auto try_axis = [&](Vector2 axis, double top) {
@@ -100,7 +100,7 @@ Separation SeparateOverlapping(const ConvexPiece& a, const ConvexPiece& b,
   result.distance = -kInfinity;
   TryAxes(a, b, 1, result.distance, result.normal);
   TryAxes(b, a, -1, result.distance, result.normal);
-  if (result.distance == -kInfinity) {  // both points are at the same place
+  if (result.distance == -kInfinity) {  // both pieces are discs with the same centre
     result.distance = 0;
     result.normal = {1, 0};
   }

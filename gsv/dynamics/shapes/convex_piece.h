@@ -27,6 +27,7 @@ struct ConvexPiece {
   std::span<const Vector2> points() const { return {vertices.data(), std::size_t(vertex_count)}; }
 };
 
+// Returns the piece of all points within `radius` of the centre.
 ConvexPiece Disc(Vector2 centre, double radius);
 
 // Returns the hull of at least one point. If it would have more than kMaxVertices corners, returns
@@ -49,6 +50,7 @@ struct Separation {
   Vector2 point;        // the point at which they are closest, halfway between them
 };
 
+// Computes the separation of two pieces in one frame.
 Separation Separate(const ConvexPiece& a, const ConvexPiece& b);
 
 // Returns the distance from a point to the nearest point of the piece; 0 inside its polygon.

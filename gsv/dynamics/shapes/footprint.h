@@ -1,4 +1,4 @@
-// The space that a model occupies, as a few upright prisms.
+// The footprint of a model: the space that the model occupies, as a few upright prisms.
 //
 // Frame   the model's, with its z axis up.
 // Rule    Each collision (at zero joint positions) becomes a prism over its silhouette, from its
@@ -16,6 +16,7 @@
 
 namespace gsv::dynamics {
 
+// A model's footprint, as prisms.
 struct Footprint {
   static constexpr int kMaxPieces = 8;
 

@@ -1,4 +1,4 @@
-// The static obstacles in one slice of the world, by place.
+// The obstacles in one slice of the world, in a grid for queries by position.
 //
 // A uniform grid. Each cell lists the obstacles within `margin` of it, so that a query with a reach
 // up to `margin` needs only one cell.
@@ -15,6 +15,7 @@
 
 namespace gsv::dynamics {
 
+// A piece of a sliced body.
 struct Obstacle {
   ConvexPiece shape;
   Vector2 centre;  // centre and radius of a disc around the shape
@@ -32,8 +33,8 @@ class ObstacleField {
   std::size_t size() const { return obstacles_.size(); }
 
   // Calls `visit` with the index of every obstacle whose disc is within `reach` of the point. The
-  // order depends on the place only. If `reach` exceeds the margin, an obstacle may be visited
-  // twice.
+  // order depends only on the point's cell. If `reach` exceeds the margin, an obstacle may be
+  // visited twice.
   template <typename Visit>
   void ForEachNear(Vector2 point, double reach, Visit visit) const {
     for (const std::uint32_t index : everywhere_) VisitIfNear(index, point, reach, visit);
@@ -54,6 +55,7 @@ class ObstacleField {
   }
 
  private:
+  // Chooses the extent of the grid and the size of its cells.
   void LayOutGrid();
   void FillGrid();
   template <typename Visit>

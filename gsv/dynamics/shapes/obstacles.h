@@ -1,5 +1,5 @@
-// The obstacles of a world between two heights: slices of everything that wheeled bases cannot push
-// away.
+// Computes the obstacles for planar bodies: horizontal slices, between two heights, of static
+// bodies, rigid bodies and actors.
 #pragma once
 
 #include <span>

@@ -13,6 +13,7 @@
 
 namespace gsv::dynamics {
 
+// A range of heights, m.
 struct Interval {
   double low = 0, high = 0;
   friend bool operator==(const Interval&, const Interval&) = default;
@@ -23,7 +24,8 @@ Interval Heights(const geometry::Shape& shape, const geometry::Pose& pose);
 
 // Returns the area that the shape covers when seen from above; for a mesh, its convex hull. The
 // result is exact for boxes, spheres, upright and lying cylinders and capsules, and upright cones.
-// Others: the smallest polygon around it with edges in sixteen directions. Not for a Plane.
+// For other shapes, it is the smallest polygon around the shape with edges in sixteen directions.
+// Not for a Plane.
 ConvexPiece Silhouette(const geometry::Shape& shape, const geometry::Pose& pose);
 
 // Adds the area covered by the part of the shape strictly between the two heights. This is one

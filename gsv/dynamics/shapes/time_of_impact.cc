@@ -8,7 +8,7 @@
 namespace gsv::dynamics {
 namespace {
 
-constexpr double kFloorGap = 0.25e-6;  // the part of kStopGap that is left even after rounding
+constexpr double kFloorGap = 0.25e-6;  // minimum gap that remains after rounding errors, m
 constexpr int kMaxAdvances = 64;       // the pieces are stopped after this number of advances
 constexpr double kApproach = 1e-9;     // m/s; a slower approach counts as sliding
 constexpr double kNoise = 1e-12;       // m/s; a smaller speed is a rounding error
@@ -48,7 +48,7 @@ double Gap(const MovingCorners& a, const MovingCorners& b) {
          *std::max_element(a.along.begin(), a.along.begin() + a.count);
 }
 
-// Returns the earliest time at which `gap` may be closed with this speed and acceleration.
+// Returns the time after which this speed and acceleration close `gap`.
 double TimeToClose(double gap, double speed, double acceleration) {
   const double root = std::sqrt(speed * speed + 2 * acceleration * gap);
   if (speed > 0) return 2 * gap / (speed + root);
@@ -113,8 +113,8 @@ bool IsStill(const MovingPiece& moving) {
   return twist.angular == 0 || (piece.vertex_count == 1 && piece.vertices[0] == Vector2{});
 }
 
-// `place_second(t)` places the second piece at time t. `project_second(axis, corners)` projects it
-// at the last place. `normal` is the normal at the start.
+// `place_second(t)` moves the second piece to its pose at time t. `project_second(axis, corners)`
+// projects the piece, at that pose, on the axis. `normal` is the normal at the start.
 template <typename PlaceSecond, typename ProjectSecond>
 std::optional<Impact> Find(const MovingPiece& first, double end, Vector2 normal,
                            PlaceSecond place_second, ProjectSecond project_second) {

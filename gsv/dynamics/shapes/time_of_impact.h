@@ -2,9 +2,9 @@
 //
 // Method   Conservative advancement along separating axes. The closest points of the pieces give an
 //          axis. Along it, the path of each corner is bounded by its speed times the time plus half
-//          its centripetal acceleration times the time squared. Nothing can touch before the first
-//          pair of corners may have closed the gap, so time is advanced to that instant,
-//          repeatedly. It never misses a contact.
+//          its centripetal acceleration times the time squared. The pieces cannot touch before a
+//          pair of corners can have closed the gap. So the method advances to that instant, and
+//          repeats. It never misses a contact.
 // Gaps     Pieces that collide are stopped at a distance of kStopGap ± 50 %, so that rounding never
 //          makes them overlap. A distance of at most kTouchGap counts as contact. Pieces that are
 //          closer at the start (or overlap) may separate and slide, but not approach further.
@@ -33,6 +33,7 @@ inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
   Place(piece, at.x, at.y, at.cosine, at.sine, placed);
 }
 
+// The first contact of two pieces.
 struct Impact {
   double time = 0;
   Vector2 normal;                  // points from the first to the second

@@ -48,7 +48,7 @@ inline std::shared_ptr<model::Model> BoxRobot(double length, double width) {
   return RobotOf(geometry::Box{{length, width, 0.4}}, 0.4);
 }
 
-// A world that a test builds, and then its state from step to step.
+// A world that a test builds from models, starts and steps.
 class TestWorld {
  public:
   explicit TestWorld(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}

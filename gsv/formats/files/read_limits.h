@@ -1,5 +1,5 @@
-// Limits on the contents of files. A reader refuses more with a sentence. docs/formats/worlds.md
-// lists the limits.
+// Limits on the contents of files. If a file exceeds a limit, its reader refuses it, or leaves out
+// the part beyond the limit, with a sentence. docs/formats/worlds.md lists the limits.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct ReadLimits {
   std::size_t mesh_vertices = 10'000'000;
   std::size_t texture_bytes = 256u << 20;
   int texture_side = 8192;   // pixels
-  int heightmap_side = 513;  // vertices; larger images are sampled down
+  int heightmap_side = 513;  // vertices per side; larger images are sampled down
   bool operator==(const ReadLimits&) const = default;
 };
 

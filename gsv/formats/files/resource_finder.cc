@@ -17,10 +17,10 @@ using base::ErrorCode;
 
 constexpr int kParentsSearched = 5;
 constexpr std::size_t kMaxNameLength = 4096;
-constexpr int kPackageParents = 4;       // number of parent folders in which a ROS workspace of a
-                                         // file is searched
-constexpr std::size_t kMaxGroups = 200;  // maximum number of folders that are searched beside each
-                                         // of these
+// Number of folders above a file in which its ROS package is searched, and the maximum number of
+// subfolders that are searched in each of them.
+constexpr int kPackageParents = 4;
+constexpr std::size_t kMaxGroups = 200;
 constexpr std::uintmax_t kMaxPackageFileBytes = 1u << 20;
 
 bool StartsWith(std::string_view text, std::string_view prefix) {
@@ -52,8 +52,8 @@ std::vector<fs::path> PathFromEnvironment() {
   return folders;
 }
 
-// The built-in models: assets/models of the source tree or share/gsv/models of an installation,
-// found from the program's path.
+// Returns the folder of the built-in models, found from the program's path: assets/models of the
+// source tree, or share/gsv/models of an installation.
 std::vector<fs::path> BuiltInModels() {
   std::error_code ignored;
   fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
@@ -66,7 +66,7 @@ std::vector<fs::path> BuiltInModels() {
   return {};
 }
 
-// `folder`/`relative`, or else a path whose names differ only in case.
+// Returns `folder`/`relative`, or else a path below `folder` whose names differ only in case.
 std::optional<fs::path> FindBelow(const fs::path& folder, const fs::path& relative) {
   if (Exists(folder / relative)) return (folder / relative).lexically_normal();
   fs::path found = folder;
@@ -121,8 +121,8 @@ std::string Trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
-// "NAME/REST" of https://fuel.gazebosim.org/1.0/OWNER/models/NAME[/VERSION[/files/REST]]. Empty for
-// other addresses.
+// Returns "NAME/REST" for https://fuel.gazebosim.org/1.0/OWNER/models/NAME[/VERSION[/files/REST]],
+// and an empty text for other addresses.
 std::string ModelOfWebAddress(const std::string& address) {
   constexpr char kModels[] = "/models/";
   const std::size_t models = address.find(kModels);
@@ -136,7 +136,7 @@ std::string ModelOfWebAddress(const std::string& address) {
   return name + "/" + path.substr(files + sizeof kFiles - 1);
 }
 
-// The name in a folder's package.xml; empty if there is no such file.
+// Returns the name in a folder's package.xml; empty if there is no such file.
 std::string PackageName(const fs::path& folder) {
   const fs::path file = folder / "package.xml";
   std::error_code error;
@@ -150,8 +150,9 @@ std::string PackageName(const fs::path& folder) {
   return name == nullptr || name->GetText() == nullptr ? "" : Trimmed(name->GetText());
 }
 
-// Finds "PACKAGE/REST" in the ROS package around the naming file whose package.xml has that name,
-// or in a package beside one of the folders around the file. The folder may have any name.
+// Finds "PACKAGE/REST" in a ROS package near the naming file. Searches the naming file's folder and
+// the folders above it. One of them may be the package, whatever its name is, if its package.xml
+// names PACKAGE. Or one of them has a subfolder with a folder PACKAGE.
 std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& naming_file) {
   if (naming_file.empty() || path.empty()) return std::nullopt;
   const fs::path package = *path.begin();

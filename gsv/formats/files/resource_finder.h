@@ -1,4 +1,4 @@
-// Finds the files that worlds and robots refer to.
+// A ResourceFinder finds the files to which worlds and robots refer.
 //
 // A name is `model://NAME/REST`, `package://NAME/REST`, `file://PATH`, a bare path, or an address
 // on the web. A relative path is searched beside the file that names it. `model://NAME/REST` is
@@ -8,9 +8,9 @@
 //   2. on the search path of the caller;
 //   3. on GZ_SIM_RESOURCE_PATH, SDF_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH;
 //   4. among the built-in models;
-//   5. in the ROS package of that name (package.xml) around the naming file, or in one in a folder
-//      beside it.
-// "%20" and the like are decoded if no name matches unchanged. For an address on the web, the
+//   5. in the ROS package of that name (package.xml) that contains the naming file, or in one near
+//      it.
+// If no name matches unchanged, "%20" and the like are decoded. For an address on the web, the
 // model's name is searched as model://NAME. Backslashes count as slashes. Case is ignored if no
 // name matches.
 //
@@ -57,7 +57,7 @@ class ResourceFinder {
   bool allow_absolute_paths_;
 };
 
-// A relative path in the folder of `naming_file`, or up to two folders above it.
+// Finds a relative path in the folder of `naming_file`, or up to two folders above it.
 base::Result<std::filesystem::path> FindBeside(const std::string& name,
                                                const std::filesystem::path& naming_file);
 

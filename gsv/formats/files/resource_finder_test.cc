@@ -66,13 +66,13 @@ TEST(ResourceFinder, RefusesAbsolutePathsWhereTheyAreNotAllowed) {
   EXPECT_FALSE(ResourceFinder({}, false).Find("file://" + mesh.string()).has_value());
 }
 
-TEST(ResourceFinder, ReportsModelsOfTheWebAsNotSearched) {
+TEST(ResourceFinder, ReportsThatModelsOnTheWebAreNotSearched) {
   const auto found = ResourceFinder().Find("https://fuel.gazebosim.org/1.0/x/models/Cone");
   ASSERT_FALSE(found.has_value());
   EXPECT_THAT(found.error().message, HasSubstr("on the web"));
 }
 
-TEST(ResourceFinder, NamesTheFoldersThatHoldAModelOfAnyFormat) {
+TEST(ResourceFinder, ListsTheFoldersThatContainAModelOfAnyFormat) {
   const base::testing::TestFolder library;
   library.Write("chair/model-1_4.sdf", "");
   library.Write("arm/arm.urdf", "");
@@ -98,7 +98,7 @@ TEST(ModelFileIn, SelectsTheNewestReadableVersion) {
   EXPECT_EQ(ModelFileIn(folder.path()).value().filename(), "1.9.sdf");
 }
 
-TEST(ModelFileIn, NamesAFolderWithoutAModel) {
+TEST(ModelFileIn, ReportsAFolderWithoutAModel) {
   const base::testing::TestFolder folder;
   const auto file = ModelFileIn(folder.path());
   ASSERT_FALSE(file.has_value());

@@ -1,4 +1,4 @@
-// The general entities that a <!DOCTYPE> declares.
+// Reads the general entities that a <!DOCTYPE> declares.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,24 @@ namespace gsv::formats {
 
 struct XmlEntity {
   std::string value;         // its text, which may refer to other entities
-  bool is_external = false;  // declared with SYSTEM or PUBLIC: another file holds the text
+  bool is_external = false;  // declared with SYSTEM or PUBLIC: its text is in another file
 };
 
 struct XmlDoctype {
   std::map<std::string, XmlEntity, std::less<>> entities;
   bool has_parameters =
       false;            // whether it declares or uses parameter entities, which are not expanded
-  std::size_t end = 0;  // the index after its ">"; npos if it does not end
+  std::size_t end = 0;  // index of the character after its ">"; npos if it does not end
 };
 
-// Reads the declaration that begins at `begin` of `text` with "<!DOCTYPE". The first declaration of
-// a name counts.
+// Reads the "<!DOCTYPE" that begins at index `begin` of `text`. If an entity is declared several
+// times, the first declaration counts.
 XmlDoctype ReadDoctype(std::string_view text, std::size_t begin);
 
 // Whether `&name;` is one of the five entities of XML itself, or a character reference.
 bool IsPredefinedEntity(std::string_view name);
 
-// The length of the entity's name, if `text` begins with "&NAME;"; 0 if it does not.
+// Returns the length of NAME if `text` begins with "&NAME;"; 0 if it does not.
 std::size_t EntityNameLength(std::string_view text);
 
 }  // namespace gsv::formats

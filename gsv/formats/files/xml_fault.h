@@ -12,14 +12,15 @@ struct XmlFault {
   std::string sentence;      // the fault and a remedy: "<model> is not closed. Add </model>."
 };
 
-// Returns the first error in tags, attributes, comments and other markup, or nothing if there is
+// Returns the first error in tags, attributes, comments and other markup, or nullopt if there is
 // none. Entities and characters are not checked.
 std::optional<XmlFault> FindXmlFault(std::string_view text);
 
-// "FILE:LINE:COLUMN" and the sentence of an error, for a text that a parser refused on `line`.
+// The place "FILE:LINE:COLUMN" of an error, and its sentence.
 struct XmlErrorText {
   std::string place, message;
 };
+// Describes the error in a text that a parser refused on `line`.
 XmlErrorText DescribeXmlError(std::string_view text, const std::string& file, int line);
 
 }  // namespace gsv::formats

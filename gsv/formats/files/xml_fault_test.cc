@@ -21,30 +21,30 @@ TEST(XmlFault, IsAbsentInWellFormedText) {
                    "<![CDATA[ <x> ]]><d/>text</a >\n"));
 }
 
-TEST(XmlFault, NamesAnEncodingThatIsNotRead) {
+TEST(XmlFault, ReportsAnUnsupportedEncoding) {
   ExpectFault(std::string_view("\xff\xfe<\0a\0", 6), 1, 1, "the text is in UTF-16");
 }
 
-TEST(XmlFault, NamesTheElementThatIsNotClosed) {
+TEST(XmlFault, ReportsAnUnclosedElement) {
   ExpectFault("<sdf>\n  <world>\n  </world>\n", 1, 1, "<sdf> is not closed. Add </sdf>");
   ExpectFault("<sdf>\n  <world>\n</sdf>", 3, 1,
               "expected </world>, found </sdf>. Close <world> of line 2 first");
   ExpectFault("<sdf></sdf></world>", 1, 12, "</world> has no opening tag");
 }
 
-TEST(XmlFault, NamesTagsThatDoNotEnd) {
+TEST(XmlFault, ReportsUnclosedTags) {
   ExpectFault("<sdf>\n<world <model/></world></sdf>", 2, 1, "the tag <world does not end");
   ExpectFault("<a></a", 1, 4, "the tag </a does not end");
   ExpectFault("<a>1 < 2</a>", 1, 6, "In text, write &lt;");
 }
 
-TEST(XmlFault, NamesAttributesThatAreMalformed) {
+TEST(XmlFault, ReportsMalformedAttributes) {
   ExpectFault("<a b=1/>", 1, 4, "the attribute b of <a> needs a value in quotes");
   ExpectFault("<a b='1/>", 1, 4, "the attribute b of <a> needs a value in quotes");
   ExpectFault("<a b/>", 1, 4, "an attribute of <a> is malformed");
 }
 
-TEST(XmlFault, NamesCommentsThatDoNotEnd) {
+TEST(XmlFault, ReportsUnclosedComments) {
   ExpectFault("<a>\n <!-- </a>", 2, 2, "the comment does not end. Add -->");
   ExpectFault("", 1, 1, "the file contains no element");
 }

@@ -21,7 +21,8 @@ constexpr std::size_t kMaxEntityDepth = 32;
 constexpr std::size_t kMaxExpansions = 1'000'000;
 constexpr std::size_t kMaxNamedEntities = 20;
 
-// The length of the UTF-8 sequence at the beginning of `text`; 0 if there is none (RFC 3629).
+// Returns the length of the UTF-8 sequence at the beginning of `text`; 0 if there is none (RFC
+// 3629).
 std::size_t Utf8Length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -36,7 +37,7 @@ std::size_t Utf8Length(std::string_view text) {
   return is_overlong || is_beyond ? 0 : length;
 }
 
-// The index of the first byte that is not UTF-8; npos if all are.
+// Returns the index of the first byte that is not valid UTF-8, or npos.
 std::size_t FirstForeignByte(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = Utf8Length(text.substr(i));
@@ -46,7 +47,7 @@ std::size_t FirstForeignByte(std::string_view text) {
   return std::string_view::npos;
 }
 
-// ISO-8859-1: each byte is the code point of that number.
+// Converts ISO-8859-1 to UTF-8. In ISO-8859-1 each byte is a code point of Unicode.
 std::string FromLatin1(std::string_view text) {
   std::string utf8;
   utf8.reserve(text.size() + text.size() / 8);
@@ -192,7 +193,7 @@ class XmlPreparation {
     return at + length + 2;
   }
 
-  // Appends the value of the entity, with the entities in it.
+  // Appends the value of the entity, and expands the entities in it.
   void Append(std::string_view name) {
     const auto entity = doctype_.entities.find(name);
     if (entity == doctype_.entities.end()) {
@@ -232,8 +233,9 @@ class XmlPreparation {
     }
   }
 
-  // In an attribute, quotes and tags of an entity's value are text (XML 1.0, section 4.4.5).
-  // Newlines would shift the later lines.
+  // Appends a character of an entity's value. In an attribute, quotes and tags are text, so they
+  // are escaped (XML 1.0, section 4.4.5). Newlines become spaces, because they would shift the
+  // later lines.
   void AppendCharacter(char c) {
     if (c == '\n' || c == '\r') {
       out_ += ' ';
@@ -306,7 +308,7 @@ base::Status ParseXml(const std::string& text, const std::string& file, std::siz
   if (const auto* second = root == nullptr ? nullptr : root->NextSiblingElement()) {
     problems.push_back({Problem::Severity::kWarning,
                         "a second root element, <" + std::string(second->Name()) +
-                            ">, is ignored; an XML file has one",
+                            ">, is ignored; an XML file has only one",
                         file + ":" + std::to_string(second->GetLineNum())});
   }
   return {};

@@ -1,5 +1,5 @@
-// Text of an XML file, rewritten so that a parser that knows neither entities nor encodings reads
-// it.
+// Rewrites the text of an XML file for a parser that supports neither declared entities nor
+// encodings other than UTF-8.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ class XMLDocument;
 
 namespace gsv::formats {
 
-// Rewrites the text and keeps each line where it is:
+// Rewrites the text without moving any line:
 //   - the entities that its <!DOCTYPE> declares are expanded (XML 1.0, section 4.4), and the
 //     <!DOCTYPE> is removed;
 //   - comments and processing instructions are removed, so that a value is one text;
 //   - text that is not UTF-8 is read as ISO-8859-1.
-// Adds warnings. An entity that is not declared stays as written, and one that another file holds
-// is left out. Bytes that are not UTF-8 need a declaration that names ISO-8859-1. <?xml …?> must
-// come first.
+// An entity that is not declared stays as written. An entity whose text is in another file is left
+// out. Adds warnings for both, for text before <?xml …?>, and for text that is neither UTF-8 nor
+// declared as ISO-8859-1.
 //
 // Errors: kBadModel if an entity contains itself, or if the expanded text has more than `max_bytes`
 // bytes. Text with malformed tags is returned as far as it can be read; a parser then finds the

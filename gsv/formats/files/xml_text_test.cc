@@ -39,7 +39,7 @@ TEST_F(XmlText, ExpandsElementsOfAnEntityButNotInAnAttribute) {
             "<a b=\"&lt;&quot;\" c='&lt;\"'/>");
 }
 
-TEST_F(XmlText, KeepsEachLineInItsPlace) {
+TEST_F(XmlText, KeepsLineNumbers) {
   EXPECT_EQ(Prepared("<!DOCTYPE a [\n<!ENTITY e '1\n2'>\n]>\n<!-- x\ny --><a>\n&e;<b/></a>"),
             "\n\n\n\n\n<a>\n1 2<b/></a>");
 }
@@ -69,7 +69,7 @@ TEST_F(XmlText, RefusesEntitiesThatGrowWithoutBound) {
               HasSubstr("more than 1000000 expansions of entities"));
 }
 
-TEST_F(XmlText, NamesEntitiesThatItCannotExpand) {
+TEST_F(XmlText, ReportsEntitiesThatItCannotExpand) {
   EXPECT_EQ(Prepared("<!DOCTYPE a [<!ENTITY e SYSTEM 'secret'>]><a>&e;&nope;&nope;</a>"),
             "<a>&nope;&nope;</a>");
   EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("a.sdf:1: the entity &e; is in another file"),
@@ -101,7 +101,7 @@ TEST_F(XmlText, ReportsASecondRootElement) {
               ElementsAre(HasSubstr("a.sdf:2: a second root element, <b>, is ignored")));
 }
 
-TEST_F(XmlText, NamesTheLineOfMalformedXml) {
+TEST_F(XmlText, ReportsTheLineOfMalformedXml) {
   tinyxml2::XMLDocument document;
   const auto status =
       ParseXml("<!DOCTYPE a [<!ENTITY e '<b>'>]>\n<a>\n</b>", "a.sdf", 1000, document, problems_);

@@ -1,5 +1,5 @@
-// Any bytes as a mesh; the first byte selects its format. The mesh is refused, or it keeps its
-// invariants.
+// Fuzz test: reads the input as a mesh. The first byte selects the format. The reader must refuse
+// the mesh, or return a mesh that is valid.
 #include "gsv/base/check.h"
 #include "gsv/formats/fuzz/scratch_file.h"
 #include "gsv/formats/meshes/mesh_reader.h"

@@ -1,4 +1,4 @@
-// A file of this process, for readers that do not take bytes: written for each input.
+// Writes a fuzz test's input to a file, for readers that need a file.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace gsv::formats {
 
-// In its own folder, two below the temporary one, so that names that leave the folder find nothing.
+// Writes the file and returns its path. It is two folders below a temporary folder, so relative
+// names that leave its folder (../..) find no other file.
 inline std::filesystem::path ScratchFile(const std::string& name, const std::uint8_t* data,
                                          std::size_t size) {
   static const base::TemporaryFolder outer = base::TemporaryFolder::Make("gsv-fuzz").value();

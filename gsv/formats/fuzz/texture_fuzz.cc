@@ -1,4 +1,5 @@
-// Decodes any bytes as an image. It is refused, or it has as many pixels as its size requires.
+// Fuzz test: decodes the input as an image. The decoder must refuse it, or return as many pixels as
+// the image's size requires.
 #include <cstdint>
 
 #include "gsv/base/check.h"

@@ -1,4 +1,5 @@
-// Any text as a world, a model or a URDF. It is refused, or the result can be simulated.
+// Fuzz test: reads the input as a world, a model or a URDF. The reader must refuse it, or return a
+// result that can be simulated.
 #include <cmath>
 #include <set>
 

@@ -1,4 +1,5 @@
-// Any text as a xacro file. It is refused with a sentence, or the result is XML.
+// Fuzz test: expands the input as a xacro file. It must be refused with a sentence, or the result
+// must be XML.
 #include "gsv/base/check.h"
 #include "gsv/formats/fuzz/scratch_file.h"
 #include "gsv/formats/xacro/xacro.h"

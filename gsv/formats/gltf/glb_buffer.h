@@ -1,4 +1,4 @@
-// The binary part of a GLB file, and the JSON that describes it.
+// A GlbBuffer collects the binary part of a GLB file, and the JSON that describes it.
 //
 // Format  glTF 2.0 specification, sections 3.6 (buffers, accessors) and 4 (GLB).
 #pragma once

@@ -22,8 +22,8 @@ using geometry::Vector3;
 
 constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
 constexpr std::int64_t kGlbFloat = 5126, kGlbShort = 5123, kGlbInt = 5125;
-// Limits of one model, as the sum over all meshes, because accessors may be used any number of
-// times.
+// Maximum of the numbers of all meshes of a model together. The size of the file does not limit
+// them, because many meshes can use the same accessor.
 constexpr std::size_t kMaxGlbNumbers = 200'000'000;
 
 // Thrown and caught in this file only, if the file was not written by WriteGlb().
@@ -90,7 +90,7 @@ std::string TextOf(const GlbJson& json) {
   return json.is_string() ? json.get<std::string>() : std::string();
 }
 
-// The inverse of model::LinearFromSrgb().
+// Converts linear light to sRGB: the inverse of model::LinearFromSrgb().
 double SrgbOf(double linear) {
   linear = std::clamp(linear, 0.0, 1.0);
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
@@ -270,7 +270,7 @@ class GlbModelReader {
     return values;
   }
 
-  // `size` is the size of an element in bytes.
+  // Returns the bytes to which an accessor refers. `size` is the size of an element in bytes.
   GlbBytes DataOf(const GlbJson& accessor, std::size_t size) {
     const std::size_t count = WholeOf(Member(accessor, "count"), "count");
     numbers_ += std::min(count, kMaxGlbNumbers) * (size / 2);

@@ -17,7 +17,7 @@
 
 namespace gsv::formats {
 
-// `name`: of the file, for messages.
+// Reads a GLB file. `name` is the file's name for messages.
 [[nodiscard]] base::Result<model::Model> ReadGlb(std::span<const std::uint8_t> bytes,
                                                  const std::string& name);
 

@@ -108,7 +108,7 @@ TEST(ReadGlb, KeepsPartsScaleAndTextureCoordinates) {
   EXPECT_EQ(visual.materials[1].base_colour_map->width, 2);
 }
 
-TEST(ReadGlb, AnUntexturedRectangleIsAPlaneAgain) {
+TEST(ReadGlb, ReadsAnUntexturedRectangleAsAPlane) {
   const model::Visual visual = Reread(Cart()).links[0].visuals.at(1);
   const auto* plane = std::get_if<geometry::Plane>(&visual.shape);
   ASSERT_NE(plane, nullptr);

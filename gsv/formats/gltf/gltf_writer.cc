@@ -59,7 +59,7 @@ void SetPose(const geometry::Pose& pose, Json& node) {
   if (q != geometry::Quaternion{}) node["rotation"] = {q.x, q.y, q.z, q.w};
 }
 
-// The kind and the size of a shape in metres, for viewers that describe it.
+// Returns the kind and the size (metres) of a shape, for viewers that show them as text.
 Json ShapeJson(const geometry::Shape& shape) {
   const auto of = [](const Vector3& v) { return Json{v.x, v.y, v.z}; };
   if (const auto* box = std::get_if<geometry::Box>(&shape)) {
@@ -167,7 +167,7 @@ class Writer {
     return Add(std::move(node), nodes_);
   }
 
-  // Returns the same mesh for equal shapes.
+  // Returns the triangles of a shape: the same mesh object for equal shapes.
   std::shared_ptr<const TriangleMesh> Tessellated(const geometry::Shape& shape) {
     const geometry::Bounds bounds = geometry::BoundsOf(shape);
     double more = 0;  // the size of the shape, if its bounds do not determine it

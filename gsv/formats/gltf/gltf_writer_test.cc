@@ -1,4 +1,4 @@
-// Reads the files with assimp's independent glTF reader.
+// Tests the written files with assimp's glTF reader, which is independent of GSV.
 #include "gsv/formats/gltf/gltf_writer.h"
 
 #include <cmath>
@@ -121,7 +121,7 @@ TEST(WriteGlb, KeepsMetresAndZUp) {
   EXPECT_EQ(JsonOf(glb)["asset"]["extras"]["up_axis"], "z");
 }
 
-TEST(WriteGlb, FacesOutward) {
+TEST(WriteGlb, TrianglesFaceOutward) {
   Assimp::Importer importer;
   const aiScene* scene = Read(Glb(Robot()), importer);
   ASSERT_NE(scene, nullptr);
@@ -204,7 +204,7 @@ TEST(WriteGlb, DescribesTheShapesOfVisuals) {
   EXPECT_EQ(shapes[1], nlohmann::json::parse(R"({"kind":"cylinder","radius":0.5,"length":0.2})"));
 }
 
-TEST(WriteGlb, NamesTheExtensionOfALightMap) {
+TEST(WriteGlb, DeclaresTheExtensionOfALightMap) {
   model::Material material;
   material.occlusion_map = Picture(8, 8);
   material.light_map = Picture(4, 4);

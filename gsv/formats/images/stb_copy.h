@@ -8,7 +8,7 @@
 
 namespace gsv::formats {
 
-inline void* CopyIfAny(void* to, const void* from, std::size_t bytes) {
+inline void* CopyBytes(void* to, const void* from, std::size_t bytes) {
   return bytes == 0 ? to : std::memcpy(to, from, bytes);
 }
 

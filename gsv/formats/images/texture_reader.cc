@@ -28,7 +28,7 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wshadow"
-#define memcpy gsv::formats::CopyIfAny
+#define memcpy gsv::formats::CopyBytes
 #include <stb/stb_image.h>
 #undef memcpy
 #pragma GCC diagnostic pop

@@ -1,10 +1,10 @@
-// Reads images (PNG, JPEG, TGA, BMP, TIFF), and keeps each for all users. An image with sides
-// beyond the limit is scaled down.
+// A TextureReader reads images (PNG, JPEG, TGA, BMP, TIFF). It reads each file once and shares the
+// result. An image with sides beyond the limit is scaled down.
 //
 // Errors   a sentence for a file that is missing, larger than the limits, or not an image. The size
 //          in an image is checked before memory is allocated: at most 128 million pixels for an
 //          image that is scaled down.
-// Threads  one at a time.
+// Threads  one thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,8 @@
 
 namespace gsv::formats {
 
-// `source` is for messages. An image without transparent pixels has 3 channels.
+// Decodes an image file. `source` is its name for messages. The result has 3 channels if no pixel
+// is transparent.
 base::Result<std::shared_ptr<const model::Image>> DecodeImage(const unsigned char* bytes,
                                                               std::size_t size,
                                                               const std::string& source,
@@ -29,7 +30,8 @@ class TextureReader {
   explicit TextureReader(const ReadLimits& limits) : limits_(limits) {}
   base::Result<std::shared_ptr<const model::Image>> Read(const std::filesystem::path& path);
 
-  // Gloss in the form of glTF: G from `roughness`, B from `metalness`; either may be null.
+  // Combines two grey images into a metallic-roughness map of glTF: `roughness` becomes the green
+  // channel and `metalness` the blue one. Either may be null.
   std::shared_ptr<const model::Image> Combine(const std::shared_ptr<const model::Image>& roughness,
                                               const std::shared_ptr<const model::Image>& metalness);
 

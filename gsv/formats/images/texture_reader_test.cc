@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// An uncompressed true-colour TGA, rows from the top, blue first.
+// Returns an uncompressed true-colour TGA file, rows from the top, blue first.
 std::string Tga(int width, int height, const std::string& pixels, int bits) {
   std::string tga(18, '\0');
   tga[2] = 2;

@@ -184,7 +184,8 @@ bool ReadTiles(TIFF* tiff, const Sample& sample, HeightGrid& grid) {
   return true;
 }
 
-// Metres between neighbours. Degrees are converted on a sphere, at the file's upper edge.
+// Returns the distance between samples in metres. Degrees are converted on a sphere, at the file's
+// upper edge.
 std::optional<geometry::Vector2> SpacingOf(TIFF* tiff) {
   std::uint32_t count = 0;
   double* scale = nullptr;

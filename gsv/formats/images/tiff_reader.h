@@ -3,7 +3,7 @@
 // Not read  heights in more than one band (the first is used), in complex numbers, or in
 //           projections other than metres and degrees.
 // Errors    a sentence for a file that is missing, damaged or larger than the limits.
-// Threads   concurrently.
+// Threads   any; calls may run concurrently.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +18,13 @@
 
 namespace gsv::formats {
 
-// A grid of heights, rows from the north, in the file's unit (metres for a DEM). All are finite:
-// heights that the file marks as unknown get the lowest height.
+// A grid of heights in the file's unit (metres for a digital elevation model), rows from the north.
+// All heights are finite: those that the file marks as unknown get the lowest height.
 struct HeightGrid {
   int width = 0, height = 0;
-  std::vector<double> heights;               // width * height
-  std::optional<geometry::Vector2> spacing;  // metres between neighbours, if the file has it
+  std::vector<double> heights;  // width * height
+  // Distance between samples in metres, if the file has it.
+  std::optional<geometry::Vector2> spacing;
 };
 
 bool IsTiff(const unsigned char* bytes, std::size_t size);

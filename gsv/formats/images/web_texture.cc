@@ -17,7 +17,7 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
-#define memcpy gsv::formats::CopyIfAny
+#define memcpy gsv::formats::CopyBytes
 #include <stb/stb_image_write.h>
 #define STB_IMAGE_RESIZE_STATIC
 #define STB_IMAGE_RESIZE_IMPLEMENTATION
@@ -54,7 +54,8 @@ std::string MimeTypeOf(const std::vector<std::uint8_t>& bytes) {
   return "";
 }
 
-// The image's own file; empty if it does not exist, browsers do not read it, or its size differs.
+// Returns the image's own file. Empty if it does not exist, if browsers do not read its format, or
+// if its size differs from the image's.
 WebTexture Original(const Image& image) {
   std::ifstream file(image.source, std::ios::binary | std::ios::ate);
   if (!file || file.tellg() <= 0 || file.tellg() > kMaxFileBytes) return {};

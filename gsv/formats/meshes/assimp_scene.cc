@@ -51,8 +51,8 @@ void MoveBlanksOutOfColours(std::string& text) {
   }
 }
 
-// A file beside a mesh. It replaces assimp's own streams, because a library that is loaded on
-// demand cannot provide their classes.
+// A file beside a mesh. It replaces assimp's own stream classes, because these are not available if
+// assimp is loaded on demand.
 class FileStream final : public Assimp::IOStream {
  public:
   static FileStream* Open(const char* name) {
@@ -154,8 +154,8 @@ base::Result<std::string> ReadBytes(const fs::path& path, std::size_t limit) {
   return bytes;
 }
 
-// The header of a binary STL has the number of triangles, which have 50 bytes each. If there are
-// fewer, the header gets the actual number.
+// Corrects the number of triangles in the header of a binary STL, if the file has fewer. A triangle
+// has 50 bytes.
 void CountTriangles(std::string& stl, std::vector<std::string>& changes) {
   constexpr std::size_t kHeader = 84, kTriangle = 50, kCount = 80;
   if (stl.size() < kHeader || stl.compare(0, 5, "solid") == 0) return;

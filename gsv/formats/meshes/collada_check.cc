@@ -38,15 +38,15 @@ bool IsListOfIndices(const XMLElement& element) {
          std::strcmp(name, "v") == 0 || std::strcmp(name, "h") == 0;
 }
 
-// The values of an array that are read: COLLADA 1.4.1, 5-16 (accessor) and 5-56 (float_array).
+// An accessor reads values of an array: COLLADA 1.4.1, 5-16 (accessor) and 5-56 (float_array).
 struct Accessor {
   std::string array;  // its id
   double values = 0;  // number of values that the array must have; infinite if there is no count
   int line = 0;
 };
 
-// The count in an attribute. If there is no such attribute, it is `absent`. If the text has
-// anything but digits, which assimp reads differently from other programs, it is `odd`.
+// Returns the count in an attribute. Returns `absent` if there is no such attribute, and `odd` if
+// its text has anything but digits: assimp reads such a text differently from other programs.
 double CountIn(const XMLElement& element, const char* attribute, double absent, double odd) {
   const char* text = element.Attribute(attribute);
   if (text == nullptr) return absent;
@@ -69,17 +69,19 @@ Accessor AccessorIn(const XMLElement& element) {
           count > 0 ? last + std::max(stride, params) : 0, element.GetLineNum()};
 }
 
-// Which nodes contain which, by <node> and by <instance_node> (COLLADA 1.4.1, 5-68). assimp copies
-// each instance with all its content. It does not end if a node contains itself.
+// A graph of the nodes that other nodes contain, by <node> and by <instance_node> (COLLADA 1.4.1,
+// 5-68). assimp copies each instance with all its content. It does not end if a node contains
+// itself.
 class NodeGraph {
  public:
-  // `inside`: the ids of the nodes that contain the element, outermost first.
+  // Adds an <instance_node>. `inside`: the ids of the nodes that contain the element, outermost
+  // first.
   void AddInstance(const std::vector<std::string>& inside, const std::string& url) {
     if (url.empty() || url.front() != '#') return;
     for (const std::string& node : inside) contents_[node].push_back(url.substr(1));
   }
 
-  // The fault as a sentence; null if there is none.
+  // Returns the first fault as a sentence; null if there is none.
   const char* Fault() {
     for (const auto& [node, contents] : contents_) {
       if (CopiesOf(node, 0) > kMaxCopies && fault_ == nullptr)
@@ -93,7 +95,7 @@ class NodeGraph {
   static constexpr int kMaxInstanceDepth = 64;
   static constexpr double kMaxCopies = 1e6;
 
-  // The number of nodes in the copy of a node.
+  // Returns the number of nodes that a copy of this node has, including itself.
   double CopiesOf(const std::string& node, int depth) {
     if (const auto known = copies_.find(node); known != copies_.end()) return known->second;
     const auto contents = contents_.find(node);

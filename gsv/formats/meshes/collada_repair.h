@@ -12,9 +12,9 @@ struct ColladaRepair {
   std::multimap<std::string, std::string> ids_of;  // ids of nodes and geometries by name
 };
 
-// Changes `text` where necessary: comments are dropped, images without a file stay without one,
-// polygons with holes lose their holes. A geometry that would harm assimp (collada_check.h) is left
-// out if there are others. Text that is not COLLADA is not changed.
+// Changes `text` where necessary. Comments and the holes of polygons are removed. Images without a
+// file get a placeholder name. A geometry that would harm assimp (collada_check.h) is left out if
+// there are others. Text that is not COLLADA is not changed.
 ColladaRepair RepairCollada(std::string& text);
 
 // Leaves out optional parts of a mesh: at level 1 animations, cameras, lights and physics, at level

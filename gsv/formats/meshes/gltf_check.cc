@@ -14,9 +14,10 @@ namespace {
 
 using base::ErrorCode;
 
-constexpr int kMaxJsonDepth = 64;  // glTF itself has about ten levels; the rest is for "extras"
-constexpr std::size_t kMaxNodeDepth = 512;    // assimp descends by recursion
-constexpr std::size_t kMaxNodes = 1'000'000;  // after assimp has copied those with several parents
+constexpr int kMaxJsonDepth = 64;  // glTF itself has about ten levels; "extras" may have more
+constexpr std::size_t kMaxNodeDepth = 512;  // assimp descends by recursion
+constexpr std::size_t kMaxNodes =
+    1'000'000;  // counts a node once for each of its parents, because assimp copies it
 
 std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   std::uint32_t word = 0;
@@ -24,7 +25,8 @@ std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   return word;
 }
 
-// The JSON of a .glb; nothing if one of the two chunks that assimp reads reaches beyond the end.
+// Returns the JSON of a .glb; nullopt if one of the two chunks that assimp reads reaches beyond the
+// end.
 std::optional<std::string_view> JsonOf(std::string_view glb) {
   constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
   if (glb.size() < kFileHeader + kChunkHeader) return std::nullopt;
@@ -41,7 +43,8 @@ std::optional<std::string_view> JsonOf(std::string_view glb) {
   return json;
 }
 
-using Children = std::vector<std::vector<std::size_t>>;  // of each node, as indices of nodes
+using Children =
+    std::vector<std::vector<std::size_t>>;  // for each node, the indices of its child nodes
 
 // Returns why assimp must not read nodes with these children, or null.
 const char* FaultOf(const Children& children) {
@@ -78,12 +81,13 @@ const char* FaultOf(const Children& children) {
   return order.size() == nodes.size() ? nullptr : "the mesh cannot be read: a node contains itself";
 }
 
-// Receives the values one by one, and stores only the children of nodes.
-class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
+// Checks the sizes and counts that the JSON declares. It receives the values one by one while they
+// are parsed, and stores only the children of nodes.
+class DeclaredSizeChecker : public nlohmann::json_sax<nlohmann::json> {
  public:
-  explicit ClaimChecker(const ReadLimits& limits)
-      : most_bytes_(limits.mesh_bytes),
-        most_values_(std::max(limits.mesh_vertices, 3 * limits.mesh_triangles)) {}
+  explicit DeclaredSizeChecker(const ReadLimits& limits)
+      : max_bytes_(limits.mesh_bytes),
+        max_values_(std::max(limits.mesh_vertices, 3 * limits.mesh_triangles)) {}
 
   bool key(string_t& name) override {
     if (depth_ == kInRoot) {
@@ -94,18 +98,23 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
       is_sparse_ = name == "sparse";
       is_children_ = is_nodes_ && name == "children";
     }
-    // In other places, and in the "extras" of an element, such a name has another meaning.
+    // In other places, and in the "extras" of an element, these names have another meaning.
     if (!claims_ || !(depth_ == kInElement || (depth_ > kInElement && is_sparse_))) return true;
-    if (name == "byteLength" || name == "byteOffset" || name == "byteStride") most_ = most_bytes_;
-    if (name == "count") most_ = most_values_;
+    if (name == "byteLength" || name == "byteOffset" || name == "byteStride")
+      max_number_ = max_bytes_;
+    if (name == "count") max_number_ = max_values_;
     return true;
   }
   bool number_unsigned(number_unsigned_t value) override {
     if (is_children_ && depth_ == kInElement + 1) children_.back().push_back(value);
-    return Take(value <= most_);
+    return Take(value <= max_number_);
   }
-  bool number_integer(number_integer_t) override { return Take(most_ == kNoMost); }  // negative
-  bool number_float(number_float_t, const string_t&) override { return Take(most_ == kNoMost); }
+  bool number_integer(number_integer_t) override {
+    return Take(max_number_ == kNoSizeLimit);
+  }  // negative
+  bool number_float(number_float_t, const string_t&) override {
+    return Take(max_number_ == kNoSizeLimit);
+  }
   bool null() override { return Take(true); }
   bool boolean(bool) override { return Take(true); }
   bool string(string_t&) override { return Take(true); }
@@ -124,12 +133,12 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
   const char* wrong = nullptr;
 
  private:
-  static constexpr std::size_t kNoMost = SIZE_MAX;
+  static constexpr std::size_t kNoSizeLimit = SIZE_MAX;
   static constexpr int kInRoot = 1, kInElement = 3;  // depths: an object in an array of the root
 
   bool Take(bool is_allowed) {
     if (!is_allowed) wrong = "the mesh claims more values than the limits allow";
-    most_ = kNoMost;
+    max_number_ = kNoSizeLimit;
     return is_allowed;
   }
   bool Enter() {
@@ -142,8 +151,8 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  const std::size_t most_bytes_, most_values_;
-  std::size_t most_ = kNoMost;  // limit of the next number
+  const std::size_t max_bytes_, max_values_;
+  std::size_t max_number_ = kNoSizeLimit;  // limit of the next number
   int depth_ = 0;
   bool claims_ = false, is_sparse_ = false;  // state of the parser
   bool is_nodes_ = false, is_children_ = false;
@@ -168,7 +177,7 @@ base::Status CheckGltf(const std::string& bytes, bool is_binary, const ReadLimit
   }
   // Some writers pad the chunk with zeros, where assimp's reader stops.
   json = json.substr(0, json.find('\0'));
-  ClaimChecker checker(limits);
+  DeclaredSizeChecker checker(limits);
   nlohmann::json::sax_parse(json, &checker);
   if (checker.wrong == nullptr) checker.wrong = FaultOf(checker.children());
   if (checker.wrong == nullptr) return {};

@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Vector3;
 
-// Interpolates bilinearly between the grid's points.
+// Returns the height at (x, y) in grid units, by bilinear interpolation.
 double HeightAt(const HeightGrid& grid, double x, double y) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, grid.width - 1), y1 = std::min(y0 + 1, grid.height - 1);
@@ -20,7 +20,7 @@ double HeightAt(const HeightGrid& grid, double x, double y) {
          v * ((1 - u) * point(x0, y1) + u * point(x1, y1));
 }
 
-// The first channel as values in [0, 1].
+// Returns the image's first channel as values in [0, 1].
 HeightGrid GreysOf(const model::Image& image) {
   HeightGrid grid{image.width, image.height, {}, {}};
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -30,7 +30,7 @@ HeightGrid GreysOf(const model::Image& image) {
   return grid;
 }
 
-// The height of a vertex is `scale` times the height above `lowest`.
+// Makes a mesh in which the height of a vertex is `scale` times the grid's height above `lowest`.
 geometry::TriangleMesh MeshOf(const HeightGrid& grid, const Vector3& size, double lowest,
                               double scale, int max_vertices) {
   const int columns = std::clamp(grid.width, 2, max_vertices);

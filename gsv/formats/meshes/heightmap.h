@@ -8,9 +8,9 @@
 
 namespace gsv::formats {
 
-// A grid over [-size.x/2, size.x/2] x [-size.y/2, size.y/2], white at height size.z and black at
-// 0; the image's upper edge is at +y. A side has at most `max_vertices` (>= 2); larger images are
-// sampled down.
+// Makes a mesh of a grey image, over [-size.x/2, size.x/2] x [-size.y/2, size.y/2] (metres). White
+// is at height size.z, black at 0. The image's upper edge is at +y. A side has at most
+// `max_vertices` (>= 2) vertices: larger images are sampled down.
 geometry::TriangleMesh HeightmapMesh(const model::Image& image, const geometry::Vector3& size,
                                      int max_vertices);
 
@@ -18,8 +18,8 @@ geometry::TriangleMesh HeightmapMesh(const model::Image& image, const geometry::
 geometry::TriangleMesh HeightmapMesh(const HeightGrid& grid, const geometry::Vector3& size,
                                      int max_vertices);
 
-// The size of a grid in metres, as its file gives it: width, depth, and the range of heights. If
-// the file gives no distance between samples, it is 1 m.
+// Returns the size of a grid in metres, as its file gives it: width, depth, and the range of
+// heights. The distance between samples is 1 m if the file does not give it.
 geometry::Vector3 TrueSize(const HeightGrid& grid);
 
 }  // namespace gsv::formats

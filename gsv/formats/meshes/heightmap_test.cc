@@ -15,7 +15,7 @@ model::Image Ramp(int width, int height) {
   return image;
 }
 
-TEST(Heightmap, HasItsSizeAndItsHeightsFollowTheGreyValues) {
+TEST(Heightmap, HasItsSizeAndHeightsProportionalToTheGreyValues) {
   const auto mesh = HeightmapMesh(Ramp(6, 4), {10, 6, 2}, 100);
   EXPECT_EQ(mesh.positions.size(), 24u);
   EXPECT_EQ(mesh.triangles.size(), 2u * 5 * 3);

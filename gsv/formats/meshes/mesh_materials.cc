@@ -71,8 +71,8 @@ class MaterialReader {
     }
   }
 
-  // A colour map's alpha is used only if the file requests it, as many files have a meaningless
-  // alpha.
+  // Reads whether the material is transparent. A colour map's alpha is used only if the file
+  // requests it, because many files have a meaningless alpha.
   void ReadSeeThrough(const aiMaterial& source, Material& material) {
     std::string mode = source.GetTextureCount(aiTextureType_OPACITY) > 0 ? "MASK" : "OPAQUE";
     if (IsGltf(source)) {

@@ -1,4 +1,4 @@
-// The materials of a mesh file.
+// Reads the materials of a mesh file.
 #pragma once
 
 #include <filesystem>

@@ -27,10 +27,11 @@ bool IsDegenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
            kSine * kSine * geometry::Dot(ab, ab) * geometry::Dot(ac, ac));
 }
 
-// Joins the meshes of a scene's nodes into one mesh in the file's root frame, with one part each.
-class Gatherer {
+// Joins the meshes of a scene's nodes into one mesh, in the file's root frame. Each of them becomes
+// a part.
+class MeshMerger {
  public:
-  Gatherer(const AssimpScene& opened, const std::string& submesh, const ReadLimits& limits)
+  MeshMerger(const AssimpScene& opened, const std::string& submesh, const ReadLimits& limits)
       : scene_(*opened.scene), submesh_(submesh), limits_(limits) {
     const auto [first, last] = opened.ids_of.equal_range(submesh);
     for (auto id = first; id != last; ++id) submesh_ids_.insert(id->second);
@@ -167,7 +168,7 @@ base::Result<MeshFile> ReadMesh(const std::filesystem::path& path, const std::st
                                 base::Problems& problems) {
   auto opened = OpenScene(path, limits);
   if (!opened) return Fail(opened.error());
-  auto mesh = Gatherer(*opened, submesh, limits).Gather();
+  auto mesh = MeshMerger(*opened, submesh, limits).Gather();
   if (!mesh) return Fail(mesh.error().code, mesh.error().message, path.string());
   for (const std::string& change : opened->changes) {
     problems.push_back(

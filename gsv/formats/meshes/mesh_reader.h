@@ -1,13 +1,14 @@
-// Reads meshes (COLLADA, OBJ, STL, glTF) with their materials; each file is read once.
+// A MeshReader reads meshes (COLLADA, OBJ, STL, glTF) with their materials. It reads each file
+// once.
 //
 // Units    metres: COLLADA's <unit> is applied.
-// Axes     the file's own. Like Gazebo and RViz, this ignores COLLADA's <up_axis>, because models
-//          are made for those (TurtleBot3's arena declares Y_UP, but has z up). The y axis of glTF
-//          is up by definition, and is kept as well.
-// Repairs  triangles without area, and those that name vertices that do not exist, are dropped.
+// Axes     the file's own axes. Like Gazebo and RViz, this ignores COLLADA's <up_axis>, because
+//          models are made for these programs (TurtleBot3's arena declares Y_UP, but has z up).
+//          glTF's y axis, which is up by definition, is not changed either.
+// Repairs  triangles without area, and triangles that refer to missing vertices, are dropped.
 // Errors   a sentence for a file that is missing, beyond the limits, unreadable or without
 //          triangles.
-// Threads  one at a time.
+// Threads  one thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -34,9 +35,9 @@ class MeshReader {
   MeshReader(const ReadLimits& limits, TextureReader& textures)
       : limits_(limits), textures_(textures) {}
 
-  // `submesh` empty: the whole mesh; `centred`: moved so that the centre of its bounding box is at
-  // the origin. A submesh is named by the name or id of its node or geometry. Textures that cannot
-  // be read, and parts of the mesh that were left out, give warnings.
+  // Reads a mesh. `submesh` is the name or id of a node or geometry; empty: the whole mesh.
+  // `centred`: moves the mesh so that the centre of its bounding box is at the origin. Adds
+  // warnings for textures that cannot be read, and for parts of the mesh that were left out.
   base::Result<MeshFile> Read(const std::filesystem::path& path, const std::string& submesh,
                               bool centred, base::Problems& problems);
 

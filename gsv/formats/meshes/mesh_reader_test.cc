@@ -153,7 +153,7 @@ TEST_F(MeshReaderTest, ReadsObjWhoseLastLineDoesNotEnd) {
   EXPECT_THAT(mesh->triangles->triangles, SizeIs(1));
 }
 
-TEST_F(MeshReaderTest, WarnsOfTexturesThatAreAbsent) {
+TEST_F(MeshReaderTest, WarnsOfMissingTextures) {
   folder_.Write("a.mtl", "newmtl green\nKd 0 1 0\nmap_Kd nowhere.png\n");
   EXPECT_TRUE(Read("a.obj", kObj).has_value());
   ASSERT_THAT(problems_, SizeIs(1));
@@ -182,7 +182,7 @@ TEST_F(MeshReaderTest, TheAlphaOfAnImageCountsIfTheMaterialUsesIt) {
   EXPECT_TRUE(net.alpha_mask);
 }
 
-// A triangle with an image of one red pixel with alpha zero.
+// Returns a glTF file: a triangle with an image of one red pixel with alpha zero.
 std::string Gltf(const std::string& alpha_mode) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
@@ -201,7 +201,7 @@ std::string Gltf(const std::string& alpha_mode) {
 "max":[1,1,0]},{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}]})";
 }
 
-TEST_F(MeshReaderTest, TheAlphaOfGltfCountsByItsMode) {
+TEST_F(MeshReaderTest, AppliesTheAlphaModeOfGltf) {
   const struct {
     const char* mode;
     int channels;
@@ -217,7 +217,7 @@ TEST_F(MeshReaderTest, TheAlphaOfGltfCountsByItsMode) {
   }
 }
 
-// The file of Gltf() whose nodes have these children.
+// Returns the file of Gltf() with further nodes, which have these children.
 std::string GltfWithNodes(const std::vector<std::string>& children) {
   std::string nodes;
   for (const std::string& each : children) nodes += ",{\"children\":[" + each + "]}";

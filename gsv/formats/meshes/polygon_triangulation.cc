@@ -50,8 +50,8 @@ bool Faces(const Ring& ring, std::size_t i, const Vector2& p) {
   return Turn(before, here, after) > 0 ? left_of_both : left_of_either;
 }
 
-// The first intersection of a ray with an edge, and the right end of that edge. The ray goes from
-// `eye`, a point inside the ring, to +x.
+// The first intersection of a ray with an edge of the ring, and the right end of this edge. The ray
+// begins at `eye`, a point inside the ring, and has the direction +x.
 struct Hit {
   double x = std::numeric_limits<double>::infinity();
   std::size_t corner = 0;
@@ -69,9 +69,9 @@ Hit FirstHit(const Ring& ring, const Vector2& eye) {
   return hit;
 }
 
-// The corner of `ring` that is visible from `eye`, or ring.size() if there is none. It is the right
-// end of the edge that the ray meets. If reflex corners are between them, it is the reflex corner
-// with the smallest angle to the ray, and of those the nearest.
+// Returns a corner of `ring` that is visible from `eye`, or ring.size() if there is none. This is
+// the right end of the edge that the ray meets, unless reflex corners are in between. Then it is
+// the reflex corner with the smallest angle to the ray, or the nearest of several.
 std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   const Hit hit = FirstHit(ring, eye);
   if (std::isinf(hit.x)) return ring.size();
@@ -93,7 +93,8 @@ std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   return best;
 }
 
-// Inserts the hole into the ring, with a bridge from the visible corner.
+// Inserts the hole into the ring, with a bridge from the visible corner. Returns false if there is
+// none.
 bool JoinHole(Ring& ring, const Ring& hole) {
   const std::size_t start = Rightmost(hole);
   const std::size_t corner = VisibleCorner(ring, hole[start].point);
@@ -139,8 +140,8 @@ base::Result<std::vector<std::array<std::uint32_t, 3>>> Triangulate(
     hole_rings.push_back(ToRing(hole, first));
     first += static_cast<std::uint32_t>(hole.size());
   }
-  // Sorts the holes from right to left, so that each hole sees either the outline or a hole that is
-  // already joined.
+  // Sorts the holes from right to left, so that from each hole the outline, or a hole that is
+  // already joined, is visible.
   std::sort(hole_rings.begin(), hole_rings.end(), [](const Ring& a, const Ring& b) {
     return a[Rightmost(a)].point.x > b[Rightmost(b)].point.x;
   });

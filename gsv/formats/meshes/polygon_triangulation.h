@@ -1,4 +1,4 @@
-// Cuts polygons with holes into triangles.
+// Triangulates polygons with holes.
 #pragma once
 
 #include <array>

@@ -8,10 +8,10 @@
 
 namespace gsv::formats {
 
-// The outlines, which are closed and of either sense of rotation, bound an area by the even-odd
-// rule: an outline inside another is a hole. The prism over the area goes from z = 0 to `height`.
-// Units: metres. Refuses outlines with less than three distinct points or without area, and
-// outlines that cross themselves so that they cannot be cut into triangles.
+// Makes a prism from z = 0 to `height` over the area inside the outlines (metres). Outlines are
+// closed, and clockwise or counter-clockwise. The even-odd rule applies: an outline inside another
+// is a hole. Fails for outlines with less than three distinct points or without area, and for
+// outlines that cannot be triangulated because they cross themselves.
 base::Result<geometry::TriangleMesh> ExtrudeOutlines(
     const std::vector<std::vector<geometry::Vector2>>& outlines, double height);
 

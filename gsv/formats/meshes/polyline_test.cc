@@ -29,7 +29,7 @@ Outline Square(double x, double y, double side) {
   return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
 }
 
-TEST(ExtrudeOutlines, MakesAPrismOfEitherSenseOfRotation) {
+TEST(ExtrudeOutlines, AcceptsClockwiseAndCounterClockwiseOutlines) {
   Outline square = Square(0, 0, 1);
   EXPECT_NEAR(Volume(ExtrudeOutlines({square}, 1.5).value()), 1.5, 1e-12);
   std::reverse(square.begin(), square.end());
@@ -43,7 +43,7 @@ TEST(ExtrudeOutlines, KeepsConcaveOutlines) {
   EXPECT_NEAR(Volume(ExtrudeOutlines({arrow}, 1).value()), 0.75, 1e-12);
 }
 
-TEST(ExtrudeOutlines, LeavesHolesAndIslandsByTheEvenOddRule) {
+TEST(ExtrudeOutlines, MakesHolesAndIslandsByTheEvenOddRule) {
   const double expected = (10 * 10 - 6 * 6 + 2 * 2) * 2.0;
   EXPECT_NEAR(
       Volume(ExtrudeOutlines({Square(4, 4, 2), Square(0, 0, 10), Square(2, 2, 6)}, 2).value()),

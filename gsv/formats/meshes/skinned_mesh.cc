@@ -24,7 +24,7 @@ Vector3 PointOf(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-// The pose without scale and shear.
+// Returns the rotation and translation of a transform, without scale and shear.
 Pose RigidPartOf(const aiMatrix4x4& matrix) {
   aiVector3D scale, position;
   aiQuaternion turn;
@@ -34,7 +34,7 @@ Pose RigidPartOf(const aiMatrix4x4& matrix) {
                                 static_cast<double>(turn.y), static_cast<double>(turn.z)})};
 }
 
-// The keys before and after `time`, and the fraction of the interval.
+// Returns the keys before and after `time`, and the position of `time` between them, from 0 to 1.
 template <typename Key>
 std::pair<std::pair<unsigned, unsigned>, float> KeysAround(const Key* keys, unsigned count,
                                                            double time) {
@@ -169,7 +169,7 @@ class BoneCutter {
     int node = 0;
     aiMatrix4x4 offset;  // node_from_mesh, at the skin's rest pose
   };
-  // Faces of one mesh that one node moves.
+  // The faces of one mesh that one bone moves.
   struct Piece {
     const aiMesh* mesh;
     aiMatrix4x4 offset;

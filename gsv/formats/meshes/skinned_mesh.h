@@ -1,9 +1,10 @@
-// Reads an animated mesh with a skeleton as moving rigid parts. Each bone has the triangles that it
-// moves most.
+// Reads an animated mesh with a skeleton (a skin) as rigid parts, one for each bone. A bone has the
+// triangles on which it has the largest weight.
 //
 // Rule      A triangle belongs to the bones with the largest weights at its corners. If these are
-//           several bones, each has a copy, so that there is no gap between parts. If a bone has
-//           less than the fraction kMinTriangles of all triangles, its parent gets them.
+//           several bones, each has a copy of the triangle, so that there is no gap between parts.
+//           If a bone has less than the fraction kMinTriangles of all triangles, its parent gets
+//           them.
 // Frames    the frame of a skin is the root of its file, as for MeshReader. The frame of a bone
 //           has no scale.
 // Sampling  at equal intervals over the animation, at about kFramesPerSecond, at most kMaxFrames.

@@ -13,7 +13,7 @@ constexpr double kGreyLevel = 128;
 // A pixel is the mean of at most this many samples per side.
 constexpr int kMaxSamples = 8;
 
-// The heights of a mesh whose vertices are rows of a grid.
+// Interpolates the heights of a mesh whose vertices are a grid, row by row.
 class GridHeights {
  public:
   explicit GridHeights(const geometry::TriangleMesh& mesh) : mesh_(mesh) {
@@ -22,7 +22,7 @@ class GridHeights {
     rows_ = p.size() / columns_;
   }
 
-  // u from the left and v from the top, in [0, 1].
+  // Returns the height at (u, v): u from the left and v from the top, in [0, 1].
   double At(double u, double v) const {
     const double x = u * static_cast<double>(columns_ - 1);
     const double y = v * static_cast<double>(rows_ - 1);
@@ -76,13 +76,13 @@ Rgb MeanAt(const TerrainLayer& layer, double x, double y, double side) {
 }
 
 // Returns the fraction of the surface that a layer covers at a height.
-double ShareAt(const TerrainLayer& layer, double height) {
+double CoverageAt(const TerrainLayer& layer, double height) {
   if (height < layer.min_height) return 0;
   if (!(layer.fade_distance > 0)) return 1;
   return std::min((height - layer.min_height) / layer.fade_distance, 1.0);
 }
 
-// Returns a side length so large that no pixel of a tile is lost, within the limit.
+// Returns the side of the image in pixels: enough to keep each pixel of the tiles, up to the limit.
 int SideFor(geometry::Vector2 size, const std::vector<TerrainLayer>& layers) {
   double side = 1;
   for (const TerrainLayer& layer : layers) {
@@ -109,7 +109,7 @@ model::Image TerrainTexture(const geometry::TriangleMesh& mesh, geometry::Vector
       const double height = heights.At(u, v);
       Rgb colour = MeanAt(layers[0], x, y, pixel_side);
       for (std::size_t l = 1; l < layers.size(); ++l) {
-        const double share = ShareAt(layers[l], height);
+        const double share = CoverageAt(layers[l], height);
         if (share == 0) continue;
         const Rgb over = MeanAt(layers[l], x, y, pixel_side);
         for (std::size_t c = 0; c < 3; ++c) colour[c] += share * (over[c] - colour[c]);

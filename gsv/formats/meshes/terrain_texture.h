@@ -11,20 +11,19 @@ namespace gsv::formats {
 
 // A texture that covers the terrain in tiles.
 struct TerrainLayer {
-  std::shared_ptr<const model::Image> image;  // null: an even grey
+  std::shared_ptr<const model::Image> image;  // null: uniform grey
   double tile = 10;                           // side of a tile, m
-  // From this height upwards the layer covers the layers before it, with a fraction that grows over
-  // the distance. Ignored for the first layer.
+  // From `min_height` upwards the layer covers the layers before it. Its opacity grows from 0 to 1
+  // over `fade_distance`. Ignored for the first layer.
   double min_height = 0, fade_distance = 0;  // m
 };
 
-// Maximum of pixels per side.
+// Maximum number of pixels per side.
 inline constexpr int kTerrainTextureSide = 1024;
 
-// Combines the layers over a mesh of HeightmapMesh() with `size.x` by `size.y` metres, for its
-// texture coordinates. The lower left corner of a tile is at that of the terrain. If tiles are
-// finer than the image, each pixel is the mean of the area that it covers. `layers` must not be
-// empty.
+// Returns the texture for a mesh of HeightmapMesh() with `size.x` by `size.y` metres. The first
+// tile of a layer begins at the terrain's lower left corner. If tiles have smaller pixels than the
+// image, each pixel is the mean of the area that it covers. `layers` must not be empty.
 model::Image TerrainTexture(const geometry::TriangleMesh& mesh, geometry::Vector2 size,
                             const std::vector<TerrainLayer>& layers);
 

@@ -20,13 +20,13 @@ std::shared_ptr<const model::Image> ImageOf(int width, int height,
   return image;
 }
 
-// A ramp that rises along x from 0 to 10 m, over 10 m.
+// Returns a ramp that rises along x from 0 to 10 m, over 10 m.
 geometry::TriangleMesh Ramp() {
   model::Image grey{2, 2, 3, {0, 0, 0, 255, 255, 255, 0, 0, 0, 255, 255, 255}, "ramp"};
   return HeightmapMesh(grey, {10, 10, 10}, 100);
 }
 
-// The pixel at a point of the terrain, in metres from its lower left corner.
+// Returns the pixel at a point of the terrain, in metres from its lower left corner.
 Pixel At(const model::Image& image, double x, double y) {
   const auto column = static_cast<std::size_t>(x / 10 * image.width);
   const auto row = static_cast<std::size_t>((1 - y / 10) * image.height);
@@ -59,7 +59,7 @@ TEST(TerrainTexture, BlendsLayersByHeight) {
   EXPECT_NEAR(At(image, 6, 5)[2], 100, 3);
 }
 
-TEST(TerrainTexture, IsTheMeanOfTilesThatAreTooFine) {
+TEST(TerrainTexture, AveragesTilesThatAreTooFine) {
   const auto tile = ImageOf(2, 1, {{0, 0, 0}, {200, 200, 200}});
   const model::Image image = TerrainTexture(Ramp(), {10, 10}, {{tile, 10.0 / 4096}});
   EXPECT_EQ(image.width, kTerrainTextureSide);

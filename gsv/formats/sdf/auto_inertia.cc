@@ -9,11 +9,12 @@ namespace {
 
 using geometry::Vector3;
 
-// Integrals of density over a body, about the link's origin and along its axes.
+// The mass and the first and second moments of mass of a body, about the link's origin and along
+// its axes.
 struct MassMoments {
   double mass = 0;
   Vector3 first;
-  Vector3 x, y, z;  // rows of the second moments
+  Vector3 x, y, z;  // rows of the matrix of second moments
 };
 
 void AddMassOf(const model::Collision& collision, double density, MassMoments& sum) {

@@ -12,7 +12,7 @@ namespace gsv::formats {
 inline constexpr double kDefaultDensity = 1000;
 
 // Returns the inertia of uniformly filled collisions, each with its density (kg/m³). The principal
-// frame is parallel to the link's frame. Returns nothing if the collisions have no volume.
+// frame is parallel to the link's frame. Returns nullopt if the collisions have no volume.
 std::optional<model::Inertial> InertialOf(const std::vector<model::Collision>& collisions,
                                           const std::vector<double>& densities);
 

@@ -1,4 +1,4 @@
-// Models on the web that worlds often include, and that are therefore built in.
+// Built-in copies of models that worlds often include by a web address.
 #pragma once
 
 #include <string_view>

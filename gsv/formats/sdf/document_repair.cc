@@ -24,7 +24,7 @@ using tinyxml2::XMLElement;
 
 constexpr char kScope[] = "::";
 
-// The elements of a text, and whether they were changed.
+// A parsed text, and whether its elements were changed.
 struct Tree {
   SdfText* text;
   std::unique_ptr<tinyxml2::XMLDocument> document;
@@ -111,7 +111,8 @@ class DocumentRepair {
   bool After(const sdf::Errors& errors) {
     if (trees_.empty()) return false;
     for (const sdf::Error& error : errors) AfterMeaning(error.Message());
-    // An element that cannot be read stops the reader: the first such error names it.
+    // libsdformat stops at the first element that it cannot read. The first error with a path names
+    // this element.
     for (const sdf::Error& error : errors) {
       if (error.XmlPath() && !error.XmlPath()->empty() && LeaveOut(error)) break;
     }
@@ -124,8 +125,8 @@ class DocumentRepair {
         {base::Problem::Severity::kWarning, message, PlaceOf(tree.text->path, element)});
   }
 
-  // Calls `change` for the elements of a kind with a name. `change` returns whether it has changed
-  // the element. Returns whether any was changed.
+  // Calls `change` for all elements with this tag and name. `change` returns whether it has changed
+  // the element.
   void ForNamed(const std::string& kind, const std::string& name,
                 const std::function<bool(Tree&, XMLElement&)>& change) {
     for (Tree& tree : trees_) {
@@ -293,8 +294,8 @@ class DocumentRepair {
     }
   }
 
-  // The element at a path such as "/sdf/world[@name="w"]/model[@name="m"]/link", or the nearest
-  // existing element around it.
+  // Returns the element at a path such as "/sdf/world[@name="w"]/model[@name="m"]/link", or its
+  // nearest existing ancestor.
   static XMLElement* Follow(XMLElement* root, const std::string& path, int line) {
     XMLElement* at = nullptr;
     std::size_t from = 0;
@@ -344,7 +345,8 @@ class DocumentRepair {
     return false;
   }
 
-  // A summary of libsdformat says less than the value.
+  // Returns the reason for leaving out an element. If libsdformat's message is only a summary,
+  // returns the element's value instead.
   static std::string WhyUnreadable(const XMLElement& element, const std::string& message) {
     if (element.GetText() != nullptr && message.rfind("Error reading element", 0) == 0) {
       return " holds " + Quoted(element.GetText()) + ", which cannot be read; it is ignored";
@@ -418,7 +420,7 @@ bool ReservesScope(const XMLElement& sdf) {
          (major > 1 || minor >= kFirstMinor);
 }
 
-// Whether an attribute of an element that is no plugin contains "::".
+// Whether an attribute of an element contains "::". Elements of plugins do not count.
 bool HasScopeInAttribute(const std::string& text) {
   for (std::size_t at = 0; (at = text.find(kScope, at)) != std::string::npos; ++at) {
     const std::size_t bracket = text.find_last_of("<>", at);

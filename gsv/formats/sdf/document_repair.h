@@ -1,4 +1,4 @@
-// Repairs documents by the errors of libsdformat.
+// Repairs SDFormat documents, guided by the errors of libsdformat.
 #pragma once
 
 #include <sdf/Types.hh>
@@ -8,10 +8,10 @@
 
 namespace gsv::formats {
 
-// Changes the document, or a file that it includes, so that libsdformat's errors go away. It leaves
-// out elements that cannot be read and joints between missing links. It drops references to missing
-// frames, and changes names that are in use or reserved. Each change gives a warning. Returns false
-// if nothing could be repaired. URDF is never changed.
+// Changes the document, or a file that it includes, to remove the causes of libsdformat's errors.
+// It leaves out elements that cannot be read and joints between missing links. It drops references
+// to missing frames, and changes names that are in use or reserved. Each change gives a warning.
+// Returns false if nothing could be repaired. URDF is never changed.
 bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& includes,
                  base::Problems& problems);
 

@@ -1,4 +1,4 @@
-// Gazebo's built-in materials by name, such as "Gazebo/Grey".
+// Provides Gazebo's built-in materials by name, such as "Gazebo/Grey".
 #pragma once
 
 #include <optional>
@@ -8,7 +8,8 @@
 
 namespace gsv::formats {
 
-// Textured materials (Wood, Bricks, Grass, …) have the mean colour of their image.
+// Returns the material; nullopt for an unknown name. Textured materials (Wood, Bricks, Grass, …)
+// have the mean colour of their image.
 std::optional<model::Material> GazeboMaterial(std::string_view name);
 
 }  // namespace gsv::formats

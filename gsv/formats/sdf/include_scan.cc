@@ -63,7 +63,7 @@ void IncludeScan::Visit(XMLElement& element, const fs::path& file) {
     const std::string uri = UriOf(*child);
     const auto included = FileOf(uri, file);
     const auto name =
-        included ? Enter(*included) : base::Result<std::string>(Fail(included.error()));
+        included ? ReadIncluded(*included) : base::Result<std::string>(Fail(included.error()));
     if (name) {
       child->FirstChildElement("uri")->SetText(name->c_str());
     } else {
@@ -72,7 +72,7 @@ void IncludeScan::Visit(XMLElement& element, const fs::path& file) {
   }
 }
 
-base::Result<std::string> IncludeScan::Enter(const fs::path& file) {
+base::Result<std::string> IncludeScan::ReadIncluded(const fs::path& file) {
   const fs::path path = fs::absolute(file).lexically_normal();
   if (const auto first = std::find(open_.begin(), open_.end(), path); first != open_.end()) {
     std::string cycle;
@@ -96,7 +96,7 @@ base::Result<std::string> IncludeScan::Enter(const fs::path& file) {
   return done_.emplace(path, name).first->second;
 }
 
-// The text of an included file, without the parts that cannot be read.
+// Returns the text of an included file, without the parts that cannot be read.
 base::Result<std::string> IncludeScan::TextOf(XmlFile& file) {
   if (file.dialect == XmlDialect::kUrdf) return UrdfText(file, problems_);
   XMLElement* model = file.root->FirstChildElement("model");

@@ -1,5 +1,6 @@
-// Finds, reads and repairs included files before libsdformat reads them. Each include is searched
-// relative to the file that contains it. Only unreadable includes are left out.
+// An IncludeScan finds, reads and repairs included files before libsdformat reads them. Each
+// included file is searched relative to the file that includes it. Only unreadable includes are
+// left out.
 #pragma once
 
 #include <filesystem>
@@ -22,13 +23,13 @@ class IncludeScan {
   IncludeScan(const ResourceFinder& finder, const ReadLimits& limits, base::Problems& problems)
       : finder_(finder), limits_(limits), problems_(problems) {}
 
-  // Visits every <include> below `element` of `file`, and those of the included files. Their <uri>
-  // then names one of files(). Ground Plane and Sun replace their include if no file is found. An
-  // include is removed with a warning if its file is missing, cannot be read or holds no model, or
-  // if includes form a cycle or exceed the depth limit.
+  // Visits every <include> below `element` of `file`, and those of the included files. Changes
+  // their <uri> to a name in files(). If no file is found for Ground Plane or Sun, the built-in one
+  // replaces the include. An include is removed with a warning if its file is missing, cannot be
+  // read or has no model, or if includes form a cycle or exceed the depth limit.
   void Scan(tinyxml2::XMLElement& element, const std::filesystem::path& file);
 
-  // Returns the file of an <include>. Each name is searched once.
+  // Returns the path of an <include>'s file. Each name is searched once.
   base::Result<std::filesystem::path> FileOf(const std::string& uri,
                                              const std::filesystem::path& naming_file);
 
@@ -37,8 +38,10 @@ class IncludeScan {
 
  private:
   void Visit(tinyxml2::XMLElement& element, const std::filesystem::path& file);
-  base::Result<std::string> Enter(const std::filesystem::path& file);
+  // Reads an included file with its own includes. Returns its name in files().
+  base::Result<std::string> ReadIncluded(const std::filesystem::path& file);
   base::Result<std::string> TextOf(XmlFile& file);
+  // Replaces an <include> by a built-in model, or removes it with a warning.
   void ReplaceOrRemove(tinyxml2::XMLElement& include, const std::string& uri,
                        const base::Error& error, const std::filesystem::path& file);
 
@@ -52,10 +55,10 @@ class IncludeScan {
   std::map<std::filesystem::path, base::Result<std::string>> done_;
 };
 
-// The text of <include><uri>, without surrounding blanks.
+// Returns the text of <include><uri>, without surrounding blanks.
 std::string UriOf(const tinyxml2::XMLElement& include);
 
-// The reason, as a sentence, for leaving out an include that was not found.
+// Returns the warning that an include is left out because of this error.
 std::string IncludeLeftOut(const std::string& uri, const base::Error& error);
 
 }  // namespace gsv::formats

@@ -8,7 +8,7 @@
 
 namespace gsv::formats {
 
-// A text, and the file from which it comes, with the same line numbers.
+// The (repaired) text of a file. It has the same line numbers as the file.
 struct SdfText {
   std::filesystem::path path;
   std::string text;
@@ -17,8 +17,8 @@ struct SdfText {
 // The key is the text in the <uri> of an <include>.
 using IncludedFiles = std::map<std::string, SdfText>;
 
-// Provides texts as files. libsdformat reads an included file only by its name, so each text gets
-// the name of a file in memory during the lifetime of this object.
+// Provides texts as files in memory during the lifetime of this object, because libsdformat reads
+// an included file only by its name.
 //
 // Errors   if there is no memory for a text, libsdformat reads the original file.
 class IncludedFileServer {

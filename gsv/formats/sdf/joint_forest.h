@@ -1,4 +1,5 @@
-// Converts the joints of a file into a forest.
+// Converts the joints of a file into a forest: each link is the child of at most one joint, and no
+// joint closes a loop.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,9 @@
 
 namespace gsv::formats {
 
-// In SDFormat a link may be the child of several joints; in model::Model it may not. Joints keep
-// their direction if possible. Otherwise parent and child are exchanged and the axis is reversed,
-// so that the joint's position stays. Joints that would close a loop are removed and returned.
+// model::Model requires a forest, SDFormat does not. Joints keep their direction if possible.
+// Otherwise parent and child are exchanged and the axis is reversed, so that the joint's position
+// keeps its value. Joints that would close a loop are removed from `joints` and returned.
 std::vector<model::Joint> MakeForest(std::size_t links, std::vector<model::Joint>& joints);
 
 }  // namespace gsv::formats

@@ -33,7 +33,7 @@ class MimicReader {
     }
   }
 
-  // Removes followers that follow each other in a cycle, because such joints have no leader.
+  // Removes the <mimic> of joints that follow each other in a cycle.
   void DropCycles() {
     for (model::Joint& joint : model_.joints) {
       if (!joint.mimic) continue;

@@ -12,8 +12,8 @@
 
 namespace gsv::formats {
 
-// Returns the model with the <mimic> elements of its <robot> or <model>, which libsdformat 12
-// drops. A <mimic> that names no existing joint, or the joint itself, is left out with a warning.
+// Adds to the model the <mimic> elements of its <robot> or <model>, because libsdformat 12 drops
+// them. A <mimic> that names a missing joint, or the joint itself, is left out with a warning.
 std::shared_ptr<const model::Model> WithMimics(const tinyxml2::XMLElement& element,
                                                const std::filesystem::path& file,
                                                std::shared_ptr<const model::Model> model,

@@ -43,22 +43,22 @@ bool IsOfFrameGraphs(const base::Problem& problem) {
 
 base::Result<std::shared_ptr<const StoredFile>> ModelStore::Read(const std::filesystem::path& file,
                                                                  const std::string& plugins) {
-  return Keep(file, plugins, [&](StoredFile& stored) -> base::Status {
+  return ReadOnce(file, plugins, [&](StoredFile& stored) -> base::Status {
     auto xml = ReadXml(file, finder_, limits_, stored.problems);
     if (!xml) return Fail(xml.error());
-    return ReadFresh(*xml, plugins, stored);
+    return ReadUncached(*xml, plugins, stored);
   });
 }
 
 base::Result<std::shared_ptr<const StoredFile>> ModelStore::Take(XmlFile xml,
                                                                  base::Problems problems) {
-  return Keep(xml.named, "", [&](StoredFile& stored) {
+  return ReadOnce(xml.named, "", [&](StoredFile& stored) {
     stored.problems = std::move(problems);
-    return ReadFresh(xml, "", stored);
+    return ReadUncached(xml, "", stored);
   });
 }
 
-base::Result<std::shared_ptr<const StoredFile>> ModelStore::Keep(
+base::Result<std::shared_ptr<const StoredFile>> ModelStore::ReadOnce(
     const std::filesystem::path& file, const std::string& plugins,
     const std::function<base::Status(StoredFile&)>& read) {
   const auto name = std::make_pair(file.string(), plugins);
@@ -77,7 +77,8 @@ base::Result<std::shared_ptr<const StoredFile>> ModelStore::Keep(
   return by_name_[name] = known;
 }
 
-base::Status ModelStore::ReadFresh(XmlFile& xml, const std::string& plugins, StoredFile& stored) {
+base::Status ModelStore::ReadUncached(XmlFile& xml, const std::string& plugins,
+                                      StoredFile& stored) {
   const std::filesystem::path& file = xml.named;
   if (check_rules_) CheckNamingRules({xml.path, xml.root, xml.minor_version}, stored.broken_rules);
   if (xml.dialect == XmlDialect::kUrdf) {

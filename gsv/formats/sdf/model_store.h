@@ -1,4 +1,4 @@
-// Reads model files, each once.
+// A ModelStore reads model files and caches them, so that each file is read once.
 #pragma once
 
 #include <filesystem>
@@ -44,10 +44,12 @@ class ModelStore {
   base::Result<std::shared_ptr<const StoredFile>> Read(const std::filesystem::path& file,
                                                        const std::string& plugins = {});
 
-  // Stores a file whose XML was read already, with the problems that were found.
+  // Reads a model from XML that was parsed already, and caches it. `problems` are those found so
+  // far.
   base::Result<std::shared_ptr<const StoredFile>> Take(XmlFile xml, base::Problems problems);
 
-  // The problems of the last file that Read() or Take() refused, once: they say why.
+  // Returns and clears the problems of the last file that Read() or Take() refused. They have the
+  // reasons.
   base::Problems TakeProblemsOfRefused() { return std::exchange(problems_of_refused_, {}); }
 
   bool checks_rules() const { return check_rules_; }
@@ -58,12 +60,14 @@ class ModelStore {
   }
 
  private:
-  base::Status ReadFresh(XmlFile& xml, const std::string& plugins, StoredFile& stored);
-  base::Result<std::shared_ptr<const StoredFile>> Keep(
+  // Reads the model of a file.
+  base::Status ReadUncached(XmlFile& xml, const std::string& plugins, StoredFile& stored);
+  // Returns the stored file. If it was not read before, calls `read` and stores the result.
+  base::Result<std::shared_ptr<const StoredFile>> ReadOnce(
       const std::filesystem::path& file, const std::string& plugins,
       const std::function<base::Status(StoredFile&)>& read);
-  // Adds what libsdformat does not read: <ros2_control>, and the guessed drive of a robot
-  // description.
+  // Adds the parts that libsdformat does not read: <mimic>, <ros2_control>, and the guessed drive
+  // of a robot description.
   static void Complete(const tinyxml2::XMLElement& element, const std::filesystem::path& file,
                        bool is_robot, StoredFile& stored);
   base::Status FromText(const SdfText& text, const IncludedFiles& includes, StoredFile& stored);
@@ -76,7 +80,7 @@ class ModelStore {
   MeshReader meshes_;
   base::Problems problems_of_refused_;
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
-  // The same files by the names that sources use, so that each name is looked up once.
+  // The same files by the names in <uri> elements, so that each name is searched once.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;
 };
 

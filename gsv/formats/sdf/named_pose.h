@@ -1,4 +1,4 @@
-// A frame of a world, with a name.
+// A named frame of a world, with its pose.
 #pragma once
 
 #include <string>

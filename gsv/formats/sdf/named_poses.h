@@ -1,4 +1,4 @@
-// The frames of a world as named poses.
+// Reads the <frame> elements of a world as named poses.
 #pragma once
 
 #include <vector>

@@ -17,7 +17,7 @@ std::vector<std::string> Words(const std::string& line) {
   return words;
 }
 
-// The script without comments, and with each brace on its own line.
+// Returns the script without comments, and with each brace on its own line.
 std::string Tidied(std::string_view script) {
   std::string text;
   for (std::size_t i = 0; i < script.size(); ++i) {
@@ -51,7 +51,7 @@ std::optional<Colour> ColourFrom(const std::vector<std::string>& words) {
   return Colour{values[0], values[1], values[2], values.size() > 3 ? values[3] : 1.0};
 }
 
-// specular R G B [A] SHININESS: the last number of five, or of four without alpha.
+// Reads "specular R G B [A] SHININESS": the last of five numbers, or of four without alpha.
 void ReadSpecular(std::vector<std::string> words, OgreMaterial& material) {
   if (words.size() >= 5) {
     material.shininess = Number(words.back()).value_or(0);

@@ -18,9 +18,10 @@ struct OgreMaterial {
   std::string texture;  // file of the texture in the first texture unit
 };
 
-// The materials of a script by name. Reads `material NAME [: PARENT] { technique { pass { … } } }`
-// with the four colours of a pass, and `texture` of the first texture unit. Ignores the rest. A
-// truncated script gives the materials before its end. Materials inherit their parent's values.
+// Returns the materials of a script by name. Reads `material NAME [: PARENT] { technique { pass { …
+// } } }` with the four colours of a pass, and `texture` of the first texture unit. Ignores the
+// rest. A truncated script gives the materials before its end. Materials inherit their parent's
+// values.
 std::map<std::string, OgreMaterial> ParseOgreMaterials(std::string_view script);
 
 }  // namespace gsv::formats

@@ -22,7 +22,7 @@ using geometry::Vector3;
 using tinyxml2::XMLElement;
 
 constexpr double kMaxScriptTime = 1e8;  // s
-constexpr int kFreedoms = 6;            // number of degrees of freedom of a bone
+constexpr int kFreedoms = 6;            // joints of a bone, one for each degree of freedom
 
 std::string TextOf(const XMLElement* element) {
   return element == nullptr || element->GetText() == nullptr ? "" : element->GetText();
@@ -227,9 +227,9 @@ class ActorReader {
     return true;
   }
 
-  // A cylinder with a head, 1.75 m tall. The origin of skins such as Gazebo's is in the hip, and
-  // waypoints are at its height. Then the figure's feet are below the first waypoint by that
-  // height.
+  // Adds a simple figure: a cylinder with a head, 1.75 m tall. Skins such as Gazebo's have their
+  // origin in the hip, and their waypoints are at the hip's height. Then the figure's feet are
+  // below the first waypoint by this height.
   void AddFigure(const Pose& start) {
     const double height = start.position.z;
     const double feet = height > 0.5 && height < 1.5 ? -height : 0;
@@ -304,9 +304,9 @@ double LowestOf(const SkinnedMesh& skin) {
   return lowest;
 }
 
-// Along a trajectory the root bone stays at the actor's frame. It keeps only its height, and only
-// if the feet are then nearer to the ground (z = 0 in the world): some skins have their origin at
-// the feet, and so have the waypoints.
+// Returns the animation of the joints. Along a trajectory, the root bone stays at the actor's
+// frame. Its height is kept only if this moves the feet nearer to the ground (z = 0 in the world),
+// because some skins and their waypoints have the origin at the feet.
 std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
                                                     const model::Script& script, int first_joint) {
   const bool follows = !script.trajectories.empty();
@@ -333,7 +333,8 @@ std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
   return animation;
 }
 
-// The box around all visuals, in the model's frame. False if there are no visuals.
+// Sets `bounds` to the box around all visuals, in the model's frame. Returns false if there are no
+// visuals.
 bool BoundsOfVisuals(const model::Model& model, geometry::Bounds& bounds) {
   bool any = false;
   for (const model::Link& link : model.links) {

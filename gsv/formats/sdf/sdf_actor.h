@@ -1,7 +1,7 @@
 // Reads SDFormat's <actor>: a model with a skin, and a script that moves it.
 //
-// Its animation moves the skin's bones (skinned_mesh.h). Each bone is a link that six joints
-// connect to the first link; the script sets their positions.
+// The animation moves the skin's bones (skinned_mesh.h). Each bone is a link. Six joints connect it
+// to the first link, and the script sets their positions.
 //
 // Not supported: <plugin>s, animations in BVH files, and more than one animation of an actor.
 // Warnings report them.
@@ -19,18 +19,18 @@
 namespace gsv::formats {
 
 struct ActorParts {
-  std::shared_ptr<const model::Script> script;  // never null; without its animation
+  std::shared_ptr<const model::Script> script;  // never null; has no animation yet
   std::shared_ptr<const SkinnedMesh> skin;      // null: the skin keeps its shape, or there is none
 };
 
-// Turns an <actor> into a <model>, and returns the parts that a model does not have. A skin without
-// animation becomes a visual of the first link, which is added if there is none. The element's
-// <pose> stays: it is the pose of the trajectory.
+// Changes an <actor> element to a <model> element, and returns the parts that a <model> cannot
+// have. A skin without animation becomes a visual of the first link. If there is no link, one is
+// added. The element keeps its <pose>, which is the pose of the trajectory.
 ActorParts MakeModelOfActor(tinyxml2::XMLElement& actor, const ReadingContext& context);
 
-// The converted model with its parts. If its links have no collisions, it gets an upright cylinder
-// in the bounding box of the visuals, with the diameter of the box's smaller side, as arms
-// protrude.
+// Adds the actor's parts to the model that was read from the changed element. If its links have no
+// collisions, it gets an upright cylinder inside the bounding box of the visuals. Its diameter is
+// the smaller side of the box, because arms protrude.
 std::shared_ptr<const model::Model> ActorOf(const model::Model& model, const ActorParts& parts);
 
 }  // namespace gsv::formats

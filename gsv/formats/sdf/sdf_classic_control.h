@@ -1,4 +1,4 @@
-// Reads the controllers of joints in JointControlPlugin of Gazebo classic.
+// Reads the joint controllers of Gazebo Classic's JointControlPlugin.
 //
 // Elements  <controller type="position", "velocity" or "force"> with <joint>, <target> and, for the
 //           first two, <pid_gains>: three numbers.

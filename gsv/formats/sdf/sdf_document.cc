@@ -59,7 +59,7 @@ std::string Shortened(std::string text) {
   return text;
 }
 
-// The result of parsing the current texts once.
+// The result of parsing a document once.
 struct Reading {
   std::unique_ptr<sdf::Root> root = std::make_unique<sdf::Root>();
   sdf::Errors errors;
@@ -92,9 +92,10 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
   }
 }
 
-// The schema without elements of many descriptions that the text does not have. For each element
-// that libsdformat reads, it copies the list of descriptions below it. None of these elements is
-// required, and libsdformat makes none of them from others, except from URDF.
+// Returns the schema without some large parts whose elements do not occur in the text. This saves
+// time, because libsdformat copies the descriptions below each element that it reads. None of the
+// omitted elements is required, and libsdformat creates them from no other elements, except from
+// URDF.
 sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex()) {
   // schemas by the set of omitted elements
   static std::map<std::set<std::string>, sdf::ElementPtr> schemas;
@@ -112,8 +113,8 @@ sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex())
   return schema;
 }
 
-// An <sdf> element without content, ready for reading. It shares the descriptions of the schema, as
-// libsdformat copies a description before it fills an element.
+// Returns an <sdf> element without content, ready for reading. It shares the descriptions of the
+// schema. This is safe, because libsdformat copies a description before it fills an element.
 sdf::SDFPtr EmptyDocument(const sdf::Element& schema) {
   const auto root = std::make_shared<sdf::Element>();
   root->SetName(schema.GetName());
@@ -133,7 +134,7 @@ sdf::SDFPtr EmptyDocument(const sdf::Element& schema) {
   return document;
 }
 
-// Like sdf::Root::LoadSdfString, which builds the schema again for each text.
+// Does the same as sdf::Root::LoadSdfString, which would build the schema again for each text.
 sdf::Errors Load(const std::string& text, sdf::Root& root) GSV_REQUIRES(SdformatMutex()) {
   const sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   const sdf::SDFPtr document = EmptyDocument(*SchemaFor(text));
@@ -191,8 +192,8 @@ bool BreaksFrames(const sdf::Error& error) {
          code == sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR;
 }
 
-// Errors of libsdformat that do not matter here, or that this program finds itself: sensors of
-// unknown types are accepted, a script needs no <uri>, and summaries have no content.
+// Whether an error of libsdformat is ignored. GSV checks these itself or accepts them: sensors of
+// unknown types are accepted, a script needs no <uri>, and summaries have no further information.
 bool IsChecked(const sdf::Error& error) {
   const sdf::ErrorCode code = error.Code();
   for (const char* start : {"Attempting to load a Sensor", "Failed to load a",
@@ -239,7 +240,7 @@ tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesyste
   return base::Fail(kBadModel, "the file contains no world or model", source.string());
 }
 
-// Repairs and reads again, until there is no error that can be repaired.
+// Reads the document, repairs it, and reads it again until no error can be repaired.
 void ReadRepaired(SdfText document, IncludedFiles includes, Reading& reading,
                   base::Problems& problems) GSV_REQUIRES(SdformatMutex()) {
   for (int round = 0; round < kMaxRepairs; ++round) {

@@ -1,5 +1,5 @@
-// Encapsulates libsdformat: silences its console, catches its exceptions, and turns its errors into
-// problems.
+// Encapsulates libsdformat: silences its console, catches its exceptions, and converts its errors
+// to problems.
 #pragma once
 
 #include <filesystem>
@@ -18,17 +18,17 @@ namespace gsv::formats {
 struct SdfDocument {
   std::unique_ptr<sdf::Root> root;
   std::filesystem::path source;
-  // Whether poses cannot be resolved, possibly also those of valid elements.
+  // Whether poses cannot be resolved. This may also concern poses of valid elements.
   bool has_broken_frames = false;
 };
 
 // Parses SDFormat or URDF text. Parts of SDFormat that libsdformat refuses are repaired or left
-// out, each with a warning (document_repair.h); the rest is read. Fails with one sentence if
-// nothing is left. libsdformat has global state: calls wait for each other.
+// out, each with a warning (document_repair.h). All other parts are read. Fails with one sentence
+// if nothing is left. libsdformat has global state, so calls run one after another.
 base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles& includes,
                                    base::Problems& problems);
 
-// Must be locked during calls of libsdformat's functions that read.
+// Lock this mutex while you call libsdformat's functions that read.
 base::Mutex& SdformatMutex();
 void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 

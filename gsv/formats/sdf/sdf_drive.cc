@@ -22,7 +22,7 @@ std::optional<DriveKind> KindOf(const std::string& file_name, const std::string&
     const char* part;
     DriveKind kind;
   };
-  // The known drives, by a part of the file name or class name of their plugin, in lower case,
+  // The known drives. The text is a part of the plugin's file name or class name, in lower case,
   // without "-" and "_".
   static constexpr Known known[] = {
       {"diffdrive", DriveKind::kDifferential},      {"skidsteerdrive", DriveKind::kDifferential},
@@ -65,7 +65,7 @@ class DriveReader {
     const bool paired = kind == DriveKind::kDifferential || kind == DriveKind::kAckermann ||
                         kind == DriveKind::kMecanum;
     const bool has_sides = !drive_.left_wheels.empty() && !drive_.right_wheels.empty();
-    // Tracks are surfaces of links, without joints: the drive holds the base.
+    // Tracks are surfaces of links and have no joints, so joints may be missing then.
     const bool has_tracks = plugin_->HasElement("tracks_separation");
     if (!is_complete_ || (paired && !has_sides && !has_tracks)) return GuessInstead();
     ReadSizes();
@@ -154,7 +154,7 @@ class DriveReader {
     drive_.wheel_radius = diameter && *diameter > 0
                               ? *diameter / 2
                               : Positive({"wheel_radius", "wheelRadius"}, MeasuredRadius());
-    // Two parameters of GSV, for wheels that differ from what the drive assumes.
+    // Two parameters of GSV, for wheels whose radius differs from the one that the drive assumes.
     drive_.left_wheel_scale =
         Positive({"left_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
     drive_.right_wheel_scale =
@@ -239,7 +239,7 @@ class DriveReader {
     if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) {
       const geometry::Bounds bounds = geometry::BoundsOf(shape);
       const Vector3 size = bounds.max - bounds.min;
-      // A wheel's box has two equal large sides.
+      // The largest side of a wheel's bounding box is its diameter.
       return mesh->triangles->triangles.empty()
                  ? std::nullopt
                  : std::optional(std::max({size.x, size.y, size.z}) / 2);
@@ -247,7 +247,7 @@ class DriveReader {
     return std::nullopt;
   }
 
-  // From the front wheel to the rear wheel.
+  // Returns the distance from the front wheel to the rear wheel in metres.
   double MeasuredWheelBase() const {
     double front = -std::numeric_limits<double>::infinity();
     double rear = std::numeric_limits<double>::infinity();

@@ -12,13 +12,14 @@ namespace {
 using geometry::Vector3;
 using model::Joint;
 
-// A joint of the model, and the sign of its angle against the gearbox's.
+// A joint of the model, and the factor (1 or -1) from its angle to the gearbox's angle.
 struct Shaft {
   int joint;
   double sign;
 };
 
-// Returns the direction in the model's frame. Its length is zero if the file has none.
+// Returns the direction of the axis in the model's frame. Returns a vector of length 0 if the file
+// has none.
 Vector3 AxisOf(const sdf::Joint& source, unsigned index, const Joint& gearbox) {
   const sdf::JointAxis* axis = source.Axis(index);
   ignition::math::Vector3d xyz;

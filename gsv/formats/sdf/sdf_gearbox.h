@@ -1,8 +1,9 @@
 // Reads <joint type="gearbox">: two joints that are coupled.
 //
-// Angles  are those of both links of the gearbox, about <axis> and <axis2>, relative to
-//         <gearbox_reference_body>: child = -ratio * parent (SDFormat's <gearbox_ratio>). A
-//         revolute joint about that axis must connect each of the two links to the reference body.
+// Angles  are those of the gearbox's two links, about <axis> and <axis2>, relative to
+//         <gearbox_reference_body>: child = -ratio * parent (SDFormat's <gearbox_ratio>). For each
+//         link, the model must have a revolute joint about this axis between the link and the
+//         reference body.
 #pragma once
 
 #include <string>
@@ -14,9 +15,9 @@
 
 namespace gsv::formats {
 
-// `gearbox` has its name, links and frame already; `reference` is a link, or -1. The joint of the
-// child link follows that of the parent link from now on. If the joints cannot be coupled, this is
-// reported, and both move freely.
+// Couples two joints of `model` by a gearbox: the joint of the child link then follows the joint of
+// the parent link. `gearbox` already has its name, links and frame. `reference` is a link, or -1.
+// If the joints cannot be coupled, adds a warning, and both move freely.
 void CoupleGearbox(const sdf::Joint& source, const model::Joint& gearbox, int reference,
                    const std::string& place, const ReadingContext& context, model::Model& model);
 

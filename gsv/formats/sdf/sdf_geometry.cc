@@ -55,7 +55,7 @@ bool IsElevationModel(const std::filesystem::path& file) {
   return extension == ".tif" || extension == ".tiff";
 }
 
-// Returns the textures of a visual's heightmap. Each texture except the first has a blend.
+// Returns the textures of a visual's heightmap. Each texture except the first has a <blend>.
 std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
                                      const std::filesystem::path& file,
                                      const ReadingContext& context) {

@@ -17,8 +17,8 @@ struct SdfShape {
   std::vector<model::Material> materials;  // materials of a mesh; empty for other shapes
 };
 
-// kNotFound: a file is missing; kBadModel: the shape is invalid or of unknown kind. `element` is
-// the <geometry> itself.
+// Reads a shape. Fails with kNotFound if a file is missing, and with kBadModel if the shape is
+// invalid or of unknown kind. `element` is the <geometry> itself.
 base::Result<SdfShape> ReadGeometry(const sdf::Geometry& geometry, const sdf::ElementPtr& element,
                                     const ReadingContext& context);
 

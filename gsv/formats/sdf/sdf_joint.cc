@@ -20,7 +20,7 @@ double LimitOrInfinity(double value) {
   return std::abs(value) >= kNoLimit ? std::copysign(INFINITY, value) : value;
 }
 
-// Returns a positive upper bound; SDFormat writes -1 for "none".
+// Returns a limit, or infinity if there is none: SDFormat writes -1 for "none".
 double BoundOrInfinity(double value) { return value >= 0 && value < kNoLimit ? value : INFINITY; }
 
 void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const ReadingContext& context,
@@ -53,8 +53,9 @@ void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const Readin
   }
 }
 
-// <screw_thread_pitch> is in metres per turn. The older <thread_pitch> is in radians per metre and
-// of a left-handed thread (SDFormat 1.10).
+// Returns the pitch of a screw joint in metres per radian. <screw_thread_pitch> is in metres per
+// turn. The older <thread_pitch> is in radians per metre, and of a left-handed thread (SDFormat
+// 1.10).
 double ThreadPitch(const sdf::Joint& source) {
   const sdf::ElementPtr element = source.Element();
   if (element != nullptr && element->HasElement("screw_thread_pitch")) {
@@ -63,9 +64,9 @@ double ThreadPitch(const sdf::Joint& source) {
   return -1 / source.ThreadPitch();
 }
 
-// Returns copies of the joint, one for each axis.
-std::vector<Joint> InARow(const sdf::Joint& source, const Joint& joint, const std::string& place,
-                          const ReadingContext& context) {
+// Returns the joints that replace the joint: one for each axis.
+std::vector<Joint> SplitByAxes(const sdf::Joint& source, const Joint& joint,
+                               const std::string& place, const ReadingContext& context) {
   std::vector<Joint> row;
   if (source.Type() == sdf::JointType::BALL) {
     for (const geometry::Vector3& axis :
@@ -84,7 +85,9 @@ std::vector<Joint> InARow(const sdf::Joint& source, const Joint& joint, const st
     if (const sdf::JointAxis* axis = source.Axis(i)) {
       ReadAxis(*axis, place, context, row.back());
     } else if (has_two) {
-      context.Warn("the joint needs two axes", place);
+      context.Warn(
+          "the joint needs two axes, <axis> and <axis2>; the default is used for a missing one",
+          place);
       row.back().axis = i == 0 ? geometry::Vector3{1, 0, 0} : geometry::Vector3{0, 1, 0};
     } else if (row.back().kind != JointKind::kFixed) {
       context.Warn("the joint has no <axis>; the z axis is used", place);
@@ -132,7 +135,7 @@ void AddJoint(const sdf::Joint& source, Joint joint, const std::string& place,
       joint.thread_pitch = 0;
     }
   }
-  std::vector<Joint> row = InARow(source, joint, place, context);
+  std::vector<Joint> row = SplitByAxes(source, joint, place, context);
   for (std::size_t i = 0; i + 1 < row.size(); ++i) {
     const std::string suffix = i == 0 ? "" : std::to_string(i + 1);
     const int cross = AddCross(joint.name + "::cross" + suffix, joint, model);

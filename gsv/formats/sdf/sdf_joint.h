@@ -1,4 +1,4 @@
-// Reads a <joint>: its kind, axes, limits and losses.
+// Reads a <joint>: its kind, axes, limits, damping and friction.
 //
 // A joint with several axes becomes a chain of joints from parent to child, with links without mass
 // or shape between them. A universal (or revolute2) joint "j" becomes "j" and "j::axis2" with the
@@ -15,9 +15,9 @@
 
 namespace gsv::formats {
 
-// Adds the joint that `source` describes to `model`. `joint` has its name, links and frame already;
-// Messages name `place`. A zero axis and inverted limits are repaired and reported as problems.
-//
+// Adds the joint that `source` describes to `model`. `joint` already has its name, links and frame.
+// `place` is the place for messages. A zero axis and inverted limits are repaired and reported as
+// problems.
 void AddJoint(const sdf::Joint& source, model::Joint joint, const std::string& place,
               const ReadingContext& context, model::Model& model);
 

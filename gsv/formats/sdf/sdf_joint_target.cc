@@ -14,7 +14,7 @@ namespace {
 using model::Joint;
 using model::JointTarget;
 
-// The text in lower case, without "-" and "_".
+// Returns the text in lower case, without "-" and "_".
 std::string Plain(const std::string& text) {
   std::string plain;
   for (const char c : text) {

@@ -25,7 +25,8 @@ namespace gsv::formats {
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model);
 
-// With negative gains, a joint would move away from its target: they become 0, with a warning.
+// Replaces negative gains by 0, with a warning. With negative gains, a joint would move away from
+// its target.
 model::JointGains WithoutNegatives(model::JointGains gains, const std::string& place,
                                    const ReadingContext& context);
 

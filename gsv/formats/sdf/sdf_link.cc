@@ -26,7 +26,7 @@ using model::Visual;
 constexpr double kMissingMeshGrey = 0.5;
 constexpr std::size_t kMaxReasonLength = 200;
 
-// Returns the value of a child at the end of a path of elements, if all of them exist.
+// Returns the value of the element at a path below `element`, if all elements of the path exist.
 template <typename T>
 std::optional<T> ValueAt(sdf::ElementPtr element, std::initializer_list<const char*> path) {
   for (const char* name : path) {
@@ -36,7 +36,8 @@ std::optional<T> ValueAt(sdf::ElementPtr element, std::initializer_list<const ch
   return element->Get<T>();
 }
 
-// A collision without contact forces collides with nothing; <collide_bitmask> overrides it.
+// Reads the collision filter. With <collide_without_contact>, a collision collides with nothing,
+// unless it has a <collide_bitmask>.
 model::CollisionFilter ReadFilter(const sdf::ElementPtr& collision) {
   const auto bits = [&](const char* name) -> std::optional<std::uint16_t> {
     const auto value = ValueAt<unsigned int>(collision, {"surface", "contact", name});
@@ -158,7 +159,7 @@ sdf::ElementPtr GeometryElement(const sdf::ElementPtr& element) {
                                                                : nullptr;
 }
 
-// Returns an element's density in kg/m³, or `otherwise`.
+// Returns an element's <density> in kg/m³, or `otherwise` if there is no valid one.
 double DensityOf(const sdf::ElementPtr& element, double otherwise, const ReadingContext& context) {
   if (element == nullptr || !element->HasElement("density")) return otherwise;
   const auto [density, is_number] = element->Get<double>("density", otherwise);
@@ -197,7 +198,8 @@ std::vector<double> ReadCollisions(const sdf::Link& source, model::Link& link,
   return densities;
 }
 
-// libsdformat 12 does not know @auto; ValueRepair keeps it under another name.
+// Sets the inertia from the collision shapes for <inertial auto="true">. libsdformat 12 drops
+// @auto, so value_repair.cc copies it to @gsv:auto before.
 void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& densities,
                           bool is_static, const ReadingContext& context, model::Link& link) {
   if (source.Element() == nullptr || !source.Element()->HasElement("inertial")) return;
@@ -225,7 +227,7 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
   }
 }
 
-// Reads a decay, which is a fraction of the velocity.
+// Reads a <velocity_decay>: a fraction of the velocity, from 0 to 1.
 double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext& context) {
   const double decay = ValueAt<double>(source.Element(), {"velocity_decay", name}).value_or(0.0);
   if (decay >= 0 && decay <= 1) return decay;
@@ -278,7 +280,7 @@ std::vector<Visual> CollisionsAsVisuals(const model::Link& link) {
   return visuals;
 }
 
-// Returns the temperature according to Gazebo's thermal system; nothing if the visual has none.
+// Returns the temperature (K) that Gazebo's thermal system gives a visual; nullopt if it has none.
 std::optional<double> TemperatureOf(const sdf::ElementPtr& visual, const ReadingContext& context) {
   if (!visual->HasElement("plugin")) return std::nullopt;
   for (auto plugin = visual->GetElement("plugin"); plugin != nullptr;

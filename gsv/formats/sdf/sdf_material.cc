@@ -104,7 +104,7 @@ class MaterialOfVisual {
     ReadLightMap(flow);
   }
 
-  // A mesh has one set of texture coordinates here, so only the first one can be used.
+  // GSV's meshes have one set of texture coordinates, so only set 0 can be used.
   void ReadLightMap(const sdf::PbrWorkflow& flow) {
     if (flow.LightMap().empty()) return;
     if (flow.LightMapTexCoordSet() != 0) return;  // the element audit warns
@@ -217,7 +217,7 @@ class MaterialOfVisual {
   sdf::ElementPtr element_;
   fs::path file_;
   std::string place_;
-  std::vector<fs::path> script_places_;  // files and folders that its <script> names
+  std::vector<fs::path> script_places_;  // files and folders of the <script>'s <uri>s
   const ReadingContext& context_;
   Material material_;
 };

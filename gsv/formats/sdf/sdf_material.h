@@ -9,9 +9,10 @@
 
 namespace gsv::formats {
 
-// Reads the visual's own material. Returns nothing if the visual has none, or an empty one. The
-// colour is <diffuse>, else that of the script, else <ambient>. The name of a script is searched in
-// its <uri>s, then among Gazebo's materials. Transparency is not applied.
+// Reads the visual's own material. Returns nullopt if the visual has none, or an empty one. The
+// colour is <diffuse>, else that of the material script, else <ambient>. The name of a script is
+// searched in the files of its <uri>s, then among Gazebo's materials. <transparency> is not
+// applied.
 std::optional<model::Material> ReadVisualMaterial(const sdf::Visual& visual,
                                                   const ReadingContext& context);
 

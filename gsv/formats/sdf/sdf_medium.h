@@ -1,4 +1,4 @@
-// Reads the media around bodies: <wind>, and the fluid of Gazebo's Buoyancy plugin.
+// Reads the media in which bodies move: <wind>, and the fluid of Gazebo's Buoyancy plugin.
 #pragma once
 
 #include <tinyxml2.h>

@@ -76,8 +76,8 @@ class ModelReader {
     return element == nullptr ? context_.source.string() : PlaceOf(*element, context_.source);
   }
 
-  // Adds links, frames and nested models. Elements that refer to links are added when all links
-  // exist.
+  // Adds links, frames and nested models. Elements that refer to links are added later, when all
+  // links exist.
   void AddParts(const sdf::Model& source, const std::string& scope, const Pose& root_from_model,
                 int levels_left, bool is_in_static) {
     if (levels_left == 0) {
@@ -208,7 +208,8 @@ class ModelReader {
     model_.joints.insert(model_.joints.begin(), to_world.begin(), to_world.end());
   }
 
-  // Stores the joints that close loops, because the forest does not contain them.
+  // Stores the joints that close loops separately (Model::loops), because the forest of joints
+  // cannot contain them.
   void KeepLoops(std::vector<Joint> loops) {
     for (Joint& joint : loops) {
       const std::string name = "the joint \"" + joint.name + "\" closes a loop";
@@ -228,7 +229,7 @@ class ModelReader {
     }
   }
 
-  // Whether this is one of the joints into which a ball or universal joint was split.
+  // Whether this joint is a part of a ball or universal joint that was split (AddJoint()).
   bool IsPartOfAChain(const Joint& joint) const {
     const auto is_cross = [&](int link) {
       return link >= 0 &&
@@ -411,7 +412,7 @@ class ModelReader {
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;
   std::set<std::string> sensor_names_;
-  // links of this model if it is static, and of static models inside it
+  // all links of this model if it is static, and of static models nested in it
   std::set<std::string> static_links_;
 };
 

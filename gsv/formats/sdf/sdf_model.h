@@ -12,14 +12,15 @@
 
 namespace gsv::formats {
 
-// A model and its frames to which others may refer: links, joints, frames, nested models.
+// A model, and the frames in it to which other elements may refer: links, joints, frames, nested
+// models.
 struct FramedModel {
   std::shared_ptr<const model::Model> model;
   std::map<std::string, geometry::Pose> model_from_frame;
 };
 
-// Fails if the model has no link, or a non-finite one. Appends other problems to those of the
-// context. Model::default_pose includes the placement frame.
+// Converts a model. Fails if it has no link, or a non-finite one. Appends other problems to those
+// of the context. Model::default_pose includes the placement frame.
 base::Result<FramedModel> ReadModel(const sdf::Model& source, const ReadingContext& context);
 
 }  // namespace gsv::formats

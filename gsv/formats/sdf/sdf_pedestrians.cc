@@ -15,7 +15,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Reads "x y" or "x y radius". Any other text gives a goal with NaN.
+// Reads "x y" or "x y radius", in metres. Any other text gives a goal with NaN.
 model::PedestrianGoal GoalFrom(const XMLElement& element) {
   const char* text = element.GetText();
   const std::vector<std::string> words = WordsOf(text == nullptr ? "" : text);
@@ -37,7 +37,7 @@ void ReadNumber(const XMLElement& parent, const char* name, double& value) {
   }
 }
 
-// Names elements that do not belong to a group, such as a count that is an element.
+// Warns of attributes and elements that <gsv:pedestrians> does not have.
 void ReportUnknownParts(const XMLElement& element, const ReadingContext& context) {
   static constexpr std::string_view kAttributes[] = {"name", "count"};
   static constexpr std::string_view kElements[] = {"gsv:goal",   "gsv:z",     "gsv:speed_deviation",

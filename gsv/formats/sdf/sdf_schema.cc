@@ -25,13 +25,13 @@ std::string DescriptionText(const XMLElement& element) {
 
 bool IsRequired(const XMLElement& element) { return AttributeText(element, "required") == "1"; }
 
-// A file of the schema holds one <element>, which has <attribute>, <element> and <include> inside.
-// An <include> stands for the element of another file.
+// Builds descriptions from the files of the schema. A file has one <element>, which contains
+// <attribute>, <element> and <include>. An <include> refers to the element of another file.
 class SchemaBuilder {
  public:
   explicit SchemaBuilder(const std::set<std::string>& without) : without_(without) {}
 
-  // Returns the description in a file of the schema; null if there is none.
+  // Returns the description in a file of the schema; null if there is no such file.
   sdf::ElementPtr FromFile(const std::string& file) {
     const auto known = elements_.find(file);
     if (known != elements_.end()) return known->second;

@@ -15,7 +15,7 @@ namespace {
 using model::Parameters;
 using model::ParameterValue;
 
-// The prefix of elements that SDFormat does not define: <gsv:dropout>.
+// The prefix of GSV's own elements, such as <gsv:dropout>.
 constexpr std::string_view kOurs = "gsv:";
 constexpr const char* kPreset = "gsv:preset";
 
@@ -66,8 +66,8 @@ bool IsDefault(const sdf::Element& element) {
   return IsDefined(element) && element.GetValue() != nullptr && !element.GetValue()->GetSet();
 }
 
-// If an element is repeated, the first one is used. For a contact sensor, the names of all its
-// collisions are used.
+// Adds a parameter. If an element is repeated, the first one counts. But all <collision> names of a
+// contact sensor are joined.
 void AddParameter(const std::string& path, ParameterValue value, Parameters& parameters) {
   const auto [known, is_new] = parameters.emplace(path, value);
   if (is_new || path != model::kCollisionNames) return;
@@ -76,7 +76,8 @@ void AddParameter(const std::string& path, ParameterValue value, Parameters& par
   if (names != nullptr && name != nullptr) *names += "\n" + *name;
 }
 
-// `only_given`: without the elements that SDFormat adds with their defaults.
+// Adds the parameters below `element`. `only_given`: skips elements that libsdformat has added with
+// their default values.
 void Flatten(const sdf::ElementPtr& element, const std::string& prefix, bool only_given,
              Parameters& parameters) {
   for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {

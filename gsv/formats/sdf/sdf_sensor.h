@@ -9,15 +9,16 @@ namespace gsv::formats {
 
 // Reads name, type, rate, flags and parameters of a <sensor>; the caller sets link and pose.
 //
-// A parameter is an element or attribute with a value. Its name joins the names of the elements
-// around it with dots: "range.max", "noise.stddev". The element of the whole sensor (<lidar>,
-// <ray>, <camera>, <imu>, <sonar>, and so on) is left out: a lidar's "scan.horizontal.samples", a
-// camera's "horizontal_fov", "image.width", "clip.near". An attribute is named like an element
-// ("noise.type"), except `name` and `type` of the sensor itself. <pose>, <update_rate>, <visualize>
-// and <plugin> are no parameters. An element that SDFormat defines has its type and default.
-// Elsewhere, a text that is a number becomes a number, "true" and "false" become flags, and the
-// rest is text. The prefix "gsv:", which SDFormat requires for elements that it does not define, is
-// removed from names. If an element is repeated, the first counts.
+// A parameter is an element or attribute with a value. Its name has the names of the elements that
+// contain it, joined with dots: "range.max", "noise.stddev". The element of the sensor's type
+// (<lidar>, <ray>, <camera>, <imu>, <sonar>, and so on) is left out: a lidar has
+// "scan.horizontal.samples", a camera has "horizontal_fov", "image.width" and "clip.near".
+// Attributes are named like elements ("noise.type"), except `name` and `type` of the sensor itself.
+// <pose>, <update_rate>, <visualize> and <plugin> are not parameters. A parameter that SDFormat
+// defines has SDFormat's type and default. In other elements, a number becomes a number, "true" and
+// "false" become flags, and other values stay texts. The prefix "gsv:", which SDFormat requires for
+// elements that it does not define, is removed from names. If an element is repeated, the first one
+// counts.
 model::SensorDescription ReadSensor(const sdf::ElementPtr& sensor);
 
 }  // namespace gsv::formats

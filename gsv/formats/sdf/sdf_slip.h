@@ -1,4 +1,4 @@
-// Reads how wheels slip: Gazebo's WheelSlip plugin, and GSV's own element <gsv:slip>.
+// Reads the slip of wheels: Gazebo's WheelSlip plugin, and GSV's own element <gsv:slip>.
 //
 // WheelSlip   <wheel link_name="…"> with <slip_compliance_lateral>, <slip_compliance_longitudinal>,
 //             <wheel_normal_force> (N) and <wheel_radius> (m; default: that of the wheel's

@@ -40,8 +40,8 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   } else {
     context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is used", place);
   }
-  // A factor that is not positive means "as fast as possible". The caller of this function handles
-  // this case.
+  // A factor that is not positive means "as fast as possible". Then the field keeps its default,
+  // and the caller handles this case.
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
 }
 
@@ -57,8 +57,7 @@ void ReadOrigin(const ignition::math::SphericalCoordinates& coordinates,
   } else {
     context.Warn(
         "<spherical_coordinates> must be finite, with a latitude of at most 90 degrees; the world "
-        "has no "
-        "place on Earth",
+        "has no geographic origin",
         context.source.string());
   }
 }

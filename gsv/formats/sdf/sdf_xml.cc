@@ -82,7 +82,7 @@ base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
   return {};
 }
 
-// Sets the user data of each element to its source, in the order of the document.
+// Sets the user data of each element to its ElementSource, in the order of the document.
 void NameSources(XMLElement& element, std::vector<ElementSource>& sources, std::size_t& next) {
   if (next == sources.size()) return;
   element.SetUserData(&sources[next++]);
@@ -106,8 +106,8 @@ base::Status TakeExpanded(xacro::Expansion expanded, XmlFile& file) {
   return {};
 }
 
-// Expands xacro. The effect of a failure depends on the file's name: a robot description whose name
-// does not end in .xacro may contain remains of xacro, which other programs ignore.
+// Expands xacro. If that fails for a file whose name ends in .xacro, the file is refused. In other
+// files, xacro elements may be remains that other programs ignore, so a failure is only a warning.
 base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
                     const std::map<std::string, std::string>& arguments, base::Problems& problems,
                     XmlFile& file) {
@@ -199,7 +199,8 @@ void LineKeepingPrinter::Escaped(const char* text) {
       case '"':
         out_ += "&quot;";
         break;
-      // A newline in a text would shift later lines; for SDFormat all blanks are equal.
+      // A newline in a text would shift later lines, so it becomes a space. For SDFormat all blanks
+      // are equal.
       case '\n':
       case '\r':
         out_ += ' ';

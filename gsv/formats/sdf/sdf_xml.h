@@ -1,4 +1,4 @@
-// The XML of a model or world file, before libsdformat reads it.
+// Reads and prepares the XML of a model or world file, before libsdformat reads it.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ enum class XmlDialect { kSdf, kUrdf };
 struct XmlFile {
   std::filesystem::path path;
   std::filesystem::path named;  // the name as given to ReadXml(), with the arguments for xacro
-  std::vector<ElementSource> sources;  // of a xacro file: the sources of its elements
+  std::vector<ElementSource> sources;  // the origins of its elements, if it is a xacro file
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;
@@ -54,7 +54,7 @@ class LineKeepingPrinter {
   int line_ = 1;
 };
 
-// An element's content, without lines: equal elements print equally.
+// Returns an element as text without line breaks. Equal elements give equal texts.
 std::string PrintCompact(const tinyxml2::XMLElement& element);
 
 }  // namespace gsv::formats

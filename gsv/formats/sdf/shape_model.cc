@@ -14,7 +14,7 @@ constexpr std::size_t kMaxShapeName = 256;
 
 using Options = std::map<std::string, std::string, std::less<>>;
 
-// The geometry as SDFormat text, and the principal moments of inertia per kilogram.
+// The geometry as SDFormat text, and the principal moments of inertia per kilogram (m²).
 struct Solid {
   std::string geometry;
   double xx = 0, yy = 0, zz = 0;

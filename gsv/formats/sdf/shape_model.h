@@ -1,4 +1,4 @@
-// Models of one shape that need no file. Their names describe them:
+// Makes models that have one shape and need no file. The name describes the model:
 //
 //   shape:box?size=0.4,0.4,0.4&mass=8&colour=ff8800
 //   shape:wall?size=4,0.1,2           a static box

@@ -24,8 +24,9 @@ sdf::ParamPtr CloneFor(const sdf::ElementPtr& owner, const sdf::Param& original)
 
 }  // namespace
 
-// As in libsdformat 12, except that the descriptions are not cloned. libsdformat changes none: it
-// fills clones, and Element::Reset(), which clears descriptions, is never called.
+// Does the same as libsdformat 12's definition, but does not clone the descriptions. This is safe,
+// because libsdformat does not change them: it fills clones, and never calls Element::Reset(),
+// which clears descriptions.
 sdf::ElementPtr sdf::Element::Clone() const {
   const ElementPrivate& from = *dataPtr;
   const ElementPtr clone = std::make_shared<Element>();
@@ -56,7 +57,7 @@ sdf::ElementPtr sdf::Element::Clone() const {
 }
 
 // libsdformat calls this for each file of the schema, each <include> in these files, and each
-// nested model. It would parse the file and all files that it includes.
+// nested model. Its own definition would parse the file and all files that it includes.
 bool sdf::initFile(const std::string& file, ElementPtr element) {
   const ElementPtr description = gsv::formats::DescriptionInFile(file);
   if (description == nullptr) return false;

@@ -12,7 +12,7 @@
 
 namespace gsv::formats {
 
-// Whether libsdformat calls the definitions here. Otherwise, reading takes longer. Call with
+// Whether libsdformat calls these definitions. If not, reading takes longer. Call with
 // SdformatMutex() locked.
 bool SharesDescriptions();
 

@@ -17,7 +17,7 @@ constexpr char kNested[] = R"(<sdf version="1.4"><world name="w">
     <visual name="v"><geometry><box><size>1 2 3</size></box></geometry><extra><any a="1"/></extra></visual></link>
     <model name="inner"><link name="l"/></model></model></world></sdf>)";
 
-// The description of an element, with all below it.
+// Returns the description of an element, with those of all elements below it, as text.
 std::string AllBelow(const sdf::Element& element) {
   std::string text = "<" + element.GetName() + element.GetRequired();
   for (const sdf::ParamPtr& attribute : element.GetAttributes()) {
@@ -54,7 +54,7 @@ TEST(SharedDescriptions, AreSharedByNestedModels) {
             AllBelow(*SdfSchema()->GetElementDescription("model")->GetElementDescription("joint")));
 }
 
-TEST(SharedDescriptions, LeaveCopiesOfElementsApart) {
+TEST(SharedDescriptions, KeepCopiesOfElementsIndependent) {
   base::Problems problems;
   const auto document = ParseSdf({"nested.sdf", kNested}, {}, problems);
   ASSERT_TRUE(document) << document.error().message;

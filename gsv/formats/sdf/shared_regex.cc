@@ -61,8 +61,8 @@ std::size_t SharedRegexCount() {
   return compiled.automata.size();
 }
 
-// The function of libstdc++ before GCC 12, std::__detail::__compile_nfa<std::regex_traits<char>,
-// const char*>(), which libsdformat calls. Current headers do not declare it.
+// libstdc++'s function before GCC 12, std::__detail::__compile_nfa<std::regex_traits<char>, const
+// char*>(), which libsdformat calls. Current headers do not declare it.
 Automaton
 CompileNfa(const char* first, const char* last, const std::locale& locale, Flags flags) __asm__(
     "_ZNSt8__detail13__compile_nfaINSt7__cxx1112regex_traitsIcEEPKcEENSt9enable_ifIXsrNS_20__is_"
@@ -76,7 +76,7 @@ Automaton CompileNfa(const char* first, const char* last, const std::locale& loc
 
 }  // namespace gsv::formats
 
-// The function of the current libstdc++, which libignition-math and this program call.
+// The function of current versions of libstdc++. libignition-math and this program call it.
 template <>
 void std::basic_regex<char>::_M_compile(const char* first, const char* last, flag_type flags) {
   _M_automaton = gsv::formats::CompileOnce(first, last, _M_loc, flags);

@@ -16,7 +16,7 @@ namespace gsv::formats {
 
 inline constexpr std::size_t kMaxSharedRegexes = 64;
 
-// The number of compiled expressions that are kept; 0 if the C++ library is not libstdc++.
+// Returns the number of compiled expressions that are kept; 0 if the C++ library is not libstdc++.
 std::size_t SharedRegexCount();
 
 }  // namespace gsv::formats

@@ -10,7 +10,7 @@ namespace {
 
 #ifdef __GLIBCXX__
 
-TEST(SharedRegex, KeepsAnExpressionOnceForEachMeaning) {
+TEST(SharedRegex, CompilesEqualExpressionsOnce) {
   const std::size_t before = SharedRegexCount();
   const std::regex first("(a+)b_shared"), second("(a+)b_shared");
   EXPECT_EQ(SharedRegexCount(), before + 1);

@@ -18,7 +18,7 @@ using tinyxml2::XMLElement;
 constexpr double kBallRadius = 0.05;     // m
 constexpr char kNoUrdfLimit[] = "1e16";  // the limit that SDFormat writes for "no limit"
 
-// The requirement of urdfdom for an attribute, and the value that replaces an invalid one.
+// An attribute whose value urdfdom checks, and the value that replaces an invalid one.
 struct Attribute {
   const char* element;
   const char* name;
@@ -133,7 +133,8 @@ class UrdfPartRepair {
     element.Parent()->DeleteChild(&element);
   }
 
-  // Leaves a malformed number unchanged if the element requires it; a later step handles it.
+  // Repairs malformed numbers. If the element requires the number, leaves it unchanged, and a later
+  // step handles it.
   void RepairNumbers(XMLElement& element) {
     for (const Attribute& known : kAttributes) {
       if (!Is(element, known.element)) continue;
@@ -252,7 +253,7 @@ class UrdfPartRepair {
         LeaveOut(*material, "there is one of that name already");
       }
     }
-    // Adds the materials that visuals define, because they are available to all visuals.
+    // Materials that a visual defines are available to all visuals, so collect them too.
     for (auto* link = robot.FirstChildElement("link"); link != nullptr;
          link = link->NextSiblingElement("link")) {
       for (auto* visual = link->FirstChildElement("visual"); visual != nullptr;
@@ -295,10 +296,10 @@ class UrdfPartRepair {
     const std::string type = type_text == nullptr ? "" : type_text;
     XMLElement* limit = joint.FirstChildElement("limit");
     if (limit == nullptr && type == "revolute") {
-      Warn(joint, NameOfPart(joint) + " is revolute and has no <limit>; it turns freely");
+      Warn(joint, NameOfPart(joint) + " is revolute and has no <limit>; it rotates without limits");
       joint.SetAttribute("type", "continuous");
     } else if (limit == nullptr && type == "prismatic") {
-      Warn(joint, NameOfPart(joint) + " is prismatic and has no <limit>; it slides freely");
+      Warn(joint, NameOfPart(joint) + " is prismatic and has no <limit>; it slides without limits");
       limit = joint.InsertNewChildElement("limit");
       limit->SetAttribute("lower", "-1e16");
       limit->SetAttribute("upper", kNoUrdfLimit);
@@ -306,7 +307,7 @@ class UrdfPartRepair {
     for (const char* key : {"effort", "velocity"}) {
       if (limit == nullptr || HasNumber(*limit, key)) continue;
       Warn(*limit,
-           "<limit> of " + NameOfPart(joint) + " has no @" + key + "; there is no such limit");
+           "<limit> of " + NameOfPart(joint) + " has no @" + key + "; no such limit applies");
       limit->SetAttribute(key, kNoUrdfLimit);
     }
     if (limit != nullptr && HasNumber(*limit, "lower") && HasNumber(*limit, "upper") &&

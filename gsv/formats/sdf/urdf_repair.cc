@@ -118,7 +118,8 @@ class UrdfRepair {
     }
   }
 
-  // libsdformat drops the extensions of links and joints that do not exist.
+  // Warns of <gazebo> elements for links and joints that do not exist, because libsdformat drops
+  // these elements silently.
   void ReportUnknownReferences() {
     for (const auto* gazebo = robot_.FirstChildElement("gazebo"); gazebo != nullptr;
          gazebo = gazebo->NextSiblingElement("gazebo")) {
@@ -251,8 +252,8 @@ class UrdfRepair {
     return true;
   }
 
-  // Gives links a mass. libsdformat drops a link without mass, with its joint and everything below
-  // it. A group of links that are fixed together needs only one mass.
+  // Gives a mass to links without one. libsdformat drops a link without mass, with its joint and
+  // all links below it. A group of links that are fixed together needs only one link with mass.
   void GiveMass() {
     // whether the group has mass, by the top link of each group of links that are fixed together
     std::map<std::string, bool> has_mass;

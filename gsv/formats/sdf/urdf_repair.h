@@ -11,13 +11,13 @@
 namespace gsv::formats {
 
 // Changes the elements below <robot>. Each change gives a warning:
-//   links         that can move and have no mass get one of 0.1 kg; those fixed to a link with mass
-//                 need none. The first of two with one name is read
-//   joints        without two links of the robot, or that close a loop, are left out; joints of
-//                 unknown type become fixed
-//   floating      and planar joints: the robot can move freely if they connect its root to an empty
-//                 link such as `world`; all others become fixed
-//   trees         that no joint connects: the largest is read
+//   links         without mass that can move get 0.1 kg, unless they are fixed to a link with mass.
+//                 Of links with equal names the first is read
+//   joints        that do not connect two links of the robot, or that close a loop, are left out.
+//                 Joints of unknown type become fixed
+//   floating      and planar joints: if one connects the robot to an empty root link such as
+//                 `world`, the robot can move freely. All others become fixed
+//   trees         if joints do not connect all links, only the largest tree of links is read
 //   parts         see urdf_part_repair.h
 void RepairUrdf(tinyxml2::XMLElement& robot, const std::filesystem::path& file,
                 base::Problems& problems);

@@ -7,7 +7,7 @@
 
 namespace gsv::formats {
 
-// The file's text, repaired by urdf_repair.h.
+// Returns the file's text after the repairs of urdf_repair.h.
 std::string UrdfText(const XmlFile& file, base::Problems& problems);
 
 }  // namespace gsv::formats

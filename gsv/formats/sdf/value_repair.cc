@@ -24,7 +24,8 @@ sdf::ElementPtr Schema() {
   return SdfSchema();
 }
 
-// A nested model has the same description as any other.
+// Returns the description of a child element. A nested model has the same description as any other
+// model.
 sdf::ElementPtr DescriptionOf(const char* name, const sdf::ElementPtr& parent) {
   if (parent == nullptr || !parent->HasElementDescription(name)) return nullptr;
   if (std::strcmp(name, "model") == 0 && parent->GetName() == "model") {
@@ -67,7 +68,8 @@ class ValueRepair {
     problems_.push_back({base::Problem::Severity::kWarning, message, PlaceOf(file_, element)});
   }
 
-  // libsdformat 12 drops @auto, which SDFormat has since 1.11, but keeps attributes of a namespace.
+  // Copies @auto of <inertial> to @gsv:auto. SDFormat has @auto since 1.11. libsdformat 12 drops
+  // it, but keeps attributes with a namespace prefix.
   static void KeepAutomaticInertia(XMLElement& element) {
     if (std::strcmp(element.Name(), "inertial") == 0 && element.BoolAttribute("auto", false)) {
       element.SetAttribute("gsv:auto", true);
@@ -136,7 +138,7 @@ class ValueRepair {
     return name;
   }
 
-  // Checks types that are one word of a list.
+  // Checks the type of an element, if it must be one of a list of words.
   void CheckKind(XMLElement& element) {
     static const std::set<std::string> joints = {"revolute", "continuous", "prismatic",
                                                  "gearbox",  "revolute2",  "ball",

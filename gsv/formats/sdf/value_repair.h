@@ -1,5 +1,5 @@
-// Repairs the values in an SDFormat file before libsdformat reads it, since libsdformat refuses the
-// whole file for one word in the place of a number.
+// Repairs the values in an SDFormat file before libsdformat reads it, because libsdformat refuses
+// the whole file if a single number is malformed.
 #pragma once
 
 #include <filesystem>

@@ -27,7 +27,7 @@ std::string Joined(const std::vector<double>& values) {
 }
 
 struct WrittenNumbers {
-  std::vector<double> values;  // the numbers before the first word that is not a number
+  std::vector<double> values;  // numbers before the first word that is not a number
   std::size_t words = 0;
   bool are_all_clean = true;
 };
@@ -52,7 +52,7 @@ RepairedText RepairFlag(const std::string& text, const std::string& otherwise) {
     lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (lower == "true" || lower == "false" || lower == "1" || lower == "0") return {text, ""};
-  // libsdformat writes its defaults as 1 and 0.
+  // libsdformat writes the defaults of flags as 1 and 0.
   return {otherwise == "1" || otherwise == "true" ? "true" : "false", "true or false is expected"};
 }
 
@@ -159,7 +159,7 @@ LeadingNumber LeadingNumberOf(const std::string& word) {
   char* end = nullptr;
   number.value = std::strtod(word.c_str(), &end);
   number.is_number = end != word.c_str();
-  // "1.0f" is a number in the notation of C.
+  // Accept "1.0f", the notation of C.
   number.is_all =
       number.is_number && (*end == '\0' || ((*end == 'f' || *end == 'F') && end[1] == '\0'));
   return number;

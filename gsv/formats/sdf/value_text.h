@@ -1,4 +1,4 @@
-// The values in SDFormat and URDF files, and the replacements of invalid ones.
+// Checks the texts of values in SDFormat and URDF files, and replaces invalid ones.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gsv::formats {
 
-// A valid text of a value, and the problem with the original text (empty: none).
+// A valid text for a value. `wrong` is the problem with the original text (empty: none).
 struct RepairedText {
   std::string text;
   std::string wrong;
@@ -33,8 +33,8 @@ bool IsZeroVector(std::string_view text);
 RepairedText RepairText(const std::string& type, const std::string& text,
                         const std::string& otherwise, bool has_quaternion = false);
 
-// Writes the numbers of a repaired text as plain decimals, since urdfdom rejects "1.0f", "0x10" and
-// 1e-310. If one is not finite, returns `otherwise` with the reason.
+// Writes the numbers of a repaired text as plain decimals, because urdfdom rejects "1.0f", "0x10"
+// and 1e-310. If a number is not finite, returns `otherwise` with the reason.
 RepairedText AsPlainNumbers(RepairedText repaired, const std::string& otherwise);
 
 // Returns at most about 60 characters of a text, on one line, for a message.

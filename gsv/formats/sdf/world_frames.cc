@@ -88,7 +88,7 @@ base::Result<Pose> WorldFrames::Follow(const std::string& name, int links_left) 
   if (name.empty() || name == "world" || name == "__root__") return Pose{};
   if (links_left == 0) {
     return Fail(ErrorCode::kBadModel,
-                "the poses are relative to each other in a circle at \"" + name + "\"");
+                "the poses are relative to each other in a cycle that includes \"" + name + "\"");
   }
   auto it = entries_.find(name);
   const std::size_t scope = it == entries_.end() ? name.find("::") : std::string::npos;

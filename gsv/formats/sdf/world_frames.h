@@ -1,4 +1,5 @@
-// The frames of a world: resolves the poses of models and lights that are relative to each other.
+// WorldFrames stores the frames of a world, and resolves the poses of models and lights that are
+// relative to each other.
 #pragma once
 
 #include <map>
@@ -21,13 +22,13 @@ struct WrittenPose {
 // @degrees, or seven with @rotation_format "quat_xyzw". A malformed or infinite pose is an error.
 base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element);
 
-// Reads the pose of a <frame>. Without @relative_to it is relative to what it is attached to.
+// Reads the pose of a <frame>. Without @relative_to it is relative to the frame in @attached_to.
 base::Result<WrittenPose> ReadFramePose(const tinyxml2::XMLElement& frame);
 
 class WorldFrames {
  public:
-  // `frame_from_origin` transforms from the model's (or frame's) own origin to the frame that `at`
-  // places: the inverse of a placement frame's pose in the model.
+  // Adds a model or frame. `at` is its pose, or that of the model's placement frame if it has one.
+  // Then `frame_from_origin` is the inverse of the placement frame's pose in the model.
   void Add(const std::string& name, WrittenPose at, geometry::Pose frame_from_origin = {},
            const std::map<std::string, geometry::Pose>* inner_frames = nullptr);
 
@@ -43,6 +44,7 @@ class WorldFrames {
     const std::map<std::string, geometry::Pose>* inner_frames;
   };
 
+  // Resolves the pose of a frame over at most `links_left` other frames.
   base::Result<geometry::Pose> Follow(const std::string& name, int links_left) const;
 
   std::map<std::string, Entry> entries_;

@@ -77,7 +77,7 @@ class WorldReader {
     WrittenPose at;
     std::string placement_frame;
     std::optional<bool> is_static;
-    bool poses_itself = false;                 // whether the element that places it sets its pose
+    bool uses_own_pose = false;                // whether the <include> has no <pose>
     std::size_t distinct = 0;                  // for an inline model: index into distinct_
     std::shared_ptr<const StoredFile> stored;  // included
   };
@@ -96,7 +96,8 @@ class WorldReader {
 
   std::string Place(const XMLElement& element) const { return PlaceOf(file_.path, element); }
 
-  // Names are parts of scoped names ("a::b") and of lines of text.
+  // Returns the name without "::" and control characters, because names are parts of scoped names
+  // ("a::b") and of lines of text.
   std::string AllowedName(const std::string& wanted, const std::string& place) {
     if (wanted.empty()) return "unnamed";
     std::string name = wanted;
@@ -140,7 +141,8 @@ class WorldReader {
     }
   }
 
-  // Reads includes from the store; built-in models stay as their text.
+  // Reads the included files from the store. Includes of built-in models are replaced by their
+  // text.
   base::Status TakeIncludes(XMLElement& world) {
     XMLElement* next = nullptr;
     for (auto* child = world.FirstChildElement("include"); child != nullptr; child = next) {
@@ -196,7 +198,7 @@ class WorldReader {
     placement.place = Place(include);
     placement.stored = *stored;
     placement.at = PoseOf(include);
-    placement.poses_itself = include.FirstChildElement("pose") == nullptr;
+    placement.uses_own_pose = include.FirstChildElement("pose") == nullptr;
     if (const auto* text = include.FirstChildElement("placement_frame")) {
       placement.placement_frame = text->GetText() == nullptr ? "" : text->GetText();
     }
@@ -216,7 +218,7 @@ class WorldReader {
 
   void AddIncludedLight(const Placement& placement) {
     PlacedLight placed{placement.place, placement.at, *placement.stored->light};
-    if (placement.poses_itself) placed.at.pose = placement.stored->world_from_light;
+    if (placement.uses_own_pose) placed.at.pose = placement.stored->world_from_light;
     if (!placement.name.empty()) placed.light.name = placement.name;
     lights_.push_back(std::move(placed));
   }
@@ -266,10 +268,8 @@ class WorldReader {
 
     element.SetAttribute("name", "");
     const auto script = scripts_.find(&element);
-    const std::string own = script == scripts_.end() ? "" : placement.name;  // makes the text
-                                                                             // unique, because each
-                                                                             // script belongs to
-                                                                             // one actor
+    // The name makes an actor's text unique, because its script belongs to one actor only.
+    const std::string own = script == scripts_.end() ? "" : placement.name;
     const auto [it, is_new] =
         distinct_by_text_.emplace(PrintCompact(element) + own, distinct_.size());
     element.SetAttribute("name", placement.name.c_str());
@@ -421,7 +421,7 @@ class WorldReader {
     for (Placement& placement : placements_) {
       const FramedModel* framed = FramedOf(placement);
       if (framed == nullptr) continue;
-      if (placement.poses_itself && placement.placement_frame.empty()) {
+      if (placement.uses_own_pose && placement.placement_frame.empty()) {
         placement.at.pose = framed->model->default_pose;
       }
       frames_.Add(placement.name, placement.at, FrameFromModel(placement, *framed),
@@ -469,13 +469,14 @@ class WorldReader {
   std::vector<Placement> placements_;
   std::deque<Distinct> distinct_;
   std::map<std::string, std::size_t> distinct_by_text_;
-  // By the elements that were actors; never iterated.
+  // The key is the element of an actor, changed to a <model>. This map is never iterated, because
+  // pointers have no fixed order.
   std::map<const XMLElement*, ActorParts> scripts_;
   std::vector<PlacedLight> lights_;
   std::vector<XMLElement*> surroundings_;
   std::set<std::string> names_;
   std::set<const StoredFile*> reported_;
-  std::set<std::filesystem::path> refused_;  // included files whose problems are reported
+  std::set<std::filesystem::path> refused_;  // included files whose problems were already reported
 };
 
 }  // namespace

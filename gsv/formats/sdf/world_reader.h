@@ -1,9 +1,9 @@
 // Reads a world. A model that is placed several times is read once.
 //
-// libsdformat's time grows with the square of the number of models (30 s for 3,000), so it never
-// reads a whole world. The store reads <include>s. Inline models that differ only in name and pose
-// are parsed once. libsdformat reads the rest in batches.
-// WorldFrames resolves poses between models, libsdformat those within a model.
+// The time that libsdformat needs grows with the square of the number of models (30 s for 3,000),
+// so it never gets a whole world. The ModelStore reads the files of <include>s. Inline models that
+// differ only in name and pose are parsed once, in batches. WorldFrames resolves poses between
+// models, and libsdformat resolves poses within a model.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -13,7 +13,7 @@
 
 namespace gsv::formats {
 
-// Reads the first <world> of `file`, and changes `file` for that.
+// Reads the first <world> of `file`. Changes the elements of `file`.
 base::Result<model::WorldDescription> ReadWorld(XmlFile& file, ModelStore& store,
                                                 base::Problems& problems);
 

@@ -18,7 +18,8 @@ using model::JointKind;
 using tinyxml2::XMLElement;
 
 constexpr int kMaxStateDepth = 32;
-// rad or m: a joint position closer to zero than this is set to zero, so that models stay shared.
+// A joint position closer to zero than this (rad or m) becomes zero, so that equal models stay
+// shared.
 constexpr double kAtZero = 1e-9;
 
 std::string NameAttribute(const XMLElement& element) {

@@ -1,8 +1,9 @@
-// Reads the <state> of a world: the poses of models and lights when Gazebo Classic saved it.
+// A WorldState reads the <state> of a world: the poses of models and lights at the time when Gazebo
+// Classic saved the world.
 //
-// The rules are those of Gazebo Classic. Poses of models, links and lights are in the world. The
-// poses of links take precedence: joints start at the positions that they imply. Joint positions
-// are used if the poses of links are missing. Velocities are not read.
+// The rules are those of Gazebo Classic. Poses of models, links and lights are in the world frame.
+// The poses of links take precedence: joints start at the positions that follow from them. Saved
+// joint positions are used only if the poses of links are missing. Velocities are not read.
 #pragma once
 
 #include <map>
@@ -19,8 +20,8 @@ namespace gsv::formats {
 
 class WorldState {
  public:
-  // Removes the states from a <world>. Inserted models become a part of the world. A state that
-  // belongs to another world is left out with a warning.
+  // Reads the <state> elements of a <world>, and removes them. Models that a state inserts become a
+  // part of the world. A state of another world is left out with a warning.
   void Read(tinyxml2::XMLElement& world, const ReadingContext& context);
 
   // Whether the state deletes this model or light.

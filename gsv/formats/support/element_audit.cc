@@ -25,7 +25,8 @@ std::string Tag(std::string_view name) { return "<" + std::string(name) + ">"; }
 
 std::string Spaced(const std::string& sentence) { return sentence.empty() ? "" : " " + sentence; }
 
-// A sensor whose type SDFormat does not define: GSV has this type, or a plug-in may have it.
+// Whether the element is a sensor whose type SDFormat does not define. GSV has this type, or a
+// plug-in may have it.
 bool IsSensorOfOurs(const XMLElement& element) {
   static constexpr std::string_view kTypes[] = {"air_flow",
                                                 "air_pressure",
@@ -143,8 +144,9 @@ class ElementAudit {
     above_.pop_back();
   }
 
-  // An element has a value or elements. Text beside elements is mostly what is left of a comment.
-  // CDATA sections are comments in Gazebo's own worlds.
+  // Reports text beside elements: an element has either a value or elements. Such a text is mostly
+  // a remnant of a comment. CDATA sections are ignored, because Gazebo's own worlds use them as
+  // comments.
   void ReportTextBesideElements(const XMLElement& element) {
     if (element.FirstChildElement() == nullptr) return;
     for (auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
@@ -223,7 +225,8 @@ class ElementAudit {
     }
   }
 
-  // GSV's own elements, and those in them. Elements of other namespaces are for other programs.
+  // Visits GSV's own elements, and the elements in them. Elements of other namespaces are ignored,
+  // because they are for other programs.
   void VisitOurs(const XMLElement& element) {
     const auto sentence = AboutOurElement(element.Name(), IsInSensorOfPlugin());
     if (!sentence.empty()) {
@@ -246,7 +249,7 @@ class ElementAudit {
     if (support.support == Support::kNoEffect) return;
     // An element with a name is an object of its own, even if it contains no values.
     const bool is_thing = support.support == Support::kNone && element.Attribute("name") != nullptr;
-    if (support.support != Support::kFull && (is_thing || !SaysNothing(element, support))) {
+    if (support.support != Support::kFull && (is_thing || !HasOnlyDefaults(element, support))) {
       Report(
           Tag(element.Name()) +
               (support.support == Support::kNone ? " is not supported" : " is supported in part") +
@@ -284,7 +287,7 @@ class ElementAudit {
   }
 
   // Whether the element and its content have only default values.
-  static bool SaysNothing(const XMLElement& element, const ElementSupport& support) {
+  static bool HasOnlyDefaults(const XMLElement& element, const ElementSupport& support) {
     for (const XMLAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
          attribute = attribute->Next()) {
       const ElementSupport* known = support.Attribute(attribute->Name());
@@ -299,7 +302,7 @@ class ElementAudit {
     }
     for (; child != nullptr; child = child->NextSiblingElement()) {
       const ElementSupport* known = support.Child(child->Name());
-      if (known == nullptr || !SaysNothing(*child, *known)) return false;
+      if (known == nullptr || !HasOnlyDefaults(*child, *known)) return false;
     }
     return true;
   }

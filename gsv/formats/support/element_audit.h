@@ -26,7 +26,7 @@ struct AuditedFile {
   int minor_version = 0;             // 9 for SDFormat 1.9; 0 for URDF
 };
 
-// Adds one warning per place: at most kMaxFindings, and one with the number of the others.
+// Adds at most kMaxFindings warnings, and one with the number of further ones.
 void AuditElements(const AuditedFile& file, base::Problems& problems);
 
 inline constexpr int kMaxFindings = 1000;

@@ -38,7 +38,7 @@ std::vector<std::string> AuditOfJoint(const std::string& content, int minor_vers
                  minor_version);
 }
 
-TEST(ElementAudit, NamesFileLineAndPathOfUnknownElements) {
+TEST(ElementAudit, ReportsUnknownElementsWithFileLineAndPath) {
   EXPECT_THAT(
       AuditOf("<sdf version='1.9'>\n<world name='w'>\n<model name='box'>\n<statik>1</statik>"
               "<link name='l'>\n<colision name='c'/></link></model></world></sdf>"),
@@ -60,7 +60,7 @@ TEST(ElementAudit, ReportsWhereMisplacedElementsBelong) {
               ElementsAre(HasSubstr("<model> beside a <world> is ignored")));
 }
 
-TEST(ElementAudit, NamesUnknownAttributes) {
+TEST(ElementAudit, ReportsUnknownAttributes) {
   EXPECT_THAT(AuditOf("<sdf version='1.9'><model name='m'><link nmae='l'/></model></sdf>"),
               ElementsAre(AllOf(HasSubstr("<link> has no attribute \"nmae\""),
                                 EndsWith("Did you mean \"name\"?"))));
@@ -68,7 +68,7 @@ TEST(ElementAudit, NamesUnknownAttributes) {
               ElementsAre(EndsWith("It is an element: <static>.")));
 }
 
-TEST(ElementAudit, NamesDuplicateElementsAndElementsOfOlderVersions) {
+TEST(ElementAudit, ReportsDuplicateElementsAndElementsOfOlderVersions) {
   EXPECT_THAT(
       AuditOfLink("<pose>1 0 0 0 0 0</pose><pose>2 0 0 0 0 0</pose>"),
       ElementsAre(HasSubstr("a second <pose> in <link> is ignored; the first one is used")));
@@ -80,7 +80,7 @@ TEST(ElementAudit, NamesDuplicateElementsAndElementsOfOlderVersions) {
   EXPECT_THAT(AuditOfJoint(axis, 7), ElementsAre(HasSubstr("ended with SDFormat 1.6")));
 }
 
-TEST(ElementAudit, NamesUnsupportedElementsUnlessTheyHaveTheDefault) {
+TEST(ElementAudit, ReportsUnsupportedElementsUnlessTheyHaveTheDefault) {
   const auto contact = [](const std::string& content) {
     return AuditOfLink("<collision name='c'><surface><contact>" + content +
                        "</contact></surface></collision>");
@@ -110,14 +110,14 @@ TEST(ElementAudit, IgnoresElementsOfOtherSensorTypes) {
   EXPECT_THAT(AuditOfLink("<sensor name='s' type='imu'><noise/></sensor>"), SizeIs(1));
 }
 
-TEST(ElementAudit, NamesTextBesideElements) {
+TEST(ElementAudit, ReportsTextBesideElements) {
   EXPECT_THAT(AuditOf("<sdf version='1.9'>left<model name='m'><link name='l'/>over</model></sdf>"),
               ElementsAre(HasSubstr("the text \"left\" in <sdf> is ignored"),
                           HasSubstr("the text \"over\" in <model> is ignored")));
   EXPECT_THAT(AuditOf("<sdf version='1.9'><![CDATA[ how to ]]><model name='m'/></sdf>"), IsEmpty());
 }
 
-TEST(ElementAudit, NamesParametersThatGsvDoesNotHave) {
+TEST(ElementAudit, ReportsParametersThatGsvDoesNotHave) {
   const auto sensor = [](const std::string& type, const std::string& content) {
     return AuditOfLink("<sensor name='s' type='" + type + "'>" + content + "</sensor>");
   };
@@ -131,7 +131,7 @@ TEST(ElementAudit, NamesParametersThatGsvDoesNotHave) {
   EXPECT_THAT(sensor("of_a_plugin", "<gsv:smell>1</gsv:smell><smell>1</smell>"), IsEmpty());
 }
 
-TEST(ElementAudit, NamesUnsupportedPlugins) {
+TEST(ElementAudit, ReportsUnsupportedPlugins) {
   const auto plugin = [](const std::string& text) {
     return AuditOf("<sdf version='1.9'><model name='m'>" + text + "</model></sdf>");
   };

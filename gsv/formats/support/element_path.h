@@ -1,4 +1,4 @@
-// The places of elements, for messages.
+// Finds the places of XML elements, for messages.
 #pragma once
 
 #include <filesystem>

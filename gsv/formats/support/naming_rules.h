@@ -1,7 +1,8 @@
 // Checks the XML of one file by SDFormat's rules on names and references.
 //
-// The reader repairs or leaves out elements that break them, with a warning, so that the rest can
-// run. A check of the file still reports them as errors, as other programs refuse the file.
+// The reader repairs or leaves out elements that break the rules, with a warning, so that the world
+// can run. A check of the file (ReadOptions::check_rules) still reports these elements as errors,
+// because other programs refuse the file.
 //
 // Rules     links, collisions, visuals, joints, frames and models have names. Siblings in a model
 //           or world have different names, of whatever kind they are. Names of the form __name__

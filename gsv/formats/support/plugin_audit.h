@@ -1,4 +1,4 @@
-// Warnings about plugins, and about elements of GSV's own.
+// Makes warnings about plugins, and about GSV's own elements.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace gsv::formats {
 // Returns sentences about an unsupported <plugin>, or about parameters that look misspelt.
 std::vector<std::string> AboutPlugin(const tinyxml2::XMLElement& plugin);
 
-// A sentence about an element such as <gsv:beem> that GSV does not have; empty about all others. In
-// a sensor `is_of_plugin`, which may have parameters of its own, only a name that looks misspelt
-// gives a sentence.
+// Returns a sentence about an element that GSV does not have, such as <gsv:beem>; empty for other
+// elements. `is_of_plugin`: the element is in a sensor whose type a plug-in may define, with its
+// own parameters. Then only a name that looks misspelt gives a sentence.
 std::string AboutOurElement(std::string_view name, bool is_of_plugin);
 
 // Whether GSV has this type of sensor, and SDFormat does not.

@@ -1,4 +1,4 @@
-// Whether two texts of elements have the same meaning: numbers by value, true as 1.
+// Compares texts of elements by their meaning: numbers by value, and "true" as 1.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,5 @@
-// The tables of element_tables.h as a tree: the support of each element of SDFormat and URDF.
+// A SupportTable has the tables of element_tables.h as a tree: GSV's support of each element of
+// SDFormat and URDF.
 //
 // Threads  immutable once built.
 #pragma once
@@ -36,7 +37,7 @@ struct ElementSupport {
   ByName children, attributes;
   const ElementSupport* definition = nullptr;  // the definition that lists more content
 
-  // For a definition that accepts the elements of other definitions (URDF's <gazebo>).
+  // Other definitions whose elements are also allowed here (for URDF's <gazebo>).
   std::vector<const ElementSupport*> borrowed;
 };
 
@@ -48,14 +49,14 @@ struct PluginSupport {
 
 class SupportTable {
  public:
-  // The table of this program. Aborts if a row cannot be read.
+  // Returns the program's table. Aborts if a row cannot be read.
   static const SupportTable& Get();
 
   const ElementSupport& sdf() const { return Definition("root"); }
   const ElementSupport& urdf() const { return Definition("robot"); }
   const ElementSupport& Definition(std::string_view name) const;
 
-  // The row of a plugin of that file and class; null if none is known.
+  // Returns the row of the plugin with this file or class name; null if there is none.
   const PluginSupport* Plugin(std::string_view file_name, std::string_view class_name) const;
 
  private:

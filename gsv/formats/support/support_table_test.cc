@@ -87,7 +87,7 @@ class InstalledSchemaTest : public testing::TestWithParam<int> {
     EXPECT_LE(known->since, GetParam()) << path;
     EXPECT_TRUE(known->until == 0 || known->until >= GetParam()) << path;
     const char* otherwise = described.Attribute("default");
-    // GSV's cones fall off linearly, as with 1.
+    // GSV's spot lights fall off linearly, as with <falloff> 1.
     if (path == "light/spot/falloff") return;
     if (GetParam() == 9 && known->otherwise && otherwise != nullptr) {
       EXPECT_TRUE(HasSameMeaning(*known->otherwise, otherwise)) << path << ": " << otherwise;

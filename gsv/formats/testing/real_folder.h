@@ -1,3 +1,4 @@
+// For tests: the folder of worlds and robots of other authors.
 #pragma once
 
 #include <cstdlib>

@@ -69,8 +69,8 @@ class TreeMaker {
     problems_.push_back({base::Problem::Severity::kWarning, message, model_.name});
   }
 
-  // The first link without a parent is the root. If its frame differs from the model's frame, a
-  // link for the model's frame is added above it.
+  // Selects the root: the first link without a parent. If its frame differs from the model's frame,
+  // adds a link for the model's frame above it.
   void AddRoots(const std::vector<bool>& has_parent) {
     std::string root = has_world_ ? kWorldLink : "";
     Pose model_from_root;
@@ -101,9 +101,10 @@ class TreeMaker {
 
   void Add(const model::Joint& joint) {
     if (joint.kind == JointKind::kScrew)
-      Warn("URDF has no screws: joint " + joint.name + " turns, but does not slide");
+      Warn("URDF has no screw joints: " + joint.name +
+           " is written as a continuous joint, which does not slide");
     if (joint.kind == JointKind::kBall && joint.name.find("::axis") == std::string::npos) {
-      Warn("URDF has no ball joints: " + joint.name + " is written as three joints that turn");
+      Warn("URDF has no ball joints: " + joint.name + " is written as three continuous joints");
     }
     const Pose model_from_parent = FrameOf(joint.parent), model_from_child = FrameOf(joint.child);
     const std::string& parent = joint.parent < 0 ? kWorld : NameOfLink(joint.parent);

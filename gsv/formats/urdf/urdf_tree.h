@@ -1,9 +1,10 @@
 // Converts a model's links and joints to a single tree, as URDF requires.
 //
-// Frames  URDF has no separate frame for a joint: it is the frame of the child link. A joint moves
-//         to its child's frame if that changes nothing. If a joint turns about an axis that does
-//         not pass through that frame, an empty link is added at the joint's frame, and the child
-//         is fixed to it. So every link keeps its frame. libsdformat merges both under its name.
+// Frames  URDF has no separate frame for a joint: a joint is at the frame of its child link. If the
+//         joint's motion stays the same there, only its frame changes. If not (an axis that does
+//         not pass through the child's origin), an empty link is added at the joint's frame, and
+//         the child is fixed to it. So every link keeps its frame. libsdformat merges the two
+//         links, and uses the empty link's name.
 #pragma once
 
 #include <string>
@@ -28,7 +29,8 @@ struct UrdfTree {
   std::vector<UrdfJoint> joints;
 };
 
-// Warnings name the parts that URDF cannot represent: screws, ball joints and unconnected links.
+// Converts the model. Adds warnings for parts that URDF cannot represent: screws, ball joints and
+// unconnected links.
 UrdfTree MakeUrdfTree(const model::Model& model, base::Problems& problems);
 
 }  // namespace gsv::formats

@@ -71,7 +71,8 @@ class UrdfText {
   void WarnOfWhatIsLeftOut() {
     const auto warn = [&](const std::string& what) {
       problems_.push_back({base::Problem::Severity::kWarning,
-                           "URDF has no elements for " + what + ", left out", model_.name});
+                           "URDF has no elements for " + what + "; they are left out",
+                           model_.name});
     };
     if (!model_.sensors.empty()) warn("sensors: " + std::to_string(model_.sensors.size()));
     if (model_.drive && model_.drive->origin == model::DriveOrigin::kPlugin) warn("drives: 1");
@@ -86,7 +87,7 @@ class UrdfText {
     }
   }
 
-  // Each colour is defined once, before its first use.
+  // Writes each colour once, before its first use.
   void WriteMaterials() {
     for (const model::Link& link : model_.links) {
       for (const model::Visual& visual : link.visuals) {
@@ -130,7 +131,7 @@ class UrdfText {
     out_.PushAttribute("name", link.name.c_str());
     if (link.inertial.mass > 0) WriteInertial(link.inertial);
     for (const model::Visual& visual : link.visuals) WriteVisual(visual);
-    // libsdformat applies friction only to collisions whose names it makes itself.
+    // libsdformat applies the friction of <gazebo> elements only to collisions without a name.
     const bool is_named = !HasFriction(link);
     for (const model::Collision& collision : link.collisions) {
       WriteShape("collision", is_named ? collision.name : "", collision.link_from_collision,

@@ -1,13 +1,13 @@
-// Models as URDF, whatever format they were read from: links, joints, limits, inertias, visuals and
-// collisions.
+// Writes models as URDF, whatever format they were read from: links, joints, limits, inertias,
+// visuals and collisions.
 //
 // Frames    every link of the model keeps its name and its frame. Links are added where URDF's tree
 //           needs them, see urdf_tree.h.
 // Shapes    URDF has boxes, cylinders, spheres and meshes. All others become meshes. A mesh becomes
 //           one STL file for each of its materials, because STL has no materials.
 // Gazebo    <gazebo> elements have Gazebo's additions to URDF: friction, gravity, static models,
-//           and that fixed joints are kept. Other readers ignore them.
-// Left out  sensors, drives and textures, which are warnings; restitution and shadows.
+//           and the setting that keeps fixed joints. Other readers ignore them.
+// Left out  sensors, drives and textures (with a warning), restitution and shadows.
 // Equal models give equal files.
 // Threads   any.
 #pragma once
@@ -30,8 +30,9 @@ struct Urdf {
   std::vector<UrdfMesh> meshes;
 };
 
-// `mesh_prefix` comes before the file names of meshes: "meshes/", "file:///tmp/robot/",
-// "package://robot/". Parts that URDF cannot represent are reported in `problems`.
+// Writes a model. `mesh_prefix` comes before the file names of meshes: "meshes/",
+// "file:///tmp/robot/", "package://robot/". `problems` gets a warning for each part that URDF
+// cannot represent.
 Urdf WriteUrdf(const model::Model& model, const std::string& mesh_prefix, base::Problems& problems);
 
 }  // namespace gsv::formats

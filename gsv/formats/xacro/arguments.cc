@@ -6,7 +6,7 @@
 namespace gsv::formats::xacro {
 namespace {
 
-// The position of the question mark before the arguments; npos if there are none.
+// Returns the position of the question mark before the arguments; npos if there are none.
 std::size_t ArgumentsAt(const std::string& name) {
   constexpr std::size_t kLength = 7;
   const std::size_t at = name.find(".xacro?");

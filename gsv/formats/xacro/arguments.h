@@ -1,4 +1,4 @@
-// Arguments in the name of a xacro file: "robot.urdf.xacro?arm=true&prefix=left_".
+// Reads arguments in the name of a xacro file: "robot.urdf.xacro?arm=true&prefix=left_".
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@ namespace gsv::formats::xacro {
 
 struct NamedFile {
   std::string file;
-  std::map<std::string, std::string> arguments;  // empty for any file that is not a xacro file
+  std::map<std::string, std::string> arguments;  // empty if it is not a xacro file
 };
 
 // Returns the name without its arguments.

@@ -13,8 +13,9 @@ using Kind = Expression::Kind;
 constexpr std::size_t kMaxValues = 20'000;  // maximum number of values in a list, including the
                                             // values in its items
 
-// Whether the value has at most `room` values inside; decreases `room`. Lists may share items, so a
-// small expression may produce very many.
+// Counts the value and the values inside it, and subtracts the number from `room`. Returns false if
+// there are more than `room`. Lists can share items, so even a small expression can produce very
+// many values.
 bool Fits(const Value& value, std::size_t& room) {
   if (room == 0) return false;
   --room;

@@ -13,11 +13,12 @@
 
 namespace gsv::formats::xacro {
 
-// The scope of an expression: the properties, arguments and YAML files that it can use.
+// The functions with which an expression accesses properties, arguments and YAML files.
 struct EvaluationContext {
-  // Returns a property's value, or nothing if there is no such property.
+  // Returns a property's value, or nullopt if there is no such property.
   std::function<base::Result<std::optional<Value>>(const std::string& name)> property;
-  // Return the content of a YAML file, and the value of an argument. Each may be empty.
+  // These return the content of a YAML file, and the value of an argument. Each function may be
+  // empty.
   std::function<base::Result<Value>(const std::string& file)> load_yaml;
   std::function<base::Result<Value>(const std::string& name)> argument;
   // Receives the texts of xacro.message(), xacro.warning() and xacro.error(); may be empty.

@@ -148,7 +148,7 @@ TEST(Evaluation, RejectsInvalidExpressionsWithASentence) {
       {"__import__('os')", "the call of __import__() is not supported"},
       {"side.__class__", "a str has no \"__class__\""},
       {"'{:d}'.format(1)", "the format \"d\" is not supported"},
-      {"side.title()", "title() of a text is not supported"},
+      {"side.title()", "title() of a string is not supported"},
       {"[x for x in [1]]", "comprehensions are not supported"},
       {"lambda: 1", "lambda is not supported"},
       {"f'{side}'", "strings with a prefix"},
@@ -158,7 +158,7 @@ TEST(Evaluation, RejectsInvalidExpressionsWithASentence) {
       {"1 2", "\"2\" is not expected here"},
       {"", "ends too early"},
       {"1 & 2", "\"&\" is not supported"},
-      {"'a' * 10000000", "a text is too long"},
+      {"'a' * 10000000", "a string is too long"},
       {"[0] * 10000000", "a list is too long"},
   };
   for (const auto& [expression, expected] : cases) {

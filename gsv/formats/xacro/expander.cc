@@ -9,7 +9,7 @@ constexpr int kMaxSteps = 1'000'000;
 constexpr int kMaxLevels = 500;
 constexpr std::size_t kMaxMessageLength = 600;
 
-tl::unexpected<base::Error> Unfit(const std::string& why) {
+tl::unexpected<base::Error> InvalidXacro(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
 }
 
@@ -23,7 +23,8 @@ bool IsIdentifier(const std::string& name) {
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c >= 0x80; });
 }
 
-// Whether the element belongs to robot descriptions; a macro without the prefix cannot replace it.
+// Whether this is the name of a URDF element. A macro of this name must be called with the prefix
+// "xacro:".
 bool IsOfUrdf(const std::string& name) {
   for (const char* known :
        {"link",   "joint",    "visual",   "collision", "inertial",     "inertia",
@@ -50,7 +51,7 @@ std::string Stripped(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-// Counts the levels of the expansion.
+// Counts one level of the recursive expansion during its lifetime.
 class Level {
  public:
   explicit Level(int& levels) : levels_(levels) { ++levels_; }
@@ -99,9 +100,11 @@ base::Status Expander::One(const NodePtr& node, Node& parent, Context& context) 
   const Level level(levels_);
   base::Status status;
   if (++steps_ > kMaxSteps) {
-    status = Unfit("the file takes more than " + std::to_string(kMaxSteps) + " steps to expand");
+    status =
+        InvalidXacro("the file takes more than " + std::to_string(kMaxSteps) + " steps to expand");
   } else if (levels_ > kMaxLevels) {
-    status = Unfit("macros and elements are nested deeper than " + std::to_string(kMaxLevels));
+    status =
+        InvalidXacro("macros and elements are nested deeper than " + std::to_string(kMaxLevels));
   } else if (node->is_element) {
     status = Element(node, parent, context);
   } else if (const auto text = TextOf(node->text, *node, context.scope)) {
@@ -119,8 +122,8 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
   struct Known {
     const char* name;
     Handler handler;
-    std::vector<const char*> attributes;  // attributes of the form of the element without the
-                                          // prefix
+    // Without the prefix "xacro:", only an element with these attributes is one of xacro.
+    std::vector<const char*> attributes;
   };
   static const std::vector<Known> kKnown{
       {"property", &Expander::OnProperty, {"name", "value"}},
@@ -151,7 +154,7 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
 base::Status Expander::Element(const NodePtr& node, Node& parent, Context& context) {
   const bool is_prefixed = node->text.starts_with("xacro:");
   const std::string name = WithoutPrefix(node->text);
-  // A macro named "call" hides the element, as it does in xacro.
+  // A macro named "call" hides the element <xacro:call>, as it does in xacro.
   if (is_prefixed || (takes_plain_names_ && !IsOfUrdf(name))) {
     const auto [macro, home] = context.space.FindMacro(name);
     const bool is_call = macro != nullptr && (is_prefixed || LooksLikeCall(*node, *macro));
@@ -164,9 +167,10 @@ base::Status Expander::Element(const NodePtr& node, Node& parent, Context& conte
   return Plain(node->text, *node, parent, context);
 }
 
-// A missing file may define the macro. Then only this call fails.
+// Handles the call of an unknown macro. If an included file is missing, it may define the macro.
+// Then this call is left out with a warning, and the expansion continues.
 base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
-  if (missing_file_.empty()) return Unfit("there is no macro \"" + name + "\"");
+  if (missing_file_.empty()) return InvalidXacro("there is no macro \"" + name + "\"");
   problems_.push_back({base::Problem::Severity::kWarning,
                        "the call of the macro \"" + name + "\" is ignored: " + missing_file_ +
                            ", which was not found, may define it",
@@ -174,8 +178,8 @@ base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
   return {};
 }
 
-// Whether the node looks like a call. Without the prefix, the name is not sufficient: <camera> in a
-// macro "camera" is an element.
+// Whether the node is probably a call of the macro. Without the prefix "xacro:", the name is not
+// sufficient: <camera> inside a macro "camera" is an element.
 bool Expander::LooksLikeCall(const Node& node, const Macro& macro) const {
   if (active_.contains(macro.definition.get())) return false;
   if (!macro.definition->text.starts_with("xacro:")) return true;
@@ -212,9 +216,10 @@ base::Status Expander::Plain(const std::string& name, const Node& node, Node& pa
 
 base::Status Expander::OnProperty(const NodePtr& node, Node&, Context& context) {
   Scope& scope = context.scope;
-  const auto name = Needed(*node, "name", scope);
+  const auto name = RequiredAttribute(*node, "name", scope);
   if (!name) return base::Fail(name.error());
-  if (!IsIdentifier(*name)) return Unfit("\"" + *name + "\" cannot be the name of a property");
+  if (!IsIdentifier(*name))
+    return InvalidXacro("\"" + *name + "\" cannot be the name of a property");
   const auto removes = FlagOf(*node, "remove", false, scope);
   if (!removes) return base::Fail(removes.error());
   if (*removes) {
@@ -228,7 +233,7 @@ base::Status Expander::OnProperty(const NodePtr& node, Node&, Context& context) 
   }
   const std::string reach = node->attribute("scope") == nullptr ? "" : *node->attribute("scope");
   if (reach != "" && reach != "parent" && reach != "global" && reach != "local") {
-    return Unfit("the scope of a property is parent or global, not \"" + reach + "\"");
+    return InvalidXacro("the scope of a property is parent or global, not \"" + reach + "\"");
   }
   Scope* target = &scope;
   if (reach == "global") target = &scope.outermost();
@@ -251,7 +256,7 @@ base::Status Expander::OnProperty(const NodePtr& node, Node&, Context& context) 
 
 base::Status Expander::OnMacro(const NodePtr& node, Node&, Context& context) {
   const std::string* name = node->attribute("name");
-  if (name == nullptr || name->empty()) return Unfit("the macro has no name");
+  if (name == nullptr || name->empty()) return InvalidXacro("the macro has no name");
   const std::string* parameters = node->attribute("params");
   context.space.macros[WithoutPrefix(*name)] = {
       node, parameters == nullptr ? std::vector<Parameter>() : ParseParameters(*parameters)};
@@ -259,7 +264,7 @@ base::Status Expander::OnMacro(const NodePtr& node, Node&, Context& context) {
 }
 
 base::Status Expander::OnArgument(const NodePtr& node, Node&, Context& context) {
-  const auto name = Needed(*node, "name", context.scope);
+  const auto name = RequiredAttribute(*node, "name", context.scope);
   if (!name) return base::Fail(name.error());
   const std::string* otherwise = node->attribute("default");
   if (arguments_.contains(*name) || otherwise == nullptr) return {};
@@ -270,12 +275,13 @@ base::Status Expander::OnArgument(const NodePtr& node, Node&, Context& context) 
 }
 
 base::Status Expander::OnInclude(const NodePtr& node, Node& parent, Context& context) {
-  const auto name = Needed(*node, "filename", context.scope);
+  const auto name = RequiredAttribute(*node, "filename", context.scope);
   if (!name) return base::Fail(name.error());
   const auto is_optional = FlagOf(*node, "optional", false, context.scope);
   if (!is_optional) return base::Fail(is_optional.error());
   if (context.includes_left <= 0) {
-    return Unfit("files include each other deeper than " + std::to_string(max_include_depth_));
+    return InvalidXacro("files include each other deeper than " +
+                        std::to_string(max_include_depth_));
   }
   if (name->find_first_of("*?[") == std::string::npos) {
     return Include(*name, *is_optional, node, parent, context);
@@ -325,23 +331,23 @@ base::Status Expander::Include(const std::string& name, bool is_optional, const 
 
 base::Status Expander::OnCondition(const NodePtr& node, Node& parent, Context& context) {
   const std::string* text = node->attribute("value");
-  if (text == nullptr) return Unfit("the condition has no value");
+  if (text == nullptr) return InvalidXacro("the condition has no value");
   const auto value = Evaluate(*text, *node, context.scope);
   if (!value) return base::Fail(value.error());
   const auto condition = ConditionOf(*value);
   if (!condition) {
-    return Unfit("the condition \"" + *text + "\" gives \"" + ToText(*value) +
-                 "\", which is neither true nor false");
+    return InvalidXacro("the condition \"" + *text + "\" gives \"" + ToText(*value) +
+                        "\", which is neither true nor false");
   }
   const bool keeps = *condition != (WithoutPrefix(node->text) == "unless");
   return keeps ? Children(*node, parent, context) : base::Status();
 }
 
 base::Status Expander::OnInsertBlock(const NodePtr& node, Node& parent, Context& context) {
-  const auto name = Needed(*node, "name", context.scope);
+  const auto name = RequiredAttribute(*node, "name", context.scope);
   if (!name) return base::Fail(name.error());
   const Block* const found = context.scope.FindBlock(*name);
-  if (found == nullptr) return Unfit("there is no block \"" + *name + "\"");
+  if (found == nullptr) return InvalidXacro("there is no block \"" + *name + "\"");
   const Block block = *found;  // the expansion may define another block of that name
   if (block.is_expanded) {
     steps_ += static_cast<int>(block.nodes.size());
@@ -354,7 +360,7 @@ base::Status Expander::OnInsertBlock(const NodePtr& node, Node& parent, Context&
 }
 
 base::Status Expander::OnCall(const NodePtr& node, Node& parent, Context& context) {
-  const auto name = Needed(*node, "macro", context.scope);
+  const auto name = RequiredAttribute(*node, "macro", context.scope);
   if (!name) return base::Fail(name.error());
   const auto [macro, home] = context.space.FindMacro(WithoutPrefix(*name));
   if (macro == nullptr) return UnknownMacro(*name, *node);
@@ -364,18 +370,20 @@ base::Status Expander::OnCall(const NodePtr& node, Node& parent, Context& contex
 }
 
 base::Status Expander::OnElement(const NodePtr& node, Node& parent, Context& context) {
-  const auto name = Needed(*node, "xacro:name", context.scope);
+  const auto name = RequiredAttribute(*node, "xacro:name", context.scope);
   if (!name) return base::Fail(name.error());
-  if (!IsIdentifier(*name)) return Unfit("\"" + *name + "\" cannot be the name of an element");
+  if (!IsIdentifier(*name))
+    return InvalidXacro("\"" + *name + "\" cannot be the name of an element");
   return Plain(*name, *node, parent, context);
 }
 
 base::Status Expander::OnAttribute(const NodePtr& node, Node& parent, Context& context) {
-  const auto name = Needed(*node, "name", context.scope);
+  const auto name = RequiredAttribute(*node, "name", context.scope);
   if (!name) return base::Fail(name.error());
-  const auto value = Needed(*node, "value", context.scope);
+  const auto value = RequiredAttribute(*node, "value", context.scope);
   if (!value) return base::Fail(value.error());
-  if (!IsIdentifier(*name)) return Unfit("\"" + *name + "\" cannot be the name of an attribute");
+  if (!IsIdentifier(*name))
+    return InvalidXacro("\"" + *name + "\" cannot be the name of an attribute");
   SetAttribute(parent, *name, *value);
   return {};
 }
@@ -406,7 +414,7 @@ base::Status Expander::BindValues(const Macro& macro, const NodePtr& node, Conte
         std::any_of(macro.parameters.begin(), macro.parameters.end(), [&](const auto& parameter) {
           return parameter.name == name && parameter.kind == Parameter::Kind::kValue;
         });
-    if (!is_taken) return Unfit("the macro has no parameter \"" + name + "\"");
+    if (!is_taken) return InvalidXacro("the macro has no parameter \"" + name + "\"");
     auto value = Evaluate(attribute.second, *node, context.scope);
     if (!value) return base::Fail(value.error());
     given[name] = *std::move(value);
@@ -433,7 +441,7 @@ base::Status Expander::BindDefault(const Parameter& parameter, const NodePtr& no
     }
   }
   if (!parameter.otherwise) {
-    return Unfit("the call lacks the parameter \"" + parameter.name + "\"");
+    return InvalidXacro("the call lacks the parameter \"" + parameter.name + "\"");
   }
   // A default of a macro in a namespace may use the properties there.
   const auto value = Evaluate(*parameter.otherwise, *node, *inner.parent());
@@ -451,7 +459,7 @@ base::Status Expander::BindBlocks(const Macro& macro, const NodePtr& node, Conte
   for (const Parameter& parameter : macro.parameters) {
     if (parameter.kind == Parameter::Kind::kValue) continue;
     if (block == holder.children.end()) {
-      return Unfit("the call lacks an element for the block \"" + parameter.name + "\"");
+      return InvalidXacro("the call lacks an element for the block \"" + parameter.name + "\"");
     }
     const NodePtr element = *block++;
     const bool is_whole = parameter.kind == Parameter::Kind::kBlock;
@@ -459,15 +467,15 @@ base::Status Expander::BindBlocks(const Macro& macro, const NodePtr& node, Conte
                    {is_whole ? std::vector<NodePtr>{element} : element->children, true});
   }
   if (block == holder.children.end()) return {};
-  return Unfit("the macro takes no block <" + (*block)->text + ">");
+  return InvalidXacro("the macro takes no block <" + (*block)->text + ">");
 }
 
 base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, Scope& scope) {
   if (text.find('$') == std::string::npos) return Value{text};
-  if (++steps_ > kMaxSteps) return Unfit("the file takes too many steps to expand");
+  if (++steps_ > kMaxSteps) return InvalidXacro("the file takes too many steps to expand");
   const Level level(levels_);
   if (levels_ > kMaxLevels)
-    return Unfit(
+    return InvalidXacro(
         "macros or properties are nested too deep. A macro may call itself without an end");
   EvaluationContext evaluation;
   evaluation.property = [&](const std::string& name) { return scope.Find(name); };
@@ -486,12 +494,13 @@ base::Result<std::string> Expander::TextOf(const std::string& text, const Node& 
   return ToText(*value);
 }
 
-base::Result<std::string> Expander::Needed(const Node& node, const char* name, Scope& scope) {
+base::Result<std::string> Expander::RequiredAttribute(const Node& node, const char* name,
+                                                      Scope& scope) {
   const std::string* text = node.attribute(name);
-  if (text == nullptr) return Unfit("<" + node.text + "> needs the attribute " + name);
+  if (text == nullptr) return InvalidXacro("<" + node.text + "> needs the attribute " + name);
   auto value = TextOf(*text, node, scope);
   if (value && value->empty() && std::string(name) != "value") {
-    return Unfit("<" + node.text + "> has an empty attribute " + name);
+    return InvalidXacro("<" + node.text + "> has an empty attribute " + name);
   }
   return value;
 }
@@ -503,7 +512,8 @@ base::Result<bool> Expander::FlagOf(const Node& node, const char* name, bool oth
   const auto value = Evaluate(*text, node, scope);
   if (!value) return base::Fail(value.error());
   const auto flag = ConditionOf(*value);
-  if (!flag) return Unfit(std::string(name) + " must be true or false, not " + ToText(*value));
+  if (!flag)
+    return InvalidXacro(std::string(name) + " must be true or false, not " + ToText(*value));
   return *flag;
 }
 
@@ -539,15 +549,17 @@ base::Result<Value> Expander::Command(const std::string& command, const Node& at
                          at.place()});
     return Value{Stripped(rest.substr(end))};
   }
-  return Unfit("$(" + name + " …) is not supported" +
-               (name == "env" ? ": environment variables are not read; use an argument" : ""));
+  return InvalidXacro(
+      "$(" + name + " …) is not supported" +
+      (name == "env" ? ": environment variables are not read; use an argument" : ""));
 }
 
 base::Result<Value> Expander::ArgumentNamed(const std::string& name) const {
   const auto it = arguments_.find(name);
   if (it != arguments_.end()) return Value{it->second};
-  return Unfit("the argument \"" + name + "\" has no default; append it to the file's name, as " +
-               "robot.urdf.xacro?" + name + "=VALUE");
+  return InvalidXacro("the argument \"" + name +
+                      "\" has no default; append it to the file's name, as " + "robot.urdf.xacro?" +
+                      name + "=VALUE");
 }
 
 }  // namespace gsv::formats::xacro

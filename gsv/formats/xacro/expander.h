@@ -1,4 +1,4 @@
-// Expands the elements of a xacro file.
+// An Expander expands the elements of a xacro file.
 #pragma once
 
 #include <map>
@@ -18,6 +18,7 @@ class Expander {
  public:
   Expander(const ExpandOptions& options, base::Problems& problems);
 
+  // Returns the expanded root element of a file.
   base::Result<NodePtr> Run(const NodePtr& root);
 
  private:
@@ -26,18 +27,22 @@ class Expander {
     Scope& scope;
     Space& space;
     int line = 0;           // line of the call in the main file; 0 for the file's own line
-    int includes_left = 0;  // the depth to which files may still include others
+    int includes_left = 0;  // number of levels to which files may still include others
   };
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
 
+  // Expand nodes, and append the results to `parent`.
   base::Status Children(const Node& of, Node& parent, Context& context);
   base::Status One(const NodePtr& node, Node& parent, Context& context);
   base::Status Element(const NodePtr& node, Node& parent, Context& context);
+  // Returns the function for an element of xacro; null for other elements.
   static Handler HandlerOf(const Node& node, bool takes_plain_names);
   bool LooksLikeCall(const Node& node, const Macro& macro) const;
   base::Status UnknownMacro(const std::string& name, const Node& call);
+  // Appends an element that is not one of xacro, with its attributes and content expanded.
   base::Status Plain(const std::string& name, const Node& node, Node& parent, Context& context);
 
+  // Each expands one kind of xacro element, such as <xacro:property>.
   base::Status OnProperty(const NodePtr& node, Node& parent, Context& context);
   base::Status OnMacro(const NodePtr& node, Node& parent, Context& context);
   base::Status OnArgument(const NodePtr& node, Node& parent, Context& context);
@@ -52,16 +57,19 @@ class Expander {
 
   base::Status CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
                          Context& context);
+  // Set the parameters of a macro in the scope of its body.
   base::Status BindValues(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
   base::Status BindDefault(const Parameter& parameter, const NodePtr& node, Context& context,
                            Scope& inner);
   base::Status BindBlocks(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
 
+  // Substitute ${…} and $(…) in a text.
   base::Result<Value> Evaluate(const std::string& text, const Node& at, Scope& scope);
   base::Result<std::string> TextOf(const std::string& text, const Node& at, Scope& scope);
-  // An attribute's value; kBadModel if it is missing.
-  base::Result<std::string> Needed(const Node& node, const char* name, Scope& scope);
+  // Returns an attribute's value; kBadModel if it is missing.
+  base::Result<std::string> RequiredAttribute(const Node& node, const char* name, Scope& scope);
   base::Result<bool> FlagOf(const Node& node, const char* name, bool otherwise, Scope& scope);
+  // Evaluates a $(command).
   base::Result<Value> Command(const std::string& command, const Node& at, Scope& scope);
   base::Result<Value> ArgumentNamed(const std::string& name) const;
 
@@ -71,7 +79,7 @@ class Expander {
   const Resolve resolve_;
   Space main_;
   bool takes_plain_names_ = false;  // whether <macro> means <xacro:macro>
-  std::set<const Node*> active_;    // definitions of the macros that are being expanded
+  std::set<const Node*> active_;    // definitions of macros that are being expanded
   std::string missing_file_;        // the last include that was not found; empty if there was none
   std::set<std::string> missing_packages_;
   int steps_ = 0, levels_ = 0, max_include_depth_;

@@ -15,7 +15,8 @@ using testing::SizeIs;
 
 class ExpanderTest : public testing::Test {
  protected:
-  // Returns the content of the root on one line; or "refused: …" with the place.
+  // Expands the file. Returns the content of the root element on one line, or "refused: …" with the
+  // place.
   std::string Expanded(const std::string& content, std::map<std::string, std::string> args = {}) {
     const auto file = folder_.Write("robot.xacro", "<robot>" + content + "</robot>");
     tinyxml2::XMLDocument document;
@@ -39,7 +40,7 @@ class ExpanderTest : public testing::Test {
   bool allows_absolute_paths_ = true;
 };
 
-TEST_F(ExpanderTest, PutsPropertiesIntoAttributesAndTexts) {
+TEST_F(ExpanderTest, SubstitutesPropertiesInAttributesAndTexts) {
   EXPECT_EQ(Expanded("<xacro:property name='r' value='0.5'/><a d='${2 * r}' e='x${r}y'>z ${r}</a>"),
             "<a d=\"1.0\" e=\"x0.5y\">z 0.5</a>");
   // Numbers keep their type: an integer has no decimal point.
@@ -103,7 +104,7 @@ TEST_F(ExpanderTest, ForwardsPropertiesOfTheCaller) {
   EXPECT_EQ(Expanded(macro + "<xacro:property name='a' value='42'/><xacro:m/>"), "<x a=\"42\"/>");
 }
 
-TEST_F(ExpanderTest, GivesPropertiesToOuterScopes) {
+TEST_F(ExpanderTest, SetsPropertiesOfOuterScopes) {
   EXPECT_EQ(Expanded("<xacro:macro name='m' params='f'><xacro:property name='p' value='${21*f}' "
                      "scope='parent'/></xacro:macro><xacro:m f='2'/><a p='${p}'/>"),
             "<a p=\"42\"/>");
@@ -134,7 +135,7 @@ TEST_F(ExpanderTest, KeepsElementsWhoseConditionIsTrue) {
   EXPECT_THAT(Expanded("<xacro:if value='nonsense'/>"), HasSubstr("neither true nor false"));
 }
 
-TEST_F(ExpanderTest, TakesArgumentsOverTheirDefaults) {
+TEST_F(ExpanderTest, ArgumentsOverrideTheirDefaults) {
   const std::string file =
       "<xacro:arg name='n' default='0.5'/><xacro:property name='p' "
       "value='$(arg n)'/><a p='${p - 0.25}' n='$(arg n)'/>";
@@ -174,7 +175,7 @@ TEST_F(ExpanderTest, IncludesAllFilesThatMatchAPattern) {
   EXPECT_THAT(problems_[0].Sentence(), HasSubstr("no file matches the pattern"));
 }
 
-TEST_F(ExpanderTest, PassesOnTheMessagesOfAFile) {
+TEST_F(ExpanderTest, ReportsTheMessagesOfAFile) {
   EXPECT_EQ(Expanded("\n<a>${xacro.warning('no inertia of', 3)}</a>"), "<a/>");
   ASSERT_THAT(problems_, SizeIs(1));
   EXPECT_THAT(problems_[0].Sentence(), HasSubstr("robot.xacro:2: no inertia of 3"));
@@ -263,7 +264,7 @@ TEST_F(ExpanderTest, MakesElementsAttributesAndCallsByName) {
             "<f/><foo k=\"2\"/>");
 }
 
-TEST_F(ExpanderTest, AcceptsTheOldFormWithoutPrefix) {
+TEST_F(ExpanderTest, AcceptsElementsWithoutThePrefix) {
   EXPECT_EQ(Expanded("<property name='r' value='2'/><macro name='tyre' params='n'><t n='${n}'/>"
                      "</macro><tyre n='${r}'/><if value='${r > 1}'><a/></if>"
                      "<include><uri>model://x</uri></include>"),

@@ -1,4 +1,5 @@
-// The syntax of xacro's expressions: the part of Python that robot descriptions use.
+// Parses xacro's expressions, which have the syntax of Python. Only the part of Python that robot
+// descriptions use is supported.
 //
 // Grammar  ternary (a if b else c), or, and, not, comparisons (chained, in, not in, is), + - * / //
 //          % **, unary signs, calls, members, indices and slices, lists, tuples, dictionaries,
@@ -22,7 +23,7 @@ struct Expression {
     kMember,   // parts[0] . text
     kIndex,    // parts[0] [ parts[1] ]
     kSlice,    // parts[0] [ parts[1] : parts[2] ], absent ends are null
-    kCall,     // parts[0] ( the other parts ); keywords name the last of these
+    kCall,     // parts[0]: function; others: arguments; words: names of the last ones
     kList,
     kTuple,
     kDictionary,  // key, value, key, value, …
@@ -40,7 +41,7 @@ struct Expression {
   std::vector<std::string> words;
 };
 
-// kBadModel with the reason; the caller adds the place.
+// Fails with kBadModel and the reason. The caller adds the place.
 base::Result<std::unique_ptr<Expression>> ParseExpression(const std::string& text);
 
 }  // namespace gsv::formats::xacro

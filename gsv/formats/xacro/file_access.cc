@@ -68,7 +68,11 @@ base::Result<NodePtr> FileAccess::ReadIncluded(const std::string& name, const fs
   std::error_code error;
   const auto size = fs::file_size(*file, error);
   bytes_ += error ? 0 : size;
-  if (error || bytes_ > limits_.xml_bytes) return NoFile("the files are too large", file->string());
+  if (error || bytes_ > limits_.xml_bytes) {
+    return NoFile(
+        "all files together exceed the limit of " + std::to_string(limits_.xml_bytes) + " bytes",
+        file->string());
+  }
   std::ifstream stream(*file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   tinyxml2::XMLDocument document;

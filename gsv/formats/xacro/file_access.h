@@ -1,4 +1,5 @@
-// Restricts the files that a xacro file may name.
+// A FileAccess reads the files to which a xacro file refers, within limits on their place, number
+// and size.
 #pragma once
 
 #include <filesystem>
@@ -19,11 +20,12 @@ class FileAccess {
   FileAccess(const ResourceFinder& finder, const ReadLimits& limits, base::Problems& problems)
       : finder_(finder), limits_(limits), problems_(problems) {}
 
-  // Return the root of an included file, and the values of a YAML file. `in` is the file that
-  // contains `name`. kNotFound: there is no such file or package. kBadModel: it cannot be used.
+  // Returns the root of an included file. In all functions, `in` is the file that contains `name`.
+  // They fail with kNotFound if there is no such file or package, and with kBadModel if it cannot
+  // be used.
   base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
-  // The files whose names match a pattern with *, ? or [] in its last part, in the order of their
-  // names.
+  // Returns the files whose names match a pattern with *, ? or [] in its last part, in the order of
+  // their names.
   std::vector<std::string> Matching(const std::string& pattern,
                                     const std::filesystem::path& in) const;
   base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);

@@ -15,7 +15,7 @@ constexpr std::size_t kMaxResultLength = 1u << 20;
 using Arguments = std::vector<Value>;
 using Function = base::Result<Value> (*)(const Arguments&);
 
-tl::unexpected<base::Error> Misuse(const std::string& why) {
+tl::unexpected<base::Error> InvalidCall(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
 }
 
@@ -26,14 +26,14 @@ double Real(const Value& value) {
 }
 
 base::Result<Value> Whole(double value) {
-  if (!(std::abs(value) < 9e18)) return Misuse("the number is beyond 64 bits");
+  if (!(std::abs(value) < 9e18)) return InvalidCall("the number is beyond 64 bits");
   return Value{static_cast<std::int64_t>(value)};
 }
 
 // A function of one real number.
-using Curve = double (*)(double);
-const std::map<std::string, Curve>& Curves() {
-  static const std::map<std::string, Curve> curves{
+using RealFunction = double (*)(double);
+const std::map<std::string, RealFunction>& RealFunctions() {
+  static const std::map<std::string, RealFunction> functions{
       {"sin", [](double x) { return std::sin(x); }},
       {"cos", [](double x) { return std::cos(x); }},
       {"tan", [](double x) { return std::tan(x); }},
@@ -52,7 +52,7 @@ const std::map<std::string, Curve>& Curves() {
       {"radians", [](double x) { return x * (std::numbers::pi / 180); }},
       {"degrees", [](double x) { return x * (180 / std::numbers::pi); }},
   };
-  return curves;
+  return functions;
 }
 
 using Surface2 = double (*)(double, double);
@@ -68,7 +68,7 @@ const std::map<std::string, Surface2>& Surfaces() {
 }
 
 base::Result<Value> Absolute(const Arguments& a) {
-  if (a.size() != 1 || !a[0].is_number()) return Misuse("abs() takes one number");
+  if (a.size() != 1 || !a[0].is_number()) return InvalidCall("abs() takes one number");
   const auto is_negative = Compare("<", a[0], Value{std::int64_t{0}});
   if (*is_negative) return Negative(a[0]);
   return a[0].as<bool>() != nullptr ? Value{static_cast<std::int64_t>(*a[0].as<bool>())} : a[0];
@@ -77,7 +77,7 @@ base::Result<Value> Absolute(const Arguments& a) {
 base::Result<Value> Extreme(const Arguments& given, const char* word) {
   const bool is_one = given.size() == 1 && given[0].items() != nullptr;
   const List& items = is_one ? *given[0].items() : given;
-  if (items.empty()) return Misuse("min() and max() take one value at least");
+  if (items.empty()) return InvalidCall("min() and max() take one value at least");
   const Value* best = &items[0];
   for (const Value& item : items) {
     const auto is_better = Compare(word, item, *best);
@@ -87,13 +87,13 @@ base::Result<Value> Extreme(const Arguments& given, const char* word) {
   return *best;
 }
 
-// Rounds to the nearest integer, halves to even.
+// Implements round(). Halves are rounded to the nearest even integer.
 base::Result<Value> Round(const Arguments& a) {
-  if (a.empty() || a.size() > 2 || !a[0].is_number()) return Misuse("round() takes a number");
+  if (a.empty() || a.size() > 2 || !a[0].is_number()) return InvalidCall("round() takes a number");
   if (a.size() == 1) return Whole(std::nearbyint(Real(a[0])));
   const auto* digits = a[1].as<std::int64_t>();
   if (digits == nullptr || *digits < -300 || *digits > 300) {
-    return Misuse("round() takes a number of digits");
+    return InvalidCall("round() takes a number of digits");
   }
   // Uses the decimal text, as Python does, so that 2.675 becomes 2.67.
   if (*digits >= 0 && a[0].as<double>() != nullptr && std::abs(Real(a[0])) < 1e17) {
@@ -105,7 +105,7 @@ base::Result<Value> Round(const Arguments& a) {
 }
 
 base::Result<Value> Sum(const Arguments& a) {
-  if (a.size() != 1 || a[0].items() == nullptr) return Misuse("sum() takes a list");
+  if (a.size() != 1 || a[0].items() == nullptr) return InvalidCall("sum() takes a list");
   base::Result<Value> sum = Value{std::int64_t{0}};
   for (const Value& item : *a[0].items()) {
     if (sum) sum = Apply("+", Value(*sum), item);
@@ -123,39 +123,39 @@ base::Result<Value> Length(const Arguments& a) {
       return Value{static_cast<std::int64_t>(a[0].dictionary()->size())};
     }
   }
-  return Misuse("len() takes a text, list or dictionary");
+  return InvalidCall("len() takes a string, list or dictionary");
 }
 
 base::Result<Value> ToInteger(const Arguments& a) {
-  if (a.size() != 1) return Misuse("int() takes one value");
+  if (a.size() != 1) return InvalidCall("int() takes one value");
   if (a[0].is_number()) {
     if (const auto* number = a[0].as<std::int64_t>()) return Value{*number};
     return Whole(std::trunc(Real(a[0])));
   }
   const auto* text = a[0].as<std::string>();
   const auto number = text == nullptr ? std::nullopt : ParseInteger(*text);
-  if (!number) return Misuse("int() does not take " + ToText(a[0]));
+  if (!number) return InvalidCall("int() does not take " + ToText(a[0]));
   return Value{*number};
 }
 
 base::Result<Value> ToFloat(const Arguments& a) {
-  if (a.size() != 1) return Misuse("float() takes one value");
+  if (a.size() != 1) return InvalidCall("float() takes one value");
   if (a[0].is_number()) return Value{Real(a[0])};
   const auto* text = a[0].as<std::string>();
   const auto number = text == nullptr ? std::nullopt : ParseFloat(*text);
-  if (!number) return Misuse("float() does not take " + ToText(a[0]));
+  if (!number) return InvalidCall("float() does not take " + ToText(a[0]));
   return Value{*number};
 }
 
 base::Result<Value> Rounded(const Arguments& a, double (*round)(double)) {
-  if (a.size() != 1 || !a[0].is_number()) return Misuse("the function takes one number");
+  if (a.size() != 1 || !a[0].is_number()) return InvalidCall("the function takes one number");
   return Whole(round(Real(a[0])));
 }
 
 base::Result<Value> Logarithm(const Arguments& a) {
   if (a.empty() || a.size() > 2 || !a[0].is_number() || !a.back().is_number() ||
       !(Real(a[0]) > 0) || !(Real(a.back()) > 0)) {
-    return Misuse("log() takes numbers above zero");
+    return InvalidCall("log() takes numbers above zero");
   }
   const double logarithm = std::log(Real(a[0]));
   return Value{a.size() == 1 ? logarithm : logarithm / std::log(Real(a[1]))};
@@ -169,7 +169,7 @@ base::Result<Value> Items(const Arguments& a, Value (*make)(List)) {
     for (const auto& [key, value] : *a[0].dictionary()) keys.push_back(key);
     return make(std::move(keys));
   }
-  return Misuse("list() and tuple() take a list");
+  return InvalidCall("list() and tuple() take a list");
 }
 
 const std::map<std::string, Function>& Functions() {
@@ -207,7 +207,7 @@ base::Result<Value> RealResult(const std::string& name, double result, const Arg
   const bool are_finite =
       std::all_of(a.begin(), a.end(), [](const Value& v) { return std::isfinite(Real(v)); });
   if (are_finite && !std::isfinite(result)) {
-    return Misuse(name + "() is not defined for " + ToText(a[0]));
+    return InvalidCall(name + "() is not defined for " + ToText(a[0]));
   }
   return Value{result};
 }
@@ -240,7 +240,7 @@ List Split(const std::string& text, const std::string& separator) {
 
 base::Result<Value> Replaced(const std::string& text, const std::string& what,
                              const std::string& by) {
-  if (what.empty()) return Misuse("replace() takes a text to replace");
+  if (what.empty()) return InvalidCall("replace() needs a string to replace");
   std::string replaced;
   std::size_t from = 0;
   for (;;) {
@@ -249,7 +249,7 @@ base::Result<Value> Replaced(const std::string& text, const std::string& what,
     if (at == std::string::npos) return Value{replaced};
     replaced += by;
     from = at + what.size();
-    if (replaced.size() > kMaxResultLength) return Misuse("a text is too long");
+    if (replaced.size() > kMaxResultLength) return InvalidCall("a string is too long");
   }
 }
 
@@ -257,9 +257,9 @@ base::Result<Value> Join(const std::string& text, const List& parts) {
   std::string joined;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto* part = parts[i].as<std::string>();
-    if (part == nullptr) return Misuse("join() takes a list of texts");
+    if (part == nullptr) return InvalidCall("join() takes a list of strings");
     joined += (i == 0 ? "" : text) + *part;
-    if (joined.size() > kMaxResultLength) return Misuse("a text is too long");
+    if (joined.size() > kMaxResultLength) return InvalidCall("a string is too long");
   }
   return Value{joined};
 }
@@ -278,7 +278,7 @@ base::Result<Value> TextMethod(const std::string& text, const std::string& name,
     if (filled.size() < width) filled.insert(sign, width - filled.size(), '0');
     return Value{filled};
   }
-  if (!are_texts) return Misuse(name + "() takes texts");
+  if (!are_texts) return InvalidCall(name + "() takes strings");
   if (name == "isdigit" && a.empty()) {
     return Value{!text.empty() && text.find_first_not_of("0123456789") == std::string::npos};
   }
@@ -304,7 +304,7 @@ base::Result<Value> TextMethod(const std::string& text, const std::string& name,
   if (name == "strip" && a.empty()) return Value{WithoutBlanks(text)};
   if (name == "split" && a.size() <= 1) {
     if (a.size() == 1 && a[0].as<std::string>()->empty())
-      return Misuse("split() takes a separator");
+      return InvalidCall("split() takes a separator");
     return MakeList(Split(text, a.empty() ? "" : *a[0].as<std::string>()));
   }
   if (name == "startswith" && a.size() == 1)
@@ -313,7 +313,7 @@ base::Result<Value> TextMethod(const std::string& text, const std::string& name,
   if (name == "replace" && a.size() == 2) {
     return Replaced(text, *a[0].as<std::string>(), *a[1].as<std::string>());
   }
-  return Misuse("the call " + name + "() of a text is not supported");
+  return InvalidCall("the call " + name + "() of a string is not supported");
 }
 
 base::Result<Value> DictionaryMethod(const Dictionary& entries, const std::string& name,
@@ -325,7 +325,7 @@ base::Result<Value> DictionaryMethod(const Dictionary& entries, const std::strin
     return a.size() == 2 ? a[1] : Value{};
   }
   if (!a.empty() || (name != "keys" && name != "values" && name != "items")) {
-    return Misuse("the call " + name + "() of a dictionary is not supported");
+    return InvalidCall("the call " + name + "() of a dictionary is not supported");
   }
   List items;
   for (const auto& [key, value] : entries) {
@@ -348,31 +348,32 @@ std::optional<Value> Constant(const std::string& name) {
 }
 
 bool IsFunction(const std::string& name) {
-  return Functions().contains(name) || IsSequenceFunction(name) || Curves().contains(name) ||
+  return Functions().contains(name) || IsSequenceFunction(name) || RealFunctions().contains(name) ||
          Surfaces().contains(name);
 }
 
 base::Result<Value> CallFunction(const std::string& name, const Arguments& arguments) {
   if (const auto it = Functions().find(name); it != Functions().end()) return it->second(arguments);
   if (IsSequenceFunction(name)) return CallSequenceFunction(name, arguments);
-  if (const auto it = Curves().find(name); it != Curves().end()) {
-    if (arguments.size() != 1 || !AreNumbers(arguments)) return Misuse(name + "() takes a number");
+  if (const auto it = RealFunctions().find(name); it != RealFunctions().end()) {
+    if (arguments.size() != 1 || !AreNumbers(arguments))
+      return InvalidCall(name + "() takes a number");
     return RealResult(name, it->second(Real(arguments[0])), arguments);
   }
   if (const auto it = Surfaces().find(name); it != Surfaces().end()) {
     if (arguments.size() != 2 || !AreNumbers(arguments)) {
-      return Misuse(name + "() takes two numbers");
+      return InvalidCall(name + "() takes two numbers");
     }
     return RealResult(name, it->second(Real(arguments[0]), Real(arguments[1])), arguments);
   }
-  return Misuse("there is no function " + name + "()");
+  return InvalidCall("there is no function " + name + "()");
 }
 
 base::Result<Value> CallMethod(const Value& of, const std::string& name,
                                const Arguments& arguments) {
   if (const auto* text = of.as<std::string>()) return TextMethod(*text, name, arguments);
   if (of.dictionary() != nullptr) return DictionaryMethod(*of.dictionary(), name, arguments);
-  return Misuse("the call " + name + "() of a " + TypeName(of) + " is not supported");
+  return InvalidCall("the call " + name + "() of a " + TypeName(of) + " is not supported");
 }
 
 }  // namespace gsv::formats::xacro

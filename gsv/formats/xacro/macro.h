@@ -1,4 +1,4 @@
-// The definition of a macro, and the parameters that it takes.
+// The definition of a xacro macro, with its parameters.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,13 @@ namespace gsv::formats::xacro {
 struct Parameter {
   enum class Kind {
     kValue,
-    kBlock,     // *name: the parameter is an element
-    kChildren,  // **name: the parameter is the content of an element
+    kBlock,     // *name: the argument is an element
+    kChildren,  // **name: the argument is the content of an element
   };
   std::string name;  // without asterisks
   Kind kind = Kind::kValue;
-  bool is_forwarded = false;  // ^: the default is the caller's property
+  // ^: the default is the caller's property of this name
+  bool is_forwarded = false;
   std::optional<std::string> otherwise;
 };
 

@@ -20,8 +20,8 @@ void AppendEscaped(const std::string& text, std::string& xml) {
       case '"':
         xml += "&quot;";
         break;
-      // A newline in a text would shift later lines; for the readers of this XML all blanks are
-      // equal.
+      // A newline in a text would shift later lines, so it becomes a space. For the readers of this
+      // XML all blanks are equal.
       case '\n':
       case '\r':
         xml += ' ';

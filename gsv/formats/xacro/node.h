@@ -1,4 +1,4 @@
-// The elements and texts of a file, each with its place.
+// A Node is an element or a text of a xacro file, with its place in the file.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct Node {
   int line = 0;       // in `file`
   int call_line = 0;  // line in the main file: of the node itself, or of the call or include
 
-  // Returns null if there is none.
+  // Returns the attribute's value; null if there is no such attribute.
   const std::string* attribute(const std::string& name) const;
   std::string place() const;  // "file:line"
 };
@@ -33,9 +33,9 @@ using NodePtr = std::shared_ptr<const Node>;
 NodePtr ToNode(const tinyxml2::XMLElement& element,
                const std::shared_ptr<const std::filesystem::path>& file);
 
-// Returns XML in which each element is on its node's call line, or on a later line if lines would
-// decrease, and the source of each element in the order of the document. Ends soon after
-// `max_bytes`: nodes may share children, so a few nodes may become a very long text.
+// Returns XML in which each element is on its node's call line, or on a later line because lines
+// cannot decrease. Also returns the source of each element, in the order of the document. Stops
+// soon after `max_bytes`: nodes can share children, so a few nodes can become a very long text.
 Expansion ToXml(const Node& node, std::size_t max_bytes);
 
 }  // namespace gsv::formats::xacro

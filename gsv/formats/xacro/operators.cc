@@ -90,7 +90,7 @@ base::Result<Value> Repeated(const Value& sequence, std::int64_t times) {
   const auto count =
       static_cast<std::size_t>(std::clamp<std::int64_t>(times, 0, kMaxTextLength + 1));
   if (const auto* text = sequence.as<std::string>()) {
-    if (text->size() * count > kMaxTextLength) return WrongOperand("a text is too long");
+    if (text->size() * count > kMaxTextLength) return WrongOperand("a string is too long");
     std::string repeated;
     for (std::size_t i = 0; i < count; ++i) repeated += *text;
     return Value{repeated};
@@ -110,7 +110,7 @@ bool IsSequence(const Value& value) {
 base::Result<Value> Joined(const Value& a, const Value& b) {
   if (const auto* text = a.as<std::string>()) {
     if (text->size() + b.as<std::string>()->size() > kMaxTextLength) {
-      return WrongOperand("a text is too long");
+      return WrongOperand("a string is too long");
     }
     return Value{*text + *b.as<std::string>()};
   }
@@ -139,7 +139,8 @@ base::Result<bool> Contains(const Value& a, const Value& b) {
 
 constexpr int kMaxFieldWidth = 100;
 
-// The values of a format, from the left: a tuple gives its items, any other value itself.
+// The values for a format string ("%d"), from left to right: the items of a tuple, or a single
+// other value.
 class FormatValues {
  public:
   explicit FormatValues(const Value& value) : value_(value) {}
@@ -158,15 +159,15 @@ class FormatValues {
   std::size_t next_ = 0;
 };
 
-// A field of a format, such as "%-8.3f".
+// A field of a format string, such as "%-8.3f".
 struct Field {
   bool is_left = false, has_zeros = false, has_plus = false, has_blank = false;
   int width = 0, precision = 6;
   char kind = '\0';
 };
 
-// Reads the field at `i` of `format`, and moves `i` to its last character. No kind: there is no
-// such field.
+// Reads the field at `i` of `format`, and moves `i` to its last character. If there is no valid
+// field, the result has no kind.
 Field FieldAt(const std::string& format, std::size_t& i) {
   Field field;
   const auto number = [&] {
@@ -193,7 +194,7 @@ Field FieldAt(const std::string& format, std::size_t& i) {
   return field;
 }
 
-// The digits of |value|. Nothing if the kind is none of a number.
+// Returns the digits of |value|; empty if the field is not for numbers.
 std::string Digits(const Field& field, double value) {
   char text[512] = "";
   switch (field.kind) {
@@ -253,14 +254,14 @@ base::Result<Value> Formatted(const std::string& format, const Value& value) {
     } else {
       const Field field = FieldAt(format, i);
       const Value* next = values.Next();
-      if (next == nullptr) return WrongOperand("the format has more fields than values");
+      if (next == nullptr) return WrongOperand("the format string has more fields than values");
       if (auto status = AppendFormatted(field, *next, text); !status) {
         return base::Fail(status.error());
       }
     }
-    if (text.size() > kMaxTextLength) return WrongOperand("a text is too long");
+    if (text.size() > kMaxTextLength) return WrongOperand("a string is too long");
   }
-  if (!values.is_used_up()) return WrongOperand("the format has fewer fields than values");
+  if (!values.is_used_up()) return WrongOperand("the format string has fewer fields than values");
   return Value{text};
 }
 

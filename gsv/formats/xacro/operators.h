@@ -1,4 +1,4 @@
-// Python's operators on values, and the Python functions that robot descriptions use.
+// Implements Python's operators, and the Python functions that robot descriptions use.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ base::Result<Value> Member(const Value& of, const std::string& name);
 
 // Returns one of pi, e, tau, inf, nan.
 std::optional<Value> Constant(const std::string& name);
-// Find and call a function by its name: those of Python's math, those of sequences.h, and abs, min,
-// max, round, sum, len, int, float, str, bool, list, tuple.
+// These find and call a function by its name. Supported are Python's math functions, those of
+// sequences.h, and abs, min, max, round, sum, len, int, float, str, bool, list, tuple.
 bool IsFunction(const std::string& name);
 base::Result<Value> CallFunction(const std::string& name, const std::vector<Value>& arguments);
 // Calls a method of a text, list or dictionary: lower, upper, capitalize, strip, startswith,

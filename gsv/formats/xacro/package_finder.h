@@ -1,4 +1,4 @@
-// Finds $(find package): the folder of a ROS package without a ROS installation.
+// Implements $(find package): finds the folder of a ROS package without a ROS installation.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,9 @@
 
 namespace gsv::formats::xacro {
 
-// Returns a folder with that name where the finder looks for package://NAME. Else a folder whose
-// package.xml has that name: one of five folders above the naming file, or beside one.
+// Returns the folder that `finder` finds as package://NAME. Otherwise searches for a folder whose
+// package.xml has this name: the naming file's folder, the four folders above it, and the
+// subfolders of each of these.
 base::Result<std::filesystem::path> FindPackage(const std::string& name,
                                                 const std::filesystem::path& naming_file,
                                                 const ResourceFinder& finder);

@@ -38,7 +38,8 @@ base::Result<std::optional<Value>> Scope::Find(const std::string& name) {
 }
 
 std::optional<Value> Scope::Member(const std::string& name) const {
-  // A lazy property is evaluated at most once; the time of evaluation does not matter.
+  // Evaluating a lazy property stores its value, so Find() is not const. The value does not depend
+  // on the time of evaluation.
   auto found = const_cast<Scope*>(this)->Find(name);
   return found ? *found : std::nullopt;
 }

@@ -1,4 +1,5 @@
-// Scopes of properties, blocks and macros. Each scope can access the scopes around it.
+// A Scope holds properties and blocks, a Space macros. Each can access those of the scopes that
+// contain it.
 #pragma once
 
 #include <functional>
@@ -16,8 +17,8 @@ namespace gsv::formats::xacro {
 
 class Scope;
 
-// A property. A lazy one has a text, which is evaluated in the scope of its definition on first
-// use.
+// A property of xacro. The text of a lazy property is evaluated at its first use, in the scope of
+// its definition.
 struct Property {
   Value value;
   NodePtr defined_at;
@@ -58,12 +59,14 @@ class Scope final : public Names {
   std::map<std::string, Block> blocks_;
 };
 
-// Macros, and the namespaces of included files. Pointers to members stay valid.
+// A namespace: the properties and macros of a file, and the namespaces of files that it includes.
+// Pointers to members stay valid.
 struct Space {
   Space(Space* outer_space, Scope* outer_scope, const Resolve& resolve)
       : outer(outer_space), scope(outer_scope, resolve) {}
 
-  // Returns the macro with that name, such as "wheel" or "arm.gripper", and its space.
+  // Returns the macro with that name, such as "wheel" or "arm.gripper", and the Space that holds
+  // it.
   std::pair<const Macro*, Space*> FindMacro(const std::string& name);
 
   Space* const outer;

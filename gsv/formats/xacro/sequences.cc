@@ -13,7 +13,7 @@ constexpr std::size_t kMaxSequence = 10'000, kMaxSorted = 1000;
 constexpr int kMaxDecimals = 30;
 constexpr double kMaxFormattedNumber = 1e17;
 
-tl::unexpected<base::Error> Misfit(const std::string& why) {
+tl::unexpected<base::Error> InvalidList(const std::string& why) {
   return base::Fail(base::ErrorCode::kBadModel, why);
 }
 
@@ -22,15 +22,16 @@ base::Result<Value> Range(const List& a) {
   std::int64_t* const targets[3] = {a.size() == 1 ? &to : &from, &to, &step};
   for (std::size_t i = 0; i < a.size() && i < 3; ++i) {
     const auto* number = a[i].as<std::int64_t>();
-    if (number == nullptr) return Misfit("range() takes integers");
+    if (number == nullptr) return InvalidList("range() takes integers");
     *targets[i] = *number;
   }
   constexpr std::int64_t kFarthest = std::int64_t{1} << 53;
   const bool is_small = std::max({std::abs(from), std::abs(to), std::abs(step)}) < kFarthest;
-  if (a.empty() || a.size() > 3 || step == 0 || !is_small) return Misfit("range() takes integers");
+  if (a.empty() || a.size() > 3 || step == 0 || !is_small)
+    return InvalidList("range() takes integers");
   List items;
   for (std::int64_t i = from; step > 0 ? i < to : i > to; i += step) {
-    if (items.size() == kMaxSequence) return Misfit("a list is too long");
+    if (items.size() == kMaxSequence) return InvalidList("a list is too long");
     items.push_back({i});
   }
   return MakeList(std::move(items));
@@ -39,9 +40,10 @@ base::Result<Value> Range(const List& a) {
 base::Result<Value> Sorted(const List& a) {
   List items = *a[0].items();
   if (items.size() > kMaxSorted) {
-    return Misfit("sorted() takes at most " + std::to_string(kMaxSorted) + " values");
+    return InvalidList("sorted() takes at most " + std::to_string(kMaxSorted) + " values");
   }
-  // Insertion sort, as comparisons may fail or contradict each other.
+  // This is an insertion sort, because std::sort does not allow comparisons that fail or contradict
+  // each other.
   for (std::size_t i = 1; i < items.size(); ++i) {
     for (std::size_t k = i; k > 0; --k) {
       const auto is_less = Compare("<", items[k], items[k - 1]);
@@ -120,7 +122,7 @@ base::Result<Value> CallSequenceFunction(const std::string& name, const List& ar
   const bool are_lists = !arguments.empty() && (arguments.size() == 1 || name == "zip") &&
                          std::all_of(arguments.begin(), arguments.end(),
                                      [](const Value& each) { return each.items() != nullptr; });
-  if (!are_lists) return Misfit(name + "() takes a list");
+  if (!are_lists) return InvalidList(name + "() takes a list");
   return OfLists().at(name)(arguments);
 }
 
@@ -135,18 +137,18 @@ base::Result<Value> Formatted(const std::string& text, const List& arguments) {
       formatted += text[at];
     } else {
       const std::size_t end = text.find('}', at);
-      if (end == std::string::npos) return Misfit("format() misses \"}\"");
+      if (end == std::string::npos) return InvalidList("format() misses \"}\"");
       const std::string field = text.substr(at + 1, end - at - 1);
       const std::size_t colon = std::min(field.find(':'), field.size());
       const auto number = ParseInteger(field.substr(0, colon));
-      if (colon > 0 && !number) return Misfit("format() takes values by position only");
+      if (colon > 0 && !number) return InvalidList("format() takes values by position only");
       const std::size_t index = number ? static_cast<std::size_t>(*number) : next++;
-      if (index >= arguments.size()) return Misfit("format() lacks a value");
+      if (index >= arguments.size()) return InvalidList("format() lacks a value");
       const auto value =
           Field(arguments[index], colon < field.size() ? field.substr(colon + 1) : "");
       if (!value) return base::Fail(value.error());
       formatted += *value;
-      if (formatted.size() > (1u << 20)) return Misfit("a text is too long");
+      if (formatted.size() > (1u << 20)) return InvalidList("a string is too long");
       at = end;
     }
   }

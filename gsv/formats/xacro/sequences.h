@@ -1,5 +1,4 @@
-// Python's functions of lists: range, reversed, sorted, enumerate, zip, and any and
-// all.
+// Implements Python's functions of lists: range, reversed, sorted, enumerate, zip, any, all.
 #pragma once
 
 #include <string>
@@ -11,7 +10,7 @@
 namespace gsv::formats::xacro {
 
 bool IsSequenceFunction(const std::string& name);
-// Returns kBadModel for invalid arguments, and for lists of more than 10,000 values.
+// Fails with kBadModel for invalid arguments, and for lists of more than 10,000 values.
 base::Result<Value> CallSequenceFunction(const std::string& name,
                                          const std::vector<Value>& arguments);
 

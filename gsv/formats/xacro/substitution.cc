@@ -25,7 +25,7 @@ std::size_t ClosingOf(const std::string& text, std::size_t open) {
       return i;
     }
   }
-  // An apostrophe that is not closed in an expression is ignored.
+  // If a quote does not end, quotes are ignored: the first closing bracket ends the expression.
   return quote == 0 ? std::string::npos : text.find(closing, open);
 }
 
@@ -40,7 +40,7 @@ class Substitution {
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t dollar = text.find('$', at);
       joined += text.substr(at, dollar - at);
-      if (joined.size() > kMaxSubstitutionLength) return Refuse("a text is too long");
+      if (joined.size() > kMaxSubstitutionLength) return Refuse("a string is too long");
       if (dollar == std::string::npos) break;
       std::size_t bracket = text.find_first_not_of('$', dollar);
       const bool has_bracket =

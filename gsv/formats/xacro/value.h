@@ -1,4 +1,5 @@
-// The values of xacro's expressions: the types of Python that robot descriptions use.
+// A Value is a value of a xacro expression. Its types are those of Python that robot descriptions
+// use.
 #pragma once
 
 #include <cstdint>
@@ -61,11 +62,12 @@ bool AreEqual(const Value& a, const Value& b);
 // "2.0" a float, "true" a bool. Removes single quotes around a text. A text with "_" stays a text.
 Value FromLiteral(const std::string& text);
 
-// Convert a text like Python's int() and float(); nothing if that would fail.
+// These convert a text like Python's int() and float(). They return nullopt where Python raises an
+// exception.
 std::optional<std::int64_t> ParseInteger(const std::string& text);
 std::optional<double> ParseFloat(const std::string& text);
 
-// Returns the truth value of a condition for <xacro:if>; nothing if it is neither true nor false.
+// Returns the truth value of a condition for <xacro:if>; nullopt if it is neither true nor false.
 std::optional<bool> ConditionOf(const Value& value);
 
 }  // namespace gsv::formats::xacro

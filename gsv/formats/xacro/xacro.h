@@ -1,15 +1,15 @@
 // Expands xacro files: macros, properties, conditions, includes and expressions become plain XML.
 //
 // Supported  property (value, default, remove, scope parent and global, lazy_eval; blocks), macro
-//            with parameters (defaults, ^ forwarding, *block, **block), calls of macros and of
-//            xacro:call, insert_block, include (relative, $(find package), ns, optional), if,
-//            unless, arg, element, attribute; $(arg), $(find), $(eval), $(dirname), $(optenv) by
-//            its default; xacro.load_yaml. The old form without the prefix "xacro:" as well.
-// Refused    $(env), $(anon), $(cwd), patterns in the names of included files, and expressions that
-//            expression_parser.h and operators.h do not support: with a sentence, file and line.
-// Limits     1,000,000 steps, 500 levels, 512 includes; sizes and depth as of ReadLimits.
+//            with parameters (defaults, ^ forwarding, *block, **block), calls of macros,
+//            xacro:call, insert_block, include (relative, $(find package), patterns, ns, optional),
+//            if, unless, arg, element, attribute; $(arg), $(find), $(eval), $(dirname), $(optenv)
+//            with its default; xacro.load_yaml. Also the old form without the prefix "xacro:".
+// Refused    with a sentence, file and line: $(env), $(anon), $(cwd), and expressions that
+//            expression_parser.h and operators.h do not support.
+// Limits     1,000,000 steps, 500 levels, 512 includes; sizes and depth: see ReadLimits.
 // Source     the behaviour of ros/xacro, processing in order.
-// Threads    may run concurrently. The result depends only on the files.
+// Threads    any. The result depends only on the files and arguments.
 #pragma once
 
 #include <filesystem>

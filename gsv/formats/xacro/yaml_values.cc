@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxYamlDepth = 32;
 constexpr std::size_t kMaxYamlNodes = 20'000;
 
-// The units of xacro's constructors, in SI units.
+// The units of xacro's YAML tags, in SI units.
 const std::map<std::string, double>& Units() {
   static const std::map<std::string, double> units{
       {"!degrees", std::numbers::pi / 180},

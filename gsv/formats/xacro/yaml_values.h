@@ -8,9 +8,10 @@
 
 namespace gsv::formats::xacro {
 
-// Converts plain scalars that are numbers and truth values. The tags !degrees, !radians,
-// !meters, !millimeters, !inches and !foot convert to SI units, as those of xacro do.
-// kBadModel, with file and line, for malformed YAML, more than `max_bytes`, or too deep nesting.
+// Reads a YAML file. Plain scalars that look like numbers or truth values are converted to them.
+// The tags !degrees, !radians, !meters, !millimeters, !inches and !foot convert to SI units, as in
+// xacro. Fails with kBadModel, file and line for malformed YAML, for more than `max_bytes`, and for
+// too deep nesting.
 base::Result<Value> LoadYaml(const std::filesystem::path& file, std::size_t max_bytes);
 
 }  // namespace gsv::formats::xacro

@@ -68,14 +68,13 @@ base::Status AccessRule::Check(std::string_view host, std::string_view origin) c
   if (!is_address && !Contains(hosts_, asked)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the Host header names " + Quoted(host) + "; open " + scheme_ +
-                          hosts_.front() +
-                          "/ instead, or allow this name when you start the server");
+                          hosts_.front() + "/ instead, or allow this name with --allow-host");
   }
   const bool is_own = is_address && LowerCase(origin) == scheme_ + asked;
   if (!origin.empty() && !is_own && !Contains(origins_, LowerCase(origin))) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "a page of " + Quoted(origin) + " may not use this server; open " + scheme_ +
-                          hosts_.front() + "/ instead, or allow this origin when you start it");
+                          hosts_.front() + "/ instead");
   }
   return {};
 }

@@ -1,5 +1,5 @@
-// Decides which clients may talk to a server on this machine: pages that it served itself, and
-// programs.
+// An AccessRule decides which clients may use this server: pages that the server itself served, and
+// programs other than browsers.
 //
 // A page from any site may try to reach 127.0.0.1 (cross-site requests, WebSockets, DNS rebinding).
 // The Host header has the name under which the browser reached the server, and the Origin header
@@ -17,16 +17,17 @@ namespace gsv::gateway {
 
 class AccessRule {
  public:
-  // Always allowed are 127.0.0.1, localhost, [::1] and `host`, with `port`. `more_hosts` are
-  // further names of this machine, without a port. `more_origins` are further origins as browsers
-  // write them ("https://app.example.org"). `takes_addresses`: allow any IP address as Host, as no
-  // DNS name can point to it. `is_secure`: pages are served by HTTPS, and only these are its own.
+  // The hosts 127.0.0.1, localhost, [::1] and `host`, each with `port`, are always allowed.
+  // `more_hosts` are further names of this machine, without a port. `more_origins` are further
+  // origins in the form of the Origin header ("https://app.example.org"). `takes_addresses`: allow
+  // any IP address in the Host header. This is safe, because DNS rebinding needs a name.
+  // `is_secure`: the server uses HTTPS, so only https:// origins count as its own.
   AccessRule(std::string_view host, std::uint16_t port, const std::vector<std::string>& more_hosts,
              std::vector<std::string> more_origins, bool takes_addresses = false,
              bool is_secure = false);
 
-  // Checks a request. `origin` is empty if there is no such header, as for programs other than
-  // browsers.
+  // Checks the Host and Origin headers of a request. `origin` is empty if there is no such header,
+  // because only browsers send it.
   base::Status Check(std::string_view host, std::string_view origin) const;
 
  private:

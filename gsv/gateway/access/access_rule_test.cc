@@ -10,7 +10,7 @@ const AccessRule& Local() {
   return kRule;
 }
 
-TEST(AccessRule, AllowsThisMachinesNamesWithThePort) {
+TEST(AccessRule, AllowsNamesOfThisMachineWithThePort) {
   for (const char* host :
        {"127.0.0.1:8080", "localhost:8080", "LocalHost:8080", "[::1]:8080", "robot.lan:8080"}) {
     EXPECT_TRUE(Local().Check(host, "")) << host;
@@ -36,7 +36,7 @@ TEST(AccessRule, RefusesPagesOfOtherOrigins) {
   }
 }
 
-TEST(AccessRule, AServerOnAllAddressesAcceptsEachAddressButNoNameForIt) {
+TEST(AccessRule, AcceptsAnyIpAddressButNoOtherNameIfAllAddressesAreServed) {
   const AccessRule rule("lab-pc", 8080, {}, {}, true);
   for (const char* host : {"192.168.1.7:8080", "[fe80::1]:8080", "lab-pc:8080"}) {
     EXPECT_TRUE(rule.Check(host, "")) << host;
@@ -50,7 +50,7 @@ TEST(AccessRule, AServerOnAllAddressesAcceptsEachAddressButNoNameForIt) {
   EXPECT_FALSE(Local().Check("192.168.1.7:8080", ""));
 }
 
-TEST(AccessRule, PlainHttpNeedsNoPort) {
+TEST(AccessRule, AcceptsHostsWithoutAPortIfThePortIs80) {
   const AccessRule rule("::1", 80, {}, {});
   EXPECT_TRUE(rule.Check("[::1]", "http://localhost"));
   EXPECT_TRUE(rule.Check("127.0.0.1:80", ""));

@@ -60,7 +60,7 @@ TEST(Permissions, FollowTheRoute) {
   options.factory = &factory;
   options.recordings_folder = ::testing::TempDir();
   const auto gateway = Gateway::Start(options, directory).value();
-  // A permission, and the simulation that no other viewer may control ("" if there is none).
+  // The permission that a request needs, and the simulation whose control it needs ("": none).
   using Taken = std::pair<Permission, std::string>;
   const auto taken = [&](const char* method, const char* target) {
     const Router::Match match = gateway->router().Find(method, ParseTarget(target).value());
@@ -82,7 +82,7 @@ TEST(Permissions, FollowTheRoute) {
   EXPECT_EQ(taken("DELETE", "/api/simulations/a%20b"), Taken(control, "a b"));
   EXPECT_EQ(taken("POST", "/%61pi/simulations/a/pause"), Taken(control, "a"));
   EXPECT_EQ(taken("POST", "/api/simulations/a/bodies/b/place"), Taken(control, "a"));
-  // Routes that do not exist are as protected as those that do.
+  // Requests without a route need the same permission as the routes nearby.
   for (const char* method : {"GET", "POST", "PATCH", "NONSENSE"}) {
     EXPECT_EQ(taken(method, "/api/simulations/a/b/c"), Taken(watch, "")) << method;
     EXPECT_EQ(taken(method, "/replays/1"), Taken(watch, "")) << method;
@@ -233,14 +233,14 @@ TEST_F(AccessTest, TwoViewersHoldControlOfTwoSimulations) {
   EXPECT_EQ(reset(bob, "other"), 200);
   EXPECT_EQ(reset(ada, "other"), 409);
   EXPECT_EQ(reset(bob, "arena"), 409);
-  // A viewer acts on the simulation that its WebSocket shows, whatever it claims to view.
+  // Commands apply to the simulation of the WebSocket's address, not to the viewer's selected one.
   Viewer stranger(gateway_->port(), "/ws?simulation=other&viewer=" + ada);
   EXPECT_NE(stranger.CallRefusedService("start").find("Bob has control"), std::string::npos);
   Viewer holder(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);
   EXPECT_TRUE(holder.CallService("start").first);
 }
 
-TEST_F(AccessTest, AViewerGetsTheHolderOfControlAtOnce) {
+TEST_F(AccessTest, ANewViewerReceivesTheHolderOfControlAtOnce) {
   Start({});
   const std::string ada = Enter("Ada");
   Viewer viewer(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);

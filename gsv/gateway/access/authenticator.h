@@ -1,5 +1,5 @@
-// The interface with which the gateway determines the principal of a request and its permission.
-// GSV has one implementation, tokens (token_authenticator.h).
+// An Authenticator determines who sends a request (the principal) and which permission the sender
+// has. GSV has one implementation, which checks tokens (token_authenticator.h).
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ struct Credentials {
 
 struct Principal {
   Permission permission = Permission::kNone;
-  bool showed_credentials = false;  // valid or not; a refusal is then 403, not 401
+  bool showed_credentials = false;  // whether there were any; a refusal is then 403, not 401
   // The time at which the permission ends and a WebSocket is closed. nullopt: never.
   std::optional<std::chrono::steady_clock::time_point> expires{};
 };
@@ -32,11 +32,11 @@ class Authenticator {
 
   virtual ~Authenticator() = default;
 
-  // Calls `answer` once: before it returns, or later from any thread. The request waits for it. It
-  // must come before the server is stopped.
+  // Calls `answer` exactly once, before it returns or later from any thread. The request waits for
+  // the answer. The answer must come before the server stops.
   virtual void Authenticate(const Credentials& credentials, Answer answer) = 0;
 
-  // The reason for refusing a request of this principal: a sentence without secrets.
+  // Returns the reason for refusing a request of this principal: a sentence without secrets.
   virtual std::string Refusal(const Principal& principal, Permission needed) const = 0;
 };
 

@@ -19,8 +19,8 @@ using testing::HttpConnection;
 using testing::HttpReply;
 using testing::Viewer;
 
-// Keeps its questions until the test answers them.
-class Desk final : public Authenticator {
+// Stores requests for authentication until the test answers them.
+class PendingAuthenticator final : public Authenticator {
  public:
   void Authenticate(const Credentials& credentials, Answer answer) override {
     const std::lock_guard lock(mutex_);
@@ -29,7 +29,7 @@ class Desk final : public Authenticator {
   }
   std::string Refusal(const Principal&, Permission) const override { return "not for you"; }
 
-  // Answers the next question, and returns the token that it contains.
+  // Waits for a request, answers it, and returns the token that it contains.
   std::string AnswerNext(const Principal& principal) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !questions_.empty(); });
@@ -46,8 +46,8 @@ class Desk final : public Authenticator {
   std::vector<std::pair<std::string, Answer>> questions_;
 };
 
-// Grants everything at once, for a limited time.
-class Brief final : public Authenticator {
+// Grants every permission at once, for a limited time.
+class ExpiringAuthenticator final : public Authenticator {
  public:
   void Authenticate(const Credentials&, Answer answer) override {
     answer({Permission::kControl, true, steady_clock::now() + std::chrono::milliseconds(50)});
@@ -68,8 +68,8 @@ class AuthenticatorTest : public testing::ServerTest {
   }
 };
 
-TEST_F(AuthenticatorTest, RequestsWaitForItsAnswerAndOthersDoNot) {
-  const auto registry = std::make_shared<Desk>();
+TEST_F(AuthenticatorTest, OnlyRequestsThatNeedTheAnswerWaitForIt) {
+  const auto registry = std::make_shared<PendingAuthenticator>();
   StartWith(registry);
   HttpConnection waiting(port());
   Put(waiting, "abc");
@@ -81,8 +81,8 @@ TEST_F(AuthenticatorTest, RequestsWaitForItsAnswerAndOthersDoNot) {
   EXPECT_EQ(reply->body, "PUT /api/simulations abc");
 }
 
-TEST_F(AuthenticatorTest, RefusalReturnsItsSentence) {
-  const auto registry = std::make_shared<Desk>();
+TEST_F(AuthenticatorTest, ARefusedRequestGetsItsSentence) {
+  const auto registry = std::make_shared<PendingAuthenticator>();
   StartWith(registry);
   for (const bool showed_credentials : {true, false}) {
     HttpConnection refused(port());
@@ -96,7 +96,7 @@ TEST_F(AuthenticatorTest, RefusalReturnsItsSentence) {
 }
 
 TEST_F(AuthenticatorTest, AFileIsNotReadBeforeItsAnswer) {
-  const auto registry = std::make_shared<Desk>();
+  const auto registry = std::make_shared<PendingAuthenticator>();
   StartWith(registry);
   HttpConnection connection(port());
   connection.Send("PUT /api/uploads/1/a HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) +
@@ -107,7 +107,7 @@ TEST_F(AuthenticatorTest, AFileIsNotReadBeforeItsAnswer) {
 }
 
 TEST_F(AuthenticatorTest, AStreamEndsWithThePermission) {
-  StartWith(std::make_shared<Brief>());
+  StartWith(std::make_shared<ExpiringAuthenticator>());
   Viewer viewer(port());
   while (viewer.Receive()) {
   }

@@ -1,4 +1,4 @@
-// Permissions by tokens.
+// A TokenAuthenticator determines the permission of a client by its token.
 //
 // Without tokens, every client on this machine has all permissions. A control token is required for
 // control. Watching needs no token on this machine, unless there is a watch token. Other machines

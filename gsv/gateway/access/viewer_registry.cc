@@ -218,7 +218,7 @@ void ViewerRegistry::ReleaseControl(const std::string& key) {
   ++version_;
 }
 
-// When control passes to another viewer, that viewer becomes responsible for the next request.
+// Gives control to the first viewer in the queue. This viewer then has to answer the next request.
 void ViewerRegistry::PassControl(Control& control, Time now) {
   control.holder = control.questions.front().key;
   control.questions.pop_front();

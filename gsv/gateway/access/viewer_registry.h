@@ -1,4 +1,5 @@
-// The viewers, their names, and which of them holds control of each simulation.
+// A ViewerRegistry stores the viewers, their names, and which viewer holds control of each
+// simulation.
 //
 // Each viewer selects one simulation or none. While no viewer holds control of a simulation, all
 // viewers may command it. A viewer that requests control gets it at once if it is free. Otherwise
@@ -37,8 +38,8 @@ class ViewerRegistry {
     std::string simulation;  // the selected simulation; empty if there is none
     bool holds = false;      // whether the viewer has control of this simulation
     std::size_t asks = 0;    // position in the queue for control, from 1; 0: not waiting
-    std::chrono::milliseconds
-        left{};  // first in the queue: time until control passes without an answer
+    // For the first viewer in the queue: time until it gets control if the holder does not answer.
+    std::chrono::milliseconds left{};
   };
   struct ViewerList {
     std::vector<ViewerState> viewers;  // by number
@@ -51,7 +52,8 @@ class ViewerRegistry {
 
   explicit ViewerRegistry(const ControlLimits& limits = {}) : limits_(limits) {}
 
-  // Adds a viewer. `name` empty: "viewer NUMBER". kUnavailable: too many viewers.
+  // Adds a viewer. An empty `name` becomes "viewer NUMBER". Fails with kUnavailable if there are
+  // too many viewers.
   base::Result<Admission> Enter(const std::string& name, const std::string& simulation, Time now);
   // The following fail with kNotFound if no viewer has this key.
   base::Status Rename(const std::string& key, const std::string& name, Time now);
@@ -62,15 +64,15 @@ class ViewerRegistry {
   base::Status RequestControl(const std::string& key, Time now);
   // Releases control, or withdraws the request for it.
   base::Status Release(const std::string& key, Time now);
-  // Answers the first request. kNotRunning: the viewer does not hold control, or there is no
-  // request.
+  // Grants or refuses the first request in the queue. kNotRunning: the viewer does not hold
+  // control, or there is no request.
   base::Status Answer(const std::string& key, bool grants, Time now);
 
-  // The list of viewers. Counts as a sign of life of the viewer with the key.
+  // Returns the list of viewers, and notes that the viewer with this key is still connected.
   ViewerList List(const std::string& key, Time now);
-  // A number that changes with every change.
+  // Returns a number that changes whenever the viewers or the control change.
   std::uint64_t Version(Time now);
-  // kNotRunning with a sentence if another viewer holds control of the simulation.
+  // Fails with kNotRunning and a sentence if another viewer holds control of the simulation.
   base::Status CheckControl(const std::string& key, const std::string& simulation, Time now);
 
  private:
@@ -82,14 +84,15 @@ class ViewerRegistry {
     std::string key;
     Time asked;
   };
-  // The control of one simulation.
+  // The viewer that holds control of one simulation, and the queue of requests for it.
   struct Control {
     std::string holder;  // a key; empty: none
     std::deque<Question> questions;
   };
 
-  void Expire(Time now)
-      GSV_REQUIRES(mutex_);  // Removes expired viewers, and passes control on where it is due.
+  // Removes expired viewers, and passes control if a holder has not answered in time.
+  void Expire(Time now) GSV_REQUIRES(mutex_);
+  // Removes a viewer, and its control or request for control.
   void Forget(const std::string& key) GSV_REQUIRES(mutex_);
   void ReleaseControl(const std::string& key) GSV_REQUIRES(mutex_);
   static void PassControl(Control& control, Time now);

@@ -119,7 +119,7 @@ TEST_F(ViewerRegistryTest, AHolderWhoSelectsAnotherSimulationReleasesControl) {
   EXPECT_EQ(registry_.RequestControl(ada_.key, now_).error().code, base::ErrorCode::kNotRunning);
 }
 
-TEST_F(ViewerRegistryTest, TheVersionGrowsWithEachChange) {
+TEST_F(ViewerRegistryTest, TheVersionIncreasesWithEachChange) {
   std::uint64_t version = registry_.Version(now_);
   const auto is_news = [&] {
     const std::uint64_t before = std::exchange(version, registry_.Version(now_));

@@ -14,7 +14,7 @@ std::string Text(const ViewersJson& json) {
   return json.dump(-1, ' ', false, ViewersJson::error_handler_t::replace);
 }
 
-// A simulation's name is at most as long as an address that contains it.
+// Maximum length of a simulation's name in bytes: an address must be able to contain it.
 constexpr std::size_t kMaxSimulationNameLength = 1024;
 
 template <typename T>
@@ -54,7 +54,7 @@ std::vector<Route> ViewersApi::Routes() {
       {"DELETE", "/api/viewers/me", kWatch, false, kReaders, changing(&ViewersApi::Leave),
        "Leave as a viewer, and release control"},
       {"POST", "/api/viewers/me/control", kControl, false, kReaders,
-       changing(&ViewersApi::WantControl),
+       changing(&ViewersApi::SetControlRequest),
        "Ask for control of the open simulation, release it, or cancel the request"},
       {"POST", "/api/viewers/me/answer", kControl, false, kReaders,
        changing(&ViewersApi::AnswerFirst), "Answer the first viewer that asks for control"},
@@ -76,7 +76,8 @@ base::Status ViewersApi::Change(const Request& request) {
   const auto name = MemberOf<std::string>(request.body, "name");
   const auto simulation = MemberOf<std::string>(request.body, "simulation");
   if ((!name && !simulation) || (simulation && simulation->size() > kMaxSimulationNameLength)) {
-    return base::Fail(Expected(R"({"name": text, "simulation": its name}, or one of both)"));
+    return base::Fail(
+        Expected(R"({"name": TEXT, "simulation": NAME}; one of the two may be missing)"));
   }
   const auto now = Clock::now();
   if (name) {
@@ -89,7 +90,7 @@ base::Status ViewersApi::Leave(const Request& request) {
   return registry_.Leave(request.viewer, Clock::now());
 }
 
-base::Status ViewersApi::WantControl(const Request& request) {
+base::Status ViewersApi::SetControlRequest(const Request& request) {
   const auto wants = MemberOf<bool>(request.body, "wants");
   if (!wants) return base::Fail(Expected(R"({"wants": true or false})"));
   return *wants ? registry_.RequestControl(request.viewer, Clock::now())

@@ -1,4 +1,4 @@
-// The part of the HTTP API about viewers and control.
+// ViewersApi is the part of the HTTP API about viewers and control.
 //
 // Threads  any.
 #pragma once
@@ -19,7 +19,7 @@ class ViewersApi {
   // The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
 
-  // An error with the reason if this viewer may not control the simulation now.
+  // Returns an error with the reason if this viewer may not control the simulation now.
   base::Status CheckControl(const std::string& viewer, const std::string& simulation) {
     return registry_.CheckControl(viewer, simulation, std::chrono::steady_clock::now());
   }
@@ -30,7 +30,7 @@ class ViewersApi {
   Response Enter(const Request& request);
   base::Status Change(const Request& request);
   base::Status Leave(const Request& request);
-  base::Status WantControl(const Request& request);
+  base::Status SetControlRequest(const Request& request);
   base::Status AnswerFirst(const Request& request);
   Response ViewerList(const std::string& viewer);
 

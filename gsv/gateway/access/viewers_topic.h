@@ -1,5 +1,5 @@
-// The live topic /gsv/viewers: publishes the viewers and control at each change. Its text is the
-// JSON of GET /api/viewers, without `you`.
+// ViewersTopic publishes the live topic /gsv/viewers: the viewers, and which of them hold control,
+// at each change. A message has the JSON text of GET /api/viewers, without `you`.
 //
 // Threads  Publish() from one thread.
 #pragma once

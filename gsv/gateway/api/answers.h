@@ -10,8 +10,8 @@
 
 namespace gsv::gateway {
 
-// The GLB of a model, or 304 if the client has it. Models never change, so that browsers may cache
-// them.
+// Returns the GLB of a model, or status 304 if the client has it. Browsers may cache it, because
+// the model of an identifier never changes.
 Response ModelAnswer(const Request& request, const std::string& id,
                      const base::Result<SharedBytes>& glb);
 

@@ -14,7 +14,7 @@
 namespace gsv::gateway {
 namespace {
 
-// Answers about the robot in `?robot=NAME`, or about all robots.
+// Returns a response about the robot in the query ?robot=NAME, or about all robots.
 template <typename Make>
 Response OfRobot(const simulation::Simulation& simulation, const Request& request, Make make) {
   const auto found = request.target.query.find("robot");
@@ -117,7 +117,8 @@ Response Api::Scene(const SimulationPointer& simulation) {
       200, presentation::SceneJson(*simulation, models_.identify(), models_.identify_collisions()));
 }
 
-// Advertises topics for viewers. The request is read-only for the simulation.
+// Returns the topics of a robot's sensors, and makes the live stream advertise them. The simulation
+// itself does not change.
 Response Api::Topics(const SimulationPointer& simulation, const std::string& robot) const {
   if (simulation->snapshot()->layout->Find(robot) < 0) {
     return ErrorResponse(404, "there is no robot '" + robot + "'");

@@ -1,4 +1,5 @@
-// The HTTP API of the simulations of this program, under /api/. Described in docs/api.yaml.
+// Api serves the HTTP API of the simulations of this program, under /api/. docs/api.yaml describes
+// it.
 //
 // Threads  any; a request may take as long as its operation (a reset, writing a model).
 #pragma once
@@ -31,7 +32,7 @@ class Api {
   // The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
 
-  // The models of the simulations.
+  // Returns the store of the simulations' models.
   ModelStore& models() { return models_; }
 
  private:

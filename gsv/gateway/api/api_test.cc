@@ -152,7 +152,7 @@ TEST_F(ApiTest, PauseStepResumeAndResetWork) {
   EXPECT_EQ(AskJson("POST", path_ + "/reset", 200)["step"], 0);
 }
 
-TEST_F(ApiTest, TheFactorIsSet) {
+TEST_F(ApiTest, SetsTheRealTimeFactor) {
   const std::string path = path_ + "/real_time_factor";
   EXPECT_EQ(AskJson("POST", path, 200, R"({"real_time_factor":2.5})")["target_factor"], 2.5);
   EXPECT_EQ(simulation_->real_time_factor(), 2.5);
@@ -191,7 +191,7 @@ TEST_F(ApiTest, CommandsAreDescribedAndTakeTheirArguments) {
   EXPECT_EQ(simulation_->gravity(), std::nullopt);
 }
 
-TEST_F(ApiTest, ARequestThatThePhaseDoesNotAllowIsAConflict) {
+TEST_F(ApiTest, ARequestThatThePhaseDoesNotAllowGetsStatus409) {
   EXPECT_EQ(AskJson("POST", path_ + "/resume", 409)["error"],
             "the simulation is created and cannot be resumed");
 }
@@ -207,7 +207,7 @@ TEST_F(ApiTest, RefusesBadCommands) {
   }
 }
 
-TEST_F(ApiTest, AnAvatarIsDriven) {
+TEST_F(ApiTest, DrivesAnAvatar) {
   AskJson("POST", path_ + "/robots/avatar/drive", 200,
           R"({"linear_m_s":0.5,"lateral_m_s":-0.25,"angular_rad_s":1})");
   EXPECT_EQ(simulation_->avatar_command(), (world::DriveCommand{0.5, -0.25, 1}));
@@ -218,13 +218,13 @@ TEST_F(ApiTest, AnAvatarIsDriven) {
 TEST_F(ApiTest, AnAvatarStopsWhenNoFurtherCommandComes) {
   AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"linear_m_s":0.5,"timeout_s":0.01})");
   while (simulation_->avatar_command() != world::DriveCommand{}) std::this_thread::yield();
-  // A command without the timeout lasts.
+  // A command applies until its timeout, or until the next command.
   AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"linear_m_s":1,"timeout_s":60})");
   AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"linear_m_s":0.5})");
   EXPECT_EQ(simulation_->avatar_command(), (world::DriveCommand{0.5, 0, 0}));
 }
 
-TEST_F(ApiTest, ARobotWithABehaviourIsNotDriven) {
+TEST_F(ApiTest, RefusesToDriveARobotWithABehaviour) {
   EXPECT_EQ(AskJson("POST", path_ + "/robots/robot_0/drive", 409, "{}")["error"],
             "'robot_0' is controlled by its behaviour 'circle'. Add a robot without a behaviour to "
             "control it yourself.");
@@ -250,7 +250,7 @@ TEST_F(ApiTest, ListsTheJointsOfABodyWithTheirState) {
   AskJson("GET", path_ + "/bodies/nobody/joints", 404);
 }
 
-TEST_F(ApiTest, AJointIsCommanded) {
+TEST_F(ApiTest, CommandsAJoint) {
   const std::string name =
       AskJson("GET", path_ + "/bodies/avatar/joints", 200)["joints"][1]["name"];
   AskJson("POST", path_ + "/bodies/avatar/joints/" + name, 200, R"({"position":0.5})");
@@ -320,7 +320,7 @@ TEST_F(ApiTest, TheSceneHasTheMassesOfMovingBodies) {
   EXPECT_EQ(links[1]["inertia_kg_m2"], json::parse("[1,1,1,0,0,0]"));
 }
 
-TEST_F(ApiTest, TheSceneIsAsLargeAsItsBodiesWithoutTheFloor) {
+TEST_F(ApiTest, TheBoundsOfTheSceneExcludeTheFloor) {
   const geometry::Bounds bounds = presentation::SceneBounds(*simulation_->snapshot());
   EXPECT_NEAR(bounds.min.x, -4.5, 1e-12);
   EXPECT_NEAR(bounds.max.y, 4.5, 1e-12);
@@ -328,7 +328,7 @@ TEST_F(ApiTest, TheSceneIsAsLargeAsItsBodiesWithoutTheFloor) {
   EXPECT_NEAR(bounds.min.z, 0, 1e-12);
 }
 
-TEST_F(ApiTest, ModelsAreFetchedByTheNamesInTheScene) {
+TEST_F(ApiTest, ReturnsModelsByTheirIdentifiersInTheScene) {
   const json scene = AskJson("GET", path_ + "/scene", 200);
   const std::string id = scene["bodies"][1]["model"];
   EXPECT_EQ(scene["bodies"][2]["model"], id);

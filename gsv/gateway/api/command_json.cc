@@ -25,7 +25,7 @@ base::Result<Json> ParseObject(std::string_view body) {
   return json;
 }
 
-// Null, lists and objects are not valid values.
+// Returns the value of an argument. Null, lists and objects are not valid.
 base::Result<simulation::ArgumentValue> ValueOf(const std::string& name, const Json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_string()) return json.get<std::string>();

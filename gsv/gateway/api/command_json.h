@@ -1,5 +1,5 @@
-// Commands as JSON: bodies of requests, and the description of commands. An empty body counts as
-// {}.
+// Parses the bodies of requests with commands, and describes the commands as JSON. An empty body
+// counts as {}.
 //
 // Errors  kInvalidArgument with a sentence that names the field.
 #pragma once
@@ -19,19 +19,20 @@ namespace gsv::gateway {
 base::Result<simulation::Arguments> ParseArguments(const simulation::Command& command,
                                                    std::string_view body);
 
-// All commands of the table: an array of {"name", "summary", "parameters": [{"name", "type",
-// "unit", "summary", "required", "minimum", "maximum", "default", "default_meaning"}]}. Keys
-// without a value are left out.
+// Describes all commands: an array of {"name", "summary", "parameters": [{"name", "type", "unit",
+// "summary", "required", "minimum", "maximum", "default", "default_meaning"}]}. Keys without a
+// value are left out.
 std::string CommandsJson();
 
-// The longest time in wall-clock seconds after which a robot stops by itself.
+// The maximum of `timeout_s`, in seconds of wall-clock time.
 inline constexpr double kMaxDriveTimeout = 60;
 struct TimedDriveCommand {
   world::DriveCommand command;
-  std::optional<double> timeout;  // s; nothing: the command lasts
+  // s of wall-clock time until the robot stops. nullopt: it does not stop by itself.
+  std::optional<double> timeout;
 };
-// Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w, "timeout_s": t}. A missing value
-// is 0, and a missing timeout is none.
+// Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w, "timeout_s": t}. A missing
+// velocity is 0. Without timeout_s there is no timeout.
 base::Result<TimedDriveCommand> ParseDriveCommand(std::string_view body);
 
 // Parses {"position": v}, {"velocity": v} or {"effort": v}: exactly one of them, in SI units.

@@ -1,4 +1,4 @@
-// Stops what somebody drives when no further command comes: a dead man's switch.
+// A dead man's switch: it stops a robot that a user drives if no further command comes in time.
 //
 // A page repeats its command while a key is held. If the page, its browser or the network fails,
 // the repetition ends, and the robot must not continue for ever.
@@ -21,12 +21,12 @@ namespace gsv::gateway {
 class CommandTimeouts {
  public:
   CommandTimeouts();
-  // Functions that have not run are dropped.
+  // Drops the functions that have not run.
   ~CommandTimeouts();
   CommandTimeouts(const CommandTimeouts&) = delete;
   CommandTimeouts& operator=(const CommandTimeouts&) = delete;
 
-  // Runs `stop` after this time, instead of an earlier function of the same key.
+  // Runs `stop` after this time. Replaces the pending function of the same key.
   void Set(const std::string& key, std::chrono::nanoseconds timeout, std::function<void()> stop);
   void Cancel(const std::string& key);
 

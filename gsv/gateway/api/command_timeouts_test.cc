@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 class CommandTimeoutsTest : public ::testing::Test {
  protected:
-  // A function that a timeout runs, and the name with which it does.
+  // Returns a function that reports `name` when a timeout runs it.
   std::function<void()> Report(const std::string& name) {
     return [this, name] { reported_.set_value(name); };
   }

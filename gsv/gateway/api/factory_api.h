@@ -1,4 +1,4 @@
-// The part of the HTTP API that creates and edits simulations, see docs/api.yaml.
+// FactoryApi is the part of the HTTP API that creates and edits simulations (docs/api.yaml).
 //
 // Errors   {"error": sentence, "field": field of the request}.
 // Threads  any.
@@ -20,11 +20,12 @@ class FactoryApi {
   // Both must outlive this object.
   FactoryApi(SimulationFactory& factory, ModelStore& models) : factory_(factory), models_(models) {}
 
-  // The handlers are valid during the lifetime of this object. `directory` finds the simulations.
+  // Returns the routes. The handlers are valid during the lifetime of this object. `directory`
+  // finds the simulations.
   std::vector<Route> Routes(const std::shared_ptr<SimulationDirectory>& directory);
 
  private:
-  // The available worlds, models and behaviours.
+  // These list the available worlds, models and behaviours.
   Response Worlds() const;
   Response Models() const;
   Response Behaviours(const Target& target) const;

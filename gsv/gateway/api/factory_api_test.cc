@@ -100,7 +100,7 @@ TEST_F(FactoryApiTest, ARefusalNamesTheField) {
   }
 }
 
-TEST_F(FactoryApiTest, RobotsAreAddedAndBodiesPlaced) {
+TEST_F(FactoryApiTest, AddsRobotsAndPlacesBodies) {
   list_->Add(std::make_shared<ScriptedSimulation>("run", 1));
   const std::string robots = "/api/simulations/run/robots";
   EXPECT_EQ(Ask("POST", robots, 201, R"({"model": "m"})")["name"], "m_robot");
@@ -115,7 +115,7 @@ TEST_F(FactoryApiTest, RobotsAreAddedAndBodiesPlaced) {
   Ask("POST", "/api/simulations/run/bodies/m", 404);
 }
 
-TEST_F(FactoryApiTest, ObjectsAreAddedOfAModelOrAsACopy) {
+TEST_F(FactoryApiTest, AddsObjectsFromAModelOrAsACopy) {
   list_->Add(std::make_shared<ScriptedSimulation>("run", 1));
   const std::string objects = "/api/simulations/run/objects";
   EXPECT_EQ(Ask("POST", objects, 201, R"({"model": "crate"})")["name"], "crate");

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 
 namespace gsv::gateway {
 namespace {

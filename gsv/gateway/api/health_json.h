@@ -1,5 +1,5 @@
-// The health of a simulation's robots, their behaviours' output and its expectations as JSON
-// (docs/api.yaml).
+// Writes the health of a simulation's robots, the output of their behaviours, and the expectations
+// as JSON (docs/api.yaml).
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace gsv::gateway {
 
-// The health of one robot, or of all robots if `robot` is empty. Reads range sensors of robots that
-// do not move.
+// Returns the health of one robot, or of all robots if `robot` is empty. Reads the range sensors of
+// robots that do not move.
 std::string HealthJson(simulation::Simulation& simulation, const std::string& robot);
 // Returns the lines that the programs of behaviours printed, for one robot or for all.
 std::string OutputJson(const simulation::Simulation& simulation, const std::string& robot);

@@ -56,7 +56,7 @@ OrderedJson JointJson(const world::Snapshot& snapshot, const world::Body& body, 
     const char* const kind = NameOfCommand(command.kind);
     if (*kind != '\0') json["command"] = {{kind, command.value}};
   }
-  // Whether the joint takes commands at all.
+  // A command to position 0 checks whether the joint accepts commands.
   const auto takes = world::CheckJointCommand(body, number, {Kind::kPosition, 0});
   if (!takes) json["refusal"] = takes.error().message;
   return json;

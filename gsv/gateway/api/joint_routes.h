@@ -10,8 +10,8 @@
 
 namespace gsv::gateway {
 
-// Returns the reason why a viewer may not command this robot: its behaviour controls it. Nothing
-// for avatars, for robots without a behaviour or with one that has finished, and for other bodies.
+// Returns a sentence if viewers may not command this robot because its behaviour controls it.
+// Returns nullopt for avatars, for robots without a running behaviour, and for other bodies.
 std::optional<std::string> ControlledByBehaviour(const simulation::Simulation& simulation,
                                                  const std::string& robot);
 

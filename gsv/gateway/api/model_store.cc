@@ -8,9 +8,9 @@
 
 namespace gsv::gateway {
 
-std::string ModelStore::Known(Identities ModelStore::*identities,
-                              const std::shared_ptr<const model::Model>& model,
-                              const std::function<std::string()>& identify) {
+std::string ModelStore::CachedIdentity(Identities ModelStore::*identities,
+                                       const std::shared_ptr<const model::Model>& model,
+                                       const std::function<std::string()>& identify) {
   {
     const base::MutexLock lock(mutex_);
     const auto known = (this->*identities).find(model);
@@ -18,17 +18,18 @@ std::string ModelStore::Known(Identities ModelStore::*identities,
   }
   const std::string id = identify();
   const base::MutexLock lock(mutex_);
-  ForgetGone();
+  ForgetDestroyed();
   (this->*identities).emplace(model, id);
   return id;
 }
 
 std::string ModelStore::Identify(const std::shared_ptr<const model::Model>& model) {
-  return Known(&ModelStore::looks_, model, [&] { return presentation::ModelIdentity(*model); });
+  return CachedIdentity(&ModelStore::visuals_, model,
+                        [&] { return presentation::ModelIdentity(*model); });
 }
 
 std::string ModelStore::IdentifyCollisions(const std::shared_ptr<const model::Model>& model) {
-  return Known(&ModelStore::collisions_, model, [&] {
+  return CachedIdentity(&ModelStore::collisions_, model, [&] {
     return presentation::HasCollisions(*model)
                ? presentation::ModelIdentity(presentation::CollisionModel(*model))
                : std::string();
@@ -68,15 +69,15 @@ std::shared_ptr<const model::Model> ModelStore::FindIn(const Identities& identit
 
 std::shared_ptr<const model::Model> ModelStore::FindModel(const std::string& id) const {
   if (id.empty()) return nullptr;
-  if (auto model = FindIn(looks_, id)) return model;
+  if (auto model = FindIn(visuals_, id)) return model;
   const auto model = FindIn(collisions_, id);
   return model ? std::make_shared<const model::Model>(presentation::CollisionModel(*model))
                : nullptr;
 }
 
-void ModelStore::ForgetGone() {
+void ModelStore::ForgetDestroyed() {
   std::set<std::string> alive;
-  for (Identities* identities : {&looks_, &collisions_}) {
+  for (Identities* identities : {&visuals_, &collisions_}) {
     std::erase_if(*identities, [](const auto& known) { return known.first.expired(); });
     for (const auto& [model, id] : *identities) alive.insert(id);
   }

@@ -1,4 +1,5 @@
-// The models of all simulations as GLB files, each made at its first request.
+// A ModelStore provides the models of all simulations as GLB files. It writes each file at the
+// first request.
 //
 // Threads  any; a call may take as long as writing a model.
 // Bounded  data of destroyed models are removed.
@@ -47,20 +48,21 @@ class ModelStore {
     std::optional<base::Result<SharedBytes>> glb GSV_GUARDED_BY(writing);
   };
 
-  void ForgetGone() GSV_REQUIRES(mutex_);
+  void ForgetDestroyed() GSV_REQUIRES(mutex_);
   std::shared_ptr<const model::Model> FindModel(const std::string& id) const GSV_REQUIRES(mutex_);
 
   const WriteGlb write_;
   base::Mutex mutex_;
   using Identities = std::map<std::weak_ptr<const model::Model>, std::string, std::owner_less<>>;
 
-  std::string Known(Identities ModelStore::*identities,
-                    const std::shared_ptr<const model::Model>& model,
-                    const std::function<std::string()>& identify);
+  // Returns the cached identifier of a model, or calls `identify`, which may take long.
+  std::string CachedIdentity(Identities ModelStore::*identities,
+                             const std::shared_ptr<const model::Model>& model,
+                             const std::function<std::string()>& identify);
   static std::shared_ptr<const model::Model> FindIn(const Identities& identities,
                                                     const std::string& id);
 
-  Identities looks_ GSV_GUARDED_BY(mutex_);
+  Identities visuals_ GSV_GUARDED_BY(mutex_);
   Identities collisions_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, std::shared_ptr<File>> files_ GSV_GUARDED_BY(mutex_);  // by identity
 };

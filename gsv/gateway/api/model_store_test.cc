@@ -16,7 +16,7 @@ using ModelPointer = std::shared_ptr<const model::Model>;
 
 ModelPointer Crate() { return std::make_shared<model::Model>(testing::CrateModel()); }
 
-TEST(ModelIdentity, IsAFunctionOfTheVisuals) {
+TEST(ModelIdentity, DependsOnTheVisualsOnly) {
   const std::string id = ModelIdentity(testing::CrateModel());
   EXPECT_EQ(id, ModelIdentity(testing::CrateModel()));
   EXPECT_EQ(id.size(), 16u);
@@ -73,7 +73,7 @@ TEST(ModelStore, ForgetsDestroyedModels) {
   EXPECT_EQ(store.Glb("0123").error().code, base::ErrorCode::kNotFound);
 }
 
-TEST(ModelStore, ASlowModelDelaysNoOther) {
+TEST(ModelStore, ASlowModelDoesNotDelayOthers) {
   std::promise<void> release, begun;
   ModelStore store([&](const model::Model& model) -> base::Result<std::vector<std::uint8_t>> {
     if (model.name == "crate") {
@@ -101,7 +101,7 @@ TEST(ModelStore, AFailureIsReturnedToAllRequests) {
   EXPECT_EQ(store.Glb(id).error().message, "too large for a GLB");
 }
 
-TEST(ModelStore, ShowsTheCollisionShapes) {
+TEST(ModelStore, WritesTheCollisionShapes) {
   std::vector<model::Model> written;
   ModelStore store([&](const model::Model& model) -> base::Result<std::vector<std::uint8_t>> {
     written.push_back(model);

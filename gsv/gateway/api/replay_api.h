@@ -1,6 +1,6 @@
-// The HTTP API of a replay: the addresses of a simulation, and those that control playback and
-// describe the recording. A status also has the content of GET replay. `stop` and `reset` both
-// return to the start. Requests that would change the run are refused.
+// The HTTP API of a replay. It has the addresses of a simulation, and further ones that control the
+// playback and describe the recording. A status also has the content of GET …/replay. Both `stop`
+// and `reset` return to the start. Requests that would change the run are refused.
 //
 // Threads  any.
 #pragma once
@@ -19,15 +19,15 @@ namespace gsv::gateway {
 
 struct Replay {
   std::shared_ptr<ReplayPlayer> player;
-  std::string recording;  // name with which a viewer can open it; empty: none
+  std::string recording;  // name with which viewers can open it again; empty: none
 };
 
-// Finds the replay of a request by the parameters of its path besides {name}.
+// Finds the replay to which a request refers, by the parameters of its path except {name}.
 using FindReplay = std::function<base::Result<Replay>(const Request&)>;
 
 std::vector<Route> ReplayRoutes(const FindReplay& find);
 
-// Parses {"time_s": T}, where T is a finite number within the range of times.
+// Parses {"time_s": T}: a time in simulated seconds, finite and within the range of SimTime.
 base::Result<base::SimTime> ParseSeekTime(std::string_view body);
 
 // A change from {"speed": S, "loop": B}. Absent values are unchanged.

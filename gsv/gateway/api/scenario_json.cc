@@ -27,7 +27,7 @@ FieldResult<ScenarioJson> ParseRequestObject(std::string_view body) {
   return json;
 }
 
-// Removes a member that the scenario's reader does not know.
+// Removes a boolean member and returns its value. The scenario's reader would refuse the member.
 FieldResult<bool> TakeFlag(ScenarioJson& json, const char* name) {
   const ScenarioJson value = json.value(name, ScenarioJson());
   json.erase(name);
@@ -54,9 +54,9 @@ FieldResult<std::string> TakeName(ScenarioJson& json, const char* name) {
   return value.get<std::string>();
 }
 
-// Returns the first problem as an error.
+// Returns the value, or the first problem as an error.
 template <typename T>
-FieldResult<T> Judged(T value, const base::Problems& problems) {
+FieldResult<T> ValueOrFirstProblem(T value, const base::Problems& problems) {
   if (problems.empty()) return value;
   return Refused(problems.front().where, problems.front().message);
 }
@@ -85,7 +85,8 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
   return {};
 }
 
-// A file chooses the robots of a world; in a request each robot has a model.
+// Checks that each robot has a model. In a scenario file, a robot without a model is one of the
+// world's own. A request to create a simulation cannot refer to these.
 FieldResult<void> RequireModels(const scenario::Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     if (!scenario.robots[i].model.empty()) continue;
@@ -103,7 +104,8 @@ FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body) {
   if (!record) return tl::make_unexpected(record.error());
   if (auto ok = RefuseWhatIsNotForViewers(*json); !ok) return tl::make_unexpected(ok.error());
   base::Problems problems;
-  auto scenario = Judged(scenario::ParseScenarioJson(json->dump(), problems), problems);
+  auto scenario =
+      ValueOrFirstProblem(scenario::ParseScenarioJson(json->dump(), problems), problems);
   if (!scenario) return tl::make_unexpected(scenario.error());
   if (scenario->world.empty()) return Refused("world", "choose a world");
   if (auto ok = RequireModels(*scenario); !ok) return tl::make_unexpected(ok.error());
@@ -126,7 +128,7 @@ FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
   if (problems.empty() && robot.robot.model.empty() && !is_named) {
     return Refused("model", "choose a model");
   }
-  return Judged(std::move(robot), problems);
+  return ValueOrFirstProblem(std::move(robot), problems);
 }
 
 FieldResult<Placement> ParsePlace(std::string_view body) {
@@ -137,7 +139,8 @@ FieldResult<Placement> ParsePlace(std::string_view body) {
   const auto pitch = TakeAngle(*json, "pitch");
   if (!pitch) return tl::make_unexpected(pitch.error());
   base::Problems problems;
-  const auto place = Judged(scenario::ParsePlaceJson(json->dump(), problems), problems);
+  const auto place =
+      ValueOrFirstProblem(scenario::ParsePlaceJson(json->dump(), problems), problems);
   if (!place) return tl::make_unexpected(place.error());
   Placement placement{place->pose(), !place->z.has_value()};
   if (*roll != 0 || *pitch != 0) {

@@ -1,5 +1,5 @@
-// The parts of scenarios in requests: the keys of docs/formats/scenario.md that users set in the
-// viewer. Requests cannot name output paths, folders or plug-ins.
+// Parses the parts of scenarios in requests: the keys of docs/formats/scenario.md that users set in
+// the viewer. Requests cannot name output paths, folders or plug-ins.
 //
 // Errors  kInvalidArgument with the field. Unknown keys are refused.
 // Bounded the number of robots.

@@ -124,7 +124,7 @@ TEST(ScenarioJson, TooManyRobotsAreRefused) {
   EXPECT_EQ(request.error().field, "robots");
 }
 
-TEST(ScenarioJson, ARobotIsAddedWithOrWithoutAPlace) {
+TEST(ScenarioJson, ARobotMayHaveAPoseOrNone) {
   const auto robot = ParseRobotRequest(R"({"model": "avatar", "avatar": true})");
   ASSERT_TRUE(robot);
   EXPECT_TRUE(robot->is_avatar);
@@ -132,7 +132,7 @@ TEST(ScenarioJson, ARobotIsAddedWithOrWithoutAPlace) {
   EXPECT_EQ(ParseRobotRequest(R"({"model": ""})").error().field, "model");
 }
 
-TEST(ScenarioJson, APlaceNeedsBothCoordinates) {
+TEST(ScenarioJson, APoseNeedsXAndY) {
   const auto place = ParsePlace(R"({"x": 1, "y": 2})");
   ASSERT_TRUE(place);
   EXPECT_TRUE(place->on_ground);

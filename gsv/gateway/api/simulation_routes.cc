@@ -31,7 +31,7 @@ SimulationHandler Applying(const simulation::Command& command) {
   };
 }
 
-// The robot stands still, unless a behaviour controls it by now.
+// Stops the robot, unless a behaviour controls it now.
 void StopRobot(const std::weak_ptr<Simulation>& weak, const std::string& robot) {
   const SimulationPointer simulation = weak.lock();
   const auto agent = simulation ? simulation->agent(robot) : nullptr;

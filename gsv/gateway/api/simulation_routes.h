@@ -21,7 +21,7 @@ Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
 // arguments; the response is the simulation's status. GET …/commands describes them.
 std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& directory);
 
-// Routes that place and remove the bodies of a simulation, and steer its avatars.
+// Routes that place and remove the bodies of a simulation, and drive its avatars.
 std::vector<Route> BodyRoutes(const std::shared_ptr<SimulationDirectory>& directory);
 
 }  // namespace gsv::gateway

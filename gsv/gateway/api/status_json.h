@@ -10,16 +10,17 @@
 
 namespace gsv::gateway {
 
-// Returns the complete status; for a replay with "replay" (ReplayJson()) and without health.
+// Returns the complete status. That of a replay has the member "replay" (see ReplayJson()), and no
+// health.
 std::string StatusJson(const simulation::SimulationStatus& status);
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
 // Returns {"start_s", "end_s", "time_s", "speed", "loop"}.
 std::string ReplayJson(const ReplayClock& clock);
 // Returns {"recording", "path", "messages", "dropped_messages", "size_bytes"}.
 std::string RecordingJson(const RecordingSwitch::State& state);
-// {"topics"}
+// Returns {"topics"}, a list of names.
 std::string TopicsJson(const std::vector<std::string>& topics);
-// An array with an object per simulation.
+// Returns an array with an object per simulation.
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations);
 
 }  // namespace gsv::gateway

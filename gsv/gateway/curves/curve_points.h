@@ -1,5 +1,6 @@
-// A curve in bounded memory. It keeps all samples while they fit. Then it keeps minimum and maximum
-// of equal time bins, at their own instants: no peak is lost.
+// CurvePoints stores the points of a curve in bounded memory. It keeps all samples while they fit.
+// Then it divides the time range into equal bins, and keeps the minimum and the maximum of each bin
+// with their times. So no peak is lost.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@ namespace gsv::gateway::curves {
 
 struct Point {
   base::SimTime time{};
-  double value = 0;  // may be infinite or NaN, such as a missing echo
+  double value = 0;  // may be infinite or NaN, for example without an echo
 
   friend bool operator==(const Point&, const Point&) = default;
 };
@@ -27,13 +28,14 @@ class CurvePoints {
   std::size_t samples() const { return samples_; }  // number of samples so far
   bool is_whole() const { return bins_.empty(); }   // whether every sample is a point
 
-  // The points by time. A bin without finite samples has one point, its first.
+  // Returns the points ordered by time. A bin without finite samples has one point: its first
+  // sample.
   std::vector<Point> Points() const;
 
  private:
   struct TimeBin {
     std::size_t finite = 0, samples = 0;
-    Point min, max;  // the first sample, while none is finite
+    Point min, max;  // both are the first sample until one is finite
   };
 
   void AddToBin(const Point& point);

@@ -128,7 +128,7 @@ class PoseSource final : public CurveSource {
     return Rate(*before, now) / base::ToSeconds(elapsed);
   }
 
-  // The change between two poses: metres, or radians by the shorter way round.
+  // Returns the change between two poses: a distance in metres, or the smaller angle in radians.
   double Rate(const Numbers& before, const Numbers& now) const {
     if (key_ == "speed") {
       return std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]);

@@ -1,4 +1,4 @@
-// The source of a curve's samples: messages of a recording, and the value of each.
+// A CurveSource extracts the samples of one curve from the messages of a recording.
 //
 // Input  untrusted: invalid messages give no sample.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace gsv::gateway::curves {
 
-// One of these:
+// Names a curve by one of these combinations:
 //   topic, key     a number of the topic's messages, see field_value.h
 //   robot, key     x, y, z (m), roll, pitch, yaw (rad), speed (m/s), turn_rate (rad/s) of its
 //                  poses, and distance (m), collisions of its status
@@ -29,12 +29,12 @@ struct CurveRequest {
 class CurveSource {
  public:
   virtual ~CurveSource() = default;
-  // Returns the sample of the next message, in the order of time; nothing if the message has none.
+  // Returns the sample in `message`, or nullopt if it has none. Messages come in the order of time.
   virtual std::optional<double> SampleIn(const recording::MessageRecord& message) = 0;
 };
 
-// `reader` and `scene` must outlive the source. kNotFound: the recording has no such topic or
-// robot; kInvalidArgument: there is no such value. Each with a sentence.
+// Makes the source of a curve. `reader` and `scene` must outlive it. Fails with kNotFound if the
+// recording has no such topic or robot, and with kInvalidArgument if there is no such value.
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
                                                            const CurveRequest& request);

@@ -48,7 +48,7 @@ TEST(CurvePoints, KeepsAPointOfBinsWithoutAFiniteSample) {
   EXPECT_EQ(points.Points(), expected);
 }
 
-TEST(CurvePoints, IsBoundedForAnyTimes) {
+TEST(CurvePoints, StaysBoundedForAnySampleTimes) {
   CurvePoints points(50ms, 10ms, 10);
   for (int i = 0; i < 100; ++i) points.Add((i % 7 - 3) * 1'000'000ms, i);
   EXPECT_LE(points.Points().size(), 10u);
@@ -100,8 +100,8 @@ TEST(FieldValue, OmitsNonFiniteValues) {
   EXPECT_TRUE(std::isnan(FieldValue(message, "ranges.min").value()));
 }
 
-// A recording of ten seconds in chunks of a tenth of a second. The ranges begin at 1 m and grow by
-// one millimetre every 10 ms.
+// Returns a recording of ten seconds in chunks of 0.1 s. The ranges begin at 1 m and increase by 1
+// mm every 10 ms.
 recording::Bytes TenSeconds() {
   recording::Bytes bytes;
   recording::MemorySink sink(bytes);
@@ -124,7 +124,7 @@ recording::Bytes TenSeconds() {
 
 class RecordedCurvesTest : public ::testing::Test {
  protected:
-  // Requests the curve until it was read.
+  // Requests the curve repeatedly until it was read completely.
   static Curve Whole(RecordedCurves& curves, const CurveRequest& request) {
     for (;;) {
       auto curve = curves.Get(request).value();

@@ -36,7 +36,7 @@ std::optional<double> AngleIn(const OrderedJson& value, std::string_view which) 
   return AngleOf(numbers[0], numbers[1], numbers[2], numbers[3], which);
 }
 
-// `rest`: "[NAME]".
+// Returns the number of `list` at the position of NAME in `names`. `rest` is "[NAME]".
 std::optional<double> BesideName(const OrderedJson& names, const OrderedJson& list,
                                  std::string_view rest) {
   if (!names.is_array() || names.size() != list.size()) return std::nullopt;

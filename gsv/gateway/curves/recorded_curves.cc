@@ -8,8 +8,8 @@ namespace gsv::gateway::curves {
 namespace {
 
 constexpr std::size_t kMaxCurves = 16;
-constexpr int kMessagesBetweenLooks = 256;  // number of messages between two checks of the clock
-                                            // and of is_dropped
+constexpr int kMessagesBetweenChecks = 256;  // number of messages between two checks of the clock
+                                             // and of is_dropped
 
 }  // namespace
 
@@ -110,7 +110,7 @@ void RecordedCurves::Read(Job& job) {
     if (!problem.empty()) job.problem = problem;
   };
   for (int count = 1;; ++count) {
-    if (count % kMessagesBetweenLooks == 0) {
+    if (count % kMessagesBetweenChecks == 0) {
       if (job.is_dropped) return finish("no viewer needs the curve any more");
       if (std::chrono::steady_clock::now() > end) {
         return finish("reading the recording took too long; the curve is incomplete");

@@ -1,5 +1,5 @@
-// Values over a whole recording, read in the background. The first request starts reading; later
-// requests return the progress.
+// RecordedCurves reads curves over a whole recording in the background. The first request for a
+// curve starts reading. Later requests return the points that were read so far.
 //
 // Threads  Get() from any; its own thread reads, started by the first Get().
 // Bounded  keeps the sixteen most recently requested curves; reading a curve ends after a minute.
@@ -24,7 +24,7 @@ struct Curve {
   std::size_t samples = 0;    // number of samples that were read so far
   bool is_whole = true;       // whether every sample is a point
   bool is_done = false;       // the end was reached, or reading was ended early
-  base::SimTime read_to{};    // end of the points
+  base::SimTime read_to{};    // time up to which the recording was read
   std::string problem;        // reason for missing parts; empty: none
 };
 
@@ -46,7 +46,7 @@ class RecordedCurves {
  private:
   struct Job;
 
-  // The job of the request, or null; updates its time of use.
+  // Returns the job of the request, or null. Marks it as the most recently used one.
   std::shared_ptr<Job> Find(const CurveRequest& request) GSV_REQUIRES(mutex_);
   void Run();
   void Read(Job& job);

@@ -1,4 +1,4 @@
-// The parts of a stream of JPEG images (multipart/x-mixed-replace).
+// Writes the parts of a stream of JPEG images (multipart/x-mixed-replace).
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace gsv::gateway::drawing {
 
 inline constexpr const char* kImageStreamType = "multipart/x-mixed-replace; boundary=gsv-image";
 
-// `time`: simulated seconds of the image, as in the header Gsv-Time. The boundary after an image
-// lets browsers show it at once.
+// Returns the part of one image. `time` is its simulated time in seconds, for the header Gsv-Time.
+// The boundary after an image lets browsers show it at once.
 inline SharedBytes ImagePart(std::string_view jpeg, std::string_view time, bool is_first) {
   constexpr std::string_view kBoundary = "--gsv-image\r\n";
   std::string part(is_first ? kBoundary : "");

@@ -13,20 +13,20 @@ namespace {
 
 using base::ErrorCode;
 
-// The drawer answers after this time even if nothing has changed.
+// The ViewDrawer answers after this time even if nothing has changed.
 constexpr std::chrono::milliseconds kPushTimeout{5000};
-// A client that reports an image within this time gets the next one drawn ahead.
+// If a client reports an image as shown within this time, one further image is sent ahead.
 constexpr std::chrono::milliseconds kFast{100};
 
 struct Detail {
-  double scale = 1;   // the factor for both sides of the image
+  double scale = 1;   // factor for the width and the height of the image
   int quality = 100;  // at most
 };
 constexpr std::array<Detail, 5> kDetails{{{1, 100}, {1, 55}, {0.75, 45}, {0.5, 40}, {0.35, 30}}};
 // The time in seconds that the transfer of an image over a slow connection may take. If the
 // transfer takes less than a quarter of it, the next image has a higher resolution.
 constexpr double kImageTime = 0.4;
-constexpr std::chrono::seconds kFirstCoarse{5}, kLongestCoarse{300}, kBetweenSteps{1};
+constexpr std::chrono::seconds kFirstCoarse{5}, kMaxCoarse{300}, kBetweenSteps{1};
 
 ViewRequest Coarsened(ViewRequest view, std::size_t detail) {
   const auto side = [&](int pixels) {
@@ -54,7 +54,8 @@ base::Result<ViewQuery> QueryOf(const foxglove::WatchView& request) {
 
 }  // namespace
 
-void PushedViews::Take(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) {
+void PushedViews::Handle(const std::shared_ptr<Client>& client,
+                         const foxglove::WatchView& request) {
   const Key key{client.get(), request.id};
   const auto refuse = [&](const base::Error& error) {
     client->SendText(SharedBytes(foxglove::ViewFailureText(request.id, error.Sentence())));
@@ -95,12 +96,13 @@ void PushedViews::Take(const std::shared_ptr<Client>& client, const foxglove::Wa
   Continue(watched);
 }
 
-void PushedViews::Take(const std::shared_ptr<Client>& client,
-                       const foxglove::UnwatchView& request) {
+void PushedViews::Handle(const std::shared_ptr<Client>& client,
+                         const foxglove::UnwatchView& request) {
   Remove({client.get(), request.id});
 }
 
-void PushedViews::Take(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) {
+void PushedViews::Handle(const std::shared_ptr<Client>& client,
+                         const foxglove::ViewShown& request) {
   const WatchedPtr watched = Find({client.get(), request.id});
   if (watched == nullptr) return;  // the view ended while the report was in transit
   {
@@ -174,7 +176,8 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   if (seat == nullptr) {
     auto taken = drawer_.Take(view);
     if (!taken && detail > 0) {
-      // No further camera can be drawn, so the image keeps the size that other viewers have.
+      // A smaller image counts as a further view, and there are too many. The full size may be
+      // shared with other viewers, so it is tried next.
       {
         const base::MutexLock lock(mutex_);
         watched->detail = 0;
@@ -186,7 +189,8 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
     if (!taken) return base::Fail(taken.error());
     seat = *std::move(taken);
     const base::MutexLock lock(mutex_);
-    // Another camera came meanwhile. This image is still drawn, and the next one shows that camera.
+    // If the client has chosen another camera meanwhile, this image is still drawn, and the next
+    // one uses the new camera.
     if (watched->sequence == sequence && !watched->client.expired()) watched->seat = seat;
   }
   drawer_.SetSource(world->name, world->identity, world->make);
@@ -240,7 +244,7 @@ void PushedViews::ChooseDetail(Watched& watched, double slow_rate, std::size_t b
     if (detail + 1 == kDetails.size()) return;
     ++detail;
     watched.coarse_for =
-        std::clamp<Clock::duration>(2 * watched.coarse_for, kFirstCoarse, kLongestCoarse);
+        std::clamp<Clock::duration>(2 * watched.coarse_for, kFirstCoarse, kMaxCoarse);
     watched.coarse_until = now + watched.coarse_for;
   } else if (detail > 0 && 4.0 * static_cast<double>(bytes) < aimed &&
              now >= watched.coarse_until) {
@@ -253,7 +257,7 @@ void PushedViews::ChooseDetail(Watched& watched, double slow_rate, std::size_t b
   watched.last = 0;
 }
 
-// The view has ended for the client, which may subscribe to it again.
+// Ends the view and sends the client the reason. The client may subscribe to it again.
 void PushedViews::Fail(const WatchedPtr& watched, const base::Error& error) {
   std::shared_ptr<Client> client;
   {

@@ -1,16 +1,18 @@
-// Sends images of views to clients over their WebSockets, without a request for each image.
+// PushedViews sends images of views to clients over their WebSockets, without a request for each
+// image.
 //
 // An image is drawn when the world or the camera has changed, at most as often as the client wants.
 // The client reports each image that it has shown. The next image is drawn only after that, or one
 // image ahead if the last report came fast. So a slow client gets fewer images, and never old ones.
-// If an image takes its connection too long (Client::slow_rate), the next ones are coarser: a JPEG
-// of lower quality, then of fewer pixels than the client asked for. They become finer again when
-// the connection has been in time for a while, which doubles with each attempt that was too early.
+// If the connection is too slow for an image (Client::slow_rate), the next images are coarser:
+// first a JPEG of lower quality, then fewer pixels than the client requested. When the connection
+// has been fast enough for some time, the images become finer again. This time doubles each time
+// the images become coarser.
 //
 // Format   docs/formats/live.md: a message on the client's subscription with the header
 //          `kImageHeaderSize`, then a JPEG.
 // Threads  any.
-// Bounded  the views of a client here, all views by the drawer.
+// Bounded  the views of each client (here), and all views (ViewDrawer).
 #pragma once
 
 #include <chrono>
@@ -40,9 +42,9 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   // `drawer` must outlive the clients of the hub.
   PushedViews(ViewDrawer& drawer, FindWorldOfHub find) : drawer_(drawer), find_(std::move(find)) {}
 
-  void Take(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) override;
-  void Take(const std::shared_ptr<Client>& client, const foxglove::UnwatchView& request) override;
-  void Take(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) override;
+  void Handle(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) override;
+  void Handle(const std::shared_ptr<Client>& client, const foxglove::UnwatchView& request) override;
+  void Handle(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) override;
   void Forget(Client* client) override;
 
  private:
@@ -55,14 +57,15 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
     std::uint32_t sequence = 0;
     std::shared_ptr<ViewDrawer::Seat> seat;  // null: the camera has changed
     std::uint64_t last = 0;                  // number of the last image of this camera; 0: none
-    bool is_asked = false;                   // an answer of the drawer will come
-    int unshown = 0;                         // images that the client has not reported
+    bool is_asked = false;                   // an answer of the ViewDrawer is pending
+    int unshown = 0;                         // number of sent images not yet reported as shown
     Clock::time_point due{};                 // earliest time of the next image
     Clock::time_point sent{};
     Clock::duration reported_after{};  // time from the last image to its report
     std::size_t detail = 0;            // index of kDetails in the .cc file; 0: as the client asked
     Clock::time_point coarse_until{};  // earliest time of a finer image
-    Clock::duration coarse_for{};      // the time that the next coarser detail lasts; 0: the first
+    // minimum time that the images stay coarse; doubles each time; 0: not yet coarse
+    Clock::duration coarse_for{};
   };
   using WatchedPtr = std::shared_ptr<Watched>;
 
@@ -71,10 +74,10 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   // Asks for the next image, if the client can take one.
   void Continue(const WatchedPtr& watched);
   base::Status Ask(const WatchedPtr& watched);
-  // `earliest` is that of the request.
+  // Sends an image. `earliest`: the value with which it was requested (ViewDrawer::Ask()).
   void OnImage(const WatchedPtr& watched, std::uint32_t sequence, Clock::time_point earliest,
                const base::Result<DrawnImage>& image);
-  // Chooses the detail of the next image by the size in bytes of this one.
+  // Chooses the detail of the next image. `slow_rate`: see Client. `bytes`: size of this image.
   static void ChooseDetail(Watched& watched, double slow_rate, std::size_t bytes);
   void Fail(const WatchedPtr& watched, const base::Error& error);
   static SharedBytes MessageOf(const Watched& watched, std::uint32_t sequence,

@@ -169,7 +169,7 @@ TEST_F(PushedViewsTest, AnotherCameraGetsAnImageAtOnce) {
   } while (image.sequence != 20);  // earlier cameras may have been skipped
 }
 
-TEST_F(PushedViewsTest, AClientThatShowsNothingGetsFewImages) {
+TEST_F(PushedViewsTest, AClientThatReportsNoImagesGetsFewImages) {
   Send(Watch("size=32x24&fps=60", 1));
   const std::shared_ptr<ViewClient> other = std::make_shared<ViewClient>();
   hub_.Add(other);
@@ -231,7 +231,7 @@ TEST_F(PushedViewsTest, ABadMessageEndsTheConnection) {
   }
 }
 
-TEST_F(PushedViewsTest, AViewThatEndsFreesItsPlace) {
+TEST_F(PushedViewsTest, AViewThatEndsMakesAnotherViewPossible) {
   for (int i = 0; i < 6; ++i) {
     Send(Watch("size=32x" + std::to_string(24 + i), 1));
     EXPECT_FALSE(client_->NextImage().jpeg.empty());
@@ -246,7 +246,7 @@ TEST_F(PushedViewsTest, AViewThatEndsFreesItsPlace) {
   }
 }
 
-TEST_F(PushedViewsTest, AServerWithoutViewsReportsIt) {
+TEST_F(PushedViewsTest, AServerWithoutViewsRefusesThem) {
   Hub plain{{"test", {}, {}, "1"}, [] {}};
   const auto other = std::make_shared<ViewClient>();
   plain.Add(other);

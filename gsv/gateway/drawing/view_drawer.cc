@@ -14,10 +14,10 @@ namespace {
 using base::ErrorCode;
 using base::Fail;
 
-// The interval between checks of a world for which a request is pending.
-constexpr std::chrono::milliseconds kLook{5};
+// The interval between two checks whether a world with pending requests has changed.
+constexpr std::chrono::milliseconds kCheckInterval{5};
 // Sources of worlds without requests are released after this time.
-constexpr std::chrono::seconds kForget{10};
+constexpr std::chrono::seconds kUnusedSourceTimeout{10};
 constexpr std::size_t kKeptImages = 16;
 
 base::Error Ended() { return {ErrorCode::kEnded, "the server is shutting down", {}}; }
@@ -108,7 +108,7 @@ void ViewDrawer::Run() {
     {
       base::MutexLock lock(mutex_);
       DropUnused();
-      changed_.wait_for(lock, kForget,
+      changed_.wait_for(lock, kUnusedSourceTimeout,
                         [this]() GSV_REQUIRES(mutex_) { return stopping_ || !pending_.empty(); });
       if (stopping_) break;
       for (const Pending& each : pending_) wanted.push_back(each.seat->request().world);
@@ -120,7 +120,7 @@ void ViewDrawer::Run() {
     if (has_served || wanted.empty()) continue;
     base::MutexLock lock(mutex_);
     const std::size_t known = pending_.size();
-    changed_.wait_for(lock, kLook,
+    changed_.wait_for(lock, kCheckInterval,
                       [&]() GSV_REQUIRES(mutex_) { return stopping_ || pending_.size() != known; });
   }
   std::vector<Pending> ended;
@@ -138,7 +138,7 @@ void ViewDrawer::DropUnused() {
     const bool is_wanted = std::any_of(pending_.begin(), pending_.end(), [&](const Pending& each) {
       return each.seat->request().world == entry.first;
     });
-    return !is_wanted && now - entry.second.used > kForget;
+    return !is_wanted && now - entry.second.used > kUnusedSourceTimeout;
   });
   if (worlds_.empty()) kept_.clear();
 }
@@ -158,7 +158,7 @@ bool ViewDrawer::Serve(const std::string& name) {
   if (instant) {
     const base::MutexLock lock(mutex_);
     World& world = worlds_[name];
-    // A source that was replaced meanwhile is checked in the next round.
+    // If the source was replaced meanwhile, the next call checks the new source.
     if (world.source != source) return true;
     if (world.snapshot != instant->snapshot) {
       world.snapshot = instant->snapshot;
@@ -178,7 +178,8 @@ bool ViewDrawer::Serve(const std::string& name) {
   return true;
 }
 
-// Returns the requests of a world that are due. Number 0 means all images of the world.
+// Removes the requests of a world that are due, and returns them. `number` is that of the world's
+// state; 0: all requests are due, because the world cannot be drawn.
 std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
                                                      std::uint64_t number) {
   std::vector<Pending> due;
@@ -196,7 +197,7 @@ std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
 
 void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<Pending> due) {
   while (!due.empty()) {
-    // All requests for the same image.
+    // Take all requests for the same image out of `due`.
     const ViewRequest request = due.front().seat->request();
     const auto others = std::stable_partition(due.begin(), due.end(), [&](const Pending& each) {
       return each.seat->request() == request;

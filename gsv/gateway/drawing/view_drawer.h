@@ -1,4 +1,5 @@
-// Draws the views that viewers ask for, on its own thread: never on a stepping thread.
+// A ViewDrawer renders the images that viewers request. It has its own thread, so stepping threads
+// do not wait for it.
 //
 // A viewer asks for the next image with the number of the last one that it got. So images are drawn
 // only if something has changed, and only as fast as the viewer takes them. Requests with the same
@@ -57,8 +58,9 @@ class ViewDrawer {
   explicit ViewDrawer(const DrawingLimits& limits = {});
   ~ViewDrawer();
 
-  // Reserves a place among the viewers for the lifetime of the result. kUnavailable, with a
-  // sentence, if there are too many; kInvalidArgument for an image that is too large.
+  // Reserves one of the limited number of viewers' places (DrawingLimits). The Seat frees it when
+  // destroyed. Fails with kUnavailable if all are taken, and with kInvalidArgument if the image is
+  // too large.
   class Seat;
   base::Result<std::shared_ptr<Seat>> Take(const ViewRequest& request);
 
@@ -72,8 +74,8 @@ class ViewDrawer {
   void Ask(std::shared_ptr<Seat> seat, std::uint64_t after, Clock::time_point earliest,
            std::chrono::milliseconds timeout, Answer answer);
 
-  // Withdraws the request of a seat. False: it is being drawn, or was answered. True: no answer
-  // will come.
+  // Cancels the pending request of a seat. Returns true if no answer will come, and false if the
+  // image is being drawn or the request was answered already.
   bool Withdraw(const Seat& seat);
 
   // Answers all pending requests with kEnded, and refuses further ones.
@@ -83,9 +85,9 @@ class ViewDrawer {
   struct World {
     std::weak_ptr<const void> identity;
     std::shared_ptr<ViewSource> source;
-    std::shared_ptr<const world::Snapshot> snapshot;  // the newest one that was checked
+    std::shared_ptr<const world::Snapshot> snapshot;  // newest state seen by the drawer
     std::uint64_t number = 0;                         // its number
-    std::chrono::system_clock::time_point seen{};     // time at which it came
+    std::chrono::system_clock::time_point seen{};     // when it was first seen
     Clock::time_point used{};
   };
   struct Pending {
@@ -112,9 +114,10 @@ class ViewDrawer {
   base::Result<SharedBytes> Encode(const model::Image& image, const ViewRequest& request) const;
 
   const DrawingLimits limits_;
-  std::shared_ptr<rendering::Renderer> renderer_;  // of the drawing thread; null at first
-  std::uint64_t next_number_ = 0;                  // used by the drawing thread
-  std::vector<CachedImage> kept_;                  // used by the drawing thread: the last images
+  std::shared_ptr<rendering::Renderer>
+      renderer_;                   // used by the drawing thread; null until the first image
+  std::uint64_t next_number_ = 0;  // used by the drawing thread
+  std::vector<CachedImage> kept_;  // used by the drawing thread: the last images
 
   base::Mutex mutex_;
   base::ConditionVariable changed_;

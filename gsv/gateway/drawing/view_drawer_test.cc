@@ -87,7 +87,7 @@ TEST_F(ViewDrawerTest, RequestsWithTheSameCameraShareAnImage) {
   EXPECT_NE(other->bytes.data(), first->bytes.data());
 }
 
-TEST_F(ViewDrawerTest, BoundsViewsAndViewers) {
+TEST_F(ViewDrawerTest, LimitsTheNumberOfViewsAndViewers) {
   const auto one = drawer_.Take(Request(32));
   const auto two = drawer_.Take(Request(33));
   ASSERT_TRUE(one && two);

@@ -1,8 +1,8 @@
-// Images of a simulation or a replay, drawn on the server: PREFIX/view.jpg, PREFIX/view.png and
-// PREFIX/view.mjpeg. docs/viewer.md and docs/api.yaml describe the parameters.
+// Routes for images of a simulation or a replay that the server draws: PREFIX/view.jpg,
+// PREFIX/view.png and PREFIX/view.mjpeg. docs/viewer.md and docs/api.yaml describe the parameters.
 //
-// Errors  400 for a parameter that cannot be used, 404 for a robot or camera that is not there, 503
-//         if too many views are drawn; each with a sentence.
+// Errors  400 for an invalid parameter, 404 for an unknown robot or camera, 503 if too many views
+//         are drawn. Each response has a sentence.
 #pragma once
 
 #include <functional>
@@ -26,12 +26,13 @@ using FindWorld = std::function<base::Result<ViewedWorld>(const Request&)>;
 // Parses the parameters of the query. `is_stream` is true for view.mjpeg.
 struct ViewQuery {
   ViewRequest view;
-  std::optional<std::uint64_t> after;  // number of the image that the client has
+  std::optional<std::uint64_t> after;  // number of the newest image that the client has
   double frames_a_second = 15;         // at most
 };
 base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream);
 
-// `drawer` must outlive the routes. The server's thread calls `find`, which must return at once.
+// Returns the routes. `drawer` must outlive them. The server's thread calls `find`, which must
+// return at once.
 std::vector<Route> ViewRoutes(const std::string& prefix, ViewDrawer& drawer, const FindWorld& find);
 
 }  // namespace gsv::gateway::drawing

@@ -158,7 +158,7 @@ TEST_F(ViewRoutesTest, PushesImagesOverTheWebSocket) {
       std::string::npos);
 }
 
-TEST_F(ViewRoutesTest, NeedsATokenWhichMayBeInTheQuery) {
+TEST_F(ViewRoutesTest, AcceptsTheTokenInTheQuery) {
   GatewayOptions options;
   options.tokens.watch = "a-token-of-sixteen-letters";
   Start(options);

@@ -1,6 +1,7 @@
-// A world that is drawn on the server: a running simulation or a replay.
+// A ViewSource provides the state of a world that the server draws: a running simulation or a
+// replay.
 //
-// Threads  one at a time.
+// Threads  one thread at a time.
 #pragma once
 
 #include <memory>

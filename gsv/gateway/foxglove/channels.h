@@ -1,4 +1,4 @@
-// Channels of topics.
+// Makes Foxglove channels and messages for topics.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A connected viewer: the interface for senders.
+// A Client is a connected viewer. This is the interface with which the server sends it messages.
 //
 // Threads  any; calls neither block nor call back.
 #pragma once
@@ -21,7 +21,8 @@ enum class CloseCode : std::uint16_t {
   kTryAgainLater = 1013,
 };
 
-// Whether a newer message of the same subscription replaces one that is not sent yet.
+// kEach: every message is sent. kNewest: a newer message replaces an unsent one of the same
+// subscription.
 enum class Delivery { kEach, kNewest };
 
 class Client {
@@ -33,11 +34,11 @@ class Client {
   // Sends data; if the queue is full, the oldest data are dropped.
   virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload,
                         Delivery delivery) = 0;
-  // The number of dropped data messages so far.
+  // Returns the number of dropped data messages so far.
   virtual std::uint64_t dropped_updates() const { return 0; }
   // Returns the rate of a slow connection in bytes per second; 0 if it is fast enough.
   virtual double slow_rate() const { return 0; }
-  // An error with the reason if this viewer has no control now.
+  // Returns an error with the reason if this viewer does not have control now.
   virtual base::Status CheckControl() { return {}; }
   virtual void Close(CloseCode code, std::string reason) = 0;
 

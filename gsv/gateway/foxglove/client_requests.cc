@@ -9,10 +9,9 @@ namespace {
 using foxglove::Parameter;
 using foxglove::StatusLevel;
 
-constexpr int kMaxCalls = 8;  // maximum number of calls of one client that are in progress
-constexpr std::size_t kMaxProblems = 10;  // maximum number of problems that are reported for one
-                                          // request
-// Each client has its own value of this parameter, and gets it if it requests this name.
+constexpr int kMaxCalls = 8;              // calls in progress, per client
+constexpr std::size_t kMaxProblems = 10;  // problems reported for one request
+// The number of updates that were dropped for the client. Each client gets its own value.
 constexpr const char* kDroppedUpdates = "/gsv/dropped_updates";
 
 std::vector<Parameter> Named(std::vector<Parameter> all, const std::vector<std::string>& names) {
@@ -80,8 +79,8 @@ void ClientRequests::Forget(Client* client) {
   clients_.erase(client);
 }
 
-void ClientRequests::Take(const std::shared_ptr<Client>& client,
-                          const foxglove::GetParameters& request) const {
+void ClientRequests::Handle(const std::shared_ptr<Client>& client,
+                            const foxglove::GetParameters& request) const {
   if (!operations_) return RefuseAll(*client);
   std::vector<Parameter> parameters = Named(operations_->parameters(), request.names);
   const auto& names = request.names;
@@ -91,8 +90,8 @@ void ClientRequests::Take(const std::shared_ptr<Client>& client,
   SendParameters(*client, parameters, request.request);
 }
 
-void ClientRequests::Take(const std::shared_ptr<Client>& client,
-                          const foxglove::SetParameters& request) const {
+void ClientRequests::Handle(const std::shared_ptr<Client>& client,
+                            const foxglove::SetParameters& request) const {
   if (!operations_) return RefuseAll(*client);
   std::vector<std::string> names;
   std::size_t complaints = 0;
@@ -108,8 +107,8 @@ void ClientRequests::Take(const std::shared_ptr<Client>& client,
   SendParameters(*client, Named(operations_->parameters(), names), request.request);
 }
 
-void ClientRequests::Take(const std::shared_ptr<Client>& client,
-                          const foxglove::WatchParameters& request) {
+void ClientRequests::Handle(const std::shared_ptr<Client>& client,
+                            const foxglove::WatchParameters& request) {
   if (!operations_) return RefuseAll(*client);
   const std::vector<Parameter> parameters = Named(operations_->parameters(), request.names);
   const base::MutexLock lock(mutex_);
@@ -132,8 +131,8 @@ std::shared_ptr<std::atomic<int>> ClientRequests::BeginCall(Client* client) {
   return guest->second.calls;
 }
 
-void ClientRequests::Take(const std::shared_ptr<Client>& client,
-                          const foxglove::ServiceCall& request) {
+void ClientRequests::Handle(const std::shared_ptr<Client>& client,
+                            const foxglove::ServiceCall& request) {
   const auto fail = [&](const std::string& why) {
     client->SendText(SharedBytes(foxglove::ServiceFailureText(request.service, request.call, why)));
   };
@@ -153,8 +152,8 @@ void ClientRequests::Take(const std::shared_ptr<Client>& client,
                     });
 }
 
-void ClientRequests::Take(const std::shared_ptr<Client>& client,
-                          const foxglove::PlaybackControl& request) const {
+void ClientRequests::Handle(const std::shared_ptr<Client>& client,
+                            const foxglove::PlaybackControl& request) const {
   const auto before = operations_ ? operations_->playback() : std::nullopt;
   if (!before)
     return client->SendStatus(StatusLevel::kError,

@@ -1,4 +1,5 @@
-// Answers the requests of a hub's clients that do not concern channels.
+// ClientRequests answers the requests of a hub's clients that do not concern channels: parameters,
+// service calls and playback control.
 //
 // Bounded  the pending calls per client.
 // Threads  any; no call blocks.
@@ -22,20 +23,22 @@ class ClientRequests {
   // If `operations` is null, every request is refused.
   explicit ClientRequests(std::shared_ptr<Operations> operations);
 
-  // The capabilities for the server info.
+  // Returns the capabilities for the server info.
   std::vector<std::string> capabilities() const;
-  // Sends the services to a new client, and the state of a playback if it supports that.
+  // Sends the list of services to a new client, and the playback state if `knows_playback`.
   void Welcome(const std::shared_ptr<Client>& client, bool knows_playback);
   void Forget(Client* client);
 
-  void Take(const std::shared_ptr<Client>& client, const foxglove::GetParameters& request) const;
-  void Take(const std::shared_ptr<Client>& client, const foxglove::SetParameters& request) const;
-  void Take(const std::shared_ptr<Client>& client, const foxglove::WatchParameters& request);
-  void Take(const std::shared_ptr<Client>& client, const foxglove::ServiceCall& request);
-  void Take(const std::shared_ptr<Client>& client, const foxglove::PlaybackControl& request) const;
+  // Carries out a request and sends the client the answer.
+  void Handle(const std::shared_ptr<Client>& client, const foxglove::GetParameters& request) const;
+  void Handle(const std::shared_ptr<Client>& client, const foxglove::SetParameters& request) const;
+  void Handle(const std::shared_ptr<Client>& client, const foxglove::WatchParameters& request);
+  void Handle(const std::shared_ptr<Client>& client, const foxglove::ServiceCall& request);
+  void Handle(const std::shared_ptr<Client>& client,
+              const foxglove::PlaybackControl& request) const;
 
-  // Sends parameters that have changed since the last call to their watchers, and the state of a
-  // playback after a seek or change.
+  // Sends the parameters that have changed since the last call to the clients that watch them.
+  // Sends the playback state after a seek (`has_jumped`) or a change.
   void PublishChanges(bool has_jumped = false);
 
   std::vector<std::string> service_names() const;

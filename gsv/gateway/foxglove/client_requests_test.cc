@@ -16,8 +16,8 @@ namespace {
 using nlohmann::json;
 using testing::RecordingClient;
 
-// Operations with one service, whose answer the test gives, two parameters, of which /speed can be
-// set, and a playback at 5 ns.
+// Operations with a playback at 5 ns, two parameters and one service. Only the parameter /speed can
+// be set. The test gives the service's answer.
 class FakeOperations final : public Operations {
  public:
   std::vector<foxglove::Service> services() const override {
@@ -172,7 +172,7 @@ TEST_F(ClientRequestsTest, ParametersAreReadSetAndWatched) {
   EXPECT_EQ(watcher->texts().size(), 4u);
 }
 
-TEST_F(ClientRequestsTest, ManyErrorsGiveTenWarnings) {
+TEST_F(ClientRequestsTest, ReportsAtMostTenErrorsOfARequest) {
   const auto client = Join();
   const std::size_t before = client->texts().size();
   json parameters = json::array();
@@ -196,7 +196,7 @@ TEST_F(ClientRequestsTest, APlaybackIsControlledAndAllClientsGetItsState) {
   EXPECT_EQ(other->answers().size(), before);
 }
 
-TEST_F(ClientRequestsTest, TheGraphNamesPublishersViewersAndServices) {
+TEST_F(ClientRequestsTest, TheConnectionGraphListsPublishersSubscribersAndServices) {
   const auto channels = hub_.Advertise(
       {{0, "/a", "cdr", "p/msg/N", "ros2msg", ""}, {0, "/b", "cdr", "p/msg/N", "ros2msg", ""}});
   hub_.SetPublishers(channels[1], {"robot"});
@@ -318,7 +318,7 @@ TEST_F(CommandServicesTest, EachParameterIsAFieldOfTheRequest) {
             "lift_up: 'height' must be a number from -2 to 2 m, and it is 2.5");
 }
 
-TEST_F(CommandServicesTest, AMissingServiceIsNamed) {
+TEST_F(CommandServicesTest, ReportsAnUnknownService) {
   EXPECT_EQ(Prepare(0, "").error().Sentence(), "there is no service 0");
   EXPECT_EQ(Prepare(4, "").error().Sentence(), "there is no service 4");
 }

@@ -1,4 +1,5 @@
-// The Foxglove WebSocket protocol, version 1: texts and headers that go over the wire.
+// Writes messages of the Foxglove WebSocket protocol, version 1: text messages, and headers of
+// binary messages.
 //
 // Source  https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md. `foxglove.sdk.v1` is the
 //         name under which Foxglove's later SDK speaks the same messages.
@@ -56,14 +57,14 @@ enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 std::string ServerInfoText(const ServerInfo& info);
 std::string AdvertiseText(std::span<const Channel> channels);
 std::string UnadvertiseText(std::span<const ChannelId> channels);
-// `id` (empty: none) is what RemoveStatusText() takes back.
+// `id` identifies the status for RemoveStatusText(); empty: it cannot be removed.
 std::string StatusText(StatusLevel level, std::string_view message, std::string_view id = {});
 std::string RemoveStatusText(std::string_view id);
 // The id of the status message that says that the connection to the client is slow.
 inline constexpr std::string_view kSlowConnectionId = "gsv-slow-connection";
 
-// The header of a binary message: opcode (1 byte), subscription (4, little endian) and time (8,
-// nanoseconds, little endian), or fewer.
+// The header of a binary message, little endian: opcode (1 byte), subscription (4 bytes, not in
+// every message) and time in nanoseconds (8 bytes).
 struct BinaryHeader {
   std::array<std::uint8_t, 13> bytes{};
   std::uint8_t size = 0;

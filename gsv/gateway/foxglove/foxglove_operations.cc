@@ -35,7 +35,7 @@ Json ToJson(const Parameter& parameter) {
   return json;
 }
 
-// Returns the entries of `after` that are missing in `before`, or that list other parties there.
+// Returns the entries of `after` that are missing in `before` or differ from it.
 Json Changed(const ConnectionGraph::Parties& before, const ConnectionGraph::Parties& after,
              const char* parties_name) {
   Json list = Json::array();
@@ -84,7 +84,8 @@ class BytesWriter {
 std::string AdvertiseServicesText(std::span<const Service> services) {
   Json list = Json::array();
   for (const Service& service : services) {
-    // The schemas are sent twice: clients of the older protocol read only the latter two.
+    // The schemas are sent twice, because clients of the older protocol read only the last two
+    // members.
     list.push_back({{"id", service.id},
                     {"name", service.name},
                     {"type", service.type},

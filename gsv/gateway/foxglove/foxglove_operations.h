@@ -1,5 +1,5 @@
-// The Foxglove WebSocket protocol beyond channels: services, parameters, the connection graph and
-// the control of a playback, on the wire (see foxglove.h).
+// Writes messages of the Foxglove WebSocket protocol (see foxglove.h) about services, parameters,
+// the connection graph and the playback.
 //
 // Source  services, parameters and the graph: the specification named in foxglove.h. Playback: the
 //         messages of Foxglove's SDK under `foxglove.sdk.v1`.
@@ -57,7 +57,7 @@ struct PlaybackState {
 // Server to client.
 std::string AdvertiseServicesText(std::span<const Service> services);
 std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::string_view message);
-// Why a view is not drawn; it has ended.
+// Reports why the server cannot draw a view. The view has ended.
 std::string ViewFailureText(std::uint32_t view, std::string_view message);
 std::string ParameterValuesText(std::span<const Parameter> parameters, const std::string& request);
 // Returns the update from `before` to `after`; empty if they are equal.

@@ -53,7 +53,7 @@ base::Result<ClientMessage> ParseUnsubscribe(const Json& list) {
   return message;
 }
 
-// Limit of the length of strings that a client chooses and that are sent back.
+// Maximum length in bytes of a request's id, which the server sends back.
 constexpr std::size_t kMaxRequestLength = 256;
 
 base::Result<std::string> ParseRequest(const Json& json) {
@@ -111,7 +111,7 @@ base::Result<ClientMessage> ParseSetParameters(const Json& json) {
   return message;
 }
 
-// Limit of the parameters of a view.
+// Maximum length in bytes of a view's camera parameters.
 constexpr std::size_t kMaxCameraLength = 1024;
 
 base::Result<ClientMessage> ParseWatchView(const Json& json) {

@@ -53,7 +53,8 @@ struct PlaybackControl {
   std::optional<std::uint64_t> seek_ns;
   std::string request;
 };
-// The images of a view that the server draws: an extension of the protocol (docs/formats/live.md).
+// Requests the images of a view, which the server draws. This is an extension of the protocol
+// (docs/formats/live.md).
 struct WatchView {
   SubscriptionId id = 0;
   std::string camera;          // parameters as in the query of /view.mjpeg
@@ -62,7 +63,7 @@ struct WatchView {
 struct UnwatchView {
   SubscriptionId id = 0;
 };
-// The client has shown an image, or has left it out.
+// The client has shown an image, or has skipped it.
 struct ViewShown {
   SubscriptionId id = 0;
   std::uint64_t image = 0;
@@ -75,7 +76,7 @@ using ClientMessage =
     std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, WatchGraph,
                  ServiceCall, PlaybackControl, WatchView, UnwatchView, ViewShown, Unsupported>;
 
-// Both fail with kCorrupt for invalid messages.
+// These parse a text message and a binary message. They fail with kCorrupt for invalid messages.
 base::Result<ClientMessage> ParseClientMessage(std::string_view text);
 base::Result<ClientMessage> ParseClientBytes(std::string_view bytes);
 

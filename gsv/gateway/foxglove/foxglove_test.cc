@@ -16,7 +16,7 @@ TEST(Foxglove, TheServersPreferenceChoosesTheSubprotocol) {
   EXPECT_EQ(ChooseSubprotocol("foxglove.sdk.v10, x-foxglove.sdk.v1"), "");
 }
 
-TEST(Foxglove, WritesTheServersTexts) {
+TEST(Foxglove, WritesTheServersTextMessages) {
   EXPECT_EQ(json::parse(ServerInfoText({"gsv", {"time"}, {{"simulation", "a"}}, "7"})),
             json::parse(R"({"op":"serverInfo","name":"gsv","capabilities":["time"],
                             "metadata":{"simulation":"a"},"sessionId":"7"})"));
@@ -145,7 +145,7 @@ TEST(Foxglove, AGraphUpdateHasTheChanges) {
                 "advertisedServices":[],"removedTopics":["/b"],"removedServices":[]})"));
 }
 
-TEST(Foxglove, APlaybackIsDeclaredWithItsTimes) {
+TEST(Foxglove, TheServerInfoHasTheTimeRangeOfAPlayback) {
   const json info = json::parse(ServerInfoText(
       {"gsv", {"time", "services"}, {}, "7", TimeRange{500'000'000, 3'000'000'001}}));
   EXPECT_EQ(info["capabilities"], json({"time", "services", "playbackControl"}));

@@ -84,18 +84,18 @@ void Hub::Remove(Client* client) {
 base::Status Hub::Receive(Client* client, std::string_view text) {
   const base::Result<foxglove::ClientMessage> message = foxglove::ParseClientMessage(text);
   if (!message) return base::Fail(message.error());
-  Take(client, *message);
+  Handle(client, *message);
   return {};
 }
 
 base::Status Hub::ReceiveBytes(Client* client, std::string_view bytes) {
   const base::Result<foxglove::ClientMessage> message = foxglove::ParseClientBytes(bytes);
   if (!message) return base::Fail(message.error());
-  Take(client, *message);
+  Handle(client, *message);
   return {};
 }
 
-void Hub::Take(Client* client, const foxglove::ClientMessage& message) {
+void Hub::Handle(Client* client, const foxglove::ClientMessage& message) {
   std::shared_ptr<Client> sender;
   {
     const base::MutexLock lock(mutex_);
@@ -111,18 +111,18 @@ void Hub::Take(Client* client, const foxglove::ClientMessage& message) {
   }
   std::visit(
       [&](const auto& content) {
-        if constexpr (requires { requests_.Take(sender, content); })
-          requests_.Take(sender, content);
-        if constexpr (requires(Views & drawn) { drawn.Take(sender, content); })
-          TakeView(sender, content);
+        if constexpr (requires { requests_.Handle(sender, content); })
+          requests_.Handle(sender, content);
+        if constexpr (requires(Views & drawn) { drawn.Handle(sender, content); })
+          HandleView(sender, content);
       },
       message);
   on_demand_();
 }
 
 template <typename Request>
-void Hub::TakeView(const std::shared_ptr<Client>& client, const Request& request) {
-  if (const auto drawn = views()) return drawn->Take(client, request);
+void Hub::HandleView(const std::shared_ptr<Client>& client, const Request& request) {
+  if (const auto drawn = views()) return drawn->Handle(client, request);
   client->SendText(
       SharedBytes(foxglove::ViewFailureText(request.id, "this server draws no views")));
 }

@@ -1,5 +1,6 @@
-// The channels of one simulation, its clients and their subscriptions. The source of the messages
-// (a simulation here, or another instance) is outside of the hub.
+// A Hub distributes the messages of one simulation to its clients. It stores the channels, the
+// clients and their subscriptions. The messages come from elsewhere: from a simulation of this
+// program, or from another instance.
 //
 // Threads  any; no call blocks. Clients are called with the hub's lock held, and must not call
 //          back.
@@ -31,13 +32,13 @@ class Hub {
   Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
       std::shared_ptr<Operations> operations = nullptr);
 
-  // Offers drawn views to later clients. Only the first call has an effect.
+  // Offers views, which the server draws, to later clients. Only the first call has an effect.
   void Offer(std::shared_ptr<Views> views);
 
   // The name of the simulation in the server info; empty: none.
   const std::string& simulation() const { return simulation_; }
 
-  // For clients.
+  // Adds a client, which gets the server info and the channels. After Close(), closes it instead.
   void Add(std::shared_ptr<Client> client,
            std::string_view subprotocol = foxglove::kSubprotocols.front());
   void Remove(Client* client);
@@ -98,10 +99,10 @@ class Hub {
     Delivery delivery = Delivery::kNewest;
   };
 
-  void Take(Client* client, const foxglove::ClientMessage& message);
+  void Handle(Client* client, const foxglove::ClientMessage& message);
 
   template <typename Request>
-  void TakeView(const std::shared_ptr<Client>& client, const Request& request);
+  void HandleView(const std::shared_ptr<Client>& client, const Request& request);
   void Apply(Member& member, const foxglove::Subscribe& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::Unsubscribe& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::WatchGraph& message) GSV_REQUIRES(mutex_);

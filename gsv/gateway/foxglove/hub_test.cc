@@ -51,11 +51,11 @@ TEST_F(HubTest, LaterClientsGetTheNewestWarnings) {
   EXPECT_EQ(texts.back()["message"], "complaint 29");
 }
 
-TEST_F(HubTest, EvenWithoutChannelsThereIsAnAdvertisement) {
+TEST_F(HubTest, SendsAnAdvertisementEvenWithoutChannels) {
   EXPECT_EQ(Join()->texts().at(1)["channels"].size(), 0u);
 }
 
-TEST_F(HubTest, OnlySubscribersGetDataEachWithItsOwnNumber) {
+TEST_F(HubTest, SendsDataToSubscribersWithTheirOwnSubscriptionIds) {
   const auto a = Advertise("/a"), b = Advertise("/b");
   const auto first = Join(), second = Join();
   ASSERT_TRUE(hub_.Receive(first.get(), SubscribeText(7, a)));
@@ -86,7 +86,7 @@ TEST_F(HubTest, AClientThatLeavesOrUnsubscribesGetsNothingMore) {
   EXPECT_EQ(demands_, 6);
 }
 
-TEST_F(HubTest, AWelcomeReachesEachNewClientOnce) {
+TEST_F(HubTest, WelcomeReachesEachNewSubscriberOnce) {
   const auto a = Advertise("/a");
   const auto old = Join();
   ASSERT_TRUE(hub_.Receive(old.get(), SubscribeText(1, a)));
@@ -104,7 +104,7 @@ TEST_F(HubTest, AWelcomeReachesEachNewClientOnce) {
   EXPECT_EQ(late->data(1)[1].payload, "second");
 }
 
-TEST_F(HubTest, ErrorsAreReportedAndDoNoHarm) {
+TEST_F(HubTest, InvalidRequestsAreReportedAndChangeNothing) {
   const auto a = Advertise("/a"), b = Advertise("/b");
   const auto client = Join();
   const auto complaint = [&] { return client->texts().back().value("message", ""); };

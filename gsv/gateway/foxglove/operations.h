@@ -1,4 +1,5 @@
-// The operations of a hub's clients besides subscriptions: services, parameters, playback control.
+// Operations is the interface for what a hub's clients can request besides subscriptions: services,
+// parameters and playback control.
 //
 // Threads  any; no call blocks. Slow operations run elsewhere and answer later.
 #pragma once
@@ -21,14 +22,14 @@ class Operations {
   virtual ~Operations() = default;
 
   virtual std::vector<foxglove::Service> services() const = 0;
-  // `answer` is called once, here or later, from any thread.
+  // Calls `answer` exactly once, before it returns or later from any thread.
   virtual void Call(const foxglove::ServiceCall& call, Answer answer) = 0;
 
   virtual std::vector<foxglove::Parameter> parameters() const = 0;
   // Fails for an unknown or fixed parameter, or an invalid value.
   virtual base::Status Set(const foxglove::Parameter& parameter) = 0;
 
-  // The state of a playback; nothing for a running simulation.
+  // Returns the state of a playback; nullopt for a running simulation.
   virtual std::optional<foxglove::PlaybackState> playback() const { return std::nullopt; }
   virtual base::Status Control(const foxglove::PlaybackControl& request);
 };

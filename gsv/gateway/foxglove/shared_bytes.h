@@ -1,4 +1,4 @@
-// Immutable bytes that several readers share.
+// SharedBytes holds immutable bytes, which copies of the object share.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The views that the server draws for the clients of a hub.
+// Views is the interface for images that the server draws for the clients of a hub.
 //
 // Threads  any; no call blocks. Images are sent later, from another thread.
 #pragma once
@@ -16,11 +16,13 @@ inline constexpr const char* kViewsCapability = "gsvViews";
 class Views {
  public:
   virtual ~Views() = default;
-  // Sends the images of a view from now on. A view with the same id gets this camera.
-  virtual void Take(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) = 0;
-  virtual void Take(const std::shared_ptr<Client>& client,
-                    const foxglove::UnwatchView& request) = 0;
-  virtual void Take(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) = 0;
+  // Starts to send the images of a view. If the client has a view with this id, its camera changes.
+  virtual void Handle(const std::shared_ptr<Client>& client,
+                      const foxglove::WatchView& request) = 0;
+  virtual void Handle(const std::shared_ptr<Client>& client,
+                      const foxglove::UnwatchView& request) = 0;
+  virtual void Handle(const std::shared_ptr<Client>& client,
+                      const foxglove::ViewShown& request) = 0;
   // Ends all views of a client.
   virtual void Forget(Client* client) = 0;
 };

@@ -1,6 +1,6 @@
-// Any messages from a viewer to the hub of a simulation, one per line: texts, or binary messages if
-// the line begins with a tab ('\\' and 'n' in it are escaped as \\ and \n). Also any messages from
-// another instance to its relay.
+// Fuzz test: passes each line of the input to the hub of a simulation as a viewer's message. A line
+// that begins with a tab is a binary message, in which \\ and
+// are escapes. The lines are also passed to a relay, as messages of the other instance.
 #include <atomic>
 #include <cstdint>
 #include <set>

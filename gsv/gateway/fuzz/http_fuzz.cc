@@ -1,5 +1,5 @@
-// Takes any bytes as a method, a target and, after a newline, a body, for the API of a simulation
-// and the parsers of a replay's API.
+// Fuzz test: takes the input as an HTTP method, a target and, after a newline, a body. Passes them
+// to the API of a simulation and to the parsers of a replay's API.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

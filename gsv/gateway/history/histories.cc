@@ -56,7 +56,7 @@ bool Histories::Round() {
   for (const SimulationPointer& simulation : simulations) {
     const bool is_watched = is_watched_(simulation);
     is_any_watched = is_any_watched || is_watched;
-    Of(simulation)->Round(now, is_watched);
+    Of(simulation)->SampleIfDue(now, is_watched);
   }
   std::vector<Entry> gone;  // these entries are destroyed after the lock was released
   const base::MutexLock lock(mutex_);

@@ -1,4 +1,4 @@
-// Keeps the last minutes of every simulation of this program (see RunHistory).
+// Histories keeps the last minutes of every simulation of this program (see RunHistory).
 //
 // Threads  any; its own thread samples the simulations.
 #pragma once
@@ -25,7 +25,7 @@ class Histories {
             IsWatched is_watched);
   ~Histories() { Stop(); }
 
-  // Returns the history of a simulation. It begins at the latest with this call.
+  // Returns the history of a simulation. Starts it if there is none yet.
   std::shared_ptr<recording::RunHistory> Of(const SimulationPointer& simulation);
 
   // Ends the thread.

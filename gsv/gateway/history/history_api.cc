@@ -39,8 +39,8 @@ base::Result<base::SimTime> FromTime(const Request& request) {
                     "'from_s' must be a time in simulated seconds, from 0 on");
 }
 
-// Returns the newest events and notes and the collisions of the history, ordered by time. Only
-// those that happened, or were noted, at `from` or later.
+// Returns the newest events and notes, and the collisions of the history, ordered by time. Leaves
+// out those that happened, or were noted, before `from`.
 std::vector<RecordedEvent> EventsOf(const simulation::Simulation& simulation,
                                     const std::vector<recording::Collision>& collisions,
                                     base::SimTime from) {

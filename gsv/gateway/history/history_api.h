@@ -1,5 +1,5 @@
-// The part of the HTTP API about the past of running simulations: what is kept, a replay of it, the
-// events so far, and notes of viewers.
+// HistoryApi is the part of the HTTP API about the past of running simulations: the time range that
+// is kept, its replay, the events so far, and the notes of viewers.
 //
 // Threads  any.
 #pragma once

@@ -68,7 +68,7 @@ TEST_F(HistoryApiTest, OpensThePastAsAReplayWhileTheRunContinues) {
   EXPECT_EQ(json::parse(Get(kSimulation).body)["time_s"], 2.0);
   EXPECT_EQ(Post(past + "api/simulations/simulation/seek", R"({"time_s": 0.5})").status, 200);
   EXPECT_EQ(json::parse(Get(kSimulation).body)["time_s"], 2.0);
-  // The models of the past are those of the simulation.
+  // The replay of the past has the same models as the simulation.
   const json scene = json::parse(Get(past + "api/simulations/simulation/scene").body);
   ASSERT_EQ(scene["bodies"].size(), 2u);
   const std::string model = scene["bodies"][0]["model"];
@@ -103,7 +103,7 @@ TEST_F(HistoryApiTest, EventsIncludeCollisionsAndNotes) {
   EXPECT_EQ(Get(kSimulation + "/events?from_s=-1").status, 400);
   EXPECT_EQ(collision["detail"], "robot touches wall");
   EXPECT_EQ(note["detail"], "Ada: slow here");
-  // The past has the same marks.
+  // The replay of the past has the same events.
   const std::string past =
       "/" + json::parse(Post(kSimulation + "/history").body)["base"].get<std::string>();
   std::set<std::string> kinds;

@@ -1,4 +1,5 @@
-// The body of a response that is sent part by part, until the client or the server ends it.
+// A BodyStream is the body of a response that is sent part by part, until the client or the server
+// ends it.
 #pragma once
 
 #include <functional>
@@ -11,8 +12,8 @@ namespace gsv::gateway {
 class BodyStream {
  public:
   virtual ~BodyStream() = default;
-  // Calls `take` once with the next part, from any thread, now or later; nothing at the end. It is
-  // called again when that part has been sent, so that a slow client gets fewer parts.
+  // Calls `take` once with the next part, from any thread, now or later. nullopt ends the body. The
+  // server calls Next() again when that part has been sent, so a slow client gets fewer parts.
   virtual void Next(std::function<void(std::optional<SharedBytes>)> take) = 0;
 };
 

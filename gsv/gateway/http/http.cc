@@ -54,7 +54,7 @@ Response ErrorResponse(const base::Error& error) {
 }
 
 Response MethodNotAllowed(std::string allow) {
-  Response response = ErrorResponse(405, "the body of this request must be only " + allow);
+  Response response = ErrorResponse(405, "this address accepts only the methods " + allow);
   response.allow = std::move(allow);
   return response;
 }

@@ -43,8 +43,8 @@ struct Response {
   bool allows_own_frames = false;
   // Whether pages of other sites may embed the response, as an image.
   bool allows_other_sites = false;
-  std::vector<std::pair<std::string, std::string>> headers{};  // further ones
-  // Follows the header instead of `body`, and ends the connection; null: none.
+  std::vector<std::pair<std::string, std::string>> headers{};  // further headers
+  // Sent instead of `body`. The connection is closed at its end. null: send `body`.
   std::shared_ptr<BodyStream> stream{};
 };
 

@@ -1,4 +1,4 @@
-// The description of the HTTP API, docs/api.yaml, from the time of the build.
+// Serves the description of the HTTP API: docs/api.yaml as it was when gsv was built.
 #pragma once
 
 #include <string_view>

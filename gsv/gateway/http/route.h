@@ -42,13 +42,14 @@ struct Route {
   bool takes_file = false;
   // Returns the hub of WebSockets at this address; null if there are none.
   FindHub find_hub{};
-  // Answers later, instead of `handler`. The server's thread calls it, and it returns at once.
+  // Used instead of `handler` for responses that come later. The server's thread calls it, so it
+  // must return at once.
   std::function<void(const Request&, const Respond&)> later{};
   // Whether the query may have the token, as for a WebSocket: an image in a page has no headers.
   bool accepts_token_in_query = false;
 };
 
-// A route for WebSockets. Plain requests are answered with 426.
+// Returns a route for WebSockets. Plain requests are answered with 426.
 Route SocketRoute(std::string pattern, bool needs_control, Route::FindHub find_hub,
                   std::string summary);
 

@@ -24,7 +24,7 @@ std::vector<std::string_view> SegmentsOf(std::string_view pattern) {
 
 }  // namespace
 
-// The routes whose paths begin with the same segments.
+// A node of the tree of routes. It has the routes whose paths begin with the same segments.
 struct Router::Node {
   // Finds or makes the child node.
   Node* Child(std::string_view segment_of_pattern);

@@ -1,4 +1,4 @@
-// Finds the route of a request.
+// A Router finds the route of a request by its method and path.
 //
 // At each segment, literals precede parameters, and parameters precede "{path...}", without
 // backtracking. So a path that begins like another route is not matched by a "{path...}" at the
@@ -47,7 +47,7 @@ class Router {
   const std::unique_ptr<Node> root_;
 };
 
-// The response to a request without a route: 405 or 404.
+// Returns the response to a request without a route: 405 or 404.
 Response NoRoute(const Router::Match& match);
 
 }  // namespace gsv::gateway

@@ -31,7 +31,7 @@ std::string PatternOf(const char* method, const char* target) {
   return match.route == nullptr ? "" : match.route->pattern;
 }
 
-TEST(Router, PrefersLiteralsToParametersAndThoseToTheRest) {
+TEST(Router, PrefersLiteralsThenParametersThenTheRest) {
   EXPECT_EQ(PatternOf("GET", "/"), "/");
   EXPECT_EQ(PatternOf("GET", "/index.html"), "/{path...}");
   EXPECT_EQ(PatternOf("GET", "/assets/a/b.js"), "/{path...}");

@@ -43,7 +43,8 @@ bool LiesUnder(const fs::path& file, const fs::path& root) {
   return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
 }
 
-// The file that the segments name under `root`; nothing if there is none, or it is outside.
+// Returns the path of a file below `root`; nullopt if there is no such file, or if it is outside
+// `root`.
 std::optional<fs::path> Resolve(const fs::path& root, const std::vector<std::string>& segments) {
   fs::path path = root;
   for (const std::string& segment : segments) {

@@ -23,12 +23,12 @@ class StaticFiles {
   Response Get(const Request& request) const;
 
   // Returns the file of the segments below the root, or 304 if `if_none_match` names its entity
-  // tag. Without segments: index.html. Empty where Get() answers 404.
+  // tag. Without segments: index.html. nullopt if Get() answers 404.
   std::optional<Response> Find(const std::vector<std::string>& segments,
                                const std::string& if_none_match) const;
 
-  // The routes need no permission: the files are public, and the page asks for the token. The
-  // handlers are valid during the lifetime of this object.
+  // Returns the routes. They need no permission: the files are public, and the page asks for the
+  // token. The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes() const;
 
  private:
@@ -47,7 +47,8 @@ class Documentation {
   // "/docs/" is index.html, and "/docs" redirects to it. Returns 404 like StaticFiles.
   Response Get(const Request& request) const;
 
-  // The routes need no permission. The handlers are valid during the lifetime of this object.
+  // Returns the routes, which need no permission. The handlers are valid during the lifetime of
+  // this object.
   std::vector<Route> Routes() const;
 
  private:

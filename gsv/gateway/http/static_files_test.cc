@@ -33,7 +33,7 @@ class StaticFilesTest : public ::testing::Test {
   const fs::path place_ = folder_.path();
 };
 
-TEST_F(StaticFilesTest, RootIsTheIndexAndIsCheckedEachTime) {
+TEST_F(StaticFilesTest, ServesIndexHtmlAtTheRootAndChecksItEachTime) {
   const Response response = Get("/");
   EXPECT_EQ(response.status, 200);
   EXPECT_EQ(response.body.view(), "<p>viewer");
@@ -71,7 +71,7 @@ TEST_F(StaticFilesTest, NothingOutsideTheRootIsServed) {
   }
 }
 
-TEST_F(StaticFilesTest, AnAbsentRootIsExplained) {
+TEST_F(StaticFilesTest, ExplainsHowToInstallAMissingViewer) {
   Request request;
   request.target = ParseTarget("/").value();
   const Response response = StaticFiles(place_ / "a<b").Get(request);
@@ -106,21 +106,21 @@ TEST_F(DocumentationTest, ServesThePagesOfItsFolder) {
   EXPECT_EQ(Get("/docs/..%2fsecret.txt").status, 404);
 }
 
-TEST_F(DocumentationTest, TheAddressWithoutASlashRedirectsToTheOneWithIt) {
+TEST_F(DocumentationTest, RedirectsToTheAddressWithASlash) {
   folder_.Write("docs/index.html", "<p>start");
   const Response response = Get("/docs");
   EXPECT_EQ(response.status, 200);
   EXPECT_NE(response.body.view().find("url=docs/"), std::string_view::npos);
 }
 
-TEST_F(DocumentationTest, AnAbsentFolderIsExplained) {
+TEST_F(DocumentationTest, ExplainsHowToBuildMissingDocumentation) {
   const Response response = Get("/docs/");
   EXPECT_EQ(response.status, 404);
   EXPECT_EQ(response.content_type, "text/html; charset=utf-8");
   EXPECT_NE(response.body.view().find("make docs"), std::string_view::npos);
 }
 
-TEST(ContentTypeOf, KnowsTheViewersFiles) {
+TEST(ContentTypeOf, ReturnsTheTypesOfTheViewersFiles) {
   EXPECT_EQ(ContentTypeOf("a/b.PNG"), "image/png");
   EXPECT_EQ(ContentTypeOf("x.wasm"), "application/wasm");
   EXPECT_EQ(ContentTypeOf("x.glb"), "model/gltf-binary");

@@ -10,8 +10,8 @@
 
 namespace gsv::gateway {
 
-// "/api/simulations/a%20b?x=1" is {"api", "simulations", "a b"} and {"x": "1"}. Segments may hold
-// any byte, '/' and ".." included: code that uses them as file names must check them.
+// "/api/simulations/a%20b?x=1" is {"api", "simulations", "a b"} and {"x": "1"}. Segments may
+// contain any bytes, also '/' and "..", so code that uses them as file names must check them.
 struct Target {
   std::vector<std::string> segments;  // "/" has no segments; a '/' at the end adds none
   std::map<std::string, std::string> query;
@@ -20,7 +20,7 @@ struct Target {
 // Fails if the target does not begin with '/', is too long, or has a malformed escape.
 base::Result<Target> ParseTarget(std::string_view target);
 
-// The inverse for one segment or query value: all characters except unreserved ones become %XX.
+// Escapes one segment or query value: all characters except unreserved ones become %XX.
 std::string Escape(std::string_view text);
 
 }  // namespace gsv::gateway

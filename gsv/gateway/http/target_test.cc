@@ -43,7 +43,7 @@ TEST(Target, HasAtMost4096Bytes) {
   EXPECT_FALSE(ParseTarget("/" + std::string(4096, 'a')));
 }
 
-TEST(Target, EscapeIsUndoneByParse) {
+TEST(Target, ParseReversesEscape) {
   std::string all;
   for (int c = 0; c < 256; ++c) all += static_cast<char>(c);
   const auto target = ParseTarget("/" + Escape(all) + "?q=" + Escape(all));

@@ -15,7 +15,8 @@ using simulation::ArgumentValue;
 using simulation::Command;
 using simulation::ParameterType;
 
-// The encapsulation header, and the octet that ROS 2 writes for an empty message.
+// Maximum size in bytes of an empty request: CDR's encapsulation header, and the octet that ROS 2
+// writes for an empty message.
 constexpr std::size_t kMaxEmptyBytes = 8;
 
 constexpr const char* kResponse = "bool success\nstring message\n";

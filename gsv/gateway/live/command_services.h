@@ -1,5 +1,6 @@
-// Commands as services of the Foxglove protocol: /gsv/NAME. A command without parameters has the
-// type std_srvs/srv/Trigger, others gsv_msgs/srv/NAME with a field per parameter.
+// CommandServices offers commands as services of the Foxglove protocol: /gsv/NAME. A command
+// without parameters has the type std_srvs/srv/Trigger. Others have the type gsv_msgs/srv/NAME,
+// with a field per parameter.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -27,16 +28,16 @@ class CommandServices {
 
   std::vector<foxglove::Service> list() const;
 
-  // Prepares a call as a function to run once, which may block. Its response has the success of the
-  // command. Fails for an unknown service or an invalid request. A field outside its parameter's
-  // range means the default: 0 for a count, NaN, an empty text.
+  // Returns a function that carries out the call. Run it once; it may block. Fails for an unknown
+  // service or an invalid request. Fields cannot be left out, so a value outside of its parameter's
+  // range means the default: for example 0 for a count, NaN, or an empty text.
   base::Result<std::function<Response()>> Prepare(const foxglove::ServiceCall& call) const;
 
  private:
   const std::vector<Service> services_;
 };
 
-// The message of a response without text.
+// Returns an empty message for a response, or the error.
 inline base::Result<std::string> NoMessage(const base::Status& done) {
   if (!done) return base::Fail(done.error());
   return std::string();

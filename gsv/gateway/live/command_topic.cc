@@ -8,7 +8,8 @@
 namespace gsv::gateway {
 namespace {
 
-// This leaves space for other data in a viewer's queue, even with a crowd of robots.
+// Maximum number of messages per round. It leaves space for other data in a viewer's queue, even
+// with a crowd of robots.
 constexpr int kMaxPerRound = 64;
 
 }  // namespace

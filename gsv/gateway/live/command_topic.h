@@ -1,8 +1,9 @@
-// The live topic /gsv/commands: a message per robot at each change of its command.
+// CommandTopic publishes the live topic /gsv/commands: a message when the drive command of a robot
+// changes.
 //
-// Bounded  the number of messages per round; for a robot with several changes, the newest command
-//          is sent.
-// Threads  one thread.
+// Bounded  the number of messages per call of Publish(). If a robot's command changes several times
+//          in between, only the newest is sent.
+// Threads  Publish() from one thread.
 #pragma once
 
 #include <memory>
@@ -18,8 +19,8 @@ class CommandTopic {
   // Advertises the topic.
   explicit CommandTopic(std::shared_ptr<Hub> hub);
 
-  // Publishes changes in this snapshot, if there are subscribers. With a new subscriber, all
-  // commands are sent again to all.
+  // Publishes changes in this snapshot, if there are subscribers. If a subscriber is new, all
+  // commands are sent to all subscribers again.
   void Publish(const world::Snapshot& snapshot);
 
  private:
@@ -29,7 +30,7 @@ class CommandTopic {
   foxglove::ChannelId channel_ = 0;
   std::shared_ptr<const world::Layout> layout_;
   std::vector<world::DriveState> sent_;  // the command that was last sent, for each body of layout_
-  std::size_t next_ = 0;                 // index of the first body of the next round
+  std::size_t next_ = 0;                 // index of the first body of the next Publish()
 };
 
 }  // namespace gsv::gateway

@@ -1,6 +1,6 @@
-// The live topics of events: /gsv/events, /rosout as a log for ROS tools, /gsv/notes with the notes
-// of viewers, and /gsv/output with the lines that behaviours' programs print. New subscribers get
-// the newest earlier events.
+// EventTopics publishes the live topics of events: /gsv/events, /rosout as a log for ROS tools,
+// /gsv/notes with the notes of viewers, and /gsv/output with the lines that behaviours' programs
+// print. New subscribers get the newest earlier events.
 //
 // Threads  Publish() from one thread.
 #pragma once
@@ -33,7 +33,7 @@ class EventTopics {
     std::vector<simulation::Event> (simulation::Simulation::*since)(std::uint64_t first) const;
     std::uint64_t simulation::SimulationStatus::*count;
     std::vector<Topic> topics;
-    std::uint64_t next = 0;  // number of the first event that was not published yet
+    std::uint64_t next = 0;  // number of the next event to publish
   };
   static std::vector<simulation::Event> TakeNew(const simulation::Simulation& simulation,
                                                 Source& source);

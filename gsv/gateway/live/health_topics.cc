@@ -44,9 +44,9 @@ bool HealthTopics::IsDue(const Topic& topic, WallTime now) const {
 }
 
 void HealthTopics::PublishHealth(simulation::Simulation& simulation, WallTime now) {
-  auto message = presentation::HealthMessage(book_.Update(
+  auto message = presentation::HealthMessage(tracker_.Update(
       simulation.status(), simulation.specification().stuck_after, health::SensorsOf(simulation)));
-  const bool is_news = !health_.latest || presentation::IsNews(message, health_sent_);
+  const bool is_news = !health_.latest || presentation::NeedsSending(message, health_sent_);
   const base::SimTime time = messages::ToSimTime(message.stamp);
   Send(health_, is_news, time, Encoded(message), now);
   if (is_news) health_sent_ = std::move(message);

@@ -1,5 +1,5 @@
-// The live topics /gsv/health and /gsv/expectations: at each change, at most twice per second, for
-// subscribers only.
+// HealthTopics publishes the live topics /gsv/health and /gsv/expectations: at each change, at most
+// twice per second, and only if there are subscribers.
 //
 // Threads  Publish() from one thread.
 #pragma once
@@ -9,7 +9,7 @@
 
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/pacing.h"
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/simulation/simulation.h"
 
@@ -36,7 +36,7 @@ class HealthTopics {
 
   const std::shared_ptr<Hub> hub_;
   Topic health_, expectations_;
-  health::HealthBook book_;
+  health::HealthTracker tracker_;
   messages::gsv_msgs::Health health_sent_;
   messages::gsv_msgs::Expectations expectations_sent_;
 };

@@ -45,7 +45,7 @@ TEST_F(LiveStreamTest, HealthIsSentAtEachChangeTwicePerSecondAtMost) {
   EXPECT_TRUE(has_robot);
 }
 
-TEST_F(LiveStreamTest, OutputHasATopicOfItsOwn) {
+TEST_F(LiveStreamTest, OutputOfBehavioursHasItsOwnTopic) {
   simulation_->Emit("stderr", "robot_0", "ValueError: too far");
   Subscribe(1, "/gsv/output");
   Subscribe(2, "/gsv/events");

@@ -17,7 +17,7 @@ base::Result<std::string> Gone() {
   return base::Fail(base::ErrorCode::kEnded, "the simulation was removed");
 }
 
-// Returns the path of the recording.
+// Starts or stops the recording, and returns its path.
 base::Result<std::string> Record(const std::shared_ptr<Simulation>& simulation,
                                  RecordingSwitch& recordings, bool begins) {
   const std::string& name = simulation->specification().name;

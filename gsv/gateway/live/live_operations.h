@@ -1,5 +1,5 @@
-// The operations of viewers of a running simulation: commands and recording as services, the
-// specification and the target real-time factor as parameters.
+// LiveOperations offers the operations on a running simulation to its viewers. Commands and
+// recording are services. The specification and the target real-time factor are parameters.
 //
 // Threads  any.
 #pragma once

@@ -13,7 +13,7 @@ namespace {
 
 using testing::ScriptedSimulation;
 
-// Stores its commands; it has one recording, /tmp/arena.mcap.
+// Starts and stops a single recording, whose path is /tmp/arena.mcap.
 class OneRecording final : public RecordingSwitch {
  public:
   Totals totals() override { return {}; }
@@ -87,7 +87,7 @@ class LiveOperationsTest : public ::testing::Test {
       std::make_shared<ScriptedSimulation>("arena", 1);
 };
 
-TEST_F(LiveOperationsTest, TheFactorCanBeSet) {
+TEST_F(LiveOperationsTest, SetsTheRealTimeFactor) {
   LiveOperations operations(simulation_, workers_, nullptr);
   EXPECT_EQ(ValueOf(operations, "/gsv/gravity_z_m_s2"), foxglove::ParameterValue(-9.8));
   EXPECT_EQ(ValueOf(operations, "/gsv/real_time_factor"), foxglove::ParameterValue(1.0));
@@ -112,7 +112,7 @@ TEST_F(LiveOperationsTest, AnInvalidParameterIsRefusedWithASentence) {
   EXPECT_EQ(Refusal(operations, {"/gsv/factor", 1.0}), "the simulation was removed");
 }
 
-TEST_F(LiveOperationsTest, ARecordingIsSwitchedOnAndOff) {
+TEST_F(LiveOperationsTest, StartsAndStopsARecording) {
   LiveOperations operations(simulation_, workers_, &recordings_);
   EXPECT_EQ(ValueOf(operations, "/gsv/recording"), foxglove::ParameterValue(false));
   const Reply started = Call(operations, "/gsv/start_recording");

@@ -50,7 +50,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
   snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;
   snapshot_topics_[3].encode = &LiveStream::EncodePackedPoses;
   snapshot_topics_[3].rate = kPackedPosesRate;
-  snapshot_topics_[3].lowest_rate = kMinPackedPosesRate;
+  snapshot_topics_[3].min_rate = kMinPackedPosesRate;
   for (std::size_t i = 0; i < channels.size(); ++i) snapshot_topics_[i].channel = channels[i];
   sensors_ = std::make_shared<SensorTopics>(hub_, watchers);
 }
@@ -108,7 +108,7 @@ void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, 
 
 double LiveStream::RateFor(const SnapshotTopic& topic) {
   const double size = static_cast<double>(std::max<std::size_t>(1, topic.latest.payload.size()));
-  const double lowest = std::min(topic.lowest_rate, topic.rate);
+  const double lowest = std::min(topic.min_rate, topic.rate);
   return std::clamp(kMaxPackedBytesPerSecond / size, lowest, topic.rate);
 }
 

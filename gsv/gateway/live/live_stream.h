@@ -1,4 +1,4 @@
-// The live stream of one simulation: polls it and publishes changes to its hub.
+// A LiveStream polls one simulation and publishes its changes to a hub.
 //
 // Threads  Round() from the publisher's thread; the others from any.
 #pragma once
@@ -34,16 +34,16 @@ inline constexpr double kPublishRate = 30;
 
 class LiveStream {
  public:
-  // Keeps the simulation alive only during rounds and readings. `on_demand`: see Hub. Readings run
-  // on `watchers`, commands on `commanders`. `recordings` may be null: then viewers cannot record.
-  // `registry`: see ViewersTopic.
+  // Keeps the simulation alive only during Round() and while sensors are read. `on_demand`: see
+  // Hub. Sensors are read on `watchers`, commands run on `commanders`. `recordings` may be null:
+  // then viewers cannot record. `registry`: see ViewersTopic.
   LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& watchers,
              WorkerPool& commanders, RecordingSwitch* recordings, std::function<void()> on_demand,
              access::ViewerRegistry* registry = nullptr);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
-  // See SensorTopics. From any thread.
+  // See SensorTopics::Want(). Any thread may call it.
   void WantSensorsOf(const std::string& robot) { sensors_->Want(robot); }
 
   // Publishes the messages that are due. Encodes only topics that have subscribers.
@@ -52,12 +52,12 @@ class LiveStream {
  private:
   using SnapshotPointer = std::shared_ptr<const world::Snapshot>;
 
-  // A channel with a function of the latest snapshot.
+  // A channel whose messages are encoded from the latest snapshot.
   struct SnapshotTopic {
     foxglove::ChannelId channel = 0;
     SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
     double rate = kPublishRate;
-    double lowest_rate = kPublishRate;  // if bytes per second limit the rate
+    double min_rate = kPublishRate;  // minimum rate in Hz if bytes per second limit it
     Pacing pacing{rate};
     std::weak_ptr<const world::Snapshot> published;
     Hub::Message latest;

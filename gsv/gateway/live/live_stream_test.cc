@@ -25,7 +25,7 @@ using testing::Decoded;
 using testing::LiveStreamTest;
 using testing::RecordingClient;
 
-TEST_F(LiveStreamTest, AdvertisesTheTopicsThatTheTableCallsLive) {
+TEST_F(LiveStreamTest, AdvertisesTheLiveTopicsOfTheTopicTable) {
   for (const presentation::Topic& topic : presentation::Topics()) {
     // The viewers topic exists only if viewers can hold control.
     const bool is_there = topic.is_live && topic.name != presentation::topics::kViewers.name;
@@ -186,7 +186,7 @@ TEST_F(LiveStreamTest, EventsReachEachViewerOnceAndLateViewersFromTheBeginning) 
   }
 }
 
-TEST_F(LiveStreamTest, EventsAreALogForOtherTools) {
+TEST_F(LiveStreamTest, PublishesEventsAsALogForRosTools) {
   simulation_->AddEvent("one");
   Subscribe(1, "/rosout");
   Round();
@@ -216,7 +216,7 @@ TEST_F(LiveStreamTest, DiagnosticsAreSentOncePerSecondAndWithAChangeOfPhase) {
   EXPECT_EQ(diagnostics.status[0].message, "running");
 }
 
-TEST_F(LiveStreamTest, TransformsAreAgainstTheWorldAndTheRobot) {
+TEST_F(LiveStreamTest, TransformsAreRelativeToTheWorldOrTheRobot) {
   simulation_->Advance(seconds(2));
   Subscribe(1, "/tf");
   Round();

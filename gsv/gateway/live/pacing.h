@@ -1,4 +1,4 @@
-// Limits the rate of sending, evenly and independent of the jitter of the caller.
+// Pacing limits the rate of messages to a mean rate, even if the caller polls irregularly.
 #pragma once
 
 #include <chrono>
@@ -17,9 +17,10 @@ class Pacing {
     interval_ = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
   }
 
-  // Whether it is time to send. A slightly early call counts as on time, so that jitter does not
-  // skip a round. The mean rate does not exceed the given rate.
+  // Returns whether it is time to send. A slightly early call counts as on time, so that jitter
+  // does not skip a message. The mean rate does not exceed the given rate.
   bool IsDue(WallTime now) const { return now + interval_ / 4 >= next_; }
+  // Call this after each sent message.
   void Done(WallTime now) { next_ = (now - next_ > interval_ ? now : next_) + interval_; }
 
  private:

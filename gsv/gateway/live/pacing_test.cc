@@ -19,13 +19,13 @@ int CountIn(std::chrono::seconds length, microseconds round, WallTime start) {
   return count;
 }
 
-TEST(Pacing, KeepsItsMeanRateForAnyPolling) {
+TEST(Pacing, KeepsTheMeanRateForAnyPollingRate) {
   const WallTime start = WallTime{} + std::chrono::hours(5);
   for (const microseconds round :
        {microseconds(1000), microseconds(33'333), microseconds(99'999)}) {
     EXPECT_NEAR(CountIn(std::chrono::seconds(10), round, start), 100, 1) << round.count();
   }
-  // Rounds that are slower than the rate are all used.
+  // If the calls are less frequent than the rate, every call may send.
   EXPECT_EQ(CountIn(std::chrono::seconds(10), milliseconds(250), start), 40);
 }
 

@@ -21,7 +21,7 @@ using testing::LiveStreamTest;
 
 using Rotation = std::array<double, 4>;  // the four numbers x y z w
 
-// Unpacks a rotation as the definition of the message describes it.
+// Unpacks a rotation as the comments of the message's definition describe it.
 Rotation Unpacked(const std::uint16_t* numbers) {
   const int missing = 2 * (numbers[0] >> 15) + (numbers[1] >> 15);
   Rotation rotation{};
@@ -41,7 +41,7 @@ double AngleBetween(const Rotation& a, const double* b) {
   return 2 * std::acos(std::min(1.0, std::abs(dot)));
 }
 
-TEST_F(LiveStreamTest, PackedPosesAreThePosesRounded) {
+TEST_F(LiveStreamTest, PackedPosesEqualThePosesUpToRounding) {
   Subscribe(1, "/gsv/poses");
   Subscribe(2, "/gsv/packed_poses");
   // The angles cover the whole circle, so that z and w each are the largest component, with both
@@ -77,7 +77,7 @@ TEST_F(LiveStreamTest, PackedPosesAreSentAtMostTwentyTimesPerSecond) {
   EXPECT_LE(client_->data(1).size(), 21u);
 }
 
-TEST_F(LiveStreamTest, PackedPosesOfACrowdStayBelowALimitOfBytes) {
+TEST_F(LiveStreamTest, PackedPosesOfACrowdStayBelowTheByteLimit) {
   for (int i = 0; i < 500; ++i) simulation_->AddOneRobot();
   Round();
   Subscribe(1, "/gsv/packed_poses");

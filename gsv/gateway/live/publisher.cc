@@ -62,7 +62,7 @@ void Publisher::Stop() {
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
   for (const Entry& entry : Entries()) {
-    // A last round, so that viewers learn how the run ended, even if it has just ended.
+    // Publish once more, so that viewers get the final state of a run that has just ended.
     const std::shared_ptr<simulation::Simulation> simulation = entry.simulation.lock();
     if (simulation) entry.stream->Round(simulation, std::chrono::steady_clock::now());
     entry.stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");

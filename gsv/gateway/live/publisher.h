@@ -1,5 +1,5 @@
-// The publishing thread: runs all streams with clients at the publish rate, and at once after a
-// subscription. It sleeps without viewers.
+// A Publisher is the thread that runs all live streams with clients at the publish rate, and at
+// once after a subscription. It sleeps while there are no viewers.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ namespace gsv::gateway {
 
 class Publisher {
  public:
-  // Readings run on `watchers`, commands on `commanders`. Both, and `recordings` and `registry`,
-  // which may be null, must outlive the publisher and its streams.
+  // Sensors are read on `watchers`, commands run on `commanders`. `recordings` and `registry` may
+  // be null. All four must outlive the publisher and its streams.
   Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
             WorkerPool& commanders, RecordingSwitch* recordings,
             access::ViewerRegistry* registry = nullptr);
@@ -24,7 +24,7 @@ class Publisher {
 
   // Returns the hub of a simulation, which is created at the first call.
   std::shared_ptr<Hub> HubOf(const std::shared_ptr<simulation::Simulation>& simulation);
-  // See SensorTopics.
+  // See SensorTopics::Want().
   void WantSensorsOf(const std::shared_ptr<simulation::Simulation>& simulation,
                      const std::string& robot);
 
@@ -44,7 +44,7 @@ class Publisher {
   std::shared_ptr<LiveStream> StreamOf(const std::shared_ptr<simulation::Simulation>& simulation);
   void Run();
   void Wake();
-  // Runs all streams. Returns false if there are no viewers.
+  // Runs each stream with clients once. Returns false if there are no viewers.
   bool Round();
   // Closes streams whose simulation is no longer in the directory.
   void DropEnded();

@@ -24,12 +24,12 @@ struct RobotBeams::Robot {
   presentation::BeamMarkers markers;  // used only by the job
 };
 
-std::set<std::string> RobotBeams::Heard() const {
-  std::set<std::string> heard;
+std::set<std::string> RobotBeams::SubscribedRobots() const {
+  std::set<std::string> robots;
   for (const auto& [name, robot] : robots_) {
-    if (hub_->IsSubscribed(robot->channel)) heard.insert(name);
+    if (hub_->IsSubscribed(robot->channel)) robots.insert(name);
   }
-  return heard;
+  return robots;
 }
 
 void RobotBeams::Refresh(const Sources& sources) {
@@ -80,7 +80,7 @@ void RobotBeams::Publish(const std::shared_ptr<simulation::Simulation>& simulati
     robot->is_busy = false;
   };
   if (!workers_.Submit(take)) {
-    robot->is_busy = false;  // the workers are late: the next round tries again
+    robot->is_busy = false;  // the workers are busy; the next call tries again
     return;
   }
   robot->published = snapshot;

@@ -1,8 +1,9 @@
-// The live topics /gsv/beams/ROBOT: the beams of one robot, while /gsv/beams has the beams of all.
-// The topic exists only for robots whose topics were requested (WantedRobots). A viewer of a crowd
-// draws only the beams of the selected robot, which are a small part of /gsv/beams.
+// RobotBeams publishes the live topics /gsv/beams/ROBOT: the sensor beams of one robot. (/gsv/beams
+// has the beams of all robots.) Only robots whose topics were requested have this topic
+// (WantedRobots). A viewer of a crowd draws only the beams of the selected robot, which are a small
+// part of /gsv/beams.
 //
-// Threads  one thread. Readings are taken by workers.
+// Threads  one thread. Worker threads read the sensors.
 #pragma once
 
 #include <map>
@@ -33,13 +34,13 @@ class RobotBeams {
   RobotBeams(std::shared_ptr<Hub> hub, WorkerPool& workers)
       : hub_(std::move(hub)), workers_(workers) {}
 
-  // The robots whose beams have subscribers.
-  std::set<std::string> Heard() const;
+  // Returns the robots whose beams have subscribers.
+  std::set<std::string> SubscribedRobots() const;
 
   // Adds a topic for each of these robots. The topics of earlier robots are kept.
   void Refresh(const Sources& sources);
 
-  // Takes the beams that have subscribers and are due.
+  // Starts to read the beams that have subscribers and are due.
   void Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
 

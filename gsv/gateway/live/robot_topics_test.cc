@@ -88,7 +88,7 @@ TEST_F(LiveStreamTest, TheNewestOfManyContactsAreSent) {
   EXPECT_EQ(client_->data(1).back().time_ns, 1'000'000'000u);
 }
 
-TEST_F(LiveStreamTest, ACrowdsCommandsAreSpreadOverRounds) {
+TEST_F(LiveStreamTest, CommandsOfACrowdAreSpreadOverSeveralRounds) {
   for (int i = 1; i < 100; ++i) simulation_->AddOneRobot();
   simulation_->Advance(seconds(1));
   for (int i = 0; i < 100; ++i) {

@@ -16,9 +16,9 @@ namespace {
 constexpr double kBeamsRate = 15;  // Hz
 constexpr double kReadingsRate = 15;
 constexpr double kImagesRate = 5;
-// Sensors that take long, such as an image of a thousand robots, are read so rarely that they use a
-// tenth of the processors' time. Viewers must not slow down the simulation, nor the page that shows
-// it on the same machine.
+// Slow sensors, such as a camera that sees a thousand robots, are read less often. So they use at
+// most a tenth of the processors' time. Viewers must not slow down the simulation, nor the page
+// that shows it on the same machine.
 constexpr int kShareOfProcessors = 10;
 
 }  // namespace
@@ -40,9 +40,10 @@ struct SensorTopics::Sensor {
   const model::SensorDescription description;
   const sensing::SensorType* const type;
   const sensing::SensorMessages messages;
-  const Made made;  // writes the sensor's messages
+  const Made made;  // encodes the sensor's messages
   std::string frame() const { return presentation::FrameOf(robot, description.name); }
-  // Whether the companion is read with the sensor, rather than sent once to each new subscriber.
+  // Whether each reading also has a message of the companion topic. If not, each new subscriber
+  // gets one companion message.
   bool has_companion_of_readings() const {
     return messages.companion && messages.companion->of_readings;
   }
@@ -73,11 +74,11 @@ SensorTopics::SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers)
 }
 
 void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot) {
-  Sensors found = Found(simulation, *snapshot.layout);
+  Sensors found = ListSensors(simulation, *snapshot.layout);
   const bool has_requests = wanted_.TakeRequests();
   if (found == sensors_ && !has_requests) return;
   Withdraw(found);
-  EvictUnheard(found);
+  EvictUnsubscribed(found);
   Advertise(found);
   sensors_ = std::move(found);
   SensorList with_beams;
@@ -106,8 +107,8 @@ RobotBeams::Sources SensorTopics::WantedBeams() const {
 }
 
 // Returns the sensors that exist now. A sensor that existed before keeps its state.
-SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
-                                          const world::Layout& layout) {
+SensorTopics::Sensors SensorTopics::ListSensors(simulation::Simulation& simulation,
+                                                const world::Layout& layout) {
   if (!made_) made_.emplace(simulation.sensor_types());
   Sensors found;
   for (const world::Body& body : layout.bodies) {
@@ -144,8 +145,9 @@ void SensorTopics::Withdraw(const Sensors& found) {
 }
 
 // Frees channels for the robots that are requested now.
-void SensorTopics::EvictUnheard(Sensors& found) {
-  const std::set<std::string> forgotten = wanted_.EvictUnheard([this] { return RobotsHeard(); });
+void SensorTopics::EvictUnsubscribed(Sensors& found) {
+  const std::set<std::string> forgotten =
+      wanted_.EvictUnsubscribed([this] { return SubscribedRobots(); });
   if (forgotten.empty()) return;
   std::vector<foxglove::ChannelId> gone;
   for (auto& [topic, sensor] : found) {
@@ -153,20 +155,20 @@ void SensorTopics::EvictUnheard(Sensors& found) {
     for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
       if (channel != 0) gone.push_back(channel);
     }
-    // Makes a new object, since a worker may use the old one.
+    // Makes a new object, because a worker may still use the old one.
     sensor =
         std::make_shared<Sensor>(sensor->robot, sensor->description, sensor->type, sensor->made);
   }
   hub_->Unadvertise(gone);
 }
 
-std::set<std::string> SensorTopics::RobotsHeard() const {
-  std::set<std::string> heard = robot_beams_.Heard();
+std::set<std::string> SensorTopics::SubscribedRobots() const {
+  std::set<std::string> robots = robot_beams_.SubscribedRobots();
   for (const foxglove::ChannelId channel : hub_->SubscribedChannels()) {
     const auto found = by_channel_.find(channel);
-    if (found != by_channel_.end()) heard.insert(found->second->robot);
+    if (found != by_channel_.end()) robots.insert(found->second->robot);
   }
-  return heard;
+  return robots;
 }
 
 void SensorTopics::Advertise(Sensors& found) {
@@ -207,7 +209,7 @@ void SensorTopics::Advertise(Sensors& found) {
 void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                            const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now) {
   PublishTransforms(*snapshot);
-  // Loops over the subscribed channels, as a thousand robots have thousands of sensors.
+  // Loops over the subscribed channels only, because a thousand robots have thousands of sensors.
   for (const foxglove::ChannelId channel : hub_->SubscribedChannels()) {
     const auto found = by_channel_.find(channel);
     if (found == by_channel_.end()) continue;
@@ -237,8 +239,8 @@ void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
   transforms_changed_ = false;
 }
 
-// A companion of the description never changes: each new subscriber gets it, whether the readings
-// are subscribed or not.
+// A companion message that depends only on the sensor's description never changes. Each new
+// subscriber gets it once, even if nobody subscribes to the readings.
 void SensorTopics::SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor) {
   if (!hub_->HasNewSubscribers(sensor.companion_channel)) return;
   if (!sensor.made) return hub_->Welcome(sensor.companion_channel, {});
@@ -263,12 +265,12 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
   sensor->is_busy = true;
   const bool accepted = workers_.Submit([self = shared_from_this(), simulation, sensor] {
     const auto began = std::chrono::steady_clock::now();
-    self->TakeReading(*simulation, *sensor);
+    self->ReadSensor(*simulation, *sensor);
     sensor->took = std::chrono::steady_clock::now() - began;
     sensor->is_busy = false;
   });
   if (!accepted) {
-    sensor->is_busy = false;  // the workers are late: the next round tries again
+    sensor->is_busy = false;  // the workers are busy; the next call tries again
     return;
   }
   sensor->asked_at_step = snapshot.state.step;
@@ -276,9 +278,9 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
   sensor->pacing.Done(now);
 }
 
-void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& sensor) {
+void SensorTopics::ReadSensor(simulation::Simulation& simulation, Sensor& sensor) {
   const auto refuse = [&](const base::Error& error) {
-    hub_->Welcome(sensor.channel, {});  // otherwise it would be requested every round
+    hub_->Welcome(sensor.channel, {});  // otherwise each call would request it again
     if (sensor.has_companion_of_readings()) hub_->Welcome(sensor.companion_channel, {});
     if (sensor.has_complained.exchange(true)) return;
     hub_->SendStatus(foxglove::StatusLevel::kWarning, error.Sentence());
@@ -318,7 +320,7 @@ void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& s
   beams_busy_ = true;
   const bool accepted =
       workers_.Submit([self = shared_from_this(), simulation, snapshot, sensors = beam_sensors_] {
-        self->TakeBeams(*simulation, *snapshot, *sensors);
+        self->ReadBeams(*simulation, *snapshot, *sensors);
         self->beams_busy_ = false;
       });
   if (!accepted) {
@@ -329,7 +331,7 @@ void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& s
   beams_pacing_.Done(now);
 }
 
-void SensorTopics::TakeBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
+void SensorTopics::ReadBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                              const SensorList& sensors) {
   for (const std::shared_ptr<Sensor>& sensor : sensors) {
     const int body = snapshot.layout->Find(sensor->robot);

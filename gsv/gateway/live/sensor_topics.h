@@ -1,7 +1,8 @@
-// The live topics of sensors, and the topic of all beams, with readings for subscribers only.
+// SensorTopics publishes the live topics of sensors, and the topic of all beams. Sensors are read
+// only if there are subscribers.
 //
-// A reading may be slow (an image), so that a worker thread takes it; at most one per topic at a
-// time.
+// A reading may be slow (an image), so worker threads read the sensors: at most one reading per
+// topic at a time.
 //
 // Threads  Refresh() and Publish() from one thread, Want() from any. Jobs of workers keep this
 //          object alive.
@@ -36,14 +37,15 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   // `workers` must outlive the last Publish().
   SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers);
 
-  // Requests the sensors of a robot: the next Refresh() advertises them, beyond the limit.
+  // Requests the sensors of a robot. The next Refresh() advertises them even beyond
+  // kMaxSensorTopics.
   void Want(const std::string& robot) { wanted_.Want(robot); }
   bool has_requests() const { return wanted_.has_requests(); }
 
   // Lists the current sensors; advertises and withdraws their topics.
   void Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot);
 
-  // Takes the readings that have subscribers and are due.
+  // Starts to read the sensors that have subscribers and are due.
   void Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
 
@@ -52,16 +54,17 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
   using SensorList = std::vector<std::shared_ptr<Sensor>>;
 
-  Sensors Found(simulation::Simulation& simulation, const world::Layout& layout);
+  Sensors ListSensors(simulation::Simulation& simulation, const world::Layout& layout);
+  // Withdraws the topics of sensors that are not in `found`.
   void Withdraw(const Sensors& found);
   RobotBeams::Sources WantedBeams() const;
-  void EvictUnheard(Sensors& found);
-  std::set<std::string> RobotsHeard() const;
+  void EvictUnsubscribed(Sensors& found);
+  std::set<std::string> SubscribedRobots() const;
   void Advertise(Sensors& found);
 
   void PublishTransforms(const world::Snapshot& snapshot);
   void SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor);
-  // Whether there are new subscribers to its readings.
+  // Returns whether there are new subscribers to the sensor's readings.
   bool HasNewSubscribers(const Sensor& sensor) const;
   void PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
                       const world::Snapshot& snapshot, WallTime now,
@@ -69,8 +72,9 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   void PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
   // Runs on a worker.
-  void TakeReading(simulation::Simulation& simulation, Sensor& sensor);
-  void TakeBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
+  // These run on a worker thread: they read the sensors, and publish the messages.
+  void ReadSensor(simulation::Simulation& simulation, Sensor& sensor);
+  void ReadBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                  const SensorList& sensors);
 
   const std::shared_ptr<Hub> hub_;
@@ -79,7 +83,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   std::optional<sensing::SensorSet> made_;  // set when the first simulation is known
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
-  std::size_t topics_ = 0;  // number of channels that were not requested
+  std::size_t topics_ = 0;  // number of channels of sensors that were not requested
   bool limit_reported_ = false;
   WantedRobots wanted_;
   bool transforms_changed_ = true;

@@ -26,7 +26,7 @@ using std::chrono::seconds;
 using testing::Decoded;
 using testing::LiveStreamTest;
 
-TEST_F(LiveStreamTest, AReadingIsTakenOnlyForSubscribersAndOnlyWhenTimeHasPassed) {
+TEST_F(LiveStreamTest, ReadsSensorsOnlyForSubscribersAndOnlyIfTimeHasPassed) {
   std::atomic<int> readings{0};
   simulation_->set_on_watch([&](const std::string&) -> base::Status {
     ++readings;
@@ -46,7 +46,7 @@ TEST_F(LiveStreamTest, AReadingIsTakenOnlyForSubscribersAndOnlyWhenTimeHasPassed
   EXPECT_EQ(readings, 2);
 }
 
-TEST_F(LiveStreamTest, ARequestedRobotHasATopicOfItsBeams) {
+TEST_F(LiveStreamTest, ARequestedRobotHasItsOwnBeamsTopic) {
   simulation_->AddOneRobot();
   Round();
   EXPECT_EQ(client_->ChannelOf("/gsv/beams/robot_1"), 0u);
@@ -107,7 +107,7 @@ class ManySensorsTest : public LiveStreamTest {
       "others get one when a viewer selects their robot (docs/formats/live.md)";
 };
 
-TEST_F(ManySensorsTest, TwoThousandSensorsHaveATopicAndTheRestIsReported) {
+TEST_F(ManySensorsTest, AdvertisesTwoThousandSensorsAndReportsThatThereAreMore) {
   Mount("robot_0", 0, 1000);
   EXPECT_EQ(Topics("robot_0"), 1000u);
   EXPECT_EQ(WarningCount(complaint_), 0u);
@@ -168,8 +168,8 @@ TEST_F(LiveStreamTest, ImagesAreSentAtMostFiveTimesPerSecond) {
       simulation_->Advance(milliseconds(10));
       Round(milliseconds(10));
     }
-    // A reading that became due during the one before is taken in a later round, and after a slow
-    // reading later still.
+    // If a reading becomes due during the previous reading, a later call of Round() takes it. After
+    // a slow reading it comes even later.
     RoundUntil(1, fifth);
   }
   workers_.Stop();
@@ -177,7 +177,7 @@ TEST_F(LiveStreamTest, ImagesAreSentAtMostFiveTimesPerSecond) {
   EXPECT_LE(client_->data(1).size(), fifths + 1);
 }
 
-TEST_F(LiveStreamTest, ASlowReadingIsTakenLessOften) {
+TEST_F(LiveStreamTest, ReadsASlowSensorLessOften) {
   constexpr auto kLong = milliseconds(20);
   std::atomic<int> readings{0};
   simulation_->set_on_watch([&](const std::string&) -> base::Status {
@@ -201,7 +201,7 @@ TEST_F(LiveStreamTest, ASlowReadingIsTakenLessOften) {
   EXPECT_EQ(readings, 2);
 }
 
-TEST_F(LiveStreamTest, CompanionsOfImagesComeAtOnceAndWithEachImage) {
+TEST_F(LiveStreamTest, SendsCameraInfoAtOnceAndWithEachImage) {
   std::atomic<int> readings{0};
   simulation_->set_on_watch([&](const std::string&) -> base::Status {
     ++readings;
@@ -211,7 +211,7 @@ TEST_F(LiveStreamTest, CompanionsOfImagesComeAtOnceAndWithEachImage) {
   Subscribe(1, "/robot_0/camera/camera_info");
   const auto info = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 1));
   EXPECT_EQ(info.header.frame_id, "robot_0/camera");
-  EXPECT_EQ(readings, 0);  // no image is rendered for that
+  EXPECT_EQ(readings, 0);  // no image is rendered for the camera_info
   Subscribe(2, "/robot_0/camera");
   const auto image = Decoded<messages::sensor_msgs::CompressedImage>(RoundUntil(2, 1));
   const auto beside = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 2));

@@ -21,7 +21,7 @@ SharedBytes EncodedDiagnostics(const simulation::SimulationStatus& status) {
   return Encoded(presentation::DiagnosticsMessage(status));
 }
 
-// Returns a hash of everything in the status except times, counters and factors.
+// Returns a hash of the status without its times, counters and real-time factors.
 std::uint64_t StatesOf(const simulation::SimulationStatus& status) {
   std::size_t hash = static_cast<std::size_t>(status.phase);
   const auto add = [&hash](std::size_t value) { hash = hash * 1099511628211u ^ value; };

@@ -1,5 +1,5 @@
-// The live topics of the status: /gsv/status at each change of a state and a few times per second,
-// and /diagnostics for ROS tools once per second.
+// StatusTopics publishes the live topics of the simulation's status: /gsv/status at each change of
+// a state and a few times per second, and /diagnostics for ROS tools once per second.
 //
 // A large status that differs only in times and counters is sent less often, so that these messages
 // need at most kMaxStatusBytesPerSecond, but not less often than at kMinStatusRate.
@@ -36,7 +36,7 @@ class StatusTopics {
     foxglove::ChannelId channel = 0;
     SharedBytes (*encode)(const simulation::SimulationStatus& status) = nullptr;
     Pacing pacing;
-    // nothing means that the size does not limit the rate
+    // nullopt: the size does not limit the rate
     std::optional<double> max_bytes_per_second{};
     std::optional<simulation::Phase> phase{};  // the phase that was last published
     std::uint64_t states = 0;                  // hash of the states that were last published

@@ -38,7 +38,7 @@ StepCost CostOf(const StepTimes& times) {
   return cost;
 }
 
-// Returns the time of the step without the wait until it was due.
+// Returns the duration of the step without the time that it waited until it was due.
 std::chrono::nanoseconds BusyTime(const StepTimes& times) { return times.total() - times.idle; }
 
 bool IsLonger(const StepTimes& a, const StepTimes& b) { return BusyTime(a) > BusyTime(b); }
@@ -77,7 +77,7 @@ class StepCostTopic::Watch final : public simulation::Observer {
     std::push_heap(longest.begin(), longest.end(), IsLonger);
   }
 
-  // Returns the costs since the last call; nothing if there were no steps.
+  // Returns the costs since the last call; nullopt if there were no steps.
   std::optional<StepCosts> Take() {
     Collected collected;
     {

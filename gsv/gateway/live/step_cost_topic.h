@@ -1,10 +1,9 @@
-// The live topic /gsv/step_costs: the wall-clock time of steps by part, and the behaviours that
-// delay them.
+// StepCostTopic publishes the live topic /gsv/step_costs: the wall-clock time of each part of the
+// steps, and the behaviours that delay them.
 //
 // Steps are timed only while there are subscribers.
 //
-// Bounded  the number of behaviours and of single steps in a message, and of behaviours between two
-//          messages.
+// Bounded  the number of single steps in a message, and the number of behaviours.
 // Threads  Publish() from one thread.
 #pragma once
 

@@ -1,10 +1,10 @@
-// A live topic of events at single steps, such as contacts: a message for each, with the time of
-// its step.
+// A StepEventTopic is a live topic of events at single steps, such as contacts. Each event has a
+// message with the time of its step.
 //
-// Rounds are less frequent than steps. While there are subscribers, the stepping thread collects
-// the events of each step.
+// Publish() is called less often than the simulation steps. So, while there are subscribers, the
+// stepping thread collects the events of each step.
 //
-// Bounded  the newest events of a round.
+// Bounded  only the newest events since the last Publish() are kept.
 // Threads  Publish() from one thread.
 #pragma once
 
@@ -53,7 +53,7 @@ class StepEventTopic {
   }
 
  private:
-  // The largest number per round, which leaves room for other data in viewers' queues.
+  // Maximum number of messages per Publish(). It leaves space for other data in viewers' queues.
   static constexpr std::size_t kMaxMoments = 64;
 
   class Watch final : public simulation::Observer {
@@ -91,9 +91,9 @@ class StepEventTopic {
   std::shared_ptr<Watch> watch_;  // set while there are subscribers
 };
 
-// /gsv/contacts: contacts that begin.
+// /gsv/contacts: contacts that begin in a step.
 using ContactTopic = StepEventTopic<messages::gsv_msgs::Contact>;
-// /gsv/radio: messages and their receivers.
+// /gsv/radio: radio messages and the robots that receive them.
 using RadioTopic = StepEventTopic<messages::gsv_msgs::Transmission>;
 
 void CollectContacts(const world::Snapshot& snapshot,

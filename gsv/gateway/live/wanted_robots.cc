@@ -25,14 +25,14 @@ bool WantedRobots::TakeRequests() {
   return !wishes.empty();
 }
 
-std::set<std::string> WantedRobots::EvictUnheard(
-    const std::function<std::set<std::string>()>& heard) {
+std::set<std::string> WantedRobots::EvictUnsubscribed(
+    const std::function<std::set<std::string>()>& subscribed) {
   std::set<std::string> gone;
   if (wanted_.size() <= kMaxWantedRobots) return gone;
-  const std::set<std::string> stay = heard();
+  const std::set<std::string> kept = subscribed();
   for (auto robot = in_order_.begin();
        robot != in_order_.end() && wanted_.size() > kMaxWantedRobots;) {
-    if (stay.contains(*robot)) {
+    if (kept.contains(*robot)) {
       ++robot;
       continue;
     }

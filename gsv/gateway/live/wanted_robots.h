@@ -1,4 +1,5 @@
-// The robots whose sensors viewers have requested beyond those that the stream advertises.
+// WantedRobots stores the robots whose sensor topics viewers have requested, beyond the topics that
+// the stream advertises anyway.
 //
 // Threads  Want() and has_requests() from any; the others from one thread.
 #pragma once
@@ -20,11 +21,12 @@ class WantedRobots {
   void Want(const std::string& robot);
   bool has_requests() const;
 
-  // Takes the requests since the last call. Returns false if there were none.
+  // Processes the requests since the last call. Returns false if there were none.
   bool TakeRequests();
-  // If there are too many robots, evicts those that are not `heard` (called only then), the oldest
-  // request first. Returns the evicted robots.
-  std::set<std::string> EvictUnheard(const std::function<std::set<std::string>()>& heard);
+  // If there are too many robots, removes robots that `subscribed` does not return, the oldest
+  // request first. `subscribed` returns the robots with subscribers, and is called only if it is
+  // needed. Returns the removed robots.
+  std::set<std::string> EvictUnsubscribed(const std::function<std::set<std::string>()>& subscribed);
   bool Contains(const std::string& robot) const { return wanted_.contains(robot); }
 
  private:

@@ -1,4 +1,4 @@
-// Formats metrics for monitoring systems.
+// An Exposition formats metrics for monitoring systems.
 //
 // Format  Prometheus' text format 0.0.4
 //         (https://prometheus.io/docs/instrumenting/exposition_formats/).

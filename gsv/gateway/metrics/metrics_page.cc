@@ -85,7 +85,7 @@ void PutProcess(const MetricsSources& sources, Exposition& out) {
   out.Put("process_start_time_seconds", kGauge, "Start time of this process, since 1970.",
           usage.start_time);
   out.Put("process_cpu_seconds_total", kCounter, "Processor time used.", usage.processor_seconds);
-  out.Put("process_resident_memory_bytes", kGauge, "Memory in use.", usage.resident_bytes);
+  out.Put("process_resident_memory_bytes", kGauge, "Resident memory.", usage.resident_bytes);
   out.Put("gsv_allocated_memory_bytes", kGauge, "Memory allocated with malloc.",
           usage.allocated_bytes);
   out.Put("process_threads", kGauge, "Threads of this process.", usage.threads);

@@ -83,7 +83,7 @@ TEST(Exposition, WritesNonFiniteNumbers) {
   EXPECT_NE(out.text().find("\nb -Inf\n"), std::string::npos);
 }
 
-TEST(ProcessUsage, IsThatOfThisProcess) {
+TEST(ProcessUsage, MeasuresThisProcess) {
   const ProcessUsage before = ReadProcessUsage();
   EXPECT_GT(before.resident_bytes, 1u << 20);
   EXPECT_GE(before.threads, 1u);
@@ -178,7 +178,8 @@ TEST_F(MetricsTest, CountViewersAndSentBytes) {
     }
   }
   EXPECT_GT(Value("gsv_sent_bytes_total"), sent);
-  // The server's own thread notices the end; each check is a request that it answers afterwards.
+  // The server's thread notices later that the viewer has left. Each check is a request to this
+  // thread, so it makes progress.
   for (int i = 0; i < 1000 && Value("gsv_viewers") > 0; ++i) {
   }
   EXPECT_EQ(Value("gsv_viewers"), 0);

@@ -53,7 +53,7 @@ ProcessUsage ReadProcessUsage() {
        each.increment(error)) {
     ++usage.descriptors;
   }
-  // Does not count the descriptor that is used for counting.
+  // The descriptor that was open for counting is not counted.
   if (usage.descriptors > 0) --usage.descriptors;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) == 0) usage.max_descriptors = limit.rlim_cur;

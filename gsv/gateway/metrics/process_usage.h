@@ -1,4 +1,4 @@
-// The resource usage of this process, from /proc (proc(5)).
+// Reads the resource usage of this process from /proc (proc(5)).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Interfaces that the program around the gateway implements.
+// Interfaces that the program that contains the gateway implements.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ class SimulationDirectory {
  public:
   virtual ~SimulationDirectory() = default;
 
-  // Returns the simulations in the order for users. A viewer opens the first one by default.
+  // Returns the simulations in the order in which viewers list them. A viewer opens the first one
+  // by default.
   virtual std::vector<std::shared_ptr<simulation::Simulation>> List() = 0;
   // Returns null if the name is unknown.
   virtual std::shared_ptr<simulation::Simulation> Find(const std::string& name) = 0;
@@ -32,7 +33,7 @@ class RecordingSwitch {
     bool is_recording = false;
     std::string path;            // path of the current or the last recording
     std::uint64_t messages = 0;  // so far
-    std::uint64_t dropped = 0;   // messages dropped for a slow disk
+    std::uint64_t dropped = 0;   // messages dropped because the disk was too slow
     std::uint64_t bytes = 0;     // written
   };
 

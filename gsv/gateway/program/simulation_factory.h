@@ -1,4 +1,5 @@
-// Creates and edits simulations for the gateway; the program around it implements this interface.
+// SimulationFactory is the interface with which the gateway creates and edits simulations. The
+// program that contains the gateway implements it.
 //
 // Units    metres, radians, seconds.
 // Errors   name the field of the request, as in "robots[1].model"; empty: no single field.
@@ -58,13 +59,13 @@ class SimulationFactory {
   struct Behaviours {
     std::vector<BehaviourLine> offers;
     std::string broker;         // its address
-    std::string start_command;  // the command of a program that offers such a behaviour
+    std::string start_command;  // command that starts a program with this behaviour
   };
   // Whether simulations can be published to ROS 2 nodes, by the key `ros2` of their scenario.
   struct Ros2Support {
     bool is_available = false;
     std::string reason;     // why not
-    std::string reach;      // the domain, and which machines can be reached in it
+    std::string reach;      // the ROS domain, and which machines can be reached in it
     std::string published;  // the simulation that is published now; empty: none
   };
   struct Preview {
@@ -72,7 +73,8 @@ class SimulationFactory {
     std::vector<std::string> warnings;                   // problems of the files
   };
 
-  // The present state of a world, and a scenario with the rest: behaviours, avatars, seed, faults.
+  // The present state of a world, and a scenario with what a world file cannot have: behaviours,
+  // avatars, seed, faults.
   struct SavedWorld {
     std::string sdf, scenario;          // the texts of both files
     std::vector<std::string> warnings;  // the parts that are not saved
@@ -83,7 +85,7 @@ class SimulationFactory {
   virtual std::vector<std::string> Worlds() = 0;  // ours
   // Returns the models that can be robots: built-in ones and those on the model path.
   virtual std::vector<ModelLine> Models() = 0;
-  virtual std::vector<std::string> Objects() = 0;  // also models that are no robots
+  virtual std::vector<std::string> Objects() = 0;  // includes models that are not robots
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;
 
   virtual Ros2Support Ros2() { return {}; }
@@ -100,7 +102,8 @@ class SimulationFactory {
       bool is_avatar) = 0;
   virtual FieldResult<std::string> AddObject(
       const std::shared_ptr<simulation::Simulation>& simulation, const ObjectRequest& object) = 0;
-  // `file` is the name of the world's file in the scenario. Poses are saved, velocities are not.
+  // Returns the texts of a world file and a scenario. `file` is the name of the world file in the
+  // scenario. Poses are saved, velocities are not.
   virtual base::Result<SavedWorld> SaveWorld(const simulation::Simulation& simulation,
                                              const std::string& file) = 0;
 };

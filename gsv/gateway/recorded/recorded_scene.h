@@ -1,4 +1,4 @@
-// The scenes and models in the attachments of a recording.
+// A RecordedScene provides the scenes and models that are attached to a recording.
 //
 // Input    untrusted attachments.
 // Threads  const members may run concurrently.
@@ -22,8 +22,8 @@ using ModelSource = std::function<base::Result<SharedBytes>(const std::string& i
 
 class RecordedScene {
  public:
-  // Reads the scenes; invalid ones are listed in problems(). `reader` must outlive this. `models`
-  // has the models that are not attached; null: none.
+  // Reads the scenes. problems() lists the invalid ones. `reader` must outlive this. `models`
+  // provides the models that are not attached; null: there are none.
   explicit RecordedScene(const recording::McapReader& reader, ModelSource models = nullptr);
 
   const base::Problems& problems() const { return problems_; }
@@ -32,7 +32,7 @@ class RecordedScene {
   // with kNotFound and a sentence if the recording has no scene.
   base::Result<SharedBytes> Scene(std::uint32_t layout_version) const;
 
-  // The indices of bodies' poses in gsv_msgs/Poses of that layout, by name.
+  // Returns the index of each body's pose in gsv_msgs/Poses of that layout, by name of the body.
   const std::map<std::string, std::size_t>& BodyPoses(std::uint32_t layout_version) const;
 
   // Whether a body of this name is a robot or an avatar in one of the scenes.

@@ -50,7 +50,7 @@ RecordedTimeline::ChannelIds RecordedTimeline::ChannelsOf(const std::string& top
   return ids;
 }
 
-base::SimTime RecordedTimeline::PoseBeside(base::SimTime time, std::int64_t count) const {
+base::SimTime RecordedTimeline::TimeOfPoseFrom(base::SimTime time, std::int64_t count) const {
   const bool is_ahead = count > 0;
   const auto distance = [&](base::SimTime other) { return is_ahead ? other - time : time - other; };
   const auto nearest = [&](const MessageBlock& block) {
@@ -65,7 +65,7 @@ base::SimTime RecordedTimeline::PoseBeside(base::SimTime time, std::int64_t coun
     return nearest(*a) < nearest(*b);
   });
   const auto wanted = static_cast<std::size_t>(std::abs(count));
-  // time distances to poses, the nearest first; at most as many as needed
+  // time differences to the nearest poses; at most `wanted` of them
   std::set<base::SimTime> distances;
   for (const MessageBlock* block : blocks) {
     if (distances.size() == wanted && nearest(*block) > *distances.rbegin()) break;

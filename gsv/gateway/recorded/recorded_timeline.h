@@ -1,4 +1,5 @@
-// The data of a recording's timeline: the instants of poses, events and log.
+// A RecordedTimeline provides the data for a recording's timeline: the times of poses, the events
+// and the log.
 //
 // Input    untrusted: unreadable messages are left out.
 // Threads  const members may run concurrently.
@@ -25,7 +26,7 @@ struct RecordedEvent {
 struct RecordedLine {
   base::SimTime time{};
   int level = 20;          // as in rcl_interfaces/msg/Log: 10 debug to 50 fatal
-  std::string name, text;  // the source, and the message
+  std::string name, text;  // name of the source, and the message
 };
 
 // Returns a collision as an event. Live timelines use the same form.
@@ -38,14 +39,16 @@ class RecordedTimeline {
   RecordedTimeline(const recording::McapReader& reader, const RecordedScene& scene);
 
   // Returns the time of the `count`th recorded pose after `time`, or before it if `count` is
-  // negative. At most the start or end of the recording. Reads the blocks around `time`.
-  base::SimTime PoseBeside(base::SimTime time, std::int64_t count) const;
+  // negative. If there are fewer poses, returns the start or end of the recording. Reads the blocks
+  // around `time`.
+  base::SimTime TimeOfPoseFrom(base::SimTime time, std::int64_t count) const;
 
-  // The first thousand events, the first thousand notes and the first 500 collisions, by time. The
-  // first call reads their blocks.
+  // Returns the first thousand events, the first thousand notes and the first 500 collisions,
+  // ordered by time. The first call reads them from the recording.
   const std::vector<RecordedEvent>& Events() const;
 
-  // Returns the first five thousand lines by time. The first call reads their blocks.
+  // Returns the first five thousand lines of the log, ordered by time. The first call reads them
+  // from the recording.
   const std::vector<RecordedLine>& Log() const;
 
  private:

@@ -34,8 +34,8 @@ messages::gsv_msgs::LifecycleEvent Event(const std::string& event, const std::st
   return message;
 }
 
-// A recording of one second in chunks of a tenth of a second: poses every 20 ms from 0 to 980 ms,
-// clocks every 5 ms, and two events.
+// Returns a recording of one second in chunks of 0.1 s: poses every 20 ms from 0 to 980 ms, clocks
+// every 5 ms, and two events.
 recording::Bytes OneSecond() {
   recording::Bytes bytes;
   recording::MemorySink sink(bytes);
@@ -63,24 +63,24 @@ class RecordedTimelineTest : public ::testing::Test {
   const RecordedTimeline timeline_{*reader_, scene_};
 };
 
-TEST_F(RecordedTimelineTest, FindsPosesAheadAndBehind) {
-  EXPECT_EQ(timeline_.PoseBeside(500ms, 1), 520ms);
-  EXPECT_EQ(timeline_.PoseBeside(500ms, -1), 480ms);
-  EXPECT_EQ(timeline_.PoseBeside(505ms, 1), 520ms);
-  EXPECT_EQ(timeline_.PoseBeside(505ms, -1), 500ms);
+TEST_F(RecordedTimelineTest, FindsPosesAfterAndBeforeATime) {
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(500ms, 1), 520ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(500ms, -1), 480ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(505ms, 1), 520ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(505ms, -1), 500ms);
 }
 
 TEST_F(RecordedTimelineTest, FindsPosesOverManyChunks) {
-  EXPECT_EQ(timeline_.PoseBeside(500ms, 10), 700ms);
-  EXPECT_EQ(timeline_.PoseBeside(500ms, -10), 300ms);
-  EXPECT_EQ(timeline_.PoseBeside(0ms, 49), 980ms);
-  EXPECT_EQ(timeline_.PoseBeside(980ms, -49), 0ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(500ms, 10), 700ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(500ms, -10), 300ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(0ms, 49), 980ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(980ms, -49), 0ms);
 }
 
-TEST_F(RecordedTimelineTest, EndsWhereTheRecordingDoes) {
-  EXPECT_EQ(timeline_.PoseBeside(980ms, 1), 995ms);
-  EXPECT_EQ(timeline_.PoseBeside(500ms, 1000), 995ms);
-  EXPECT_EQ(timeline_.PoseBeside(40ms, -3), 0ms);
+TEST_F(RecordedTimelineTest, StopsAtTheStartAndEndOfTheRecording) {
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(980ms, 1), 995ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(500ms, 1000), 995ms);
+  EXPECT_EQ(timeline_.TimeOfPoseFrom(40ms, -3), 0ms);
 }
 
 TEST_F(RecordedTimelineTest, ReturnsEventsWithTheirTimes) {
@@ -98,8 +98,8 @@ TEST_F(RecordedTimelineTest, ARecordingWithoutPosesHasAStartAndAnEnd) {
   const auto reader = recording::Open(bytes).value();
   const RecordedScene scene(*reader);
   const RecordedTimeline timeline(*reader, scene);
-  EXPECT_EQ(timeline.PoseBeside(100ms, 1), 290ms);
-  EXPECT_EQ(timeline.PoseBeside(100ms, -1), 0ms);
+  EXPECT_EQ(timeline.TimeOfPoseFrom(100ms, 1), 290ms);
+  EXPECT_EQ(timeline.TimeOfPoseFrom(100ms, -1), 0ms);
   EXPECT_TRUE(timeline.Events().empty());
 }
 

@@ -1,8 +1,8 @@
-// The world at any instant of a recording, ready to render.
+// A RecordedView reconstructs the world at any instant of a recording, ready to render.
 //
 // Input    untrusted attachments and messages.
 // Errors   kNotFound with a sentence if the recording has no scene or no poses.
-// Threads  one at a time.
+// Threads  one thread at a time.
 #pragma once
 
 #include <map>
@@ -29,7 +29,8 @@ class RecordedView {
   RecordedView(const recording::McapReader& reader, const RecordedScene& scene)
       : reader_(reader), scene_(scene) {}
 
-  // Returns the newest poses not after `time`; before the first ones those of the scene.
+  // Returns the world with the newest poses that are not after `time`. Before the first recorded
+  // poses, it has the poses of the scene.
   base::Result<Instant> At(base::SimTime time);
   // Returns the world at the instant of a message.
   base::Result<Instant> At(const messages::gsv_msgs::Poses& poses);
@@ -39,7 +40,7 @@ class RecordedView {
     base::SimTime time{};
     messages::gsv_msgs::Poses poses;
   };
-  // Null if there is no such message.
+  // Returns the newest message of the channel that is not after `time`, or null.
   const messages::gsv_msgs::Poses* NewestAt(base::SimTime time, std::uint16_t channel);
   void Load(const recording::MessageBlock& block, std::uint16_t channel);
   std::shared_ptr<const model::Model> FindModel(const std::string& id);

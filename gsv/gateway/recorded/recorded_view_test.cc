@@ -28,7 +28,7 @@ class RecordedViewTest : public ::testing::Test {
   }
   static void TearDownTestSuite() { std::filesystem::remove(testing::PathFor("view")); }
 
-  // The robot's x at a time.
+  // Returns the robot's x at a time.
   double XAt(base::SimTime time) {
     const auto instant = view_.At(time);
     EXPECT_TRUE(instant) << instant.error().Sentence();
@@ -55,7 +55,7 @@ TEST_F(RecordedViewTest, ShowsTheNewestPosesOfEachInstant) {
                                          // recorded
 }
 
-TEST_F(RecordedViewTest, ARecordingWithoutASceneGivesASentence) {
+TEST_F(RecordedViewTest, ReportsARecordingWithoutAScene) {
   const recording::Bytes bytes = recording::ThreeChunks();
   const auto reader = recording::Open(bytes).value();
   const RecordedScene scene(*reader);

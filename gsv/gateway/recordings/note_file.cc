@@ -100,7 +100,7 @@ base::Status NoteFile::Remove(std::int64_t id) const {
   return Write(*notes);
 }
 
-// A new file replaces the old one, so that after a crash one of the two is complete.
+// Writes a new file that replaces the old one, so that after a crash one of the two is complete.
 base::Status NoteFile::Write(const std::vector<Note>& notes) const {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Note& note : notes) {

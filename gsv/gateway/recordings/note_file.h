@@ -1,4 +1,4 @@
-// The notes of a recording, in a file beside it: RECORDING.mcap.notes.json
+// A NoteFile stores the notes of a recording in a file beside it: RECORDING.mcap.notes.json
 // (docs/formats/notes.md).
 //
 // Input   an untrusted file.
@@ -28,7 +28,7 @@ class NoteFile {
   // `recording` is the path of the MCAP file.
   explicit NoteFile(const std::string& recording) : path_(recording + ".notes.json") {}
 
-  // Returns the notes by time; empty if there is no file.
+  // Returns the notes ordered by time; empty if there is no file.
   base::Result<std::vector<Note>> Read() const;
   // Adds a note and returns its identifier. kInvalidArgument: there are kMaxNotes already.
   base::Result<std::int64_t> Add(double time_s, const std::string& text,

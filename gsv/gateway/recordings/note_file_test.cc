@@ -21,7 +21,7 @@ class NoteFileTest : public ::testing::Test {
 
 TEST_F(NoteFileTest, WithoutAFileThereAreNoNotes) { EXPECT_TRUE(file_.Read().value().empty()); }
 
-TEST_F(NoteFileTest, KeepsNotesByTime) {
+TEST_F(NoteFileTest, SortsNotesByTime) {
   EXPECT_EQ(file_.Add(2.5, "later\n\"quoted\"", "2026-01-31T12:00:00Z").value(), 1);
   EXPECT_EQ(file_.Add(1, "earlier", "2026-01-31T12:00:01Z").value(), 2);
   const auto notes = NoteFile(path_).Read().value();
@@ -57,7 +57,7 @@ TEST_F(NoteFileTest, InvalidFilesAreReportedAndKept) {
   }
 }
 
-TEST_F(NoteFileTest, HoldsAThousandNotes) {
+TEST_F(NoteFileTest, HoldsAtMostAThousandNotes) {
   std::string text = "{\"version\": 1, \"notes\": [{\"id\": 1, \"time_s\": 1}";
   for (int i = 2; i <= 1000; ++i) text += ",{\"id\": " + std::to_string(i) + ", \"time_s\": 1}";
   WriteText(text + "]}");
@@ -65,7 +65,7 @@ TEST_F(NoteFileTest, HoldsAThousandNotes) {
   EXPECT_EQ(file_.Add(1, "one more", "").error().code, base::ErrorCode::kInvalidArgument);
 }
 
-TEST_F(NoteFileTest, ALinkIsNotRead) {
+TEST_F(NoteFileTest, RefusesASymbolicLink) {
   std::filesystem::create_symlink("/etc/hostname", path_ + ".notes.json");
   EXPECT_EQ(file_.Read().error().code, base::ErrorCode::kCorrupt);
 }

@@ -1,4 +1,4 @@
-// Requests for notes at an instant of a run or of a recording.
+// Parses requests to add a note to an instant of a run or of a recording.
 //
 // Input  untrusted.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace gsv::gateway::recordings {
 
-// Limit of the text of a note, in bytes.
+// Maximum length of a note's text in bytes.
 inline constexpr std::size_t kMaxNoteLength = 1000;
 
 // A request for a note, from the body {"text": TEXT, "time_s": T, "author": NAME}.

@@ -20,8 +20,8 @@ constexpr std::size_t kMaxListed = 1000;
 constexpr std::size_t kMaxTextBytes = 1000;
 constexpr const char* kFailuresFolder = "gsv-failures";
 
-// Whether the file is finished: then it ends with the magic bytes. Other files would have to be
-// read completely.
+// Whether the recording was finished, that is, whether the file ends with the magic bytes. An
+// unfinished file would have to be read completely.
 bool IsFinished(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::array<char, recording::kMagic.size()> end{};
@@ -31,7 +31,7 @@ bool IsFinished(const fs::path& file) {
                           [](char a, std::byte b) { return static_cast<std::byte>(a) == b; });
 }
 
-// Returns the value as a number; nothing if it is not a number.
+// Returns the value as a number; nullopt if it is not a number.
 std::optional<double> NumberIn(const recording::StringMap& values, const std::string& key) {
   const auto found = values.find(key);
   if (found == values.end()) return std::nullopt;
@@ -128,7 +128,7 @@ base::Result<std::string> RecordingFolder::Find(const std::string& name) const {
                         "' here: it was moved or deleted, or belongs to another server");
 }
 
-RecordingLine RecordingFolder::Look(const std::string& name, const fs::path& file) {
+RecordingLine RecordingFolder::Describe(const std::string& name, const fs::path& file) {
   RecordingLine line;
   line.name = name;
   std::error_code error;
@@ -179,7 +179,7 @@ RecordingFolder::Listing RecordingFolder::List() {
   Listing listing;
   listing.left_out = found.size() - std::min(found.size(), kMaxListed);
   found.resize(found.size() - listing.left_out);
-  for (const Found& each : found) listing.lines.push_back(Look(each.name, each.file));
+  for (const Found& each : found) listing.lines.push_back(Describe(each.name, each.file));
   const base::MutexLock lock(mutex_);
   std::erase_if(known_, [&](const auto& entry) {
     return std::none_of(found.begin(), found.end(),

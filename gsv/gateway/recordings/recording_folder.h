@@ -1,10 +1,11 @@
-// The recordings that viewers may replay: those in one folder, or a single one.
+// A RecordingFolder lists the recordings that viewers may replay: those in one folder, or a single
+// file.
 //
 // A recording is a file NAME.mcap, a folder that rosbag2 opens, or a folder with run.mcap that
 // `gsv test` keeps of a failure. The failures in the folder gsv-failures count as well, under the
 // names gsv-failures/NAME.
 //
-// Input    untrusted names and files. Only these files count, and no links that leave the folder.
+// Input    untrusted names and files. Other files, and links that leave the folder, are ignored.
 // Threads  any. List() reads the index of each new file.
 // Bounded  the newest thousand recordings.
 #pragma once
@@ -36,11 +37,11 @@ struct RecordingLine {
   std::string problem;  // a sentence with the reason, if it is unreadable
   base::SimTime start{}, end{};
   std::uint64_t messages = 0;
-  // Empty or nothing if the recording does not contain the value.
+  // Empty or nullopt if the recording does not contain the value.
   std::string world;
   std::optional<std::uint64_t> robots;
   std::string verdict;                // "passed" or "failed"
-  std::string sentence;               // the sentence of the first violation
+  std::string sentence;               // description of the first violation
   std::optional<double> violation_s;  // simulated time of the first violation
 };
 
@@ -68,7 +69,7 @@ class RecordingFolder {
   bool IsName(const std::string& name) const;
   // Returns the file of a recording by its name; empty if there is none.
   std::filesystem::path FileOf(const std::filesystem::path& path) const;
-  RecordingLine Look(const std::string& name, const std::filesystem::path& file);
+  RecordingLine Describe(const std::string& name, const std::filesystem::path& file);
 
   const std::filesystem::path folder_;
   const std::string only_;

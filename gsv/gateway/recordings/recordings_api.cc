@@ -152,7 +152,8 @@ Response RecordingsApi::AddNote(const std::string& name, const std::string& body
   const auto note = ParseNoteRequest(body);
   if (!note) return ErrorResponse(note.error());
   if (!note->time_s) {
-    return ErrorResponse(400, "a note of a recording needs the instant, \"time_s\"");
+    return ErrorResponse(400,
+                         "a note of a recording needs its time: \"time_s\", in simulated seconds");
   }
   return OfNotes(name, [&](const NoteFile& file) {
     const auto id = file.Add(*note->time_s, note->text, DateText(std::chrono::system_clock::now()));

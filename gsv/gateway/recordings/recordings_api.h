@@ -1,4 +1,5 @@
-// The part of the HTTP API that lists and compares recordings, opens replays, and keeps notes.
+// RecordingsApi is the part of the HTTP API that lists and compares recordings, opens replays, and
+// stores notes.
 //
 // Threads  any.
 #pragma once
@@ -28,7 +29,7 @@ class RecordingsApi {
   Response List();
   Response Open(const std::string& name);
   Response Difference(const std::string& name, const Request& request);
-  // Applies `use` to the notes of a recording.
+  // Calls `use` with the NoteFile of a recording.
   template <typename Use>
   Response OfNotes(const std::string& name, Use use);
   Response AddNote(const std::string& name, const std::string& body);

@@ -47,7 +47,7 @@ class RecordingsApiTest : public ::testing::Test {
   HttpReply Post(const std::string& target, const std::string& body = "{}") const {
     return testing::Fetch(gateway_->port(), "POST", target, "", body);
   }
-  // The path below which a replay session is served: "/replays/1/".
+  // Opens a replay. Returns the path below which the session is served: "/replays/1/".
   std::string OpenReplay() const {
     return "/" +
            json::parse(Post("/api/recordings/run.mcap/replay").body)["base"].get<std::string>();
@@ -123,7 +123,7 @@ TEST_F(RecordingsApiTest, FailuresOfTestsAreListedWithWorldAndRobots) {
   }
 }
 
-TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingAreAtDifferentInstants) {
+TEST_F(RecordingsApiTest, TwoViewersReplayOneRecordingIndependently) {
   const std::string a = OpenReplay();
   const std::string b = OpenReplay();
   ASSERT_NE(a, b);
@@ -138,7 +138,7 @@ TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingAreAtDifferentInstants) {
   EXPECT_THROW(Viewer(gateway_->port(), "/replays/99/ws"), std::runtime_error);
 }
 
-TEST_F(RecordingsApiTest, ARelayPassesRecordingsOn) {
+TEST_F(RecordingsApiTest, ARelayForwardsRecordings) {
   auto relay = Gateway::StartRelay({}, {gateway_->url()});
   ASSERT_TRUE(relay) << relay.error().Sentence();
   const std::uint16_t port = (*relay)->port();
@@ -177,7 +177,7 @@ TEST_F(RecordingsApiTest, ReplaySessionsAreLimited) {
   EXPECT_EQ(refused.error().code, base::ErrorCode::kUnavailable);
 }
 
-TEST_F(RecordingsApiTest, NotesStayBesideTheRecording) {
+TEST_F(RecordingsApiTest, StoresNotesBesideTheRecording) {
   const std::string notes = "/api/recordings/run.mcap/notes";
   EXPECT_EQ(Get(notes).body, "[]");
   EXPECT_EQ(Post(notes, R"({"text": "no instant"})").status, 400);

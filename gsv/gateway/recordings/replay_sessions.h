@@ -1,4 +1,5 @@
-// Replays of recordings, each with its own player, so that viewers control them independently.
+// ReplaySessions holds the open replays of recordings. Each has its own player, so that viewers
+// control their replays independently.
 //
 // A session ends half a minute after its last viewer has left.
 //
@@ -29,20 +30,20 @@ class ReplaySessions {
   explicit ReplaySessions(const SessionLimits& limits = {}) : limits_(limits) {}
   ~ReplaySessions() { Stop(); }
 
-  // Opens the recording at `path`, which viewers know as `recording`. Returns the name of the
+  // Opens the recording at `path`. `recording` is its name for viewers. Returns the name of the
   // session. kUnavailable: too many sessions.
   base::Result<std::string> Open(const std::string& path, const std::string& recording);
 
   // Adds a session for a player. If `recording` is empty, viewers cannot open the recording again.
   base::Result<std::string> Add(std::unique_ptr<ReplayPlayer> player, const std::string& recording);
 
-  // The routes below /replays/{session}/: the API of a replay, and its live stream at ws, with
-  // views that `drawer` draws. All need the permission to watch only. The handlers are valid during
-  // the lifetime of this object and of the drawer.
+  // Returns the routes below /replays/{session}/: the API of a replay, and its live stream at ws,
+  // with views that `drawer` draws. All need only the permission to watch. The handlers are valid
+  // during the lifetime of this object and of the drawer.
   std::vector<Route> Routes(drawing::ViewDrawer& drawer);
-  // The hub of a session. Its users keep the session.
+  // Returns the hub of a session. The session exists at least as long as the hub is used.
   base::Result<std::shared_ptr<Hub>> FindHub(const std::string& name);
-  // The world that the images of a session show.
+  // Returns the world that the images of a session show.
   base::Result<drawing::ViewedWorld> FindViewed(const std::string& name);
 
   // Ends all sessions and refuses further ones.

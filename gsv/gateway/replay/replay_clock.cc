@@ -8,7 +8,8 @@ namespace {
 
 using simulation::Phase;
 
-// If a round is later than this, the replay becomes slower instead of skipping.
+// If more time than this has passed between two calls of Advance(), the replay becomes slower
+// instead of skipping.
 constexpr std::chrono::milliseconds kMaxRoundTime{200};
 
 base::Status Refuse(const char* action, const char* needed, Phase phase) {
@@ -61,7 +62,7 @@ void ReplayClock::Seek(base::SimTime time) {
   if (phase_ != Phase::kRunning) phase_ = Phase::kPaused;
 }
 
-void ReplayClock::StandAt(base::SimTime time) {
+void ReplayClock::SeekAndPause(base::SimTime time) {
   position_ = std::clamp(time, start_, end_);
   phase_ = Phase::kPaused;
 }

@@ -1,7 +1,7 @@
-// The position of a replay in simulated time, which advances with the wall clock while it plays.
-// Its phases are those of a simulation, so that viewers need not distinguish them.
+// A ReplayClock is the position of a replay in simulated time. It advances with the wall clock
+// while the replay plays. Its phases are those of a simulation, so viewers show both alike.
 //
-// Threads  one at a time.
+// Threads  one thread at a time.
 #pragma once
 
 #include <chrono>
@@ -28,7 +28,7 @@ class ReplayClock {
   simulation::Phase phase() const { return phase_; }
   bool is_playing() const { return phase_ == simulation::Phase::kRunning; }
 
-  // Returns kNotRunning with a sentence if the phase does not allow this.
+  // These fail with kNotRunning and a sentence if the phase does not allow them.
   base::Status Start();
   base::Status Pause();
   base::Status Resume();
@@ -38,13 +38,13 @@ class ReplayClock {
   // Moves within the recording, and continues playing if it played.
   void Seek(base::SimTime time);
   // Moves within the recording and pauses.
-  void StandAt(base::SimTime time);
+  void SeekAndPause(base::SimTime time);
   // Sets the speed, > 0.
   void SetSpeed(double speed) { speed_ = speed; }
   void SetLoop(bool loop) { loop_ = loop; }
 
-  // Advances with the wall clock. Returns true if it has passed the end and restarts (with `loop`).
-  // Without `loop` it stays at the end, finished.
+  // Advances with the wall clock. At the end, restarts with `loop` and returns true. Without
+  // `loop`, stays there in the phase kFinished and returns false.
   bool Advance(WallTime now);
 
  private:

@@ -10,7 +10,7 @@ using simulation::Phase;
 
 constexpr ReplayClock::WallTime kNow{1h};
 
-TEST(ReplayClock, AdvancesByTheWallClockTimesItsSpeed) {
+TEST(ReplayClock, AdvancesByTheSpeedTimesWallClockTime) {
   ReplayClock clock(1s, 10s, 3, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
@@ -40,7 +40,7 @@ TEST(ReplayClock, DoesNotAdvanceWhilePaused) {
   EXPECT_EQ(clock.position(), 50ms);
 }
 
-TEST(ReplayClock, EndsFinishedAtTheEnd) {
+TEST(ReplayClock, FinishesAtTheEnd) {
   ReplayClock clock(0s, 100ms, 1, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
@@ -92,7 +92,7 @@ TEST(ReplayClock, ANewSpeedAppliesFromTheCurrentInstant) {
 TEST(ReplayClock, PausesAtAnInstant) {
   ReplayClock clock(1s, 2s, 1, false);
   ASSERT_TRUE(clock.Start());
-  clock.StandAt(3s);
+  clock.SeekAndPause(3s);
   EXPECT_EQ(clock.position(), 2s);
   EXPECT_EQ(clock.phase(), Phase::kPaused);
 }

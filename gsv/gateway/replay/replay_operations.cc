@@ -38,7 +38,7 @@ PlaybackState::Status StatusOf(Phase phase) {
   return phase == Phase::kFinished ? PlaybackState::Status::kEnded : PlaybackState::Status::kPaused;
 }
 
-// Starts playing, from any state.
+// Makes the replay play, whatever its phase is.
 base::Status Play(ReplayPlayer& player) {
   switch (player.clock().phase()) {
     case Phase::kCreated:

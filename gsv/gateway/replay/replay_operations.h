@@ -1,5 +1,5 @@
-// The operations of viewers of a replay: the services of a running simulation, speed and loop as
-// parameters, and playback control.
+// ReplayOperations offers the operations on a replay to its viewers: the services of a running
+// simulation, the parameters speed and loop, and playback control.
 //
 // Threads  any.
 #pragma once

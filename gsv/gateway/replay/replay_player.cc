@@ -85,7 +85,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
           *reader_, name_, [this] { Wake(); }, std::make_shared<ReplayOperations>(*this)) {
   problems_.insert(problems_.end(), scene_.problems().begin(), scene_.problems().end());
   ReadMetadata();
-  // The first request also gets the robots, before the replay has played.
+  // The first request must already get the robots, before the replay plays.
   stream_.JumpTo(clock_.position());
   thread_ = std::thread([this] { Run(); });
 }
@@ -148,9 +148,9 @@ base::Status ReplayPlayer::StepPoses(std::int64_t count) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the number of poses to step must be 1 to 1000 or -1 to -1000");
   }
-  const base::SimTime time = timeline_.PoseBeside(clock().position(), count);
+  const base::SimTime time = timeline_.TimeOfPoseFrom(clock().position(), count);
   Command([&](ReplayClock& clock) GSV_REQUIRES(mutex_) {
-    clock.StandAt(time);
+    clock.SeekAndPause(time);
     has_jumped_ = true;
   });
   return {};

@@ -1,4 +1,4 @@
-// Plays a recording; the counterpart of a simulation in the live gateway.
+// A ReplayPlayer plays a recording for viewers, as a simulation runs for them in the live gateway.
 //
 // Threads  any; its own thread reads the file and publishes.
 // Errors   kNotRunning with a sentence if the phase does not allow an action.
@@ -28,14 +28,14 @@ class ReplayPlayer {
   // Opens a recording at its start. Fails if the file is not a recording or has no messages.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(const std::string& path,
                                                           const ReplayOptions& options);
-  // Opens a reader. `name` is the name of the simulation, unless the recording has it. For `models`
-  // see RecordedScene.
+  // Plays from a reader. `name` is the simulation's name if the recording does not contain it.
+  // `models`: see RecordedScene.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(
       std::unique_ptr<recording::McapReader> reader, const std::string& name,
       const ReplayOptions& options, ModelSource models = nullptr);
   ~ReplayPlayer();
 
-  const std::string& name() const { return name_; }  // The name of the recorded simulation.
+  const std::string& name() const { return name_; }  // name of the recorded simulation
   const std::shared_ptr<Hub>& hub() const { return stream_.hub(); }
   const RecordedScene& scene() const { return scene_; }
   const recording::McapReader& reader() const { return *reader_; }
@@ -45,10 +45,10 @@ class ReplayPlayer {
   // Problems of the file.
   const base::Problems& problems() const { return problems_; }
 
-  // The status in the form of a simulation's status, at the replay's position.
+  // Returns the recorded status at the replay's position, in the form of a simulation's status.
   simulation::SimulationStatus status() const;
   base::Result<SharedBytes> SceneNow() const;
-  // The recorded poses at the replay's position; empty if there are none yet.
+  // Returns the recorded poses at the replay's position; empty if there are none yet.
   messages::gsv_msgs::Poses poses() const { return stream_.recorded_poses(); }
   ReplayClock clock() const;
 

@@ -43,7 +43,8 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
     const Poses poses = Decoded<Poses>(received.at(1));
     EXPECT_NEAR(poses.poses[0], 0.5 * time, 0.5 * 0.02);  // poses are recorded at 50 Hz
     const auto range = Decoded<messages::sensor_msgs::Range>(received.at(2));
-    EXPECT_NEAR(range.range, 2.9 - 0.5 * time, 1e-6);  // each is an instant of the 20 Hz sensor
+    EXPECT_NEAR(range.range, 2.9 - 0.5 * time,
+                1e-6);  // the 20 Hz sensor has a reading at each of these times
     const auto beams = Decoded<messages::visualization_msgs::MarkerArray>(received.at(3));
     ASSERT_EQ(beams.markers.size(), 1u);
     EXPECT_FALSE(beams.markers[0].points.empty());
@@ -64,7 +65,7 @@ TEST_F(ReplayGatewayTest, StepsAndPauses) {
   EXPECT_EQ(json::parse(Post("stop").body)["phase"], "created");
 }
 
-TEST_F(ReplayGatewayTest, TheStatusOfEveryPauseIsSent) {
+TEST_F(ReplayGatewayTest, SendsTheStatusAfterEachSeekWhilePaused) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/status");
   // These times differ by less than the period of the status.
@@ -86,7 +87,7 @@ TEST_F(ReplayGatewayTest, StepsOverRecordedPoses) {
   viewer.ReceiveData(1);
   Post("seek", R"({"time_s":1})");
   viewer.ReceiveData(1);
-  // There are 50 poses per second, one for every two steps of the simulation.
+  // Poses are recorded at 50 Hz, every two steps of the simulation.
   const auto step = [&](const char* body) {
     return json::parse(Post("step", body).body)["time_s"].get<double>();
   };
@@ -118,7 +119,7 @@ TEST_F(ReplayGatewayTest, SpeedAndLoopCanBeChanged) {
   }
 }
 
-// Opcode 3, a viewer's request to the playback, written by hand.
+// Returns a viewer's playback control message (opcode 3), encoded independently of the code.
 std::string ControlBytes(bool play, float speed, std::optional<std::uint64_t> seek_ns) {
   std::string bytes = "\x03";
   const auto put = [&](const auto& value) {
@@ -159,7 +160,7 @@ StateReceived ReceiveAnswer(Viewer& viewer) {
   }
 }
 
-TEST_F(ReplayGatewayTest, FoxglovesPlaybackControlMovesIt) {
+TEST_F(ReplayGatewayTest, AppliesFoxglovesPlaybackControl) {
   Viewer viewer(port());
   const json info = viewer.ReceiveText("serverInfo");
   EXPECT_EQ(info["capabilities"].back(), "playbackControl");

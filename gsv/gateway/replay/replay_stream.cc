@@ -27,7 +27,8 @@ foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& s
       foxglove::TimeRange{base::NanosecondsOf(summary.start), base::NanosecondsOf(summary.end)}};
 }
 
-// Topics of the whole simulation come first, so that the limit does not exclude them.
+// Whether the topic is of the whole simulation. These topics come first, so that the limit does not
+// exclude them.
 bool IsCommon(const std::string& topic) {
   return topic.starts_with("/gsv/") || presentation::FindTopic(topic) != nullptr;
 }
@@ -87,7 +88,7 @@ void ReplayStream::AdvertiseFirst() {
 
 void ReplayStream::AdvertiseWanted() {
   if (!wanted_.TakeRequests()) return;
-  EvictUnheard();
+  EvictUnsubscribed();
   std::vector<std::uint16_t> ids;
   for (auto& [id, track] : tracks_) {
     const bool is_left_out = track.kind == Kind::kPlain && track.channel == 0;
@@ -98,8 +99,9 @@ void ReplayStream::AdvertiseWanted() {
   Advertise(ids);
 }
 
-void ReplayStream::EvictUnheard() {
-  const std::set<std::string> forgotten = wanted_.EvictUnheard([this] { return RobotsHeard(); });
+void ReplayStream::EvictUnsubscribed() {
+  const std::set<std::string> forgotten =
+      wanted_.EvictUnsubscribed([this] { return SubscribedRobots(); });
   std::vector<foxglove::ChannelId> gone;
   for (auto& [id, track] : tracks_) {
     if (!track.is_wanted || !forgotten.contains(RobotOf(TopicOf(id)))) continue;
@@ -109,12 +111,12 @@ void ReplayStream::EvictUnheard() {
   hub_->Unadvertise(gone);
 }
 
-std::set<std::string> ReplayStream::RobotsHeard() const {
-  std::set<std::string> heard;
+std::set<std::string> ReplayStream::SubscribedRobots() const {
+  std::set<std::string> robots;
   for (const auto& [id, track] : tracks_) {
-    if (track.is_wanted && hub_->IsSubscribed(track.channel)) heard.insert(RobotOf(TopicOf(id)));
+    if (track.is_wanted && hub_->IsSubscribed(track.channel)) robots.insert(RobotOf(TopicOf(id)));
   }
-  return heard;
+  return robots;
 }
 
 const std::string& ReplayStream::TopicOf(std::uint16_t id) const {
@@ -189,7 +191,8 @@ void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime
   AdvertiseWanted();
   hub_->PublishChanges(std::exchange(has_jumped_, false));
   const bool has_moved = published_time_ != time;
-  // The status is sent again later only while the replay plays, if it came too early.
+  // While the replay plays, the status is sent at a limited rate. While it is paused, every change
+  // is sent at once.
   const bool is_paced = phase == simulation::Phase::kRunning;
   const bool is_due =
       published_phase_ != phase || (has_moved && (!is_paced || status_pacing_.IsDue(now)));

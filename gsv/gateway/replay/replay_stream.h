@@ -1,7 +1,8 @@
-// Publishes the messages of a recording to a hub as its time advances.
+// A ReplayStream publishes the messages of a recording to a hub as the replay's time advances.
 //
-// A round publishes the newest message of each topic, but every passed message of /gsv/events. A
-// seek publishes no earlier events. The player itself publishes /clock and /gsv/status.
+// Publish() sends the newest message of each topic, but every message of /gsv/events since the last
+// call. After a seek, earlier events are not sent. /clock and /gsv/status are made from the
+// replay's own time and status.
 //
 // Threads  JumpTo(), PlayTo() and Publish() from one thread; the others from any.
 #pragma once
@@ -34,19 +35,19 @@ class ReplayStream {
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
-  // Requests the sensors of a robot: the next Publish() advertises them, beyond the limit.
+  // Requests the sensors of a robot. The next Publish() advertises them even beyond the limit.
   void Want(const std::string& robot) { wanted_.Want(robot); }
 
-  // Takes the newest message of each topic that is not after `time`.
+  // Reads the newest message of each topic that is not after `time`.
   void JumpTo(base::SimTime time);
-  // Takes the messages from the present position to `time`, inclusive.
+  // Reads the messages from the present position to `time`, inclusive.
   void PlayTo(base::SimTime time);
   // Publishes the messages since the last call, and the current state to new subscribers. Calls
   // `status` only if it is needed.
   void Publish(base::SimTime time, simulation::Phase phase, WallTime now,
                const std::function<simulation::SimulationStatus()>& status);
 
-  // The last recorded status and poses; empty before the first.
+  // These return the last recorded status and poses; empty before the first message.
   messages::gsv_msgs::SimulationStatus recorded_status() const;
   messages::gsv_msgs::Poses recorded_poses() const;
 
@@ -61,16 +62,19 @@ class ReplayStream {
   };
 
   static Kind KindOf(const std::string& topic);
+  // Advertises the topics up to the limit, those of the whole simulation first.
   void AdvertiseFirst();
   void AdvertiseWanted();
-  void EvictUnheard();
-  std::set<std::string> RobotsHeard() const;
+  void EvictUnsubscribed();
+  std::set<std::string> SubscribedRobots() const;
   const std::string& TopicOf(std::uint16_t id) const;
   void Advertise(const std::vector<std::uint16_t>& ids);
-  // Stores the message as the latest of its track. Null: the channel is not replayed.
+  // Stores the message as the newest of its track, and returns the track. Returns null if the
+  // channel is not replayed.
   const Track* Keep(std::uint16_t id, base::SimTime time, recording::Bytes data);
   void ReadNext();
   void Publish(Track& track);
+  // Publishes a message that is not recorded: to all subscribers if it is due, else to new ones.
   void PublishOwn(foxglove::ChannelId channel, bool is_due, base::SimTime time,
                   const std::function<SharedBytes()>& encode);
   void Warn(const std::string& sentence);

@@ -29,7 +29,8 @@ constexpr int kRobots = kListed + kWanted + 2;
 
 std::string Robot(int i) { return "robot_" + std::to_string(i); }
 
-// A replay of a recording with more sensors than are listed. Each sensor has one reading.
+// A replay of a recording with more sensors than the stream advertises. Each sensor has one
+// reading.
 class CrowdReplayTest : public ::testing::Test {
  public:
   CrowdReplayTest() {
@@ -68,7 +69,7 @@ class CrowdReplayTest : public ::testing::Test {
     stream_->Want(Robot(robot));
     Round();
   }
-  // The robots whose last sensor is currently listed.
+  // Returns the robots whose last sensor is advertised now.
   std::set<std::string> Listed() const {
     std::map<std::uint64_t, std::string> topics;
     for (const nlohmann::json& text : client_->texts()) {
@@ -96,7 +97,7 @@ class CrowdReplayTest : public ::testing::Test {
   std::shared_ptr<RecordingClient> client_ = std::make_shared<RecordingClient>();
 };
 
-TEST_F(CrowdReplayTest, BeyondTwoThousandTopicsARobotsTopicsAreListedOnRequest) {
+TEST_F(CrowdReplayTest, AdvertisesTopicsBeyondTwoThousandOnRequest) {
   EXPECT_TRUE(IsListed(kListed - 1));
   EXPECT_FALSE(IsListed(kListed));
   Want(kListed);

@@ -44,7 +44,8 @@ class ConnectionSlot {
   std::shared_ptr<ServerContext> context_;
 };
 
-// A slot for one upload, as uploads are held in memory.
+// Counts one upload during its lifetime. The number of uploads is limited because they are held in
+// memory.
 class UploadSlot {
  public:
   // Returns null if no slot is free.
@@ -65,13 +66,13 @@ class UploadSlot {
   const std::size_t number_;
 };
 
-// The interface of a session for the server.
+// The interface with which the server ends a session (HttpSession or WebSocketSession).
 class Connection {
  public:
   virtual ~Connection() = default;
   // Called on the server's thread: ends the session soon, with the closing handshake.
   virtual void Shutdown() = 0;
-  // After the server's thread has ended: releases all references to this session.
+  // Releases all references to this session. Called after the server's thread has ended.
   virtual void Cut() = 0;
 };
 

@@ -31,8 +31,8 @@ std::string Text(const http::request<http::string_body>& request, http::field fi
   return std::string(View(request[field]));
 }
 
-// Returns the response to bytes that are not an acceptable request; nothing if the connection was
-// closed.
+// Returns the response to bytes that are not an acceptable request, or nullopt if the connection
+// was closed.
 std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
                                    std::uint64_t body_limit) {
   if (error == http::error::header_limit || error == http::error::buffer_overflow) {
@@ -55,7 +55,7 @@ constexpr std::chrono::minutes kUploadTime{5};
 
 // Time limit for a client to begin TLS, and to close the connection.
 constexpr std::chrono::seconds kLeaveTime{1};
-// if the time limit of a request is shorter than this, that limit is used
+// Time limit for a handshake, unless the limit of a request is shorter.
 constexpr std::chrono::milliseconds kHandshakeTime{10'000};
 
 std::string PathOf(const Target& target) {
@@ -68,7 +68,7 @@ using KeepTrack = std::function<void(std::weak_ptr<Connection>)>;
 
 class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
-  // `buffer` has bytes that were read already.
+  // `buffer` has the bytes that were read from `stream` already.
   HttpSession(ByteStream stream, beast::flat_buffer buffer, std::shared_ptr<ServerContext> context,
               std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
       : stream_(std::move(stream)),
@@ -115,7 +115,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   beast::tcp_stream& tcp() { return stream_.tcp(); }
   const ServerLimits& limits() const { return context_->options.limits; }
 
-  // Refuses a body that is too long, and a file without permission, before reading it.
+  // Before the body is read: refuses a body that is too long, and a file if the client has no
+  // permission to send it.
   void OnHeader(error_code error) {
     if (error) return RespondToError(error);
     const auto& request = parser_->get();
@@ -175,8 +176,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return is_head_ ? std::string_view("GET") : View(parser_->get().method_string());
   }
 
-  // Returns a parameter of the query of a WebSocket or an image, because a page cannot set their
-  // headers.
+  // Returns a query parameter if the request is for a WebSocket or an image. A page cannot set
+  // headers of these requests. Other requests give an empty text.
   std::string SocketQuery(const std::string& name) const {
     const bool is_read = match_.route != nullptr && (match_.route->find_hub != nullptr ||
                                                      match_.route->accepts_token_in_query);
@@ -199,7 +200,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     const std::string authorization = Text(parser_->get(), http::field::authorization);
     access::Credentials credentials{std::string(access::BearerToken(authorization))};
     if (credentials.token.empty()) credentials.token = SocketQuery("token");
-    tcp().expires_never();  // the authenticator has its own limit
+    tcp().expires_never();  // the authenticator has its own time limit
     context_->authenticator->Authenticate(
         credentials, [self = shared_from_this(), next](const access::Principal& principal) {
           boost::asio::dispatch(self->stream_.get_executor(), [self, next, principal] {
@@ -214,7 +215,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     const access::Principal& principal = *principal_;
     if (principal.permission < match_.permission) {
       const std::string why = context_->authenticator->Refusal(principal, match_.permission);
-      // Logs only the path, as a query may have a token.
+      // Log only the path, because the query may contain a token.
       spdlog::info("refused {} {}: {}", View(parser_->get().method_string()), PathOf(*target_),
                    why);
       return Write(ErrorResponse(principal.showed_credentials ? 403 : 401, why));
@@ -236,7 +237,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     if (match_.route == nullptr) return Write(NoRoute(match_));
     if (is_upgrade) return Upgrade();
     upload_.reset();
-    tcp().expires_never();  // handlers have their own limits
+    tcp().expires_never();  // handlers have their own time limits
     context_->handler.Handle(
         *match_.route, TakeRequest(), [self = shared_from_this()](Response response) mutable {
           auto executor = self->stream_.get_executor();
@@ -316,7 +317,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return message;
   }
 
-  // `bytes` is the data of the message's body.
+  // Sends a response. `bytes` owns the data of its body.
   template <typename Body>
   void Send(http::response<Body> response, SharedBytes bytes) {
     auto message = std::make_shared<http::response<Body>>(std::move(response));
@@ -347,7 +348,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 
   void WriteNextPart(const std::shared_ptr<BodyStream>& parts) {
     if (context_->stopping) return OnWritten({});
-    tcp().expires_never();  // the stream has its own limits
+    tcp().expires_never();  // the stream has its own time limits
     parts->Next([self = shared_from_this(), parts](std::optional<SharedBytes> part) {
       boost::asio::post(self->stream_.get_executor(), [self, parts, part = std::move(part)] {
         if (!part) return self->OnWritten({});
@@ -379,8 +380,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     Drain();
   }
 
-  // Reads the remaining bytes of the client, because closing the socket with unread bytes could
-  // discard the answer.
+  // Reads the remaining bytes of the client. If the socket were closed with unread bytes, the
+  // system could discard the response.
   void Drain() {
     is_idle_ = true;
     tcp().expires_after(kLeaveTime);
@@ -400,21 +401,21 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   // The state of the request that is being read or answered:
   base::Result<Target> target_{};
   Router::Match match_;
-  std::optional<access::Principal> principal_;  // nothing while it is unknown
+  std::optional<access::Principal> principal_;  // nullopt until the client is authenticated
   std::unique_ptr<UploadSlot> upload_;          // set during an upload
   std::uint64_t body_limit_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = false;
   bool is_head_ = false;
-  bool is_idle_ = false;  // whether it waits for a request that may never come
+  bool is_idle_ = false;  // whether the session waits for a request that may never come
 };
 
-// Reads a connection's first bytes. TLS continues by TLS. A client that uses plain HTTP gets the
-// address of the TLS server, and nothing else.
-class TlsDoor final : public Connection, public std::enable_shared_from_this<TlsDoor> {
+// Reads the first bytes of a connection to a server with TLS. If they begin TLS, an HttpSession
+// serves the client. If they are plain HTTP, the client only gets a message that asks for https://.
+class TlsDetector final : public Connection, public std::enable_shared_from_this<TlsDetector> {
  public:
-  TlsDoor(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
-          std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
+  TlsDetector(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+              std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
       : stream_(std::move(socket)),
         context_(std::move(context)),
         slot_(std::move(slot)),
@@ -425,7 +426,7 @@ class TlsDoor final : public Connection, public std::enable_shared_from_this<Tls
     beast::async_detect_ssl(stream_, buffer_,
                             [self = shared_from_this()](error_code error, bool is_tls) {
                               if (error) return self->tcp().close();
-                              is_tls ? self->LetIn() : self->TurnAway();
+                              is_tls ? self->ServeTls() : self->RefusePlainHttp();
                             });
   }
 
@@ -435,14 +436,14 @@ class TlsDoor final : public Connection, public std::enable_shared_from_this<Tls
  private:
   beast::tcp_stream& tcp() { return stream_.tcp(); }
 
-  void LetIn() {
+  void ServeTls() {
     const auto session = std::make_shared<HttpSession>(std::move(stream_), std::move(buffer_),
                                                        context_, std::move(slot_), keep_track_);
     keep_track_(session);
     session->BeginTls();
   }
 
-  void TurnAway() {
+  void RefusePlainHttp() {
     static constexpr std::string_view kAnswer =
         "HTTP/1.1 400 Bad Request\r\nConnection: close\r\nContent-Type: application/json\r\n\r\n"
         "{\"error\":\"this server speaks HTTPS only; open the address with https://\"}";
@@ -478,8 +479,8 @@ void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<Serve
                       std::unique_ptr<ConnectionSlot> slot,
                       std::function<void(std::weak_ptr<Connection>)> keep_track) {
   if (context->tls != nullptr) {
-    const auto door = std::make_shared<TlsDoor>(std::move(socket), std::move(context),
-                                                std::move(slot), keep_track);
+    const auto door = std::make_shared<TlsDetector>(std::move(socket), std::move(context),
+                                                    std::move(slot), keep_track);
     keep_track(door);
     return door->Open();
   }

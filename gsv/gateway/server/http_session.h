@@ -1,4 +1,4 @@
-// An HTTP connection, until it ends or becomes a WebSocket.
+// Serves an HTTP connection until it ends or becomes a WebSocket.
 #pragma once
 
 #include <functional>

@@ -1,10 +1,12 @@
-// The queue of messages to one client.
+// A SendQueue is the queue of messages to one client. Data with Delivery::kNewest are called state
+// here.
 //
-// Newest   data that have waited for kMaxWait are left out if they are state and a newer message of
-//          their subscription waits. So a slow connection gets fewer messages, and no old ones.
-// Bounded  control messages (advertisements, answers) are never dropped; if they exceed the limit,
-//          the client is disconnected. If data exceed their limit, state with a newer message of
-//          its subscription is dropped first, and the oldest data if there is none.
+// Newest   state that has waited for kMaxWait is dropped if a newer message of its subscription is
+//          queued. So a slow connection gets fewer messages, and no old ones.
+// Bounded  control messages (advertisements, answers) are never dropped. If they exceed their
+//          limit, the client is disconnected. If data exceed their limit, state with a newer
+//          message of its subscription is dropped first. If there is none, the oldest data are
+//          dropped.
 // Threads  any.
 #pragma once
 
@@ -56,8 +58,8 @@ class SendQueue {
     std::optional<Outgoing> message;
     std::size_t left_out = 0;  // older data that were dropped
   };
-  // Returns the next message: control messages before data, each kind in order. If data are not
-  // allowed, only a control message.
+  // Removes and returns the next message: control messages first, then data, each in order. If
+  // `allows_data` is false, returns only control messages.
   Popped Pop(Time now, bool allows_data = true);
 
   bool empty() const;
@@ -66,11 +68,11 @@ class SendQueue {
 
  private:
   static Outgoing Take(std::deque<Outgoing>& queue, std::size_t& bytes);
-  // Drops one message, for another that does not fit.
+  // Drops one data message, because `incoming` does not fit.
   void DropFor(const Outgoing& incoming) GSV_REQUIRES(mutex_);
-  // Whether the message is state, and a newer one of its subscription waits.
+  // Whether the message is state, and a newer one of its subscription is queued.
   bool IsReplaced(std::deque<Outgoing>::const_iterator message) const GSV_REQUIRES(mutex_);
-  // Whether a newer message replaces the oldest data.
+  // Whether the oldest data message has waited for kMaxWait, and a newer message replaces it.
   bool IsOutdated(Time now) const GSV_REQUIRES(mutex_);
 
   const SendLimits limits_;

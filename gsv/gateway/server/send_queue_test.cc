@@ -59,7 +59,7 @@ TEST(SendQueue, DropsTheOldestDataBeyondTheirSize) {
   EXPECT_EQ(Order(queue), "cd");
 }
 
-TEST(SendQueue, KeepsTheNewestHoweverLargeItIs) {
+TEST(SendQueue, KeepsTheNewestMessageOfAnySize) {
   SendQueue queue({.control_bytes = 100, .data_bytes = 50, .data_messages = 9});
   PushData(queue, 'a');
   PushData(queue, 'b', 1000);
@@ -76,7 +76,7 @@ TEST(SendQueue, RefusesControlThatDoesNotFit) {
   EXPECT_TRUE(queue.PushControl(Bytes(5)));
 }
 
-TEST(SendQueue, LeavesOutOldStateThatANewerMessageReplaces) {
+TEST(SendQueue, DropsOldStateThatANewerMessageReplaces) {
   SendQueue queue({});
   PushAt(queue, 0, 'a', 1);
   PushAt(queue, 0, 'A', 2);
@@ -87,7 +87,7 @@ TEST(SendQueue, LeavesOutOldStateThatANewerMessageReplaces) {
   EXPECT_EQ(queue.dropped(), 2u);
 }
 
-TEST(SendQueue, KeepsStateThatIsYoungOrAlone) {
+TEST(SendQueue, KeepsStateThatIsRecentOrTheNewest) {
   SendQueue queue({});
   for (const char name : {'a', 'b', 'c'}) PushAt(queue, 0, name, 1);
   EXPECT_EQ(Order(queue, 199), "abc");
@@ -112,7 +112,7 @@ TEST(SendQueue, DropsReplacedStateBeforeEventsAndOtherState) {
   EXPECT_EQ(Order(queue), "EhdF");
 }
 
-TEST(SendQueue, LeavesOutOldTimes) {
+TEST(SendQueue, DropsOldTimeMessages) {
   SendQueue queue({});
   for (const std::uint64_t time : {1u, 2u, 3u}) {
     queue.PushData(foxglove::TimeHeader(time), {}, Delivery::kNewest, At(0));

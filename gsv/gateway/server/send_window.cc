@@ -38,11 +38,11 @@ void SendWindow::Pong(std::uint64_t number, Time now) {
   const Clock::duration minimum = *min_delay_;
   const Clock::duration excess = now - mark.started - minimum;
   const bool is_late = excess > kMaxDelay;
-  // A short excess says something only about a good part of the window.
-  const bool is_telling = 4 * excess > kAimedDelay && 4 * mark.bytes >= bytes_;
+  // A short excess is significant only if the pong confirms a large part of the window.
+  const bool is_significant = 4 * excess > kAimedDelay && 4 * mark.bytes >= bytes_;
   const Clock::duration busy = now - std::max(last_pong_, mark.first_started + minimum);
   last_pong_ = now;
-  if (mark.bytes > 0 && busy > Clock::duration::zero() && (is_late || is_telling)) {
+  if (mark.bytes > 0 && busy > Clock::duration::zero() && (is_late || is_significant)) {
     rate_ = static_cast<double>(mark.bytes) / Seconds(busy);
     if (static_cast<double>(bytes_) > *rate_ * Seconds(minimum + kMaxDelay)) {
       bytes_ =

@@ -14,8 +14,8 @@ using Time = SendWindow::Time;
 
 constexpr milliseconds kMessagePeriod{10}, kStep{1};
 
-// A connection that passes `rate` bytes per second after a delay, and buffers without limit. Its
-// sender offers a message each kMessagePeriod, and drops it if the window is closed.
+// Simulates a connection with a rate in bytes per second, a delay and an unlimited buffer. Its
+// sender has a message each kMessagePeriod, and drops it if the window is closed.
 class Link {
  public:
   Link(double rate, milliseconds delay, std::size_t message)
@@ -24,7 +24,8 @@ class Link {
   void set_rate(double rate) { rate_ = rate; }
   void set_delay(milliseconds delay) { delay_ = delay; }
 
-  // Returns the longest time from a message's start to its arrival in this time.
+  // Runs the connection for `duration`. Returns the longest time from the sending of a message to
+  // its arrival.
   std::chrono::duration<double> Run(milliseconds duration) {
     std::chrono::duration<double> longest{0};
     for (const Time end = now_ + duration; now_ < end; now_ += kStep) {
@@ -135,7 +136,7 @@ TEST(SendWindow, FollowsAConnectionThatBecomesSlowAndFastAgain) {
   EXPECT_FALSE(link.is_slow());
 }
 
-TEST(SendWindow, AConnectionWhoseWayBecameLongerIsNotSlowForever) {
+TEST(SendWindow, AConnectionWhoseDelayIncreasesIsNotSlowForever) {
   for (const milliseconds delay : {milliseconds(450), milliseconds(1200)}) {
     Link link(10e6, milliseconds(20), 5'000);  // 500 kB/s is offered
     link.Run(milliseconds(10'000));

@@ -23,9 +23,9 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 // Time limit for clients to close their connections after Stop().
-constexpr std::chrono::seconds kLastAnswers{1};
+constexpr std::chrono::seconds kStopTimeout{1};
 // Delay before the next attempt to accept if the system has no free descriptors.
-constexpr std::chrono::milliseconds kBreath{100};
+constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
 
 base::Result<tcp::endpoint> EndpointOf(const ServerOptions& options) {
   error_code error;
@@ -70,7 +70,7 @@ base::Status Listen(tcp::acceptor& acceptor, const tcp::endpoint& endpoint,
 }
 
 // Sends a refusal to a client above the limit, without waiting for it.
-void TurnAway(tcp::socket& socket) {
+void RefuseConnection(tcp::socket& socket) {
   static constexpr std::string_view kAnswer =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: application/json\r\n"
       "\r\n"
@@ -133,7 +133,7 @@ class BeastServer final : public Server {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { SayGoodbye(); });
     // The thread ends when the last connection has ended.
-    finished_.get_future().wait_for(kLastAnswers);
+    finished_.get_future().wait_for(kStopTimeout);
     io_.stop();
     thread_.join();
     for (const std::weak_ptr<Connection>& weak : connections_) {
@@ -152,7 +152,7 @@ class BeastServer final : public Server {
   }
 
   void AcceptLater() {
-    pause_.expires_after(kBreath);
+    pause_.expires_after(kAcceptRetryDelay);
     pause_.async_wait([this](error_code error) {
       if (!error && acceptor_.is_open()) Accept();
     });
@@ -161,7 +161,7 @@ class BeastServer final : public Server {
   void Serve(tcp::socket socket) {
     if (options_.traffic->connections >= options_.limits.connections) {
       ++options_.traffic->turned_away;
-      return TurnAway(socket);
+      return RefuseConnection(socket);
     }
     error_code ignored;
     socket.set_option(tcp::no_delay(true), ignored);
@@ -191,7 +191,7 @@ class BeastServer final : public Server {
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
-  std::vector<std::weak_ptr<Connection>> connections_;  // some of these may have ended
+  std::vector<std::weak_ptr<Connection>> connections_;  // may include ended ones
   std::promise<void> finished_;
   std::thread thread_;
 };

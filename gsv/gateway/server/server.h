@@ -1,4 +1,4 @@
-// Listens on one port and serves HTTP and WebSockets, over TLS if it has a certificate.
+// A Server listens on one port and serves HTTP and WebSockets, over TLS if it has a certificate.
 //
 // Threads   one thread serves all connections and never blocks. It calls the Handler, which must
 //           return at once.
@@ -25,7 +25,7 @@ struct ServerLimits {
   std::uint32_t header_bytes = 16u << 10;
   std::uint64_t body_bytes = 64u << 10;
   std::uint64_t upload_bytes = 64u << 20;  // maximum size of one file
-  std::size_t uploads_at_once = 4;         // each is in memory until it is complete
+  std::size_t uploads_at_once = 4;         // an upload is in memory until it is complete
   std::size_t message_bytes = 256u << 10;  // maximum size of one WebSocket message from a client
   // time limit to send a request, or to receive the response
   std::chrono::milliseconds request_time{30'000};
@@ -62,7 +62,7 @@ class Handler {
   // Runs the handler of the route, on the threads that the route names. `respond` must be called
   // once, now or later, from any thread, before the server is stopped.
   virtual void Handle(const Route& route, Request request, Respond respond) = 0;
-  // An error with the reason if the viewer with this key (empty: none) may not control the
+  // Returns an error with the reason if the viewer with this key (empty: none) may not control the
   // simulation now; see ViewerRegistry.
   virtual base::Status CheckControl(const std::string& /*viewer*/,
                                     const std::string& /*simulation*/) {
@@ -72,8 +72,9 @@ class Handler {
 
 class Server {
  public:
-  // `handler` must outlive the server. Fails if the port is not available or the certificate is
-  // invalid, and with kInvalidArgument if other machines could connect without credentials.
+  // Starts a server. `handler` must outlive it. Fails if the port is not available or the
+  // certificate is invalid, and with kInvalidArgument if other machines could connect without
+  // credentials.
   static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options,
                                                      Handler& handler);
   virtual ~Server() = default;

@@ -89,7 +89,7 @@ TEST_F(ServerTest, DisconnectsAClientThatDoesNotFinishARequest) {
   EXPECT_TRUE(connection.IsClosed());
 }
 
-TEST_F(ServerTest, RefusesOneConnectionTooMany) {
+TEST_F(ServerTest, RefusesConnectionsBeyondTheLimit) {
   ServerOptions options;
   options.limits.connections = 2;
   Start(options);
@@ -109,7 +109,7 @@ TEST_F(ServerTest, RefusesOneConnectionTooMany) {
   EXPECT_EQ(status, 200);
 }
 
-TEST_F(ServerTest, APortInUseIsNamed) {
+TEST_F(ServerTest, ReportsAPortInUse) {
   Start();
   ServerOptions options;
   options.port = port();
@@ -122,7 +122,7 @@ TEST_F(ServerTest, APortInUseIsNamed) {
           ": another program uses the port; choose another port, or --port 0 for any free one");
 }
 
-TEST_F(ServerTest, AnInvalidAddressIsNamed) {
+TEST_F(ServerTest, ReportsAnInvalidAddress) {
   ServerOptions options;
   options.host = "nowhere.example";
   EXPECT_EQ(Server::Start(options, echo_).error().code, base::ErrorCode::kInvalidArgument);

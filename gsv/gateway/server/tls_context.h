@@ -1,4 +1,4 @@
-// The TLS contexts of servers and clients.
+// Creates the TLS contexts of servers and clients.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,12 @@
 
 namespace gsv::gateway {
 
-// A server context for TLS 1.2 and 1.3. Fails with a sentence if the files are invalid, see
+// Creates a server context for TLS 1.2 and 1.3. Fails with a sentence if the files are invalid, see
 // tls::CheckKeyPair().
 base::Result<std::shared_ptr<boost::asio::ssl::context>> MakeTlsContext(const TlsFiles& files);
 
-// A client context that trusts the PEM file `authority`; empty: the system's authorities.
+// Creates a client context that trusts the certificates in the PEM file `authority`; empty: the
+// system's authorities.
 base::Result<std::shared_ptr<boost::asio::ssl::context>> MakeTlsClientContext(
     const std::string& authority);
 

@@ -72,7 +72,7 @@ class TlsTest : public testing::ServerTest {
     beast::flat_buffer buffer;
     http::response<http::string_body> response;
     http::read(client.stream, buffer, response);
-    // TLS announces the end of the data, so that nobody can truncate an answer unnoticed.
+    // TLS announces the end of the data. So an attacker cannot truncate a response unnoticed.
     error_code error;
     char byte = 0;
     client.stream.read_some(asio::buffer(&byte, 1), error);
@@ -102,7 +102,7 @@ TEST_F(TlsTest, AnswersClientsThatTrustItsAuthority) {
   EXPECT_EQ(body, "GET /hello ");
 }
 
-TEST_F(TlsTest, OtherClientsDoNotTrustIt) {
+TEST_F(TlsTest, ClientsWithoutItsAuthorityDoNotTrustIt) {
   StartSecure();
   ASSERT_TRUE(tls::MakeAuthority(folder_.path() / "other", {}));
   const auto greet = [&](const std::string& authority, const std::string& host) {
@@ -129,7 +129,7 @@ TEST_F(TlsTest, OldVersionsAreRefused) {
   EXPECT_THROW(FetchSecurely("", TLS1_1_VERSION), boost::system::system_error);
 }
 
-TEST_F(TlsTest, APlainHttpClientGetsOnlyTheTlsAddress) {
+TEST_F(TlsTest, APlainHttpClientIsReferredToHttps) {
   StartSecure();
   const testing::HttpReply reply = testing::Fetch(port(), "GET", "/hello");
   EXPECT_EQ(reply.status, 400);
@@ -139,7 +139,7 @@ TEST_F(TlsTest, APlainHttpClientGetsOnlyTheTlsAddress) {
   EXPECT_EQ(FetchSecurely().first, 200);
 }
 
-TEST_F(TlsTest, GarbageDoesNoHarm) {
+TEST_F(TlsTest, SurvivesInvalidData) {
   StartSecure();
   for (const char* bytes : {"\x16\x03\x01", "\x16\x03\x01\xff\xff\x01\x00\xff\xff", "\x80"}) {
     testing::HttpConnection connection(port());

@@ -24,15 +24,16 @@ using HttpRequest = beast::http::request<beast::http::string_body>;
 // Bytes read from the socket at a time.
 constexpr std::size_t kReadSize = 16u << 10;
 // Time limit for a client to receive pending messages before the connection is closed.
-constexpr std::chrono::seconds kFarewell{2};
+constexpr std::chrono::seconds kCloseTimeout{2};
 // Time between two checks of a slow connection, which may become fast again without further
 // messages.
-constexpr std::chrono::seconds kSlowLook{1};
+constexpr std::chrono::seconds kSlowCheckInterval{1};
 constexpr std::string_view kSlowSentence =
     "The connection is slow: the server leaves out older updates, so that the newest ones arrive "
     "in time.";
 
-// A close frame's payload is at most 125 bytes, including two for the code.
+// Makes the payload of a close frame. It has at most 125 bytes, including two for the code, so the
+// text may be truncated.
 websocket::close_reason Reason(CloseCode code, const std::string& text) {
   const std::size_t length = std::min(text.size(), websocket::reason_string::max_size_n);
   return {static_cast<websocket::close_code>(code), beast::string_view(text.data(), length)};
@@ -169,14 +170,15 @@ class WebSocketSession final : public Client,
     buffer_.clear();
   }
 
-  // Sends the sentence twice: complete as a status message, and as the short reason.
+  // Closes the connection. Sends the complete sentence as a status message, and its beginning as
+  // the reason in the close frame.
   void Refuse(CloseCode code, const std::string& sentence) {
     buffer_.clear();
     SendStatus(foxglove::StatusLevel::kError, sentence);
     BeginClose(code, sentence);
   }
 
-  // Any thread: starts writing the queue. At most one post is pending.
+  // Starts to write the queue, on this session's thread. Any thread may call it.
   void Wake() {
     if (is_woken_.exchange(true)) return;
     boost::asio::post(stream_.get_executor(), [self = shared_from_this()] {
@@ -226,15 +228,15 @@ class WebSocketSession final : public Client,
   }
 
   void Ping(SendWindow::Time started) {
-    // During a write, the ping would wait behind bytes that it does not count. The end of the write
-    // asks again.
+    // During a write, the ping would be sent after bytes that the window does not count yet.
+    // PingIfWanted() is called again at the end of the write.
     if (is_pinging_ || is_writing_ || !is_open_ || close_reason_) return;
     is_pinging_ = true;
     const std::string number = std::to_string(window_.Ping(SendWindow::Clock::now(), started));
     stream_.async_ping(websocket::ping_data(number.data(), number.size()),
                        [self = shared_from_this()](error_code error) {
                          self->is_pinging_ = false;
-                         // The pong may have come before this.
+                         // If the pong has already come, another ping may be due.
                          if (!error) self->PingIfWanted(SendWindow::Clock::now());
                        });
   }
@@ -267,7 +269,7 @@ class WebSocketSession final : public Client,
   }
 
   void LookAgain() {
-    slow_look_.expires_after(kSlowLook);
+    slow_look_.expires_after(kSlowCheckInterval);
     slow_look_.async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
       if (error || !self || self->has_left_) return;
@@ -280,7 +282,7 @@ class WebSocketSession final : public Client,
   void BeginClose(CloseCode code, const std::string& reason) {
     if (close_reason_) return;
     close_reason_ = Reason(code, reason);
-    farewell_.expires_after(kFarewell);
+    farewell_.expires_after(kCloseTimeout);
     farewell_.async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
       if (!error && self) self->stream_.next_layer().tcp().close();
@@ -322,7 +324,7 @@ class WebSocketSession final : public Client,
   bool is_open_ = false;  // the connection was accepted, and no close frame was sent
   bool is_writing_ = false;
   bool is_pinging_ = false;  // a ping is being written
-  bool is_slow_ = false;     // the client has the status message about its slow connection
+  bool is_slow_ = false;     // whether the client has the status message about its slow connection
   std::atomic<double> slow_rate_{0};
   bool has_left_ = false;
   bool is_counted_ = false;  // the session counts as a viewer

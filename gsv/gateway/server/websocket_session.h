@@ -1,7 +1,7 @@
-// A WebSocket connection with the Foxglove protocol: a client of a hub.
+// Serves a WebSocket connection with the Foxglove protocol, which is a client of a hub.
 //
 // A slow client gets fewer data messages, and no old ones (SendQueue, SendWindow). A status message
-// with an ID tells it so, until its connection is fast again.
+// reports this to the client, and is removed when its connection is fast again.
 #pragma once
 
 #include <memory>

@@ -39,7 +39,7 @@ TEST_F(ServerTest, DataReachesASubscriber) {
   EXPECT_EQ(data.payload, "seven");
 }
 
-TEST_F(ServerTest, ClosesWithASentenceOnNonsense) {
+TEST_F(ServerTest, ClosesWithASentenceOnInvalidMessages) {
   Start();
   Viewer talker(port());
   talker.SendText("hello");
@@ -101,7 +101,7 @@ TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
   EXPECT_EQ(other.ReceiveText("serverInfo")["name"], "echo");
 }
 
-TEST_F(ServerTest, StalledReaderLosesTheOldestDataAndDelaysNoOther) {
+TEST_F(ServerTest, AStalledClientLosesOldDataAndDoesNotDelayOthers) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
   // the client reads nothing, so it does not answer pings
@@ -191,7 +191,7 @@ TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {
   EXPECT_LT(seen.size(), kMessages);
 }
 
-TEST_F(ServerTest, AReaderThatReadsNoControlTextsIsDisconnected) {
+TEST_F(ServerTest, AClientThatReadsNoControlMessagesIsDisconnected) {
   ServerOptions options;
   options.limits.send.control_bytes = 1 << 20;
   Start(options);

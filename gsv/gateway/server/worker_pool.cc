@@ -42,7 +42,7 @@ void WorkerPool::Work() {
     jobs_.pop_front();
     lock.unlock();
     job();
-    job = nullptr;  // destroys the captured objects before locking
+    job = nullptr;  // destroys the job's captured objects before locking
     lock.lock();
   }
 }

@@ -1,4 +1,4 @@
-// A thread pool for work that must not block the serving threads.
+// A WorkerPool is a thread pool for work that must not block the serving threads.
 //
 // Bounded  a job is refused if the queue is full.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace gsv::gateway {
 
-// The largest number of pending requests of viewers.
+// The queue limit of pools that handle viewers' requests.
 inline constexpr std::size_t kWaitingRequests = 256;
 
 class WorkerPool {
@@ -23,7 +23,8 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  // Any thread. If the queue is full, or after Stop(), drops the job and returns false.
+  // Queues a job; any thread may call this. If the queue is full, or after Stop(), drops the job
+  // and returns false.
   [[nodiscard]] bool Submit(std::function<void()> job);
 
   // Waits for running jobs and drops pending ones. Must not be called from a job.

@@ -14,7 +14,8 @@
 
 namespace gsv::gateway::testing {
 
-// One robot on a circle of radius 1 at 0.2 rad/s, and a wall clock that the test advances.
+// A live stream of one robot, which drives on a circle of radius 1 m at 0.2 rad/s. The test
+// advances the wall clock.
 class LiveStreamTest : public ::testing::Test {
  protected:
   void SetUp() override { stream_.hub()->Add(client_); }
@@ -34,7 +35,8 @@ class LiveStreamTest : public ::testing::Test {
     ASSERT_TRUE(stream_.hub()->Receive(&client, SubscribeText(id, channel)));
   }
 
-  // Runs rounds until `count` messages of the subscription have arrived from workers.
+  // Calls Round() until `count` messages of the subscription have come from worker threads. Returns
+  // the last one.
   ReceivedData RoundUntil(foxglove::SubscriptionId id, std::size_t count) {
     while (client_->data(id).size() < count) {
       Round(std::chrono::milliseconds(1));

@@ -75,7 +75,7 @@ class RecordingClient final : public Client {
     return answers_;
   }
 
-  // The messages of one subscription.
+  // Returns the messages of one subscription.
   std::vector<ReceivedData> data(foxglove::SubscriptionId subscription) const {
     const std::lock_guard lock(mutex_);
     std::vector<ReceivedData> found;

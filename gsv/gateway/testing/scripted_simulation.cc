@@ -187,7 +187,7 @@ void ScriptedSimulation::SetDriveState(const std::string& robot, const world::Dr
   PublishSnapshot();
 }
 
-// Only observers receive this event.
+// Only observers get this contact.
 void ScriptedSimulation::Meet(const std::string& first, const std::string& second) {
   Advance(specification_.world->max_step_size);
   const std::lock_guard lock(mutex_);
@@ -240,7 +240,8 @@ std::pair<int, world::JointCommand> ScriptedSimulation::joint_command() const {
   return avatar_->joint_command();
 }
 
-base::Status ScriptedSimulation::Become(Phase phase, std::vector<Phase> from, const char* event) {
+base::Status ScriptedSimulation::ChangePhase(Phase phase, std::vector<Phase> from,
+                                             const char* event) {
   const std::lock_guard lock(mutex_);
   if (std::find(from.begin(), from.end(), phase_) == from.end()) {
     return base::Fail(ErrorCode::kNotRunning, std::string("the simulation is ") +
@@ -254,16 +255,17 @@ base::Status ScriptedSimulation::Become(Phase phase, std::vector<Phase> from, co
 }
 
 base::Status ScriptedSimulation::Start() {
-  return Become(Phase::kRunning, {Phase::kCreated}, "started");
+  return ChangePhase(Phase::kRunning, {Phase::kCreated}, "started");
 }
 base::Status ScriptedSimulation::Pause() {
-  return Become(Phase::kPaused, {Phase::kRunning}, "paused");
+  return ChangePhase(Phase::kPaused, {Phase::kRunning}, "paused");
 }
 base::Status ScriptedSimulation::Resume() {
-  return Become(Phase::kRunning, {Phase::kPaused}, "resumed");
+  return ChangePhase(Phase::kRunning, {Phase::kPaused}, "resumed");
 }
 base::Status ScriptedSimulation::Stop() {
-  return Become(Phase::kStopped, {Phase::kCreated, Phase::kRunning, Phase::kPaused}, "stopped");
+  return ChangePhase(Phase::kStopped, {Phase::kCreated, Phase::kRunning, Phase::kPaused},
+                     "stopped");
 }
 base::Status ScriptedSimulation::Reset() {
   const std::lock_guard lock(mutex_);
@@ -274,7 +276,8 @@ base::Status ScriptedSimulation::Reset() {
   return {};
 }
 base::Status ScriptedSimulation::Step(std::int64_t count) {
-  if (base::Status paused = Become(Phase::kPaused, {Phase::kCreated, Phase::kPaused}, "stepped");
+  if (base::Status paused =
+          ChangePhase(Phase::kPaused, {Phase::kCreated, Phase::kPaused}, "stepped");
       !paused) {
     return paused;
   }

@@ -1,5 +1,5 @@
-// For tests: a simulation whose robots drive in circles by formula, so that all values are known in
-// closed form. Sensors are real. Bodies move only with Advance().
+// For tests: a simulation whose robots drive in circles by a formula, so that all values are known
+// in closed form. Its sensors are those of GSV. Bodies move only with Advance().
 //
 // World    "arena": a floor, four crates at (±4, ±4), robots robot_0, robot_1, … and one avatar.
 //          Robot i drives around (0, 0) with radius 1 + i/2 at 0.2 rad/s, with a phase of i
@@ -26,7 +26,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   // Sets a robot's drive command in the latest and later snapshots.
   void SetDriveState(const std::string& robot, const world::DriveCommand& command,
                      base::SimTime time);
-  // Adds a contact of two bodies to the next step, at the origin of the first one.
+  // Advances by one step, in which a contact of the two bodies begins at the origin of the first
+  // one.
   void Meet(const std::string& first, const std::string& second);
   // Passes the times of a step to the observers that request them.
   void Time(const simulation::StepTimes& times);
@@ -36,10 +37,10 @@ class ScriptedSimulation final : public simulation::Simulation {
   // Adds a sensor to a robot; the layout does not change.
   void Mount(const std::string& robot, model::SensorDescription sensor);
   void AddEvent(const std::string& kind);
-  // A hook at the start of Watch().
+  // Sets a function that Watch() calls first.
   void set_on_watch(std::function<base::Status(const std::string& sensor)> on_watch);
   world::DriveCommand avatar_command() const;
-  // The joint that was commanded last, and its command.
+  // Returns the joint that was commanded last, and its command.
   std::pair<int, world::JointCommand> joint_command() const;
 
   base::Result<std::vector<std::string>> AddRobots(
@@ -92,8 +93,8 @@ class ScriptedSimulation final : public simulation::Simulation {
 
   void PlaceAll();  // makes the layout, and places all bodies at time_
   void PublishSnapshot();
-  base::Status Become(simulation::Phase phase, std::vector<simulation::Phase> from,
-                      const char* event);
+  base::Status ChangePhase(simulation::Phase phase, std::vector<simulation::Phase> from,
+                           const char* event);
 
   simulation::Specification specification_;
   sensing::SensorRegistry sensor_types_;

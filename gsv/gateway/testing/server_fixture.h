@@ -27,7 +27,7 @@ class Echo final : public Handler {
   Hub& hub() { return *hub_; }
   foxglove::ChannelId channel() const { return channel_; }
 
-  // Waits for a condition on the hub.
+  // Waits until a condition of the hub holds.
   template <typename Condition>
   void WaitUntil(Condition condition) {
     std::unique_lock lock(mutex_);

@@ -25,9 +25,10 @@ class HttpConnection {
   ~HttpConnection();
 
   void Send(const std::string& bytes);
-  // The next response; empty at the connection's end. `has_body`: false for a HEAD request.
+  // Receives the next response; nullopt at the connection's end. `has_body`: false for a HEAD
+  // request.
   std::optional<HttpReply> Receive(bool has_body = true);
-  bool IsClosed();  // waits for data or the end
+  bool IsClosed();  // waits for data or for the connection's end
 
  private:
   struct Impl;
@@ -61,7 +62,7 @@ class Viewer {
   void SendText(const std::string& text);
   void SendBinary(const std::string& bytes);
   void SendRaw(const std::string& bytes);  // sends bytes without framing
-  // Receives the next message; empty when the connection has ended.
+  // Receives the next message; nullopt when the connection has ended.
   std::optional<Frame> Receive();
   // Receives the next text with that operation; skips others.
   nlohmann::json ReceiveText(const std::string& op);
@@ -78,7 +79,7 @@ class Viewer {
   // Waits for the advertisement of a topic, then subscribes.
   void Subscribe(foxglove::SubscriptionId id, const std::string& topic);
 
-  // The close code and reason of the server.
+  // These return the close code and reason of the server.
   std::uint16_t close_code() const;
   std::string close_reason() const;
   void Close();

@@ -15,9 +15,9 @@ ByteStream::Tls& ByteStream::StartTls(asio::ssl::context& context) {
   return *tls_;
 }
 
-void ByteStream::Handshake(asio::ssl::stream_base::handshake_type type, asio::const_buffer come,
-                           Completion then) {
-  tls_->async_handshake(type, come, std::move(then));
+void ByteStream::Handshake(asio::ssl::stream_base::handshake_type type,
+                           asio::const_buffer already_read, Completion then) {
+  tls_->async_handshake(type, already_read, std::move(then));
 }
 
 void ByteStream::Shutdown(Completion then) {

@@ -1,6 +1,6 @@
-// A connection with or without TLS as one type: an AsyncStream of Boost.Beast. Handlers are
-// type-erased as well, so that the operations of TCP and TLS are compiled once, in byte_stream.cc,
-// which saves most of the build time.
+// A ByteStream is a connection with or without TLS, as one type that satisfies Boost.Beast's
+// concept AsyncStream. Handlers are type-erased as well. So the operations of TCP and TLS are
+// compiled once, in byte_stream.cc, which saves most of the build time.
 //
 // Threads  the thread of the executor.
 #pragma once
@@ -40,16 +40,17 @@ class ByteStream {
   explicit ByteStream(boost::asio::ip::tcp::socket socket)
       : plain_(std::in_place, std::move(socket)) {}
 
-  // The TCP stream below TLS, to connect, limit and close it.
+  // Returns the TCP stream below TLS, to connect, limit and close it.
   boost::beast::tcp_stream& tcp() { return tls_ ? tls_->next_layer() : *plain_; }
   executor_type get_executor() { return tcp().get_executor(); }
 
-  // Enables TLS, which Handshake() begins. `context` must outlive the stream.
+  // Enables TLS. Call Handshake() afterwards. `context` must outlive the stream.
   Tls& StartTls(boost::asio::ssl::context& context);
-  // Call StartTls() first. `come` was read already; `then` gets the number of its used bytes.
-  void Handshake(boost::asio::ssl::stream_base::handshake_type type, boost::asio::const_buffer come,
-                 Completion then);
-  // Shuts TLS down; without TLS calls then() at once.
+  // Call StartTls() first. `already_read` has bytes that were read from the connection before.
+  // `then` gets the number of these that the handshake used.
+  void Handshake(boost::asio::ssl::stream_base::handshake_type type,
+                 boost::asio::const_buffer already_read, Completion then);
+  // Shuts TLS down. Without TLS, calls then() at once.
   void Shutdown(Completion then);
 
   void ReadSome(boost::asio::mutable_buffer into, Completion then);

@@ -1,4 +1,4 @@
-// A type-erased completion handler of Boost.Asio for reads and writes.
+// A Completion is a type-erased completion handler of Boost.Asio for reads and writes.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace gsv::gateway::transport {
 // handler are ignored.
 class Completion {
  public:
-  // `then` takes the arguments of a Completion, or the error only.
+  // `then` is called with the error and the number of bytes, or with the error only.
   template <typename Then>
   // NOLINTNEXTLINE(bugprone-forwarding-reference-overload)
   requires(!std::is_same_v<std::remove_cvref_t<Then>, Completion>) explicit Completion(Then&& then)

@@ -54,9 +54,9 @@ base::Result<fs::path> UploadFolder::Put(const std::string& set,
   if (!is_usable) {
     return base::Fail(
         base::ErrorCode::kInvalidArgument,
-        "this file name cannot be used: names of files and folders and names are up to 200 "
-        "characters long, begin with no dot, and lie at most " +
-            std::to_string(limits_.depth) + " deep");
+        "this file name cannot be used: names of files and folders must have at most 200 "
+        "characters and not begin with a dot, and a path can have at most " +
+            std::to_string(limits_.depth) + " names");
   }
   if (files_ >= limits_.files || content.size() > limits_.bytes - bytes_) {
     return base::Fail(base::ErrorCode::kUnavailable,

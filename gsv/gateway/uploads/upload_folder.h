@@ -1,4 +1,5 @@
-// Uploaded files (worlds with meshes and models) on disk until the server ends.
+// An UploadFolder stores uploaded files on disk until the server ends. A set has files that belong
+// together, such as a world with its meshes and models.
 //
 // Input    untrusted names. Each set has its own folder, which no name can leave.
 // Threads  any; each call writes one file.

@@ -1,5 +1,5 @@
-// The part of the HTTP API for uploads of sets of files. An uploaded file has a path on this
-// machine, which a scenario can use as its world.
+// UploadsApi is the part of the HTTP API for uploads of sets of files. An uploaded file gets a path
+// on this machine, which a scenario can use as its world.
 //
 // Threads  any.
 #pragma once

@@ -34,7 +34,7 @@ TEST(UploadFolder, KeepsRelativePathsAndRemovesFilesAtItsEnd) {
   EXPECT_FALSE(fs::exists(world));
 }
 
-TEST(UploadFolder, NoNameLeavesTheFolder) {
+TEST(UploadFolder, RefusesNamesOutsideTheFolder) {
   UploadFolder folder;
   const std::string set = folder.Begin().value();
   const std::vector<std::vector<std::string>> bad{{},
@@ -59,7 +59,7 @@ TEST(UploadFolder, NoNameLeavesTheFolder) {
   }
 }
 
-TEST(UploadFolder, IsNotFilledBeyondItsLimits) {
+TEST(UploadFolder, EnforcesItsLimits) {
   UploadFolder folder({.files = 2, .bytes = 10});
   const std::string set = folder.Begin().value();
   EXPECT_EQ(folder.Put(set, {"a"}, "12345678901").error().code, base::ErrorCode::kUnavailable);

@@ -1,4 +1,4 @@
-// The address of another instance.
+// The address of another instance of gsv.
 #pragma once
 
 #include <memory>

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxChannels = 10'000;
 
 }  // namespace
 
-void ChannelMap::Take(const Advertise& message) {
+void ChannelMap::Handle(const Advertise& message) {
   std::vector<foxglove::Channel> fresh;
   for (const foxglove::Channel& channel : message.channels) {
     const bool is_known = ours_by_theirs_.contains(channel.id);
@@ -33,7 +33,7 @@ void ChannelMap::Take(const Advertise& message) {
   }
 }
 
-void ChannelMap::Take(const Unadvertise& message) {
+void ChannelMap::Handle(const Unadvertise& message) {
   std::vector<ChannelId> gone;
   for (const ChannelId theirs : message.channels) {
     const auto known = ours_by_theirs_.find(theirs);
@@ -45,7 +45,7 @@ void ChannelMap::Take(const Unadvertise& message) {
   hub_->Unadvertise(gone);
 }
 
-void ChannelMap::Take(const MessageData& message) {
+void ChannelMap::Handle(const MessageData& message) {
   const auto found = sources_.find(message.subscription);
   if (found == sources_.end() || !found->second.is_subscribed) return;
   Source& source = found->second;

@@ -1,9 +1,9 @@
-// The channels of a simulation on another instance with local numbers, the subscriptions there, and
-// the messages kept for new subscribers.
+// A ChannelMap maps the channels of a simulation on another instance to channels of a local hub. It
+// also manages the subscriptions at the other instance, and keeps messages for new subscribers.
 //
-// The local number of a channel is also the number of the subscription to it.
+// The local number of a channel is also the id of the subscription at the other instance.
 //
-// Threads  one.
+// Threads  one thread.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,17 @@ class ChannelMap {
  public:
   explicit ChannelMap(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {}
 
-  void Take(const Advertise& message);
-  void Take(const Unadvertise& message);
-  void Take(const MessageData& message);
+  // Processes a message from the other instance.
+  void Handle(const Advertise& message);
+  void Handle(const Unadvertise& message);
+  void Handle(const MessageData& message);
 
   // Makes the remote subscriptions equal to those of local viewers. Returns the texts to send.
   std::vector<std::string> FollowDemand();
   // Sends kept messages to new subscribers.
   void ServeNewSubscribers();
 
-  // After the end of the connection: withdraws all channels.
+  // Withdraws all channels, after the end of the connection.
   void Clear();
 
  private:
@@ -41,6 +42,7 @@ class ChannelMap {
     bool is_subscribed = false;
     std::deque<Hub::Message> latest;
   };
+  // Sends the kept messages to new subscribers of the local channel `ours`.
   void Welcome(foxglove::ChannelId ours, const Source& source);
 
   const std::shared_ptr<Hub> hub_;

@@ -17,10 +17,10 @@ namespace http = beast::http;
 using boost::asio::ip::tcp;
 using boost::system::error_code;
 
-// A model with all its textures is far smaller.
+// Maximum size of a response. A model with all its textures is far smaller.
 constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{512} << 20;
 
-// The steps of one exchange, each of which starts the next.
+// One request and its response. Each step of the exchange starts the next step.
 class Exchange {
  public:
   Exchange(const Address& address, const Request& request) : address_(address) {
@@ -75,9 +75,9 @@ class Exchange {
   }
 
   void BeginTls() {
-    Secure(stream_, address_, transport::Completion([this](error_code error) {
-             if (!Failed(error)) Write();
-           }));
+    StartTls(stream_, address_, transport::Completion([this](error_code error) {
+               if (!Failed(error)) Write();
+             }));
   }
 
   void Write() {

@@ -1,4 +1,4 @@
-// HTTP requests to another instance.
+// Sends HTTP requests to another instance.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@
 
 namespace gsv::gateway::upstream {
 
-// Forwards `request` and waits for the response with any status, at most `limit`. Fails with
-// kUnavailable or kTimeout without a response.
+// Forwards `request` and waits for the response, at most `limit`. Returns responses of any status.
+// Fails with kUnavailable or kTimeout if there is no response.
 base::Result<Response> Fetch(const Address& address, const Request& request,
                              std::chrono::milliseconds limit);
 

@@ -56,7 +56,7 @@ base::Result<ServerText> ParseUnadvertise(const Json& json) {
 }
 
 base::Result<ServerText> ParseStatus(const Json& json) {
-  // The message is about the connection of the relay, and is withdrawn later.
+  // This status is about the relay's own connection, so viewers do not get it.
   if (TextOf(json, "id") == foxglove::kSlowConnectionId) return Other{};
   const auto level = json.find("level");
   const bool has_level = level != json.end() && level->is_number_unsigned();
@@ -90,7 +90,7 @@ base::Result<ServerData> ParseServerData(std::string_view bytes) {
   if (bytes.empty()) return Malformed("a binary message is empty");
   switch (bytes[0]) {
     case 1:
-      if (bytes.size() < kDataHeader) return Malformed("a message ends in its header");
+      if (bytes.size() < kDataHeader) return Malformed("a data message is shorter than its header");
       return MessageData{Read<std::uint32_t>(bytes, 1), Read<std::uint64_t>(bytes, 5),
                          bytes.substr(kDataHeader)};
     case 2:

@@ -53,10 +53,11 @@ base::Result<std::string> Command(const Address& address, std::string simulation
   const auto json = nlohmann::json::parse(answer->body.view(), nullptr, false);
   const auto sentence = json.is_object() ? json.find("error") : json.end();
   const bool has_sentence = json.is_object() && sentence != json.end() && sentence->is_string();
-  return base::Fail(base::ErrorCode::kNotRunning,
-                    has_sentence ? sentence->get<std::string>()
-                                 : "the other instance returns " + std::to_string(answer->status),
-                    address.Url());
+  return base::Fail(
+      base::ErrorCode::kNotRunning,
+      has_sentence ? sentence->get<std::string>()
+                   : "the other instance answers with status " + std::to_string(answer->status),
+      address.Url());
 }
 
 std::vector<CommandServices::Service> ServicesOf(const Address& address,

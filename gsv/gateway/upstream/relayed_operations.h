@@ -1,5 +1,5 @@
-// The operations of viewers of a relayed simulation: its commands as services, forwarded to the
-// HTTP API of the other instance.
+// RelayedOperations offers the commands of a relayed simulation as services. It forwards them to
+// the HTTP API of the other instance.
 //
 // Threads  any.
 #pragma once

@@ -20,7 +20,7 @@ bool IsName(const std::string& host) {
 
 }  // namespace
 
-void Secure(transport::ByteStream& stream, const Address& address, transport::Completion then) {
+void StartTls(transport::ByteStream& stream, const Address& address, transport::Completion then) {
   if (!address.tls) {
     return boost::asio::post(stream.get_executor(),
                              [then = std::move(then)]() mutable { then({}); });
@@ -28,7 +28,8 @@ void Secure(transport::ByteStream& stream, const Address& address, transport::Co
   transport::ByteStream::Tls& tls = stream.StartTls(*address.tls);
   tls.set_verify_mode(ssl::verify_peer);
   tls.set_verify_callback(ssl::host_name_verification(address.host));
-  // A server with several names chooses its certificate by this name. It must not be an address.
+  // Server name indication (RFC 6066): a server with several names selects its certificate by it.
+  // It must not be an IP address.
   if (IsName(address.host)) SSL_set_tlsext_host_name(tls.native_handle(), address.host.c_str());
   stream.Handshake(ssl::stream_base::client, {}, std::move(then));
 }

@@ -8,9 +8,9 @@
 
 namespace gsv::gateway::upstream {
 
-// Call it after connecting; it calls then(error_code). The certificate must be valid for the
-// address.
-void Secure(transport::ByteStream& stream, const Address& address, transport::Completion then);
+// Begins TLS on a connected stream if `address` has it, then calls then(error_code). Fails if the
+// certificate is not valid for the address.
+void StartTls(transport::ByteStream& stream, const Address& address, transport::Completion then);
 
 // Returns the reason for a failed connection, with advice.
 std::string WhyNotConnected(const boost::system::error_code& error);

@@ -30,7 +30,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using WebSocket = websocket::stream<transport::ByteStream>;
 
-// Large enough for an image, or for the list of two thousand channels with their definitions.
+// Maximum size of a message: enough for an image, or for the list of two thousand channels with
+// their definitions.
 constexpr std::size_t kMaxMessageBytes = 64u << 20;
 constexpr seconds kConnectTime{10};
 constexpr seconds kIdleTime{30};
@@ -141,11 +142,11 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   }
 
   void BeginTls() {
-    Secure(attempt_->socket.next_layer(), address_,
-           transport::Completion(ForThis([](RemoteStream& self, error_code error) {
-             if (error) return self.TryAgain(WhyNotConnected(error));
-             self.Handshake();
-           })));
+    StartTls(attempt_->socket.next_layer(), address_,
+             transport::Completion(ForThis([](RemoteStream& self, error_code error) {
+               if (error) return self.TryAgain(WhyNotConnected(error));
+               self.Handshake();
+             })));
   }
 
   void Handshake() {
@@ -214,29 +215,29 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   base::Status TakeText(std::string_view bytes) {
     const base::Result<ServerText> text = ParseServerText(bytes);
     if (!text) return base::Fail(text.error());
-    std::visit([this](const auto& message) { Take(message); }, *text);
+    std::visit([this](const auto& message) { Handle(message); }, *text);
     return {};
   }
 
   base::Status TakeData(std::string_view bytes) {
     const base::Result<ServerData> data = ParseServerData(bytes);
     if (!data) return base::Fail(data.error());
-    std::visit([this](const auto& message) { Take(message); }, *data);
+    std::visit([this](const auto& message) { Handle(message); }, *data);
     return {};
   }
 
-  void Take(const Advertise& message) {
-    channels_->Take(message);
+  void Handle(const Advertise& message) {
+    channels_->Handle(message);
     FollowDemand();
   }
-  void Take(const Unadvertise& message) {
-    channels_->Take(message);
+  void Handle(const Unadvertise& message) {
+    channels_->Handle(message);
     hub_->PublishChanges();
   }
-  void Take(const StatusMessage& message) { hub_->SendStatus(message.level, message.message); }
-  void Take(const MessageData& message) { channels_->Take(message); }
-  void Take(const Time& message) { hub_->PublishTime(message.time_ns); }
-  void Take(const Other&) {}
+  void Handle(const StatusMessage& message) { hub_->SendStatus(message.level, message.message); }
+  void Handle(const MessageData& message) { channels_->Handle(message); }
+  void Handle(const Time& message) { hub_->PublishTime(message.time_ns); }
+  void Handle(const Other&) {}
 
   void Send(std::string text) {
     attempt_->outgoing.push_back(std::move(text));

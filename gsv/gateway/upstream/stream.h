@@ -1,5 +1,6 @@
-// A simulation of another instance as a local hub, over one WebSocket with the subscriptions of
-// local viewers. It is connected while there are viewers, and reconnects with growing delays.
+// A Stream relays one simulation of another instance to the clients of a local hub. It uses one
+// WebSocket, with the subscriptions of the local viewers. It is connected while there are viewers,
+// and reconnects with growing delays.
 //
 // Threads  hub() from any; all work is on the thread that runs `io`.
 #pragma once
@@ -26,7 +27,7 @@ class Stream {
   virtual const std::shared_ptr<Hub>& hub() const = 0;
   // Disconnects permanently. Any thread.
   virtual void Stop() = 0;
-  // Whether the simulation has ended and viewers were notified. Any thread.
+  // Whether the simulation has ended and viewers were notified. Any thread may call it.
   virtual bool has_ended() const = 0;
 };
 

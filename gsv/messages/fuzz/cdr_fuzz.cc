@@ -1,5 +1,5 @@
-// The first octet selects a type; the rest are the bytes of a message. The message must be
-// rejected, or it must not change when it is encoded and decoded again.
+// Fuzz test: decodes arbitrary bytes as a message, whose type the first byte selects. The decoder
+// must reject the message, or the message must not change when it is encoded and decoded again.
 #include <cstdint>
 
 #include "gsv/base/check.h"

@@ -1,5 +1,5 @@
-// Parses any text up to a NUL as the definition of a type, and decodes the bytes after it as a
-// message of that type.
+// Fuzz test: parses arbitrary text, up to a NUL, as the definition of a message type. Decodes the
+// bytes after it as a message of that type.
 #include <algorithm>
 #include <cstdint>
 

@@ -16,6 +16,7 @@ namespace gsv::orb {
 
 inline constexpr std::size_t kGiopHeaderBytes = 12;
 
+// The twelve bytes at the start of a message.
 struct GiopHeader {
   enum Type : std::uint8_t {
     kRequest = 0,
@@ -38,6 +39,7 @@ void CompleteGiopHeader(std::string& message);
 // Returns a reader of `message` that starts behind its GIOP header `header`.
 base::CdrReader ReaderBehind(const GiopHeader& header, std::string_view message);
 
+// The fields of a request's header that are used.
 struct RequestHeader {
   std::uint32_t id = 0;
   std::string_view operation;
@@ -45,6 +47,7 @@ struct RequestHeader {
 // `in` must be at the request's header. Afterwards it is at the arguments.
 RequestHeader ReadRequestHeader(base::CdrReader& in);
 
+// The fields of a reply's header that are used.
 struct ReplyHeader {
   enum Status : std::uint32_t { kNoException = 0, kUserException = 1 };
   std::uint32_t id = 0;

@@ -7,7 +7,7 @@
 
 namespace gsv::orb {
 
-bool IncomingMessage::IsThere() {
+bool IncomingMessage::IsReady() {
   if (assembly_.state() == MessageAssembly::State::kIncomplete) return false;
   if (assembly_.state() == MessageAssembly::State::kRefused) return true;
   if (ReadGiopHeader(assembly_.message())->type != GiopHeader::kCancelRequest) return true;

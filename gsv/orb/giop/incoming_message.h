@@ -13,7 +13,7 @@ class IncomingMessage {
   MessageAssembly& assembly() { return assembly_; }
   // Returns whether a message can be passed to the ORB, or was refused. CancelRequest messages are
   // dropped, as no servant supports them.
-  bool IsThere();
+  bool IsReady();
   // Whether the whole message has arrived and no part of it has been passed to the ORB.
   bool is_new() const {
     return assembly_.state() == MessageAssembly::State::kComplete && handed_out_ == 0;

@@ -8,7 +8,7 @@ namespace {
 
 // Memory is allocated in pieces as bytes arrive, because the declared length may be wrong.
 constexpr std::size_t kPiece = 8192;
-// A larger buffer is freed before the next message.
+// If the buffer is larger than this, it is freed before the next message.
 constexpr std::size_t kKept = 1024;
 
 constexpr std::size_t kFragmentHeaderBytes = kGiopHeaderBytes + 4;

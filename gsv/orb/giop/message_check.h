@@ -42,8 +42,8 @@ void CheckRequest(const Signatures& signatures, std::string& message);
 // Whether the encapsulation begins with values of these types.
 bool HasTypes(std::string_view encapsulation, std::string_view types);
 
-// Checks the replies that arrive on one connection. The class remembers the connection's requests,
-// because replies do not name their operation.
+// Checks the replies that arrive on one connection. It remembers the operations of the connection's
+// requests, because replies do not contain them.
 class ReplyCheck {
  public:
   // `signatures` must outlive this object.
@@ -59,6 +59,7 @@ class ReplyCheck {
   void Check(std::string& message);
 
  private:
+  // Returns the types of the results of the request with this id; empty if they need no check.
   std::string_view TypesOfReply(std::uint32_t id) const;
 
   const Signatures& signatures_;

@@ -1,5 +1,5 @@
 // Checks TypeCodes and the values that they describe before the ORB reads them. omniORB 4.2.5
-// crashes on some malformed TypeCodes, and for nested ones it needs memory that grows with the
+// crashes on some malformed TypeCodes. For nested TypeCodes it needs memory that grows with the
 // square of their depth.
 //
 // Some valid CORBA is also rejected: recursive types, value types, and anything that exceeds the
@@ -23,8 +23,8 @@ struct TypeCodeLimits {
   std::size_t depth = 64;  // maximum nesting of types and values together
   // maximum number of types in one message; each reference to a type counts again
   std::size_t types = 4096;
-  std::size_t values = 65536;  // maximum number of values in one message, without elements of a
-                               // fixed size
+  // maximum number of values in one message, without elements of a fixed size
+  std::size_t values = 65536;
 };
 
 // Checks the TypeCodes of one message. After each function, the reader is behind the part that was

@@ -8,8 +8,8 @@
 namespace gsv::orb {
 namespace {
 
-constexpr long kMaxHandshakeSeconds = 10;  // maximum, also for calls with a longer time limit or
-                                           // with none
+// maximum, also for calls with a longer time limit or with none
+constexpr long kMaxHandshakeSeconds = 10;
 
 IIOP::Address WithHost(const char* host, const IIOP::Address& address) {
   IIOP::Address other;

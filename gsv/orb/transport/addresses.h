@@ -12,6 +12,7 @@ namespace gsv::orb {
 // Parses "HOST:PORT". Returns nullopt for other texts.
 std::optional<IIOP::Address> ReadHostAndPort(const char* text);
 
+// An address by TCP.
 class TcpAddress final : public omni::tcpAddress {
  public:
   explicit TcpAddress(const IIOP::Address& address) : tcpAddress(address), address_(address) {}
@@ -25,6 +26,7 @@ class TcpAddress final : public omni::tcpAddress {
   IIOP::Address address_;
 };
 
+// An address by TLS over TCP.
 class TlsAddress final : public omni::tcpAddress {
  public:
   // If `context` is null, connecting fails, and NoteTlsFailure() gets the reason.
@@ -43,6 +45,7 @@ class TlsAddress final : public omni::tcpAddress {
   CORBA::String_var text_;
 };
 
+// The file of a Unix domain socket as an address.
 class LocalAddress final : public omni::unixAddress {
  public:
   explicit LocalAddress(const char* file) : unixAddress(file), file_(file) {}

@@ -27,15 +27,15 @@ class Channel {
   // Whether bytes were received that are already read from the socket, so that poll() does not
   // report them.
   virtual bool HasBytes() { return false; }
-  // Tells the peer that no more bytes follow, if the protocol supports that.
+  // Notifies the peer that no more bytes follow, if the protocol supports that.
   virtual void Close() {}
 };
 
 // Transfers bytes without encryption. The caller keeps the ownership of the socket.
 //
 // If the last bytes came within 50 µs, Receive() first polls for that time and yields the processor
-// between two polls. Only then does the thread sleep. Behaviours that make many short calls so
-// avoid two changes of threads per call (ADR 101).
+// between two polls. Only then does the thread sleep. So behaviours that make many short calls
+// avoid two context switches per call (ADR 101).
 class PlainChannel final : public Channel {
  public:
   explicit PlainChannel(int socket) : socket_(socket) {}

@@ -16,8 +16,8 @@ class Unwatched final : public omni::SocketCollection {
   CORBA::Boolean notifyReadable(omni::SocketHolder* /*holder*/) override { return true; }
 };
 omni::SocketCollection& UnwatchedSockets() {
-  static auto& collection = *new Unwatched;  // never destroyed, because an ORB may outlive static
-                                             // objects
+  // never destroyed, because an ORB may outlive static objects
+  static auto& collection = *new Unwatched;
   return collection;
 }
 
@@ -118,7 +118,7 @@ int Connection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline
   const base::MutexLock lock(mutex_);
   if (hooks_ != nullptr && incoming_.assembly().empty()) hooks_->OnWait();
   omni_time_t until = deadline;
-  while (!incoming_.IsThere()) {
+  while (!incoming_.IsReady()) {
     // A client may be silent between messages, but not within a message.
     if (incoming_.assembly().empty()) {
       until = deadline;
@@ -147,13 +147,13 @@ int Connection::ReadPiece(const omni_time_t& deadline) {
 bool Connection::Gather() {
   if (!mutex_.try_lock()) return true;  // a thread of the ORB already reads
   const base::MutexLock lock(mutex_, std::adopt_lock);
-  while (!incoming_.IsThere()) {
+  while (!incoming_.IsReady()) {
     const auto room = incoming_.assembly().Next();
     const ssize_t received = channel_->TryReceive(room.bytes, room.size);
     if (received < 0 && errno == EINTR) continue;
     if (received < 0)
-      return errno != EAGAIN && errno != EWOULDBLOCK;  // the ORB will detect the
-                                                       // error
+      // the ORB will detect the error
+      return errno != EAGAIN && errno != EWOULDBLOCK;
     if (hooks_ != nullptr) hooks_->OnBytes();
     incoming_.assembly().Take(static_cast<std::size_t>(received));
   }

@@ -78,6 +78,7 @@ class Connection : public omni::giopConnection,
   IncomingMessage incoming_ GSV_GUARDED_BY(mutex_);
 };
 
+// A connection that this process has opened.
 class ActiveConnection final : public omni::giopActiveConnection, public Connection {
  public:
   ActiveConnection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,

@@ -13,8 +13,8 @@ struct Current {
       std::make_shared<ConnectionPolicy>();
 };
 Current& CurrentPolicy() {
-  static auto& current = *new Current;  // never destroyed, because an ORB may outlive static
-                                        // objects
+  // never destroyed, because an ORB may outlive static objects
+  static auto& current = *new Current;
   return current;
 }
 

@@ -173,7 +173,7 @@ void Listener::Proceed(PendingHandshake* pending) {
       return;
     case TlsChannel::Step::kWantsToWrite:
       // There is always space for the few bytes of a handshake, unless the peer is malicious.
-      pending->Refuse("it does not read");
+      pending->Refuse("it does not read the data that it is sent");
       break;
     case TlsChannel::Step::kFailed:
       if (pending->is_refused()) {
@@ -186,7 +186,8 @@ void Listener::Proceed(PendingHandshake* pending) {
   pending->setSelectable(1, false);
 }
 
-// Called after the notifications of a round, as some may be for pending clients that are dropped.
+// It is called after all notifications of a round, because some of them may be for handshakes that
+// it destroys.
 void Listener::Dismiss() {
   const Clock::time_point now = Clock::now();
   std::size_t surplus =
@@ -198,7 +199,7 @@ void Listener::Dismiss() {
       return true;
     }
     if (!pending->is_late(now)) return false;
-    if (!pending->is_refused()) pending->Refuse("it did not finish the handshake of TLS");
+    if (!pending->is_refused()) pending->Refuse("it did not finish the TLS handshake");
     return true;
   });
   if (pending_handshakes_.empty()) alarm_->Set(false);

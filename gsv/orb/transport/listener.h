@@ -40,15 +40,17 @@ class Listener {
 
  private:
   void AddConnection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses);
+  // Continues a handshake, and makes a connection of the socket when the handshake is complete.
   void Proceed(PendingHandshake* pending);
+  // Destroys handshakes that have ended, that take too long, or that are too many.
   void Dismiss();
 
   omni::SocketCollection& collection_;
   const std::shared_ptr<const ConnectionPolicy> policy_ = CurrentConnectionPolicy();
   const std::shared_ptr<const TlsContext> context_;
   std::deque<Connection*> accepted_;  // accepted connections that the ORB does not know yet
-  std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;  // ordered from the oldest to
-                                                                       // the newest
+  // ordered from the oldest to the newest
+  std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;
   std::unique_ptr<Alarm> alarm_;  // set if there are pending handshakes
   omni::giopConnection::notifyReadable_t readable_ = nullptr;
   void* cookie_ = nullptr;

@@ -8,8 +8,8 @@
 
 namespace gsv::orb {
 
-// Returns URIs such as "giop:tcp:127.0.0.1:40123", in the order in which the ORB tries them; none
-// for a nil reference. Can be called on any thread.
+// Returns URIs such as "giop:tcp:127.0.0.1:40123", in the order in which the ORB tries them. A nil
+// reference has none. Any thread may call it.
 std::vector<std::string> AddressesIn(CORBA::Object_ptr object);
 
 }  // namespace gsv::orb

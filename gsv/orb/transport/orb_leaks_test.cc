@@ -92,8 +92,8 @@ class ObjectReferences : public testing::Test {
 TEST_F(ObjectReferences, InvalidProfilesLeakNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;
-              PutReference(stream, std::string(kLong.size(), '\2'));  // an invalid version: IIOP
-                                                                      // 2.2
+              // an invalid version: IIOP 2.2
+              PutReference(stream, std::string(kLong.size(), '\2'));
               EXPECT_THROW(CORBA::Object::_unmarshalObjRef(stream), CORBA::MARSHAL);
             }),
             kFewBytes);

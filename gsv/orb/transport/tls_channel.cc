@@ -120,7 +120,7 @@ bool TlsChannel::AwaitHandshake(const omni_time_t& deadline, bool& timed_out) {
   timed_out = done == 0;
   if (timed_out) {
     const base::MutexLock lock(mutex_);
-    failure_ = "it does not finish the handshake of TLS";
+    failure_ = "it does not finish the TLS handshake";
   }
   if (done != 1) last_failure = failure();
   return done == 1;

@@ -77,14 +77,14 @@ struct Installed {
   base::Mutex mutex;
   std::unique_ptr<TcpTransport> tcp GSV_GUARDED_BY(mutex);
   std::unique_ptr<LocalTransport> local GSV_GUARDED_BY(mutex);
-  std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);  // the last one is
-                                                                         // current
+  // the last one is current
+  std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);
   // certificate of the current TLS transport
   std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);
 };
 Installed& InstalledTransports() {
-  static auto& installed = *new Installed;  // never destroyed, because an ORB may outlive static
-                                            // objects
+  // never destroyed, because an ORB may outlive static objects
+  static auto& installed = *new Installed;
   return installed;
 }
 

@@ -28,8 +28,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A factory whose calls block until its door is opened.
-class Doorkeeper final : public POA_sba::AgentBehaviourFactory {
+// A factory whose calls block until the test opens its door.
+class BlockingFactory final : public POA_sba::AgentBehaviourFactory {
  public:
   sba::AgentBehaviour_ptr create() override {
     std::unique_lock lock(mutex_);
@@ -72,7 +72,7 @@ class MessageTransportTest : public ::testing::Test {
   }
 
  protected:
-  // Starts the ORB, which serves a Doorkeeper.
+  // Starts the ORB, which serves a BlockingFactory.
   void Start(const OrbOptions& options = {}) {
     orb_ = *StartOrb(options);
     const PortableServer::POA_var poa = RootPoa(orb_);
@@ -158,7 +158,7 @@ class MessageTransportTest : public ::testing::Test {
   }
 
   CORBA::ORB_var orb_;
-  PortableServer::Servant_var<Doorkeeper> door_ = new Doorkeeper;
+  PortableServer::Servant_var<BlockingFactory> door_ = new BlockingFactory;
   std::string address_, local_, key_;
   std::vector<int> connections_;
 };
@@ -236,7 +236,7 @@ TEST_F(MessageTransportTest, LocalSocketsFollowTheSameRules) {
 
 std::atomic<int> requests_seen = 0;
 
-TEST_F(MessageTransportTest, TheCheckSeesEachRequestOnce) {
+TEST_F(MessageTransportTest, CheckSeesEachRequestOnce) {
   requests_seen = 0;
   OrbOptions options;
   options.check_request = [](std::string& message) {

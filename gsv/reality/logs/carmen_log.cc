@@ -154,8 +154,8 @@ class CarmenReader {
   // Detects wrong units: ranges in cm or mm exceed the maximum, and headings in degrees are in the
   // hundreds.
   base::Status CheckUnits() const {
-    constexpr double kMaxFractionWithoutEcho = 0.95, kMaxHeading = 100;  // rad; a log may count
-                                                                         // several turns
+    // The maximum heading is in rad. It is larger than 2 pi, because a log may count several turns.
+    constexpr double kMaxFractionWithoutEcho = 0.95, kMaxHeading = 100;
     std::size_t without = 0, readings = 0;
     for (const RangeScan& scan : log_.scans) {
       readings += scan.ranges.size();
@@ -227,8 +227,8 @@ base::Result<Log> ReadCarmen(const std::filesystem::path& path, base::Problems& 
   auto rows = TextRows::Open(path, problems);
   if (!rows) return base::Fail(rows.error());
   Log log;
-  log.max_range = 81;  // maximum range of the SICK LMS, which most of these logs use; a ROBOTLASER1
-                       // message has its own
+  // Maximum range of the SICK LMS, which most of these logs use; a ROBOTLASER1 message has its own.
+  log.max_range = 81;
   if (auto read = CarmenReader(*std::move(rows), log).Read(); !read) {
     return base::Fail(read.error());
   }

@@ -14,6 +14,7 @@
 
 namespace gsv::reality {
 
+// A pose on the ground and its time: s, m, rad.
 struct TimedPose {
   double time = 0;
   double x = 0, y = 0, yaw = 0;
@@ -46,9 +47,10 @@ struct RadioRange {
   double anchor_x = 0, anchor_y = 0;
 };
 
+// The data of one drive of a real robot. Series that the log lacks are empty.
 struct Log {
-  std::vector<TimedPose> truth;  // poses from a reference system, such as motion capture or an
-                                 // overhead camera
+  // Poses from a reference system, such as motion capture or an overhead camera.
+  std::vector<TimedPose> truth;
   bool truth_has_yaw = true;
   std::vector<TimedPose> odometry;  // poses from the robot's own odometry
   std::vector<TimedTwist> commands;

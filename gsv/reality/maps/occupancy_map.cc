@@ -12,8 +12,8 @@ namespace gsv::reality {
 
 std::vector<CellBox> BoxesOf(const OccupancyMap& map) {
   std::vector<CellBox> boxes;
-  std::map<std::pair<int, int>, std::size_t> open;  // boxes that end in the row below, by (x,
-                                                    // width)
+  // Boxes that end in the row below, by (x, width).
+  std::map<std::pair<int, int>, std::size_t> open;
   for (int y = 0; y < map.height; ++y) {
     std::map<std::pair<int, int>, std::size_t> here;
     for (int x = 0; x < map.width; ++x) {

@@ -17,6 +17,7 @@ namespace gsv::reality {
 
 enum class Cell : std::uint8_t { kFree, kOccupied, kUnknown };
 
+// A grid of cells, each free, occupied or unknown.
 struct OccupancyMap {
   int width = 0, height = 0;  // cells
   double resolution = 0.05;   // side of a cell, m

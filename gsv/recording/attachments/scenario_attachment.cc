@@ -13,7 +13,8 @@ scenario::Place PlaceOf(const geometry::Pose& pose) {
   return {pose.position.x, pose.position.y, pose.position.z, geometry::Yaw(pose.orientation)};
 }
 
-// Returns the shortest number that is read back as the same time.
+// Returns a time in seconds. The function divides, because multiplying by 1e-9 would give
+// 1.9900000000000002 for 1.99 s.
 double ShortSeconds(std::chrono::nanoseconds time) {
   return static_cast<double>(time.count()) / 1e9;
 }
@@ -48,7 +49,8 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
   scenario.pedestrians = specification.pedestrians;
   scenario.fails_with_behaviour = specification.on_failure == simulation::FailurePolicy::kFail;
 
-  std::map<std::string, std::string> behaviours;  // options of behaviours, by robot
+  // The behaviour of each robot, with its options.
+  std::map<std::string, std::string> behaviours;
   for (const auto& robot : simulation.status().robots) behaviours[robot.name] = robot.behaviour;
   for (const world::Body& body : simulation.snapshot()->layout->bodies) {
     if (!body.is_robot()) continue;
@@ -74,8 +76,8 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
 std::vector<simulation::Edit> EditsBeforeStart(const Simulation& simulation) {
   if (simulation.status().phase != simulation::Phase::kCreated) return {};
   const model::WorldDescription& world = *simulation.specification().world;
-  std::set<std::string> of_scenario;  // names of the scenario's robots, including robots that were
-                                      // removed
+  // Names of the scenario's robots, including robots that were removed.
+  std::set<std::string> of_scenario;
   std::vector<simulation::Edit> edits;
   for (const simulation::Event& event : simulation.events(0)) {
     if (event.kind == "reset") edits.clear();

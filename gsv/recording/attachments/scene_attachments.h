@@ -1,9 +1,8 @@
-// Attaches the scene as JSON, and each of its models as a GLB file. With these, a replay shows the
-// recording without the original files.
+// Attaches the scene (bodies, sensors and models) to a recording as JSON, and each model as a GLB
+// file. A replay then needs no other files.
 //
-// Attachments  `scene.json` at each change of bodies or sensors; if several have one
-//              layout_version, the last one applies. `models/ID.glb` with the ID that the scene
-//              uses.
+// Attachments  `scene.json`, written at each change of bodies or sensors. The last one with a
+//              layout_version applies to it. `models/ID.glb` with the ID that the scene uses.
 #pragma once
 
 #include <functional>
@@ -23,6 +22,7 @@ inline std::string ModelAttachment(const std::string& id) { return "models/" + i
 
 using WriteGlb = std::function<base::Result<std::vector<std::uint8_t>>(const model::Model& model)>;
 
+// Attaches the scene and its models to one recording.
 class SceneAttachments {
  public:
   // `writer` must outlive this object. If `write_glb` is empty, no models are attached.

@@ -48,9 +48,8 @@ void SourceAttachments::Attach(const std::string& source, const std::string& fol
                                const std::string& name, base::SimTime time) {
   if (source.empty() || !sources_.insert(source).second) return;
   if (names_.size() == kMaxSources) {
-    return spdlog::warn(
-        "the recording contains the files of {} worlds and robots, not of further ones",
-        kMaxSources);
+    return spdlog::warn("the recording contains the files of the first {} worlds and robots only",
+                        kMaxSources);
   }
   const auto text = ReadSource(source);
   if (!text) return spdlog::warn("the recording will not contain {}", text.error().Sentence());

@@ -3,7 +3,7 @@
 // Attachments  `world/FILE`, and `robots/FOLDER/FILE` once for the model of each robot and avatar.
 //              The media type is application/xml. If two files have the same name, the later one is
 //              `robots/2/…`.
-// Bounded      files above 4 MiB, and files after the hundredth, are skipped with a warning.
+// Limits       files above 4 MiB, and files after the hundredth, are skipped with a warning.
 #pragma once
 
 #include <set>
@@ -17,6 +17,7 @@ namespace gsv::recording {
 inline constexpr std::uintmax_t kMaxSourceBytes = std::uintmax_t{4} << 20;
 inline constexpr std::size_t kMaxSources = 100;
 
+// Attaches the files of the world and the robots to one recording.
 class SourceAttachments {
  public:
   // `writer` must outlive this object.

@@ -26,8 +26,8 @@ class SourceAttachmentsTest : public testing::Test {
     return path.string();
   }
 
-  // Records one step of a world whose source is `world`, with robots whose sources are
-  // `robots`.
+  // Records one step of a world, and returns the recording's attachments by name. `world` and
+  // `robots` are the paths of the source files.
   std::map<std::string, std::string> Record(const std::string& world,
                                             const std::vector<std::string>& robots) const {
     simulation::Specification specification = simulation::Lockstep(10ms);

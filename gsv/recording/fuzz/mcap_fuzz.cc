@@ -1,5 +1,5 @@
-// Reads any bytes as a recording. They must be rejected, or read as far as they are valid. If they
-// are read, they must also be recovered to a recording without errors.
+// Fuzz test: reads arbitrary bytes as a recording. The reader must reject them, or return their
+// valid part. Recover() must make a recording without errors from that part.
 #include <cstdint>
 
 #include "gsv/base/check.h"
@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint64_t kMaxMessages = 100'000;
 
-// Reads the messages by time, from the middle and from the beginning. The channel of each message
-// must exist.
+// Returns the number of messages from `from` on. Checks that they are ordered by time, and that the
+// channel of each message exists.
 std::uint64_t CountInOrder(const McapReader& reader, base::SimTime from) {
   MessageCursor cursor = reader.Messages(from);
   base::SimTime last = base::SimTime::min();

@@ -15,7 +15,7 @@ BackgroundSync::~BackgroundSync() {
   thread_.join();
 }
 
-void BackgroundSync::Ask() {
+void BackgroundSync::RequestSync() {
   {
     const base::MutexLock lock(mutex_);
     is_asked_ = true;

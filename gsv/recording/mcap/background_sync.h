@@ -19,7 +19,7 @@ class BackgroundSync {
   ~BackgroundSync();
 
   // Requests the synchronisation of everything that was written so far. Returns at once.
-  void Ask();
+  void RequestSync();
   // The first error of a flush, if there was one.
   base::Status status() const;
 

@@ -1,4 +1,5 @@
-// A recording in rosbag2's form: a folder NAME with the files NAME_0.mcap and metadata.yaml.
+// Makes recordings in the format of rosbag2: a folder NAME with the files NAME_0.mcap and
+// metadata.yaml.
 //
 // Source  rosbag2_storage, bag metadata version 5 (ROS 2 Humble and later). The file is written as
 //         JSON, which is valid YAML 1.2.

@@ -1,5 +1,5 @@
-// Reads and writes scalars, strings and maps in MCAP: little endian, unaligned, with lengths of 32
-// bits.
+// Reads and writes the basic types of MCAP files: numbers (little endian, unaligned), and strings
+// and maps with 32-bit lengths.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,8 @@
 
 namespace gsv::recording {
 
-static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
+static_assert(std::endian::native == std::endian::little,
+              "little-endian numbers are copied from memory without conversion");
 
 using Bytes = std::vector<std::byte>;
 using StringMap = std::map<std::string, std::string>;
@@ -43,8 +44,8 @@ inline void PutString(Bytes& out, std::string_view text) {
   PutBytes(out, std::as_bytes(std::span(text)));
 }
 
-// Reads values from bytes. After the first value that does not fit, ok() is false and every read
-// returns zero or an empty value.
+// Reads values from bytes. After a value that exceeds the remaining bytes, ok() is false and every
+// read returns zero or an empty value.
 class ByteReader {
  public:
   // `bytes` must outlive the reader and the values that it returns.

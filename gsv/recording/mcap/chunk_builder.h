@@ -1,4 +1,4 @@
-// Collects messages, and makes a chunk with a message index of them.
+// Collects messages into a chunk of an MCAP file, and makes the chunk's message index.
 #pragma once
 
 #include <utility>
@@ -20,7 +20,7 @@ class ChunkBuilder {
   // Returns the size of the collected messages before compression.
   std::size_t size() const { return records_.size(); }
 
-  // A chunk record and its message index records, as bytes, and their data for the summary.
+  // An encoded chunk with its message index records, and what the file's summary lists about it.
   struct Chunk {
     Bytes bytes;
     ChunkIndexRecord index;
@@ -34,8 +34,9 @@ class ChunkBuilder {
  private:
   ZstdCompressor compressor_;
   Bytes records_;
-  std::vector<MessageIndexRecord> index_;  // by channel; without entries for channels not in use
-  std::vector<std::uint16_t> channels_;    // channels with entries
+  // By channel; empty for channels without messages in the chunk.
+  std::vector<MessageIndexRecord> index_;
+  std::vector<std::uint16_t> channels_;  // channels with entries
   base::SimTime start_{};
   base::SimTime end_{};
   Chunk chunk_;  // the last chunk; its memory is reused

@@ -20,7 +20,8 @@ class ChunkRing::Sink final : public ByteSink {
   const std::shared_ptr<ChunkRing> ring_;
 };
 
-// Gives a reader the kept pieces at their original offsets. Dropped pieces leave gaps.
+// The input of a reader: the kept pieces at their original offsets, with gaps where pieces were
+// dropped.
 class ChunkRing::Source final : public ByteSource {
  public:
   explicit Source(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
@@ -57,7 +58,8 @@ std::unique_ptr<ByteSink> ChunkRing::MakeSink() {
   return std::make_unique<Sink>(shared_from_this());
 }
 
-// McapFileWriter writes whole records: a chunk with its message indexes, or one other record.
+// Each write of McapFileWriter contains whole records: a chunk with its message indexes, or one
+// other record.
 void ChunkRing::Write(std::span<const std::byte> bytes) {
   const base::MutexLock lock(mutex_);
   const Piece piece{offset_, std::make_shared<const Bytes>(bytes.begin(), bytes.end())};
@@ -101,8 +103,7 @@ void ChunkRing::AddRecord(const RawRecord& record, const Piece& piece) {
       }
       return;
     default:
-      return;  // this is the end of the file or the summary, which readers of the ring do not
-               // need
+      return;  // these records end the file; readers of the ring do not need them
   }
 }
 
@@ -140,8 +141,8 @@ void ChunkRing::Shrink() {
 
 void ChunkRing::DropReplaced() {
   const base::SimTime first = chunks_.front().block.start;
-  std::map<std::string, const Attached*> in_use;  // the attachments that apply at the start of the
-                                                  // first chunk, by name
+  // The attachments that apply at the start of the first chunk, by name.
+  std::map<std::string, const Attached*> in_use;
   for (const Attached& each : attachments_) {
     if (each.index.log_time <= first) in_use[each.index.name] = &each;
   }

@@ -1,5 +1,5 @@
-// Keeps the newest part of a recording in memory. This is an output for McapWriter: when all
-// records together exceed a size, the oldest chunks are dropped.
+// Keeps the newest part of a recording in memory. It is an output for McapWriter. If all records
+// together exceed the capacity, the oldest chunks are dropped.
 //
 // Kept     schemas, channels and metadata always; the newest chunks; of several attachments with
 //          one name, those that a kept chunk may need, and the newest.
@@ -16,6 +16,7 @@
 
 namespace gsv::recording {
 
+// A ring buffer of the newest chunks of a recording.
 class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
  public:
   // `capacity` is the maximum size of all records as they are stored (compressed), in bytes. The
@@ -25,6 +26,7 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   // Makes an output for one McapWriter. The output keeps the ring alive.
   std::unique_ptr<ByteSink> MakeSink();
 
+  // The time range and the number of messages.
   struct Extent {
     base::SimTime start{}, end{};  // range of the times of the kept messages
     std::size_t bytes = 0;
@@ -40,7 +42,7 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   class Sink;
   class Source;
   using Stored = std::shared_ptr<const Bytes>;
-  // The bytes of one write. They consist of whole records.
+  // The bytes of one write, which are whole records.
   struct Piece {
     std::uint64_t offset = 0;
     Stored bytes;
@@ -60,7 +62,7 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   void AddChunk(const ChunkRecord& chunk, std::span<const std::byte> indexes, const Piece& piece)
       GSV_REQUIRES(mutex_);
   void Shrink() GSV_REQUIRES(mutex_);
-  // Drops attachments that are replaced, by others with the same name, before the first kept chunk.
+  // Drops each attachment that another one of the same name replaced before the first kept chunk.
   void DropReplaced() GSV_REQUIRES(mutex_);
 
   const std::size_t capacity_;

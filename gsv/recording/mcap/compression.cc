@@ -8,7 +8,7 @@
 namespace gsv::recording {
 
 std::uint32_t Crc32(std::span<const std::byte> bytes, std::uint32_t before) {
-  if (bytes.empty()) return before;  // zlib would restart the checksum if the pointer is null
+  if (bytes.empty()) return before;  // for a null pointer, zlib would start a new checksum
   return static_cast<std::uint32_t>(
       crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }

@@ -13,6 +13,7 @@
 
 namespace gsv::recording {
 
+// Limits that protect the reader from damaged or malicious files, in bytes.
 struct Limits {
   // Maximum size of one uncompressed chunk, and of any other record except attachments.
   std::uint64_t record_size = std::uint64_t{256} << 20;
@@ -46,6 +47,7 @@ using Channels = std::map<std::uint16_t, ChannelRecord>;
 [[nodiscard]] base::Result<std::vector<MessageRecord>> ListMessages(
     std::span<const std::byte> records, const MessageBlock& block, const Channels& channels);
 
+// The records of a block, and the messages in them.
 struct BlockMessages {
   Bytes records;
   std::vector<MessageRecord> messages;  // refer to the bytes of `records`

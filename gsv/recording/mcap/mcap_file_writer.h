@@ -17,6 +17,7 @@
 
 namespace gsv::recording {
 
+// The properties of an MCAP file.
 struct FileOptions {
   std::string profile = "ros2";
   std::string library = "gsv";
@@ -62,8 +63,8 @@ class McapFileWriter {
   const FileOptions options_;
   base::Status status_;
   bool closed_ = false;
-  bool ends_in_a_record_ = true;  // whether the last record is complete; false if truncating failed
-                                  // after an error
+  // Whether the last record is complete; false if truncating failed after an error.
+  bool ends_in_a_record_ = true;
   std::uint64_t position_ = 0;
   std::uint32_t crc_ = 0;  // checksum of all bytes before position_
   ChunkBuilder chunk_;

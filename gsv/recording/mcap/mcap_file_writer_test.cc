@@ -54,7 +54,7 @@ TEST(McapFileWriter, BeginsWithTheMagicAndAHeader) {
 TEST(McapFileWriter, WritesDefinitionsBeforeTheirUse) {
   const Bytes bytes = ThreeChunks();
   std::vector<Opcode> kinds;
-  for (const Place& place : PlacesIn(bytes)) kinds.push_back(place.opcode);
+  for (const FoundRecord& place : FindRecords(bytes)) kinds.push_back(place.opcode);
   using enum Opcode;
   EXPECT_THAT(kinds, ElementsAre(kHeader, kSchema, kChannel, kChannel, kMetadata, kAttachment,  //
                                  kChunk, kMessageIndex, kMessageIndex,                          //
@@ -82,8 +82,8 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   EXPECT_EQ((*reader)->summary().message_count, 7U);
 }
 
-// For each size of the disk: the first error is returned, also later, and all chunks that were
-// complete by then can be read.
+// For every size of the disk, all calls after the first error return that error. The chunks that
+// were complete by then can be read.
 TEST(McapFileWriter, KeepsCompleteChunksWhenTheDiskIsFull) {
   const std::size_t needed = ThreeChunks().size();
   std::size_t read_with_a_summary = 0;

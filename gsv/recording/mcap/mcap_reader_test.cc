@@ -203,7 +203,7 @@ TEST(McapReader, IgnoresASummaryWithOverlappingChunks) {
 
 TEST(McapReader, StopsAtZerosAtTheEndOfAFile) {
   Bytes bytes = ThreeChunks();
-  const Place index = PlacesIn(bytes)[7];  // the message index after the first chunk
+  const FoundRecord index = FindRecords(bytes)[7];  // the message index after the first chunk
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(index.begin), bytes.end(), std::byte{0});
   const auto reader = Open(bytes);
   ASSERT_TRUE(reader);
@@ -213,7 +213,7 @@ TEST(McapReader, StopsAtZerosAtTheEndOfAFile) {
 
 TEST(McapReader, ContinuesAfterADamagedChunk) {
   Bytes bytes = ThreeChunks();
-  const std::vector<Place> places = PlacesIn(bytes);
+  const std::vector<FoundRecord> places = FindRecords(bytes);
   ASSERT_EQ(places[9].opcode, Opcode::kChunk);
   bytes[places[9].end - 5] ^= std::byte{1};
   const auto reader = Open(bytes);

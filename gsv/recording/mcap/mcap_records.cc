@@ -5,7 +5,8 @@
 namespace gsv::recording {
 namespace {
 
-// Writes the header of a record; the destructor fills in the length of what was appended since.
+// Writes the header of a record. The destructor adds to the header the length of the content that
+// was appended in between.
 class RecordFrame {
  public:
   RecordFrame(Bytes& out, Opcode opcode) : out_(out) {
@@ -31,7 +32,7 @@ class RecordFrame {
   std::size_t content_ = 0;
 };
 
-// Fields of a fixed total size, encoded apart from a growing buffer.
+// A buffer of fixed size for the fields of a record, so that `out` grows only once.
 template <std::size_t kSize>
 class FixedBytes {
  public:
@@ -144,7 +145,7 @@ void Append(Bytes& out, const ChannelRecord& record) {
   PutStrings(out, record.metadata);
 }
 
-// Nearly all records of a file are messages. So `out` grows once for all fields.
+// Optimised, because nearly all records of a file are messages: `out` grows once for all fields.
 void Append(Bytes& out, const MessageRecord& record) {
   FixedBytes<kRecordHeaderSize + kMessageHeadSize> head;
   head.Put(static_cast<std::uint8_t>(Opcode::kMessage));

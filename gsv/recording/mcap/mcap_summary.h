@@ -15,6 +15,7 @@
 
 namespace gsv::recording {
 
+// The contents of a recording: its channels, and where its messages and attachments are.
 struct Summary {
   std::string profile;
   std::string library;

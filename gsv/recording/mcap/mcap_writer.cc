@@ -14,7 +14,7 @@ namespace {
 // The writer's thread is woken only when this number of bytes is queued, not for each message.
 constexpr std::size_t kWorthWaking = std::size_t{256} << 10;
 
-// Writes the records in `batch`, which Append() has joined, one by one.
+// Writes the records in `batch` one by one. Append() has encoded them one after the other.
 void WriteBatch(McapFileWriter& file, std::span<const std::byte> batch) {
   const std::span<const std::byte> all = batch;
   while (const std::optional<RawRecord> record = TakeRecord(batch)) {
@@ -98,7 +98,7 @@ base::Result<ChannelId> McapWriter::AddChannel(const std::string& topic,
   ChannelRecord channel{static_cast<ChannelId>(channels_.size()), type->id, topic, "cdr", {}};
   if (!options.reproducible) channel.metadata["reproducible"] = "false";
   Append(queue_, channel);
-  Queued(before);
+  WakeWriter(before);
   sequences_.push_back(0);
   return channels_.emplace(topic, std::move(channel)).first->second.id;
 }
@@ -108,8 +108,8 @@ void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<cons
   base::MutexLock lock(mutex_);
   GSV_CHECK(channel < sequences_.size());
   if (queued() >= options_.queue_size && options_.when_full == WhenFull::kDrop) {
-    ++sequences_[channel];  // the gap in the sequence numbers shows readers that a message was
-                            // dropped
+    // The gap in the sequence numbers shows readers that a message was dropped.
+    ++sequences_[channel];
     ++progress_.dropped;
     return;
   }
@@ -117,7 +117,7 @@ void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<cons
   const std::size_t before = queued();
   Append(queue_, MessageRecord{channel, sequences_[channel]++, log_time, log_time, data});
   ++progress_.messages;
-  Queued(before);
+  WakeWriter(before);
 }
 
 void McapWriter::Attach(const AttachmentRecord& attachment) {
@@ -138,7 +138,7 @@ void McapWriter::EnqueueWhole(Bytes record) {
   const std::size_t before = queued();
   whole_size_ += record.size();
   whole_.push_back(std::move(record));
-  Queued(before);
+  WakeWriter(before);
 }
 
 // Waits until the queue has space. Returns false if the recording has ended.
@@ -155,7 +155,7 @@ bool McapWriter::WaitForSpace(base::MutexLock& lock) {
 }
 
 // Wakes the writer's thread if necessary. `before` is the size of the queue before it grew.
-void McapWriter::Queued(std::size_t before) {
+void McapWriter::WakeWriter(std::size_t before) {
   if (oldest_ == std::chrono::steady_clock::time_point{}) {
     oldest_ = std::chrono::steady_clock::now();
   }
@@ -227,7 +227,7 @@ void McapWriter::Run() {
     room_.notify_all();
     for (const Bytes& record : whole) WriteBatch(file, record);
     WriteBatch(file, batch);
-    if (flush && file.CloseChunk()) disk->Ask();
+    if (flush && file.CloseChunk()) disk->RequestSync();
     if (closing && dropped > 0) {
       file.AddMetadata({"gsv.recording", {{"dropped_messages", std::to_string(dropped)}}});
     }

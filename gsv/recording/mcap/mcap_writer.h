@@ -23,7 +23,7 @@
 
 namespace gsv::recording {
 
-// The treatment of a message if the queue is full.
+// The handling of a message if the queue is full.
 enum class WhenFull {
   kDrop,  // drop and count the message; for runs in real time
   kWait,  // the producer waits for the disk; for runs in lockstep
@@ -66,8 +66,8 @@ class McapWriter {
   // channel keep their order. `log_time` must not be negative.
   void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data);
 
-  // Add a file, or named values, to the recording. These are never dropped: the caller waits while
-  // the queue is full.
+  // Attach() adds a file to the recording, AddMetadata() adds named values. They are never dropped:
+  // the caller waits while the queue is full.
   void Attach(const AttachmentRecord& attachment);
   void AddMetadata(const MetadataRecord& metadata);
 
@@ -92,7 +92,7 @@ class McapWriter {
  private:
   void EnqueueWhole(Bytes record);
   std::size_t queued() const GSV_REQUIRES(mutex_) { return queue_.size() + whole_size_; }
-  void Queued(std::size_t before) GSV_REQUIRES(mutex_);
+  void WakeWriter(std::size_t before) GSV_REQUIRES(mutex_);
   bool WaitForSpace(base::MutexLock& lock) GSV_REQUIRES(mutex_);
   void EndWith(base::Error error) GSV_REQUIRES(mutex_);
   void Run();
@@ -102,8 +102,8 @@ class McapWriter {
   const std::unique_ptr<ByteSink> sink_;
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable work_;                     // notified when there is work for the writer's
-                                                     // thread
+  // Notified when there is work for the writer's thread.
+  base::ConditionVariable work_;
   base::ConditionVariable room_;                     // notified when the queue is empty again
   Bytes queue_ GSV_GUARDED_BY(mutex_);               // encoded records in the form of the file
   std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);  // large records, each in its own buffer

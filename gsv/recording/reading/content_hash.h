@@ -12,8 +12,8 @@ namespace gsv::recording {
 // ChannelOptions).
 [[nodiscard]] bool IsReproducible(const ChannelRecord& channel);
 
-// Returns sixteen hexadecimal digits: a hash of (topic, type, time, number within the topic, bytes)
-// of every message of reproducible channels.
+// Returns sixteen hexadecimal digits: a hash of all messages of reproducible channels. For each
+// message, it covers topic, type, time, number within the topic, and bytes.
 //
 // The hash is the sum of the hashes of the messages, so it does not depend on chunks, nor on the
 // order of topics at one instant. Fails if a chunk cannot be read.

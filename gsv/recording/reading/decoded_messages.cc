@@ -53,8 +53,8 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
   return true;
 }
 
-// Reads all messages of one instant that are compared, by topic and number. If messages may be
-// missing, numbers start from 0 at each instant.
+// Reads the messages of one instant that are compared. A message is identified by its topic and its
+// number within the topic. If messages may be missing, the numbers start from 0 at each instant.
 class InstantReader {
  public:
   InstantReader(const McapReader& reader, const Selection& selection, Gaps gaps)
@@ -90,7 +90,8 @@ class InstantReader {
     return base::Fail(base::ErrorCode::kNotFound, "there is no such topic", topic);
   }
 
-  // Removes topics whose number of messages at this instant differs from that in `other`.
+  // Removes the topics that do not have the same number of messages at this instant here and in
+  // `other`.
   void KeepCommon(InstantReader& other) {
     std::map<std::string, std::int64_t> more;
     for (const auto& [key, data] : messages) ++more[key.first];
@@ -132,7 +133,8 @@ class InstantReader {
   std::vector<std::byte> next_data_;
 };
 
-// `there`: the reader of the recording that has a message of `topic`, with the bytes `data`.
+// Returns the difference for a message that only one recording has. `there` reads this recording;
+// `topic` and `data` are the message's topic and bytes.
 base::Result<std::optional<Difference>> Missing(const InstantReader& there,
                                                 const std::string& topic,
                                                 const std::vector<std::byte>& data, bool in_first) {

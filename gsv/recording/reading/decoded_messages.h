@@ -13,6 +13,7 @@
 
 namespace gsv::recording {
 
+// A message as JSON, with its topic and time.
 struct DecodedMessage {
   std::string topic;
   std::string type;  // such as "sensor_msgs/msg/Range"
@@ -25,6 +26,7 @@ struct DecodedMessage {
 // as null.
 nlohmann::ordered_json WithInfinitiesAsText(nlohmann::ordered_json content);
 
+// Iterates over the selected messages of a recording, decoded.
 class DecodedMessages {
  public:
   // Opens the selected messages, ordered by time. The reader must outlive this object. Fails if a

@@ -1,6 +1,6 @@
 // Finds messages that stay valid until the next message of their kind: transforms of sensors, the
-// last command of a robot, edits of the world. An excerpt of a recording needs such messages from
-// before its start.
+// last command of a robot, edits of the world. An excerpt of a recording must begin with the
+// messages of this kind from before its start.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,7 @@
 
 namespace gsv::recording {
 
+// Which messages of a topic stay valid after their instant.
 enum class Lasting {
   kNo,      // messages apply to their instant only
   kNewest,  // the newest message of the topic stays valid

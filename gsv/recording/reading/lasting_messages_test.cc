@@ -75,7 +75,7 @@ class RecordingOfAllKinds {
   std::map<std::uint16_t, std::uint32_t> sequences_;
 };
 
-TEST(LastingMessages, NameOnlyExistingTopics) {
+TEST(LastingMessages, AreDefinedForExistingTopicsOnly) {
   for (const char* topic : {"/gsv/commands", "/gsv/actuators", "/gsv/edits", "/tf_static"}) {
     EXPECT_NE(presentation::FindTopic(topic), nullptr) << topic;
   }

@@ -61,7 +61,7 @@ TEST(NewestMessages, ReadOnlyTheBlocksThatTheyNeed) {
   Bytes bytes = OneEarly();
   // Damages the fiftieth chunk, so that it cannot be read.
   int chunks = 0;
-  for (const Place& place : PlacesIn(bytes)) {
+  for (const FoundRecord& place : FindRecords(bytes)) {
     if (place.opcode == Opcode::kChunk && ++chunks == 50) bytes[place.end - 1] ^= std::byte{1};
   }
   const auto reader = Open(bytes).value();
@@ -69,8 +69,8 @@ TEST(NewestMessages, ReadOnlyTheBlocksThatTheyNeed) {
   EXPECT_EQ(newest.by_channel.size(), 2u);
   EXPECT_TRUE(newest.problems.empty());
   EXPECT_EQ(FindNewestMessages(*reader, 500ms).problems.size(), 1u);
-  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // all other chunks can be
-                                                                      // read
+  // All other chunks can be read.
+  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Simulates a loss of power at two hundred moments, on a disk that writes its cache in any order.
+// Simulates a loss of power at 200 moments, with a simulated disk that writes its cache in any
+// order.
 #include <algorithm>
 #include <random>
 

@@ -10,6 +10,7 @@
 
 namespace gsv::recording {
 
+// The number of recovered items, and the parts that were lost.
 struct Recovery {
   std::uint64_t messages = 0;
   std::uint64_t attachments = 0;

@@ -32,7 +32,7 @@ Bytes Recovered(std::span<const std::byte> bytes, Recovery& recovery) {
 TEST(Recover, WritesAnIndexedFileWithEachCompleteChunk) {
   const Bytes bytes = ThreeChunks();
   std::vector<std::size_t> chunk_ends;
-  for (const Place& place : PlacesIn(bytes)) {
+  for (const FoundRecord& place : FindRecords(bytes)) {
     if (place.opcode == Opcode::kChunk) chunk_ends.push_back(place.end);
   }
   ASSERT_THAT(chunk_ends, SizeIs(3));
@@ -68,7 +68,7 @@ TEST(Recover, KeepsAllMessagesIfOnlyTheEndIsMissing) {
 
 TEST(Recover, ReportsTheLossOfADamagedChunk) {
   Bytes bytes = ThreeChunks();
-  for (const Place& place : PlacesIn(bytes)) {
+  for (const FoundRecord& place : FindRecords(bytes)) {
     if (place.opcode == Opcode::kChunk) bytes[place.end - 5] ^= std::byte{1};
   }
   Recovery recovery;

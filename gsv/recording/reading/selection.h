@@ -9,9 +9,10 @@
 
 namespace gsv::recording {
 
+// The topics and the time range of the selected messages.
 struct Selection {
-  std::vector<std::string> topics;  // empty for all topics; a trailing "/" selects all topics below
-                                    // it
+  // Empty for all topics; a trailing "/" selects all topics below it.
+  std::vector<std::string> topics;
   base::SimTime from = base::SimTime::min();
   base::SimTime to = base::SimTime::max();
 

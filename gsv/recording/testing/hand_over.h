@@ -1,5 +1,5 @@
-// The data that recording_victim sends to kill_test for each snapshot, through a pipe, as raw
-// bytes.
+// The data that recording_victim sends to kill_test through a pipe, as raw bytes: one struct for
+// each snapshot.
 #pragma once
 
 #include <cstdint>

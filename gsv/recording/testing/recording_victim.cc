@@ -1,6 +1,6 @@
-// recording_victim FILE MICROSECONDS: records a simulation until the process is killed. Each turn
-// of its behaviour takes MICROSECONDS. After the recorder has taken a snapshot, the program writes
-// a HandOver to stdout.
+// recording_victim FILE MICROSECONDS: records a simulation until the process is killed. Each cycle
+// of the robot's behaviour takes MICROSECONDS longer. For each snapshot that the recorder has
+// taken, the program writes a HandOver to stdout.
 #include <csignal>
 #include <cstdlib>
 

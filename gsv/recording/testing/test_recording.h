@@ -82,13 +82,13 @@ inline Times TimesIn(const McapReader& reader, base::SimTime from = {}) {
 }
 
 // The offset and the kind of a record in a recording.
-struct Place {
+struct FoundRecord {
   Opcode opcode{};
   std::size_t begin = 0;
   std::size_t end = 0;
 };
-inline std::vector<Place> PlacesIn(std::span<const std::byte> recording) {
-  std::vector<Place> places;
+inline std::vector<FoundRecord> FindRecords(std::span<const std::byte> recording) {
+  std::vector<FoundRecord> places;
   std::span<const std::byte> rest = recording.subspan(kMagic.size());
   while (rest.size() > kMagic.size()) {
     const std::size_t begin = recording.size() - rest.size();

@@ -32,8 +32,8 @@ base::Result<sensing::Reading> HealthTopic::Read(
   const auto description = std::find_if(list->second.begin(), list->second.end(),
                                         [&](const auto& each) { return each.name == sensor; });
   if (description == list->second.end()) return base::Fail(base::ErrorCode::kNotFound, sensor);
-  // Sensors of the same design share an object. `made_` finds that object as long as somebody uses
-  // it.
+  // Sensors with equal descriptions share one object. `made_` does not own it, so `sensors_` keeps
+  // it alive.
   auto& held = sensors_[robot + "/" + sensor];
   if (held == nullptr || !(held->description() == *description)) {
     auto made = made_.Of(*description);
@@ -46,7 +46,7 @@ base::Result<sensing::Reading> HealthTopic::Read(
 void HealthTopic::Record(const std::shared_ptr<const world::Snapshot>& snapshot,
                          const simulation::SimulationStatus& status) {
   const base::SimTime now = snapshot->state.time;
-  if (!topic_.is_wanted() || lists_ == nullptr || !instants_.Pass(now)) return;
+  if (!topic_.is_wanted() || lists_ == nullptr || !instants_.AdvanceTo(now)) return;
   const health::SensorAccess access{
       [this](const std::string& robot) {
         const auto list = lists_->find(robot);
@@ -56,8 +56,9 @@ void HealthTopic::Record(const std::shared_ptr<const world::Snapshot>& snapshot,
         return Read(snapshot, robot, sensor);
       },
       types_.get()};
-  auto message = presentation::HealthMessage(book_.Update(status, stuck_after_, access));
-  if (written_ && now - written_at_ < kWholeEvery && !presentation::IsNews(message, *written_)) {
+  auto message = presentation::HealthMessage(tracker_.Update(status, stuck_after_, access));
+  if (written_ && now - written_at_ < kWholeEvery &&
+      !presentation::NeedsSending(message, *written_)) {
     return;
   }
   topic_.Write(now, message);

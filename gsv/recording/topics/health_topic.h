@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 #include "gsv/recording/topics/instants.h"
 #include "gsv/recording/topics/simulation_feed.h"
 #include "gsv/recording/topics/topic_writer.h"
@@ -15,6 +15,7 @@
 
 namespace gsv::recording {
 
+// Writes the topic /gsv/health of a recording.
 class HealthTopic {
  public:
   // `writer` must outlive this object. `seed` and `stuck_after` are those of the simulation.
@@ -23,7 +24,7 @@ class HealthTopic {
               base::SimTime stuck_after);
 
   // Sets the robots' sensors from now on.
-  void Mount(std::shared_ptr<const SensorLists> lists) { lists_ = std::move(lists); }
+  void SetSensors(std::shared_ptr<const SensorLists> lists) { lists_ = std::move(lists); }
   // Writes the messages that are due. `status` is the status at the snapshot.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot,
               const simulation::SimulationStatus& status);
@@ -36,13 +37,13 @@ class HealthTopic {
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const std::uint64_t seed_;
   const base::SimTime stuck_after_;
-  sensing::SensorSet made_;                                                // sensors that were
-                                                                           // created from types_
+  // Sensors that were created from types_.
+  sensing::SensorSet made_;
   std::map<std::string, std::shared_ptr<const sensing::Sensor>> sensors_;  // by "robot/sensor"
   sensing::RaySceneCache rays_;
   std::shared_ptr<const SensorLists> lists_;
   Instants instants_;
-  health::HealthBook book_;
+  health::HealthTracker tracker_;
   std::optional<messages::gsv_msgs::Health> written_;
   base::SimTime written_at_{0};
 };

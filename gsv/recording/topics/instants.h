@@ -1,5 +1,5 @@
-// The instants 0, P, 2P, … of simulated time. The first snapshot at or after an instant counts for
-// it.
+// The instants 0, P, 2P, … of simulated time. An instant is represented by the first snapshot at or
+// after it.
 #pragma once
 
 #include "gsv/base/check.h"
@@ -13,7 +13,7 @@ class Instants {
 
   // Returns whether an instant lies after the last call's time, up to `time`. The first call
   // returns whether `time` is an instant.
-  bool Pass(base::SimTime time) {
+  bool AdvanceTo(base::SimTime time) {
     if (time >= from_ && time < to_) return false;
     const std::int64_t index = time / period_;
     const bool has_come = index_ < 0 ? time % period_ == base::SimTime(0) : index != index_;
@@ -26,7 +26,7 @@ class Instants {
  private:
   base::SimTime period_;
   std::int64_t index_ = -1;  // index of the newest instant that has passed
-  // The times from that instant to the next one, for which Pass() need not divide.
+  // The newest instant and the next one. For times between them, AdvanceTo() needs no division.
   base::SimTime from_{}, to_{};
 };
 

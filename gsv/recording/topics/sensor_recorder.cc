@@ -18,7 +18,7 @@ namespace {
 constexpr int kSlowAtOnce = 16;
 constexpr std::size_t kMaxSlowSensors = 64;
 
-// Returns the sensor's period times n, for the smallest n that does not exceed `rate`.
+// Returns the smallest multiple of the sensor's period that does not exceed `rate`, in Hz.
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
   if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
   const base::SimTime own = base::FromSeconds(1 / description.update_rate);
@@ -35,11 +35,11 @@ struct SensorRecorder::Sensor {
   sensing::SensorMessages messages;
   std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
-  int body = -1;                               // index in layout_; -1 if the robot is not there
-  bool is_wanted = true;                       // whether readings are recorded
-  bool has_companion = false;                  // whether companion messages are recorded
-  bool has_beams = false;                      // whether beams are recorded
-  std::optional<ChannelId> channel;            // set with the first reading
+  int body = -1;                     // index in layout_; -1 if the robot is not there
+  bool is_wanted = true;             // whether readings are recorded
+  bool has_companion = false;        // whether companion messages (such as CameraInfo) are recorded
+  bool has_beams = false;            // whether beams are recorded
+  std::optional<ChannelId> channel;  // set with the first reading
   std::optional<ChannelId> companion_channel;  // set with the first reading
   std::optional<sensing::Reading> newest;      // the newest reading, for sensors with beams
   bool has_failed = false;
@@ -61,7 +61,7 @@ SensorRecorder::SensorRecorder(McapWriter& writer,
 
 SensorRecorder::~SensorRecorder() = default;
 
-void SensorRecorder::Mount(const SensorLists& lists, const world::Snapshot& snapshot) {
+void SensorRecorder::SetSensors(const SensorLists& lists, const world::Snapshot& snapshot) {
   Sensors found;
   for (const auto& [robot, list] : lists) {
     for (const model::SensorDescription& description : list) {
@@ -123,7 +123,7 @@ void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapsh
   std::vector<Sample> of_robot;
   std::vector<Sample> slow;
   const auto take_of_robot = [&] {
-    if (!of_robot.empty()) TakeOfRobot(sampling, of_robot);
+    if (!of_robot.empty()) TakeRobotSamples(sampling, of_robot);
     of_robot.clear();
   };
   const auto take_slow = [&] {
@@ -137,7 +137,7 @@ void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapsh
     slow.clear();
   };
   for (const auto& [topic, sensor] : sensors_) {
-    if (!sensor->instants.Pass(snapshot->state.time) || sensor->has_failed) continue;
+    if (!sensor->instants.AdvanceTo(snapshot->state.time) || sensor->has_failed) continue;
     if (sensor->body < 0) continue;
     Sample sample{&topic, sensor.get(), {}, {}, {}};
     if (sensor->sensor->TakesLong()) {
@@ -152,10 +152,10 @@ void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapsh
   }
   take_of_robot();
   if (!slow.empty()) take_slow();
-  if (beams_instants_.Pass(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
+  if (beams_instants_.AdvanceTo(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
 }
 
-void SensorRecorder::TakeOfRobot(sensing::Sampling& sampling, std::span<Sample> samples) {
+void SensorRecorder::TakeRobotSamples(sensing::Sampling& sampling, std::span<Sample> samples) {
   const int body = samples.front().sensor->body;
   sampling.MoveTo(body);
   due_beams_.clear();

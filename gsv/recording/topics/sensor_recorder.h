@@ -52,19 +52,20 @@ class SensorRecorder {
   ~SensorRecorder();
 
   // Sets the sensors that are recorded from now on.
-  void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
+  void SetSensors(const SensorLists& lists, const world::Snapshot& snapshot);
   // Writes the readings that are due at the snapshot's time. Several images are rendered at the
   // same time.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
   struct Sensor;
+  // A due reading of one sensor, with its encoded messages.
   struct Sample {
     const std::string* topic = nullptr;  // key of the sensor in sensors_
     Sensor* sensor = nullptr;
     base::Result<sensing::Reading> reading;
     std::vector<std::uint8_t> message;    // empty if only the sensor's beams are recorded
-    std::vector<std::uint8_t> companion;  // empty if there is no companion message
+    std::vector<std::uint8_t> companion;  // message such as CameraInfo; empty if there is none
   };
   // The beams of one robot that were due together last.
   struct RobotBeams {
@@ -79,7 +80,7 @@ class SensorRecorder {
   void Take(const sensing::Sampling& sampling, Sample& sample) const;
   void Encode(Sample& sample) const;
   // Takes and writes the samples of one robot. Its beams are cast together.
-  void TakeOfRobot(sensing::Sampling& sampling, std::span<Sample> samples);
+  void TakeRobotSamples(sensing::Sampling& sampling, std::span<Sample> samples);
   void FindBodies(const std::shared_ptr<const world::Layout>& layout);
   void Write(Sample& sample);
   // Adds a channel. On failure, logs a warning and returns nullopt.
@@ -100,7 +101,7 @@ class SensorRecorder {
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // for slow sensors; null while there is none
   Sensors sensors_;
-  // The layout of Sensor::body and robot_beams_; null after Mount().
+  // The layout of Sensor::body and robot_beams_; null after SetSensors().
   std::shared_ptr<const world::Layout> layout_;
   std::vector<RobotBeams> robot_beams_;  // by body
   std::vector<const Sensor*> due_beams_;

@@ -29,11 +29,11 @@ SimulationFeed::SimulationFeed(const simulation::Simulation& simulation, FeedOpt
 Observation SimulationFeed::Observe(const std::shared_ptr<const world::Snapshot>& snapshot) {
   Observation observation{snapshot, nullptr, std::nullopt};
   const base::SimTime time = snapshot->state.time;
-  if (status_instants_.Pass(time)) {
+  if (status_instants_.AdvanceTo(time)) {
     observation.status = simulation_.status();
     observation.expectations = simulation_.expectations();
   }
-  if (sensor_instants_.Pass(time) || layout_ != snapshot->layout) {
+  if (sensor_instants_.AdvanceTo(time) || layout_ != snapshot->layout) {
     observation.sensors = std::make_shared<SensorLists>(SensorsOf(simulation_, *snapshot->layout));
     layout_ = snapshot->layout;
   }

@@ -6,7 +6,7 @@
 //              the snapshot is dropped and counted. Events never wait, because they are emitted
 //              under the simulation's locks; excess events are dropped.
 // Determinism  in lockstep nothing is dropped, and the stepping thread takes the lists of sensors
-//              while all agents wait.
+//              while the threads of all robots wait.
 #pragma once
 
 #include <deque>
@@ -24,16 +24,17 @@
 
 namespace gsv::recording {
 
-using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;  // Sensors by
-                                                                                   // robot.
+// Sensors by robot.
+using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;
 
 // Returns the sensors of all robots, avatars and stations of `layout`.
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout);
 
+// A snapshot, with what was sampled on the stepping thread at the same time.
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::shared_ptr<const SensorLists> sensors;          // null if the sensors are unchanged or were
-                                                       // not checked
+  // Null if the sensors are unchanged or were not checked.
+  std::shared_ptr<const SensorLists> sensors;
   std::optional<simulation::SimulationStatus> status;  // set whenever the status is due
   // Set whenever the status is set; empty if the scenario has no expectations.
   std::vector<simulation::ExpectationState> expectations{};

@@ -13,7 +13,7 @@ TEST(Instants, PassAtTheFirstSnapshotAtOrAfterThem) {
   Instants instants(30ms);
   std::vector<int> taken;
   for (int time = 0; time <= 120; time += 20) {
-    if (instants.Pass(std::chrono::milliseconds(time))) taken.push_back(time);
+    if (instants.AdvanceTo(std::chrono::milliseconds(time))) taken.push_back(time);
   }
   // the first snapshots at or after 0, 30, 60, 90 and 120 ms
   EXPECT_EQ(taken, (std::vector<int>{0, 40, 60, 100, 120}));
@@ -21,16 +21,16 @@ TEST(Instants, PassAtTheFirstSnapshotAtOrAfterThem) {
 
 TEST(Instants, DoNotPassBeforeTheFirstSnapshot) {
   Instants instants(50ms);
-  EXPECT_FALSE(instants.Pass(70ms));
-  EXPECT_FALSE(instants.Pass(90ms));
-  EXPECT_TRUE(instants.Pass(100ms));
+  EXPECT_FALSE(instants.AdvanceTo(70ms));
+  EXPECT_FALSE(instants.AdvanceTo(90ms));
+  EXPECT_TRUE(instants.AdvanceTo(100ms));
 }
 
 TEST(Instants, SeveralBetweenTwoSnapshotsCountAsOne) {
   Instants instants(10ms);
-  EXPECT_TRUE(instants.Pass(0ms));
-  EXPECT_TRUE(instants.Pass(55ms));
-  EXPECT_FALSE(instants.Pass(59ms));
+  EXPECT_TRUE(instants.AdvanceTo(0ms));
+  EXPECT_TRUE(instants.AdvanceTo(55ms));
+  EXPECT_FALSE(instants.AdvanceTo(59ms));
 }
 
 class SimulationFeedTest : public testing::Test {

@@ -65,8 +65,8 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
   if (actuators_.is_wanted()) WriteNewDeviceCommands(*snapshot);
   if (contacts_.is_wanted()) WriteNewContacts(*snapshot);
   if (radio_.is_wanted()) WriteTransmissions(*snapshot);
-  if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
-  if (hash_instants_.Pass(time) && hash_.is_wanted()) WriteHash(*snapshot);
+  if (poses_instants_.AdvanceTo(time) || is_new) WritePoses(*snapshot);
+  if (hash_instants_.AdvanceTo(time) && hash_.is_wanted()) WriteHash(*snapshot);
 }
 
 void StateTopics::RecordNow(const world::Snapshot& snapshot) {
@@ -97,7 +97,8 @@ void StateTopics::WriteHash(const world::Snapshot& snapshot) {
   hash_.Write(snapshot.state.time, message);
 }
 
-// Writes new commands of drives. A snapshot contains a command one step after the command was sent.
+// Writes the new commands to robots' drives. A command appears in the snapshot one step after it
+// was sent.
 void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
@@ -105,14 +106,13 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     const world::DriveState& drive = state.bodies[i].drive;
     if (IsSameOrder(drive, std::exchange(*written_of_[i], drive))) continue;
     if (IsSameOrder(drive, {}))
-      continue;  // the robot was removed and added again, and has no
-                 // command yet
+      continue;  // the robot was removed and added again, and has no command yet
     commands_.Write(state.time,
                     presentation::CommandMessage(layout_->bodies[i].name, drive, state));
   }
 }
 
-// Writes new commands of devices, in the same way.
+// Writes the new commands to robots' other devices.
 void StateTopics::WriteNewDeviceCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   const auto before = std::exchange(devices_, state.devices);
@@ -142,7 +142,7 @@ void StateTopics::WriteTransmissions(const world::Snapshot& snapshot) {
 
 void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
   if (status_.is_wanted()) status_.Write(status.time, presentation::StatusMessage(status));
-  if (diagnostics_instants_.Pass(status.time) && diagnostics_.is_wanted()) {
+  if (diagnostics_instants_.AdvanceTo(status.time) && diagnostics_.is_wanted()) {
     diagnostics_.Write(status.time, presentation::DiagnosticsMessage(status));
   }
 }
@@ -152,7 +152,7 @@ void StateTopics::RecordExpectations(base::SimTime time,
   std::vector<simulation::ExpectationState::Verdict> verdicts;
   verdicts.reserve(states.size());
   for (const auto& state : states) verdicts.push_back(state.verdict);
-  const bool is_due = expectations_instants_.Pass(time);
+  const bool is_due = expectations_instants_.AdvanceTo(time);
   if (!expectations_.is_wanted() || states.empty() || (!is_due && verdicts == verdicts_)) return;
   // The message has the time of the verdict, so that a replay at that time shows the verdict.
   base::SimTime instant = time;

@@ -18,6 +18,7 @@
 
 namespace gsv::recording {
 
+// Writes the topics about the simulation's state. Sensors have their own recorder.
 class StateTopics {
  public:
   // `poses_rate` is in Hz of simulated time, > 0. `writer` must outlive this object.
@@ -29,8 +30,8 @@ class StateTopics {
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
-  // Writes the expectations every second and, whenever a verdict changes, at the time of the
-  // change.
+  // Writes the state of the scenario's expectations every second, and whenever a verdict changes,
+  // with the time of that change.
   void RecordExpectations(base::SimTime time,
                           const std::vector<simulation::ExpectationState>& states);
   void RecordEvent(const simulation::Event& event);
@@ -48,15 +49,15 @@ class StateTopics {
   Instants hash_instants_;
   Instants diagnostics_instants_;
   Instants expectations_instants_;
-  std::vector<simulation::ExpectationState::Verdict> verdicts_;  // verdicts in the last written
-                                                                 // message
+  // Verdicts in the last written message.
+  std::vector<simulation::ExpectationState::Verdict> verdicts_;
   std::optional<std::int64_t> poses_step_;  // number of the step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;  // list of poses for the bodies of layout_
+  std::vector<presentation::PoseEntry> pose_list_;  // the written entries, one per body of layout_
   messages::tf2_msgs::TFMessage
-      transforms_message_;  // the last one; its names are those of layout_
+      transforms_message_;  // the last message; its names are those of layout_
   std::map<std::string, world::DriveState> written_;  // last written command of each robot
-  // The element of written_ for each body of layout_; null for bodies that are no robots.
+  // The element of written_ for each body of layout_; null for bodies that are not robots.
   std::vector<world::DriveState*> written_of_;
 
   std::shared_ptr<const world::DeviceStates> devices_;  // device states in the last snapshot

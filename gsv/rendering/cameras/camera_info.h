@@ -22,6 +22,7 @@ struct LensModel {
   std::vector<double> coefficients;
   Intrinsics intrinsics;
 };
+// Returns the ROS parameters of a lens.
 LensModel LensModelOf(const Lens& lens);
 
 // The companion message of camera types.

@@ -1,5 +1,5 @@
-// The base of all camera types: a lens, a renderer, a CameraInfo beside each reading, and cached
-// readings.
+// The base class of all camera sensors. A camera has a lens and a renderer, sends a CameraInfo
+// message with each reading, and caches its readings.
 #pragma once
 
 #include <memory>

@@ -1,10 +1,15 @@
-// Exposure, vignetting and noise of camera images.
+// Applies the effects of exposure, vignetting (darker corners) and sensor noise to rendered camera
+// images.
 //
-// Parameters  exposure (0): in stops, each doubles the light. gain (1): factor on light and noise.
-//             vignetting (0): fraction of the light that is missing in the corners; it falls with
-//             the square of the distance towards the centre. noise.*: see sensing/noise.h; for each
-//             pixel and channel, from 0 (black) to 1 (white): mean, stddev and biases.
-// Model       light is the linear colour of the image, so that clipped pixels stay clipped.
+// Parameters  (with their default values)
+//   exposure (0 stops)      each stop doubles the light
+//   gain (1)                factor that multiplies light and noise
+//   vignetting (0)          fraction of the light that is missing in the corners. It grows with the
+//                           square of the distance from the centre.
+//   noise.*                 see sensing/noise.h. mean, stddev and biases apply to each pixel and
+//                           channel, in units from 0 (black) to 1 (white).
+// Model       the light of a pixel is the linear colour of the rendered image. Light that the
+//             renderer has clipped at white is lost.
 #pragma once
 
 #include "gsv/model/image.h"
@@ -27,6 +32,7 @@ class Exposure {
              model::Image& image) const;
 
  private:
+  // Applies exposure, gain and vignetting.
   void ApplyLight(model::Image& image) const;
   void ApplyNoise(const sensing::Sampling& sampling, const model::SensorDescription& description,
                   model::Image& image) const;

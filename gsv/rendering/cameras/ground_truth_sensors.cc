@@ -296,9 +296,9 @@ class ThermalCamera final
 };
 
 // Computes surface normals from a depth image. A tangent is the difference between a pixel's point
-// and that of an adjacent pixel of the same visual. There are two such neighbours: the one on the
-// side that is closer to a plane is used, so that a normal near an edge belongs to the pixel's own
-// face. In the image of a plane, the inverse depth is linear along a line, so its second difference
+// and that of an adjacent pixel of the same visual. Of the neighbours on both sides, the one on the
+// side that is closer to a plane is used. So a normal near an edge belongs to the pixel's own face.
+// In the image of a plane, the inverse depth is linear along a line, so its second difference
 // measures the deviation from a plane.
 class SurfaceNormals {
  public:

@@ -373,8 +373,8 @@ TEST_F(NormalsCameraTest, ReturnsTheNormalsOfASphereAndNanForTheSky) {
         continue;
       }
       const Vector3 expected = Vector3{0.3, 0, 1} + d * RayOf(x, y) - centre;
-      // Facets are 0.1 rad wide, and adjacent pixels are 0.07 m apart. The error on each axis is at
-      // most half of each.
+      // Facets are 0.1 rad wide, and adjacent pixels are 0.07 m apart, which is 0.07 rad of the
+      // sphere. The error about each axis is at most half of the sum, 0.085 rad.
       if (expected.x > -0.75) continue;
       EXPECT_LT(Norm(normal - expected), 0.12) << x << " " << y;
       ++seen;

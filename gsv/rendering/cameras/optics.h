@@ -6,7 +6,8 @@
 //   clip.near, clip.far         0.1 and 100
 //   lens.type                   gnomonical (a pinhole), stereographic, equidistant, solid_angle,
 //                               orthographic, custom
-//   lens.scale_to_hfov          true; lens.cutoff_angle: pi / 2; both of a wide lens
+//   lens.scale_to_hfov          true, of a wide lens
+//   lens.cutoff_angle           pi / 2, of a wide lens
 //   lens.custom_function.{c1,c2,c3,f,fun}   fun: sin, tan or id
 //   lens.intrinsics.{fx,fy,cx,cy,s}         of a pinhole, instead of horizontal_fov
 //   distortion.{k1,k2,k3,p1,p2}, distortion.center   of a pinhole; "0.5 0.5" is the middle
@@ -41,9 +42,11 @@ class Optics {
   // there. Pixels are numbered in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
+  // Renders the image of a camera at this pose, through its lens.
   base::Result<std::shared_ptr<const model::Image>> Draw(
       Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
       const geometry::Pose& world_from_camera) const;
+  // Renders the depth and label image of a camera at this pose, through its lens.
   base::Result<std::shared_ptr<const GroundTruth>> DrawGroundTruth(
       Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
       const geometry::Pose& world_from_camera) const;
@@ -58,6 +61,7 @@ class Optics {
   // Returns the map of a lens. Cameras with equal parameters, such as those of all robots of one
   // model, share one map.
   static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
+  // Returns the lens map, and makes it on first use.
   const LensMap& Map() const;
 
   CameraParameters camera_;

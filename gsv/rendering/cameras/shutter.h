@@ -1,15 +1,15 @@
 // The shutter of a camera: global at one instant, with an exposure time (motion blur), or row after
 // row (rolling shutter).
 //
-// Parameters   exposure_time (s, 0), readout_time (s, 0), shutter_samples (8: from 2 to 64).
+// Parameters   exposure_time (0 s), readout_time (0 s), shutter_samples (8; from 2 to 64)
 // Model        The image of the instant t is complete at t. Row y of H is exposed from e -
-//              exposure_time to e, where e = t - readout_time (1 - (y + 1/2) / H). It is composed
-//              of `shutter_samples` images at the centres of equal parts of the time from t -
-//              exposure_time - readout_time to t: each row is the mean light of the images within
-//              its exposure, or the nearest one.
-// Earlier      the pose s seconds earlier is extrapolated from the velocities at t: positions by v
-//              s, orientations by w s about w, joints by their velocity times s. So an image
-//              depends on one snapshot only.
+//              exposure_time to e, where e = t - readout_time (1 - (y + 1/2) / H). The time from t
+//              - exposure_time - readout_time to t is divided into `shutter_samples` equal parts,
+//              and one image is rendered at the centre of each. A row is the mean light of the
+//              images within its exposure, or the nearest image.
+// Earlier      the pose s seconds earlier is extrapolated from the velocities at t. Positions
+//              change by v s, orientations by w s about w, and joints by their velocity times s. So
+//              an image depends on one snapshot only.
 #pragma once
 
 #include <functional>

@@ -54,7 +54,10 @@ base::Result<ApngBytes> ApngEncoder::Add(const model::Image& image) {
   const bool is_first = next_ == 0;
   if (!is_first && (image.width != width_ || image.height != height_)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the images of an animation must have one size");
+                      "an image of " + std::to_string(image.width) + " by " +
+                          std::to_string(image.height) + " pixels in an animation of " +
+                          std::to_string(width_) + " by " + std::to_string(height_) +
+                          "; all images must have the same size");
   }
   const auto png = EncodePng(image);
   if (!png) return base::Fail(png.error());

@@ -30,6 +30,7 @@ base::Status Check(const CameraParameters& camera);
 
 double FocalLength(const CameraParameters& camera);  // Returns the focal length in pixels.
 
+// A camera with its pose in the world.
 struct CameraView {
   geometry::Pose world_from_camera;
   CameraParameters parameters;
@@ -44,6 +45,7 @@ struct Frustum {
   };
   std::array<Plane, 6> planes;
 
+  // Whether the sphere may reach into the frustum.
   bool MeetsSphere(const geometry::Vector3& centre, double radius) const {
     for (const Plane& plane : planes) {
       if (geometry::Dot(plane.normal, centre) + plane.offset < -radius) return false;
@@ -62,6 +64,7 @@ struct Frustum {
   }
 };
 
+// Returns the frustum of a camera.
 Frustum FrustumOf(const CameraView& view);
 
 // Returns the transformation from the frame of FrustumOf() to clip space, as a column-major matrix

@@ -8,7 +8,7 @@
 
 namespace gsv::rendering {
 
-// Rows are stored from the top.
+// For each pixel, in rows from the top, what the camera sees there.
 struct GroundTruth {
   int width = 0, height = 0;
   // depth in m along the camera's axis, not along the pixel's ray; infinite for the background

@@ -27,6 +27,7 @@
 
 namespace gsv::rendering {
 
+// The distortion of a pinhole, see above.
 struct Distortion {
   double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
   geometry::Vector2 centre{0.5, 0.5};  // as fractions of the image's width and height
@@ -43,6 +44,7 @@ struct Intrinsics {
   friend bool operator==(const Intrinsics&, const Intrinsics&) = default;
 };
 
+// The projection function of a wide lens, see above.
 struct WideView {
   enum class Function { kIdentity, kSine, kTangent };
   Function function = Function::kTangent;
@@ -87,6 +89,7 @@ class Lens {
   friend bool operator==(const Lens&, const Lens&) = default;
 
  private:
+  // Apply the distortion and invert it, at a distance of 1.
   geometry::Vector2 Distorted(const geometry::Vector2& p) const;
   std::optional<geometry::Vector2> Undistorted(const geometry::Vector2& p) const;
 

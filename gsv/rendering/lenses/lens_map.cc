@@ -16,7 +16,8 @@ using geometry::Vector3;
 // The tangent of the maximum angle from the view axis that one pinhole image covers (72 degrees).
 constexpr double kMaxFaceAngle = 3;
 constexpr double kMaxMagnification = 4;
-// The number of pixels around a looked-up place, so that interpolation has neighbours on all sides.
+// The number of pixels around each sampled position, so that interpolation has neighbours on all
+// sides.
 constexpr double kMargin = 2;
 
 using Rays = std::vector<std::optional<Vector3>>;

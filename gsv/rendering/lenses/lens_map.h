@@ -1,5 +1,5 @@
-// Resamples pinhole images into an image through a lens: from one image if it covers the view of
-// the lens, else from the faces of a cube about the camera.
+// Resamples pinhole images into an image through a lens. One pinhole image suffices if it covers
+// the view of the lens. Otherwise, the images are the faces of a cube around the camera.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -19,8 +19,9 @@ namespace gsv::rendering {
 
 class LensMap {
  public:
-  // `camera` gives near and far. The pinhole images have the largest resolution per angle of the
-  // lens, but at most four times that of its centre, and at most kMaxImageSide pixels per side.
+  // `camera` gives near and far. The pinhole images have the largest resolution (pixels per radian)
+  // of the lens, but at most four times that of its centre. They have at most kMaxImageSide pixels
+  // per side.
   LensMap(const Lens& lens, const CameraParameters& camera);
 
   // The maximum number of pixels of an image. A map takes 20 bytes per pixel.
@@ -44,7 +45,7 @@ class LensMap {
     geometry::Quaternion camera_from_face;
     CameraParameters camera;
   };
-  // The place in a face's image that a pixel is sampled from.
+  // The position in a face's image from which a pixel is sampled.
   struct Source {
     std::int32_t face = -1;  // index of the face; -1 if the lens shows nothing there
     float u = 0, v = 0;      // pixel coordinates in the face's image

@@ -5,9 +5,9 @@
 
 namespace gsv::rendering {
 
-// Returns the light from 0 (black) to 1 (white).
+// Returns the linear light of an sRGB value, from 0 (black) to 1 (white).
 float LightOf(std::uint8_t number);
-// Returns the sRGB value whose light is nearest.
+// Returns the sRGB value whose linear light is nearest to `light`.
 std::uint8_t NumberFor(float light);
 
 }  // namespace gsv::rendering

@@ -106,8 +106,8 @@ EGLContext MakeCurrentOn(EGLDisplay display) {
   return nullptr;
 }
 
-// Whether the renderer is Mesa's software renderer. It also answers for a card that is present but
-// unusable.
+// Whether the renderer is Mesa's software renderer. Mesa also uses it for a card that is present
+// but unusable.
 bool IsMesaInSoftware(const std::string& renderer_name) {
   return renderer_name.starts_with("llvmpipe") || renderer_name.starts_with("softpipe");
 }

@@ -1,5 +1,5 @@
-// An OpenGL 4.5 core context without a window, a display server or a screen: EGL on a graphics
-// device, or on Mesa's surfaceless platform, whose software renderer needs no device at all.
+// An OpenGL 4.5 core context without a window, a display server or a screen. It uses EGL on a
+// graphics device, or Mesa's software renderer, which needs no device.
 //
 // Errors   kUnavailable with the missing part and its package.
 // Threads  created, used and destroyed on one thread, where it stays current.
@@ -12,6 +12,7 @@
 
 namespace gsv::rendering {
 
+// The devices and libraries that may be used.
 struct EglOptions {
   // Whether to use a graphics card, and Mesa's software renderer. The card is tried first.
   bool hardware = true;
@@ -32,7 +33,8 @@ class EglContext {
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  // Such as "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6".
+  // The name of the OpenGL renderer, such as "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core
+  // Profile) Mesa 22.3.6".
   const std::string& renderer_name() const { return renderer_name_; }
 
  private:

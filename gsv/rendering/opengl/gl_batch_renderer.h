@@ -31,6 +31,7 @@ class GlBatchRenderer final : public BatchRenderer {
   void Sweep() override;
 
  private:
+  // Returns a render target of the camera's image size.
   RenderTarget& TargetFor(const CameraParameters& camera);
 
   std::list<RenderTarget> targets_;  // ordered by last use, the most recent first

@@ -1,4 +1,5 @@
-// Owners of OpenGL object names, and programs from source.
+// Classes that own one OpenGL object each and delete it in their destructor, and a function that
+// compiles shader programs.
 //
 // Threads  only the thread whose context is current, also for destruction.
 #pragma once

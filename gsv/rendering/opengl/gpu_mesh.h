@@ -14,6 +14,7 @@ struct GpuMesh final : DrawMesh {
   GlBuffer indices;
 };
 
+// Copies a mesh to the graphics card.
 std::shared_ptr<const DrawMesh> UploadMesh(MeshArrays arrays);
 
 }  // namespace gsv::rendering

@@ -8,6 +8,7 @@
 
 namespace gsv::rendering {
 
+// A texture on the graphics card.
 struct GpuTexture final : DrawTexture {
   GlTexture texture;
 };
@@ -15,6 +16,7 @@ struct GpuTexture final : DrawTexture {
 // The largest texture side of the card, in pixels.
 int MaxTextureSide();
 
+// Copies an image to the graphics card, and makes its mipmaps.
 std::shared_ptr<DrawTexture> UploadTexture(const model::Image& image);
 
 }  // namespace gsv::rendering

@@ -29,9 +29,9 @@ vec3 Sky(float height) {
 }
 )";
 
-// Encodes linear light as sRGB with roots, within half a step of eight bits (Taylor,
-// chilliant.blogspot.com, 2012). The framebuffer would encode each sample of a pixel, so the shader
-// encodes the pixel instead.
+// Encodes linear light as sRGB, approximated by square roots, within half a step of eight bits
+// (Taylor, chilliant.blogspot.com, 2012). The framebuffer would encode each sample of a pixel, so
+// the shader encodes the pixel instead.
 const std::string kEncoding = R"(
 vec3 Encode(vec3 linear) {
   vec3 s1 = sqrt(max(linear, vec3(0.0))), s2 = sqrt(s1), s3 = sqrt(s2);
@@ -93,7 +93,7 @@ void main() {
   v_uv = uv;
   v_base_colour = base_colour;
   v_emissive_metalness = emissive_metalness;
-  // Adjacent surfaces, and the same surface of two objects, get different numbers of eight bits.
+  // Adjacent surfaces, and the same surface of two objects, get different 8-bit numbers.
   float surface = mod(97.0 * mesh_surface + 57.0 * roughness_surface.y, 255.0) + 1.0;
   v_roughness_surface = vec2(roughness_surface.x, surface / 255.0);
   gl_Position = clip_from_relative * vec4(v_position, 1.0);

@@ -34,7 +34,9 @@ class ShadowMap {
     friend bool operator==(const Drawn&, const Drawn&) = default;
   };
 
+  // Copies a part of still_, the map of static casters, to moving_.
   void CopyStill(const ShadowRegion::Rectangle& part);
+  // Draws shadow casters into the map that is bound.
   void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                    InstanceBuffer& instances);
 

@@ -38,11 +38,15 @@ class ViewPass {
     bool shadowed = false;
   };
 
+  // Lists the items that the camera may see.
   void FindVisible(const CameraView& view, const RenderList& render_list, const ShadowMap* shadows);
+  // Makes the draw calls of opaque items: one for each group.
   void StageSolid(const RenderList& render_list, const geometry::Vector3& origin);
+  // Makes the draw calls of transparent items, from far to near.
   void StageTransparent(const RenderList& render_list, const geometry::Vector3& origin);
   void Draw(const std::vector<Call>& calls, const RenderList& render_list, bool lamps,
             const InstanceBuffer& instances);
+  // Returns the shader program with these features, and compiles it on first use.
   unsigned ProgramFor(unsigned features);
 
   std::map<unsigned, GlProgram> programs_;  // programs by the features that they were compiled with

@@ -422,8 +422,8 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            // Few of these pixels are visible in an image. So they are shaded with all lamps,
-            // whatever their range.
+            // Images have few of these pixels. So they are shaded with all lamps, also those whose
+            // range ends before them.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
                                                {kAnywhere, kAnywhere, kAnywhere});

@@ -1,7 +1,8 @@
 // Renders the view of one camera.
 //
-// First the visible triangle of each pixel: opaque items from near to far, with the ground last.
-// Then each pixel is shaded once, in tiles. Then transparent items are blended from far to near.
+// It first finds the visible triangle of each pixel: opaque items from near to far, with the ground
+// last. Then each pixel is shaded once, in tiles. Then transparent items are blended from far to
+// near.
 //
 // A tile that shows only still bodies, on which no moving body casts a shadow, keeps its colours
 // for the next image of the same view. Such an image equals the one of a new ImageRenderer.
@@ -66,13 +67,19 @@ class ImageRenderer {
     std::vector<TriangleSurface> surfaces;
   };
 
+  // Clears the image.
   void Begin(const CameraView& view, const FrameBlock& block);
+  // Lists the items that the camera may see, in the order in which they are drawn.
   void FindVisible(const CameraView& view, const RenderList& render_list);
+  // Finds the nearest opaque triangle of each pixel.
   void Cover(const CameraView& view, const RenderList& render_list);
+  // Whether the items that are already drawn hide a sphere.
   bool IsHidden(const CameraView& view, const geometry::Vector3& centre, double radius) const;
+  // Does the same for one item, which is drawn_[number].
   void CoverWith(std::uint32_t number, float nearest_w);
   // Discards the kept tiles if `background` differs from that of the last image.
   void SetBackground(const Background& background);
+  // Shades all opaque pixels, tile by tile.
   void Light(const LightModel& light, const SunShadow* shadow, base::ThreadTeam* team);
   void LightTile(const LightModel& light, const SunShadow* shadow, int x0, int y0,
                  Shading& shading);
@@ -80,8 +87,11 @@ class ImageRenderer {
   TileBox BoxOfTile(int x0, int y0, int x1, int y1) const;
   ShadowRegion::Rectangle InShadow(const TileBox& box) const;
   void Light(const LightModel& light, const Lamps& lamps, int x, int y, Shading& shading);
+  // Blends the transparent items.
   void Blend(const CameraView& view, const RenderList& render_list, const LightModel& light);
+  // Returns the antialiased image.
   model::Image Smooth() const;
+  // Returns the directions of eight pixels from (x, y) to the right.
   F8x3 RayAt(int x, int y) const;
 
   std::size_t At(int x, int y) const {

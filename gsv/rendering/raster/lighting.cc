@@ -23,8 +23,8 @@ struct Reflector {
 // Returns the light that a surface reflects towards the camera, for a source of strength 1 in the
 // direction `to_light`.
 F8x3 Reflected(const Reflector& s, const F8x3& to_light, F8 n_dot_l) {
-  // The half vector h of light and view need not have unit length: with the sum l + v, |l + v|² is
-  // 2 + 2 l·v, and v·h is |l + v| / 2.
+  // The half vector h of light and view need not have unit length. For the sum l + v, |l + v|² is 2
+  // + 2 l·v, and v·h is |l + v| / 2.
   const F8 l_dot_v = Dot(to_light, s.to_view);
   const F8 length2 = Max(Fma(l_dot_v, Splat(2), Splat(2)), Splat(1e-6f));
   const F8 n_dot_sum = Max(Dot(s.normal, to_light) + Dot(s.normal, s.to_view), Splat(0));

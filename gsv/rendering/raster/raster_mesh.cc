@@ -44,8 +44,8 @@ Piece PieceOf(const MeshArrays& arrays, const MeshChunk& chunk) {
   return piece;
 }
 
-// Joins vertices in one cell of a grid (Rossignac and Borrel, 1993): all vertices of a cell move to
-// their mean, and those with similar normals become one.
+// Joins vertices in one cell of a grid (Rossignac and Borrel, 1993). All vertices of a cell move to
+// their mean, and vertices with similar normals become one.
 Piece Coarser(const Piece& fine, float cell) {
   using Cell = std::array<int, 3>;
   const auto cell_of = [&](const Vertex& vertex) {

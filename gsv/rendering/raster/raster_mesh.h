@@ -16,6 +16,7 @@ struct Level {
   std::uint32_t first_triangle = 0, triangle_count = 0;
 };
 
+// A triangle mesh with all its levels of detail.
 struct RasterMesh final : DrawMesh {
   // Properties of vertices, one element for each.
   std::vector<float> x, y, z, normal_x, normal_y, normal_z, u, v;
@@ -27,6 +28,7 @@ struct RasterMesh final : DrawMesh {
   std::vector<std::vector<Level>> levels;
 };
 
+// Makes the mesh and its levels of detail.
 std::shared_ptr<const DrawMesh> MakeRasterMesh(MeshArrays arrays);
 
 }  // namespace gsv::rendering::raster

@@ -8,6 +8,7 @@
 
 namespace gsv::rendering::raster {
 
+// A texture and its mipmaps.
 struct RasterTexture final : DrawTexture {
   struct Level {
     int width = 0, height = 0;
@@ -17,8 +18,10 @@ struct RasterTexture final : DrawTexture {
   std::vector<std::uint32_t> texels;  // red in the lowest byte, alpha in the highest
 };
 
+// Makes the texture of an image, and its mipmaps.
 std::shared_ptr<DrawTexture> MakeRasterTexture(const model::Image& image);
 
+// The colours at eight points.
 struct Texels {
   F8 r, g, b, a;  // in [0, 1], encoded as in the image
 };

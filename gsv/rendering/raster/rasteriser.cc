@@ -141,7 +141,7 @@ int Rasteriser::SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t fi
 bool Rasteriser::SetUpCrossing(const Drawn& drawn, std::uint32_t number, std::uint32_t index,
                                bool both_sides, Triangle& triangle) const {
   const RasterMesh& mesh = *drawn.mesh;
-  double p[3][3];  // the corners' coordinates x w, y w and w
+  double p[3][3];  // p[i] is corner i in homogeneous pixel coordinates (x w, y w, w)
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t v =
         drawn.level->first_vertex + mesh.corners[i][drawn.level->first_triangle + index];

@@ -1,9 +1,10 @@
 // Computes the pixels that the triangles of an item cover, and their depths.
 //
-// Method   edge functions divided by depth (Olano and Greer, 1997): each corner i of a triangle has
-//          a plane q_i over the image with q_i = (weight of the corner) / w, w being the distance
-//          along the view; a pixel is covered where no q_i is negative, and 1/w is their sum.
-//          Triangles that reach behind the camera need no clipping.
+// Method   edge functions divided by depth (Olano and Greer, 1997). For each corner i of a
+//          triangle, q_i = (weight of the corner) / w is a linear function of the pixel position,
+//          where w is the distance along the view. The triangle covers the pixels where no q_i is
+//          negative. The sum of all q_i is 1/w. Triangles that reach behind the camera need no
+//          clipping.
 // Threads  one thread at a time.
 #pragma once
 
@@ -27,6 +28,7 @@ struct Drawn {
   float normal[3][3];  // transforms the mesh's normals, which then do not have unit length
 };
 
+// Returns an item of a render list at this level of detail. `origin` is the camera's position.
 Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& level,
                 const geometry::Vector3& origin);
 
@@ -60,16 +62,21 @@ class Rasteriser {
   }
 
  private:
+  // Projects all vertices of the mesh.
   void Project(const Drawn& drawn);
+  // Sets up eight triangles from `first` on. Returns the mask of those that may cover a pixel.
+  // `crossing` becomes the mask of those that cross the near plane.
   int SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t first, bool both_sides,
             int& crossing);
+  // Sets up a triangle that crosses the near plane. Returns false if it covers no pixel.
   bool SetUpCrossing(const Drawn& drawn, std::uint32_t number, std::uint32_t index, bool both_sides,
                      Triangle& triangle) const;
 
   int width_ = 0, height_ = 0;
   float near_ = 0;
   bool rows_upwards_ = false;
-  float to_pixels_[3][4];  // maps the frame of FrustumOf() to x w, y w and w
+  // Maps the frame of FrustumOf() to homogeneous pixel coordinates (x w, y w, w)
+  float to_pixels_[3][4];
   float from_mesh_[3][4];  // the same mapping from the current item's mesh
   // inverse_w_ is 1/w, or 0 for vertices nearer than the near plane
   std::vector<float> x_, y_, inverse_w_;

@@ -25,9 +25,9 @@ class SunShadow {
   // The parts of the map that contain shadows of moving casters.
   const std::vector<ShadowRegion::Rectangle>& moved() const { return moved_; }
 
-  // The fraction of sunlight at points of the map, in units of its sides from its corner. z grows
-  // towards the sun. The fraction is 1 outside the map. Lanes outside `needed` get any value in
-  // [0, 1].
+  // The fraction of sunlight that reaches points of the map. x and y are from 0 to 1 across the
+  // map, and z grows towards the sun. The fraction is 1 outside the map. Lanes outside `needed` get
+  // any value in [0, 1].
   F8 Visible(const F8x3& point, I8 needed) const;
 
  private:
@@ -38,13 +38,16 @@ class SunShadow {
     friend bool operator==(const Drawn&, const Drawn&) = default;
   };
 
+  // Copies a part of still_ to moving_.
   void CopyStill(const ShadowRegion::Rectangle& part);
   // Draws casters into a map. Moving casters are drawn with front faces and coarser levels only,
   // which suffices for closed meshes.
   void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                    std::vector<float>& map);
+  // Draws one caster into a map.
   void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4], bool both_sides,
                   std::vector<float>& map);
+  // Returns the fraction of sunlight at a depth z, interpolated between the four nearest texels.
   F8 Lit(F8 x, F8 y, F8 z) const;
 
   std::vector<float> still_,

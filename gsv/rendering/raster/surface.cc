@@ -129,7 +129,7 @@ TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& t) {
   }
   s.u = plane(mesh.u[t.corner[0]], mesh.u[t.corner[1]], mesh.u[t.corner[2]]);
   s.v = plane(mesh.v[t.corner[0]], mesh.v[t.corner[1]], mesh.v[t.corner[2]]);
-  // Adjacent surfaces, and the same surface of two objects, get different numbers of eight bits.
+  // Adjacent surfaces, and the same surface of two objects, get different 8-bit numbers.
   s.number =
       (97 * mesh.surface[t.corner[0]] + 57 * static_cast<int>(drawn.factors->surface)) % 255 + 1;
   return s;

@@ -32,6 +32,7 @@ struct TriangleSurface {
   int number = 0;
 };
 
+// Computes the attributes of a visible triangle.
 TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& triangle);
 
 // Fills in the lanes of `mask`, which all see this triangle: pixels from (x, y) to the right. The

@@ -1,4 +1,4 @@
-// A triangle for the rasteriser: one plane per corner over the pixels of the image.
+// A triangle for the rasteriser: one linear function of the pixel position per corner.
 //
 // Units  pixels.
 #pragma once
@@ -7,7 +7,8 @@
 
 namespace gsv::rendering::raster {
 
-// q_i = c[i] + a[i] (x - x0) + b[i] (y - y0) at the centre of pixel (x, y).
+// The function of corner i (see rasteriser.h) is q_i = c[i] + a[i] (x - x0) + b[i] (y - y0) at the
+// centre of pixel (x, y).
 struct Triangle {
   float a[3], b[3], c[3];
   float x0, y0;
@@ -15,6 +16,7 @@ struct Triangle {
   std::uint32_t drawn;
 };
 
+// A rectangle of pixels.
 struct Box {
   int x0, y0, x1, y1;  // the bounding box in pixels, [x0, x1] by [y0, y1]
 };

@@ -32,6 +32,7 @@ class BatchRenderer {
 
   // Removes data of destroyed layouts, meshes and images.
   virtual void Sweep();
+  // Returns the number of cached meshes and textures.
   DrawCopies Count() const;
 
  protected:
@@ -44,6 +45,7 @@ class BatchRenderer {
 
   BatchRenderer(MeshStore meshes, TextureStore textures)
       : meshes_(std::move(meshes)), textures_(std::move(textures)) {}
+  // Returns the render list of a layout, and makes it on first use.
   PlannedLayout& RenderListFor(const std::shared_ptr<const world::Layout>& layout);
 
  private:

@@ -17,6 +17,7 @@ inline constexpr int kMaxLights = 8;
 
 using Float4 = std::array<float, 4>;
 
+// One light in the block.
 struct LightBlock {
   Float4 position_range;  // position in metres and range; a directional light has range 0
   // unit vector away from the light; cosine of the outer half angle, or -2 if it has no cone
@@ -26,6 +27,7 @@ struct LightBlock {
   Float4 attenuation;  // constant, linear, quadratic; then 1 / range², or 0 for a directional light
 };
 
+// The parameters of an image.
 struct FrameBlock {
   std::array<float, 16> clip_from_relative;
   std::array<float, 16> shadow_from_relative;
@@ -58,6 +60,7 @@ class Lighting {
     double range = 0;  // infinite for directional lights
     LightBlock block;
   };
+  // Adds a light with a position to lamps_.
   void AddLamp(const model::Light& light);
 
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};

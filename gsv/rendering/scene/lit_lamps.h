@@ -8,6 +8,7 @@
 
 namespace gsv::rendering {
 
+// A lamp that is on.
 struct LitLamp {
   int body = 0;
   const world::DeviceMount* mount = nullptr;  // refers to the snapshot

@@ -22,6 +22,7 @@ struct MeshChunks {
   std::vector<MeshChunk> chunks;
 };
 
+// Cuts a mesh into chunks of at most `max_triangles` triangles.
 MeshChunks CutIntoChunks(const geometry::TriangleMesh& mesh, std::uint32_t max_triangles = 512);
 
 }  // namespace gsv::rendering

@@ -16,9 +16,9 @@ namespace gsv::rendering {
 
 inline constexpr int kVertexFloats = 9;
 
-// `vertices` holds, for each vertex, position and normal (3 floats each) and texture coordinates (2
-// floats, (0, 0) at the image's upper left corner) and the number of its surface (a float);
-// `indices` holds triangles, chunk after chunk.
+// `vertices` has 9 floats for each vertex: 3 for the position, 3 for the normal, 2 for texture
+// coordinates ((0, 0) at the image's upper left corner), and the number of its surface. `indices`
+// has the triangles, chunk after chunk.
 struct MeshArrays {
   std::vector<float> vertices;
   std::vector<std::uint32_t> indices;
@@ -44,6 +44,7 @@ class MeshStore {
   using Make = std::function<std::shared_ptr<const DrawMesh>(MeshArrays)>;
   explicit MeshStore(Make make) : make_(std::move(make)) {}
 
+  // Returns the mesh of a shape, and makes it on first use.
   DrawShape Find(const geometry::Shape& shape);
 
   // Removes meshes whose TriangleMesh was destroyed.
@@ -57,6 +58,7 @@ class MeshStore {
   };
   using Key = std::tuple<int, double, double, double, double, double>;
 
+  // Return the mesh of a file, or of a shape such as a box, and make it on first use.
   std::shared_ptr<const DrawMesh> FindFileMesh(
       const std::shared_ptr<const geometry::TriangleMesh>& triangles);
   std::shared_ptr<const DrawMesh> FindGenerated(const Key& key, const geometry::Shape& shape);

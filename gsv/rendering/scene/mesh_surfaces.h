@@ -7,8 +7,8 @@
 
 namespace gsv::rendering {
 
-// `vertices` holds 8 floats each, of which the first three are the position and the next three the
-// normal; `indices` holds triangles. Returns a number per vertex. Vertices of one triangle, and
+// `vertices` has 8 floats for each vertex. The first three are its position, and the next three its
+// normal. `indices` has the triangles. Returns a number per vertex. Vertices of one triangle, and
 // vertices with equal position and normal, have equal numbers.
 std::vector<std::uint32_t> NumberSurfaces(const std::vector<float>& vertices,
                                           const std::vector<std::uint32_t>& indices);

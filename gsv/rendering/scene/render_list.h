@@ -16,6 +16,7 @@
 
 namespace gsv::rendering {
 
+// How a surface uses alpha: not at all, as holes (glTF's MASK), or to blend with what is behind it.
 enum class Blending { kOpaque, kAlphaMask, kTransparent };
 
 // The data that all items of one draw call share.
@@ -41,6 +42,7 @@ struct SurfaceFactors {
   float surface;  // the visual's number, for antialiasing
 };
 
+// One visual, or one chunk of it, on a link.
 struct DrawItem {
   int group = 0;
   int body = 0;
@@ -85,8 +87,11 @@ class RenderList {
   int moved_count() const { return moved_count_; }
 
  private:
+  // Computes the pose of an item from the pose of its link.
   void Place(std::size_t item, const geometry::Pose& world_from_link);
+  // Makes glow_, a sphere with a radius of 1 m.
   void MakeGlow();
+  // Adds the sphere of a lamp that is on.
   void AddGlow(const LitLamp& lit, const geometry::Pose& world_from_link);
 
   // The pose and joints of a body, to detect motion.

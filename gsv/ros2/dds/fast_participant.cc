@@ -81,7 +81,7 @@ Request RequestOf(const fast::SampleInfo& info) {
   request.identity.writer = request.writer;
   request.identity.sequence =
       static_cast<std::int64_t>(info.sample_identity.sequence_number().to64long());
-  // A client of rmw_fastrtps writes into this field the reader that expects the reply.
+  // In requests of rmw_fastrtps, this field contains the GUID of the reader that expects the reply.
   const rtps::GUID_t& reader = info.related_sample_identity.writer_guid();
   if (reader == rtps::GUID_t::unknown()) return request;
   request.identity.writer = GuidOf(reader);
@@ -181,7 +181,7 @@ base::Status UseTransport(const ParticipantOptions& options, fast::DomainPartici
 }
 
 // Chooses the index of a participant, which determines its ports: the lowest index whose ports are
-// free. If the ports are not free, Fast DDS uses others, where no participant looks, or none.
+// free. Without this choice, Fast DDS may take ports at which no participant looks, or none.
 class ParticipantIndex {
  public:
   ParticipantIndex(std::uint32_t domain, bool on_loopback) : domain_(domain) {
@@ -279,7 +279,7 @@ class FastWriter final : public Writer, fast::DataWriterListener {
     OutgoingSample sample{reply, {}};
     writer_->write(&sample, parameters);
   }
-  bool HasReaderBeside(const Guid& endpoint) const override {
+  bool HasReaderInSameParticipant(const Guid& endpoint) const override {
     const base::MutexLock lock(mutex_);
     return readers_in_.contains(PrefixOf(endpoint));
   }

@@ -1,9 +1,9 @@
 // Multicast on the loopback interface alone. The datagrams reach programs that joined the group on
 // any interface.
 //
-// Linux delivers it to each socket that is bound to the port and has joined any group
+// Linux delivers a datagram to each socket that is bound to the port and has joined any group
 // (IP_MULTICAST_ALL of ip(7)), provided that some program joined this group on loopback.
-// LocalMulticast joins it for that.
+// LocalMulticast joins the group itself, so that this is the case.
 //
 // This reaches participants that wait for multicast, as Cyclone DDS does with default settings.
 //

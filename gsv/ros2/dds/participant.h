@@ -23,6 +23,7 @@ namespace gsv::ros2::dds {
 // The GUID in the form of RTPS: twelve bytes of prefix, then four bytes of the entity.
 using Guid = std::array<std::uint8_t, 16>;
 
+// The quality of service of an endpoint.
 struct Qos {
   bool is_reliable = true;
   bool is_transient_local = false;  // readers that join later get the last `depth` samples
@@ -59,7 +60,7 @@ struct ParticipantOptions {
   // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty for no
   // security.
   std::string enclave_folder{};
-  std::string insecure_reason{};  // why security is off, although the user asked for it if possible
+  std::string insecure_reason{};  // why security is off although it was requested; else empty
 };
 
 // Identifies the request to which a reply belongs: the client's endpoint and the number of the
@@ -72,10 +73,11 @@ struct SampleIdentity {
 // The identities in a request to a service, or in a reply.
 struct Request {
   Guid writer{};            // the endpoint that sent it
-  SampleIdentity identity;  // the identity for the reply
+  SampleIdentity identity;  // the identity to send with the reply
   SampleIdentity related;   // the identity of the request to which a reply belongs
 };
 
+// The publishing endpoint of a topic.
 class Writer {
  public:
   virtual ~Writer() = default;
@@ -86,13 +88,14 @@ class Writer {
   virtual void WriteParts(std::span<const std::byte> head, std::span<const std::byte> rest) = 0;
   // Writes one sample as the reply to a request.
   virtual void WriteReply(std::span<const std::byte> sample, const SampleIdentity& request) = 0;
-  // Whether a matching reader belongs to the same participant as `endpoint`. If not, a reply to
-  // `endpoint` would be lost.
-  virtual bool HasReaderBeside(const Guid& endpoint) const = 0;
+  // Whether a matching reader belongs to the same participant as `endpoint`. If not, that
+  // participant would not receive a reply.
+  virtual bool HasReaderInSameParticipant(const Guid& endpoint) const = 0;
   virtual bool has_readers() const = 0;
   virtual Guid guid() const = 0;
 };
 
+// The subscribing endpoint of a topic.
 class Reader {
  public:
   virtual ~Reader() = default;
@@ -107,6 +110,7 @@ struct Endpoint {
   Topic topic;
 };
 
+// The program's membership in a DDS domain. Makes writers and readers.
 class Participant {
  public:
   // Larger incoming samples are dropped.

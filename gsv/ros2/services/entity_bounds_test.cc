@@ -47,7 +47,7 @@ TEST(EntityBounds, AreAbsentForAPlane) {
   EXPECT_FALSE(BoundsOfBody(SnapshotOf(model, {}), 0));
 }
 
-TEST(EntityBounds, OfAQuarterTurnSwapWidthAndDepth) {
+TEST(EntityBounds, SwapWidthAndDepthAfterAQuarterTurn) {
   const geometry::Bounds turned =
       InWorld({{-1, -2, 0}, {1, 2, 3}}, geometry::PlanarPose(10, 0, 0, std::numbers::pi / 2));
   EXPECT_NEAR(turned.min.x, 8, 1e-12);

@@ -1,4 +1,5 @@
-// Makes the results of simulation_interfaces, and performs edits that need a pause.
+// Makes Result messages of simulation_interfaces, and performs edits for which the simulation must
+// be paused.
 #pragma once
 
 #include <functional>

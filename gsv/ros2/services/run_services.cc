@@ -65,7 +65,7 @@ base::Status Play(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.Start() : simulation.Resume();
 }
 
-// Pauses a simulation. One that has not started is paused before its first step.
+// Pauses a simulation. A simulation that has not started is paused before its first step.
 base::Status Hold(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.RunThrough(base::SimTime(0)) : simulation.Pause();
 }

@@ -19,8 +19,8 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxWaiting = 10'000;   // requests
 constexpr std::size_t kMaxRequest = 1 << 20;  // bytes
-constexpr std::size_t kMaxUnsent = 1000;      // maximum number of replies to clients that are not
-                                              // yet discovered
+// Maximum number of replies to clients that are not yet discovered.
+constexpr std::size_t kMaxUnsent = 1000;
 // Maximum time for which a reply waits for its client. On a busy machine that loses a datagram,
 // discovery takes this long, because the datagram is sent again after a heartbeat, whose usual
 // period is 3 s.
@@ -30,11 +30,11 @@ constexpr std::chrono::milliseconds kRetry{10};
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kCycloneHeader = 16;
 
-// The history is deep enough for clients that send requests without waiting for replies, or that do
-// not run for some seconds. If a client's socket had no space for a reply, a heartbeat causes it to
-// be sent again, as long as it is in the history.
+// This number of replies is kept for clients that send requests without waiting for replies, or
+// that do not run for some seconds. If a client's socket had no space for a reply, it is sent again
+// after the next heartbeat.
 constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
-// A shorter history for replies that may be large, to bound the memory.
+// Fewer replies are kept if they may be large, to bound the memory.
 constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
 
 std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const std::byte> middle,
@@ -71,7 +71,7 @@ class ServiceHost::Outbox {
 
   void Send(const std::shared_ptr<Service>& service, std::vector<std::byte> reply,
             const dds::Request& request) {
-    if (service->writer->HasReaderBeside(request.writer)) {
+    if (service->writer->HasReaderInSameParticipant(request.writer)) {
       return Write(*service, reply, request);
     }
     {
@@ -114,7 +114,8 @@ class ServiceHost::Outbox {
       std::deque<Unsent> all = std::exchange(unsent_, {});
       lock.unlock();
       const auto is_due = [now = WallClock::now()](const Unsent& each) {
-        return now >= each.until || each.service->writer->HasReaderBeside(each.request.writer);
+        return now >= each.until ||
+               each.service->writer->HasReaderInSameParticipant(each.request.writer);
       };
       const auto due = std::stable_partition(all.begin(), all.end(), is_due);
       for (auto each = all.begin(); each != due; ++each) {
@@ -205,7 +206,7 @@ dds::Writer* ServiceHost::Advertise(const std::string& topic, const std::string&
   return topics_.back().get();
 }
 
-bool ServiceHost::Do(Lane lane, std::function<void()> job) {
+bool ServiceHost::Submit(Lane lane, std::function<void()> job) {
   ServiceWorker& worker = lane == Lane::kSlow       ? slow_
                           : lane == Lane::kStepping ? stepping_
                                                     : quick_;
@@ -237,7 +238,7 @@ void ServiceHost::Enqueue(const std::shared_ptr<Service>& service, Lane lane,
   }
   const bool fits = body.size() <= kMaxRequest;
   auto job = [service, reply, body = std::move(body)] { service->handler(body, reply); };
-  if (fits && Do(lane, std::move(job))) return;
+  if (fits && Submit(lane, std::move(job))) return;
   Refuse(service->name, {base::ErrorCode::kUnavailable,
                          fits ? "too many requests wait" : "it is larger than 1 MiB",
                          {}});

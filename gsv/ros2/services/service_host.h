@@ -5,11 +5,11 @@
 // reply repeats. A request comes from rmw_cyclonedds if the GUID of its writer has the vendor of
 // Cyclone DDS or, with DDS Security (where GUIDs have no vendor), if it has no related identity.
 //
-// Requests are untrusted input. A request that does not decode gets no reply. Each service logs the
-// first such request.
+// Requests are untrusted input. A request that cannot be decoded gets no reply. Each service logs
+// the first such request.
 //
 // Threads  Offer…(), Advertise() and the destructor on one. Handlers run on the threads of the
-//          host, one for each lane (kQuick and kLists share one), so that slow requests delay no
+//          host, one for each lane (kQuick and kLists share one). So slow requests do not delay
 //          quick ones. Other functions on any thread.
 // Bounded  at most 10,000 requests wait; further ones are dropped, and the first is logged.
 #pragma once
@@ -31,8 +31,10 @@ namespace gsv::ros2 {
 // Whether this request begins with the 16 bytes of rmw_cyclonedds.
 bool HasCycloneHeader(const dds::Request& request);
 
+// Receives the requests of all services of one node, and sends the replies.
 class ServiceHost {
  public:
+  // Groups of requests. Slow groups have their own threads.
   enum class Lane {
     kQuick,     // requests that are answered at once
     kLists,     // requests that are answered at once with replies that may be large
@@ -95,7 +97,7 @@ class ServiceHost {
   dds::Writer* Advertise(const std::string& topic, const std::string& type, const dds::Qos& qos);
 
   // Runs a job on the threads of a lane. Returns false if too many jobs wait.
-  bool Do(Lane lane, std::function<void()> job);
+  bool Submit(Lane lane, std::function<void()> job);
 
   // The readers of all services, for the node graph.
   const std::vector<dds::Guid>& readers() const { return readers_; }

@@ -84,7 +84,7 @@ TEST_F(ServiceHostTest, SendsAReplyOnceTheClientIsDiscovered) {
   EXPECT_EQ(Decoded(participant_.AwaitReply().sample), "late");
 }
 
-TEST_F(ServiceHostTest, IgnoresRequestsThatDoNotDecode) {
+TEST_F(ServiceHostTest, IgnoresRequestsThatCannotBeDecoded) {
   for (const std::size_t size :
        {std::size_t{4}, std::size_t{7}, std::size_t{20}, std::size_t{2 << 20}}) {
     const messages::Bytes bytes(size, std::byte{0xff});
@@ -97,7 +97,7 @@ TEST_F(ServiceHostTest, IgnoresRequestsThatDoNotDecode) {
 
 TEST_F(ServiceHostTest, AnswersTheQuickLaneWhileTheSlowOneIsBusy) {
   std::promise<void> release, begun;
-  ASSERT_TRUE(host_.Do(ServiceHost::Lane::kSlow, [&] {
+  ASSERT_TRUE(host_.Submit(ServiceHost::Lane::kSlow, [&] {
     begun.set_value();
     release.get_future().wait();
   }));

@@ -19,8 +19,8 @@
 
 namespace gsv::ros2 {
 
-// The simulation that the services control, and their shared state. Another simulation may take its
-// place, or none.
+// The simulation that the services control, and their shared state. Serve() replaces it by another
+// simulation, or by none.
 //
 // Threads  any, except for spawned().
 class ServedSimulation {
@@ -50,9 +50,9 @@ class ServedSimulation {
                         });
   }
 
-  // Returns null if there is none.
+  // Returns null if no simulation is set.
   std::shared_ptr<simulation::Simulation> simulation() const;
-  // The result of a request that needs a simulation, if there is none.
+  // Returns the result for a request that needs a simulation while none is set.
   messages::simulation_interfaces::Result NoSimulation() const;
   base::Status SetNamespaceOf(const std::string& robot, const std::string& name_space) const;
   bool loads_worlds() const { return spawner != nullptr && spawner->loads_worlds(); }
@@ -74,6 +74,7 @@ class ServedSimulation {
 
 class StepAction;
 
+// All services of the node /gsv.
 class SimulationServices {
  public:
   // `participant` and `spawner` must outlive this. See ServedSimulation and ServiceHost. Clients

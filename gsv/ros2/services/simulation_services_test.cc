@@ -46,7 +46,7 @@ TEST_F(SimulationServicesTest, AnswerAsSoonAsTheyExist) {
   EXPECT_EQ(count, 1);
 }
 
-TEST_F(SimulationServicesTest, ExistOnceAndForEachSimulationInTurn) {
+TEST_F(SimulationServicesTest, ServeSeveralSimulationsOneAfterAnother) {
   EXPECT_TRUE(participant_.topics.empty());
   EXPECT_TRUE(services_.readers().empty());
   FakeParticipant::OnRequest ask;

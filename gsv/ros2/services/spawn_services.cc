@@ -10,8 +10,8 @@ namespace interfaces = messages::simulation_interfaces;
 using simulation::Simulation;
 using Lane = ServiceHost::Lane;
 
-constexpr int kMaxNumber = 10'000;  // highest number that makes a name
-                                    // unique
+// Highest number that makes a name unique.
+constexpr int kMaxNumber = 10'000;
 constexpr std::size_t kMaxName = 200;
 
 using SpawnResponse = interfaces::SpawnEntityResponse;

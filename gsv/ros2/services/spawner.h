@@ -1,5 +1,5 @@
-// Gives the services the models and worlds of the program; adds models for SpawnEntity, and loads
-// worlds for LoadWorld.
+// The interface through which the services add models (SpawnEntity) and load worlds (LoadWorld).
+// The program that runs the services implements it.
 //
 // Threads  one at a time. Calls may take seconds, because models are read.
 #pragma once
@@ -14,11 +14,13 @@
 
 namespace gsv::ros2 {
 
+// The entity that SpawnEntity requests.
 struct SpawnRequest {
   std::string uri;   // in the form of Spawnable::uri, or the file of a model
   std::string name;  // empty for the model's name, with a number if that exists already
   geometry::Pose world_from_entity;
-  bool on_ground = false;  // whether it is put on the floor; the height is then ignored
+  // Whether the entity is put on the floor; the height of its pose is then ignored.
+  bool on_ground = false;
 };
 
 class Spawner {
@@ -29,7 +31,7 @@ class Spawner {
   };
 
   struct World {
-    std::string name;  // a name as for `gsv run`
+    std::string name;  // a name that `gsv run` accepts
     std::string uri;   // its file
   };
 

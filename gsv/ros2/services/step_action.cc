@@ -55,7 +55,7 @@ interfaces::SimulateStepsSendGoalResponse StepAction::Accept(
   const GoalList::Id id = request.goal_id.uuid;
   const base::MutexLock lock(mutex_);
   if (!goals_.Accept(id, response.stamp)) return response;
-  response.accepted = served_.host.Do(
+  response.accepted = served_.host.Submit(
       Lane::kStepping, [this, id, steps = request.goal.steps] { Execute(id, steps); });
   if (!response.accepted) goals_.Finish(id, GoalStatus::kStatusAborted);
   SendStatus();

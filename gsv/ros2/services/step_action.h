@@ -12,6 +12,7 @@
 
 namespace gsv::ros2 {
 
+// The server of the action SimulateSteps.
 class StepAction {
  public:
   // `served` and this object must outlive the host of the services.

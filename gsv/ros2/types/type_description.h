@@ -16,8 +16,8 @@ namespace gsv::ros2 {
 
 // type_description_interfaces/msg/FieldType.
 struct FieldType {
-  std::uint8_t id = 0;                // the id of the element type, plus 48, 96 or 144 for arrays
-                                      // and sequences
+  // The id of the element type, plus 48, 96 or 144 for arrays and sequences.
+  std::uint8_t id = 0;
   std::uint64_t capacity = 0;         // size of a fixed array or maximum of a bounded sequence
   std::uint64_t string_capacity = 0;  // maximum length of a bounded string
   std::string nested_type;            // "geometry_msgs/msg/Vector3"

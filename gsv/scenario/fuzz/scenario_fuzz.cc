@@ -1,5 +1,5 @@
-// Reads any text as a scenario. The reader must not crash. A scenario without problems must not
-// change when it is written and read again.
+// Fuzz target: reads the input as a scenario. The reader must not crash. A scenario without
+// problems must not change when it is written and read again.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

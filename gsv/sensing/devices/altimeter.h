@@ -1,8 +1,9 @@
 // The sensor type "altimeter": the height above a reference, and its rate of change.
 //
 // Frame       the world's z.
-// Parameters  vertical_reference (m in the world; default: the initial height of the sensor),
-//             vertical_position.noise (m) and vertical_velocity.noise (m/s), see noise.h.
+// Parameters
+//   vertical_reference      height in the world, m (default: the initial height of the sensor)
+//   vertical_position.noise (m), vertical_velocity.noise (m/s)   see noise.h
 // Readings    values {position (m above the reference), velocity (m/s), reference (m)}. As a
 //             message: ros_gz_interfaces/Altimeter.
 #pragma once

@@ -1,11 +1,16 @@
-// The sensor type "battery": the charge after the time and distance of the robot.
+// The sensor type "battery": a battery whose charge follows from the robot's running time and
+// distance.
 //
-// Model       the charge falls by idle_current at all times and by drive_charge for each metre; the
-//             voltage lies between empty and full in proportion to the charge, less the voltage
-//             drop at the resistance. An empty battery stops nothing.
-// Parameters  capacity (Ah, 5), initial_charge (fraction, 1), voltage_full (V, 12.6), voltage_empty
-//             (V, 10.5), resistance (ohm, 0.1), idle_current (A, 0.5), drive_charge (C/m, 4),
-//             voltage.noise (V) and current.noise (A), see noise.h.
+// Model       the charge falls by idle_current at all times, and by drive_charge for each metre.
+//             The voltage without load is between voltage_empty and voltage_full in proportion to
+//             the charge. The voltage drop at the resistance is subtracted. An empty battery stops
+//             nothing.
+// Parameters  (with their default values)
+//   capacity (5 Ah)
+//   initial_charge (1)      as a fraction of the capacity
+//   voltage_full (12.6 V), voltage_empty (10.5 V), resistance (0.1 ohm)
+//   idle_current (0.5 A), drive_charge (4 C/m)
+//   voltage.noise (V), current.noise (A)   see noise.h
 // Readings    values {voltage (V), current (A, drawn), charge (Ah), capacity (Ah), fraction}. As a
 //             message: sensor_msgs/BatteryState, where a current that is drawn is negative.
 #pragma once

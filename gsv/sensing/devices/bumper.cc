@@ -25,9 +25,9 @@ constexpr double kSamePlace = 1e-3;
 readings::Vector ToVector(const Vector3& v) { return {v.x, v.y, v.z}; }
 Vector3 FromVector(const readings::Vector& v) { return {v.x, v.y, v.z}; }
 
-// Finds the contacts that touch one of the collisions which a bumper names: those whose point is as
-// near to such a collision as to any other collision of the robot. This is needed because an engine
-// reports the bodies of a contact, and not their collisions.
+// Finds the contacts that touch one of the collisions which a bumper names. For such a contact, a
+// named collision is at least as near to its point as any other collision of the robot. This is
+// needed because an engine reports the bodies of a contact, and not their collisions.
 class NamedCollisions {
  public:
   NamedCollisions(const model::SensorDescription& sensor, std::vector<std::string> names)

@@ -2,15 +2,20 @@
 //
 // Frame       sensor frame; the bumper spans the bearings within half of field_of_view of its x
 //             axis.
-// Parameters  field_of_view (rad, 2 pi: all around). collision: the names of the collisions that
-//             sense contacts, one per line (default: all of the robot); see
-//             gsv/model/collision_names.h. An unknown name senses nothing. ground: whether to
-//             report the ground, that is points whose normal points down within 45 degrees
-//             (default: only if `collision` has names).
-// Readings    for each point of each contact eleven values {point x, y, z (m), normal x, y, z from
-//             the robot to the other body, depth (m), closing speed (m/s), mean force on the robot
-//             over the last step x, y, z (N)}, with the name of the other body as label. As a
-//             message: gsv_msgs/Bumper.
+// Parameters  (with their default values)
+//   field_of_view (2 pi rad)   2 pi: all around
+//   collision (all)         names of the robot's collisions that sense contacts, one per line; see
+//                           gsv/model/collision_names.h. An unknown name senses nothing.
+//   ground                  whether to report contacts with the ground, whose normals point down
+//                           within 45 degrees (default: only if `collision` has names)
+// Readings    for each contact point, the label is the name of the other body. There are eleven
+//             values:
+//   x, y, z (m)             the point
+//   x, y, z                 the unit normal, from the robot to the other body
+//   depth (m)
+//   closing speed (m/s)
+//   x, y, z (N)             the mean force on the robot over the last step
+// Message     gsv_msgs/Bumper
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -1,6 +1,6 @@
-// Tests the simulated errors of devices against closed forms: those of the presets, of
-// lidar_errors.h and odometry_drift.h, of the full model of sound_cone.h, and of the Allan
-// parameters of imu.h.
+// Tests the simulated errors of devices against closed forms. It covers the presets,
+// lidar_errors.h, odometry_drift.h, the full model of sound_cone.h, and the Allan parameters of
+// imu.h.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -166,8 +166,8 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
     }
   }
   // There are two edges with a beam on either side. In half of the cases, the beam's range is mixed
-  // with that of the edge's side, and the beam covers the edge with the probability divergence /
-  // step = 0.6.
+  // with that of the edge's side. The beam covers the edge with the probability divergence / step =
+  // 0.6.
   const double expected = 4 * 0.5 * 0.6 * 0.8 * scans;
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }

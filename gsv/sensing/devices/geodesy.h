@@ -13,6 +13,7 @@
 
 namespace gsv::sensing {
 
+// A position on the earth.
 struct GeodeticPlace {
   double latitude = 0, longitude = 0;  // rad
   double altitude = 0;                 // m above the ellipsoid
@@ -25,6 +26,7 @@ GeodeticPlace PlaceOf(const geometry::Vector3& point_in_ecef);
 // Converts a vector in the world's axes to east, north and up at its origin.
 geometry::Vector3 EastNorthUp(const model::GeodeticOrigin& origin,
                               const geometry::Vector3& vector_in_world);
+// Converts a point of the world to a position on the earth.
 GeodeticPlace PlaceOf(const model::GeodeticOrigin& origin, const geometry::Vector3& point_in_world);
 
 }  // namespace gsv::sensing

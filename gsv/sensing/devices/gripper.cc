@@ -1,5 +1,7 @@
 #include "gsv/sensing/devices/gripper.h"
 
+#include <fmt/format.h>
+
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/sensing/actuator.h"
 #include "gsv/sensing/devices/gripper_state.h"
@@ -27,7 +29,8 @@ class Gripper final : public SensorOf<readings::Gripper, messages::gsv_msgs::Gri
   base::Status Check(const world::DeviceCommand& command) const override {
     if (auto ok = CheckShape(command, 1); !ok) return ok;
     if (command.values[0] == 0 || command.values[0] == 1) return {};
-    return Refuse("a gripper's command is 1 (open) or 0 (close)");
+    return Refuse(fmt::format("the gripper's command is {}; it must be 1 (open) or 0 (close)",
+                              command.values[0]));
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {

@@ -60,7 +60,9 @@ class GripperState final : public world::ActuatorState {
 
  private:
   GraspForHash grasp_for_hash() const override;
+  // Sets the finger joints of a robot with planar kinematics.
   void MoveFingers(const world::Body& robot, base::SimTime time, world::State& state) const;
+  // Sets the pose and velocity of the attached body.
   void MoveAttachedBody(const world::Layout& layout, int robot, world::State& state) const;
 
   const GripperSetupPtr setup_;

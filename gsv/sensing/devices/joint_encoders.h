@@ -1,8 +1,10 @@
 // The sensor type "joint_encoders" (also "joint_state"): positions and velocities of joints.
 //
-// Parameters  joint (the name of one joint; default: all movable joints), counts_per_turn (0:
-//             exact; positions are rounded down to 2 pi over this), position.noise (rad or m) and
-//             velocity.noise (rad/s or m/s), see noise.h.
+// Parameters  (with their default values)
+//   joint (all)             name of one joint; default: all movable joints
+//   counts_per_turn (0)     positions are rounded down to multiples of 2 pi / counts_per_turn; 0:
+//                           they are exact
+//   position.noise (rad or m), velocity.noise (rad/s or m/s)   see noise.h
 // Readings    for each joint, in the order of the model, the values {position, velocity} and the
 //             label of its name. As a message: sensor_msgs/JointState.
 // Errors      Sample(): kNotFound for a joint that the robot does not have.

@@ -14,6 +14,7 @@
 
 namespace gsv::sensing {
 
+// The force and torque that a joint transmits, in world axes.
 struct JointWrench {
   geometry::Vector3 origin;         // origin of the joint
   geometry::Vector3 force, torque;  // of the parent on the child: N, and N m about the origin

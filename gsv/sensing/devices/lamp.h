@@ -3,9 +3,13 @@
 // Command     brightness in [0, 1] (0: off), then red, green and blue of its colour, each in [0,
 //             1].
 // Reading     the values of the command.
-// Parameters  colour ("1 1 1"), brightness (0; at the start), radius (0.02 m, of the glowing
-//             sphere), range (0 m: lights nothing), angle (6.2832 rad: all around, else a cone
-//             about its x axis), intensity (1: at full brightness, white at 1 m is fully white).
+// Parameters  (with their default values)
+//   colour ("1 1 1")        red, green and blue, for commands without a colour
+//   brightness (0)          brightness at the start
+//   radius (0.02 m)         radius of the glowing sphere
+//   range (0 m)             distance up to which the lamp lights objects; 0: it lights none
+//   angle (6.2832 rad)      all around, or the width of a cone about the x axis
+//   intensity (1)           with 1, full brightness makes a white surface at 1 m fully white
 // Message     gsv_msgs/Lamp
 #pragma once
 

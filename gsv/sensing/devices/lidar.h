@@ -6,20 +6,21 @@
 // Reading     ranges in metres, by elevation from the lowest row, and within a row by azimuth from
 //             the smallest. As in REP-117, a hit nearer than range.min reads -infinity, and no hit
 //             within range.max reads +infinity.
-// Parameters  SDFormat's, flattened. scan.horizontal.samples (360), .resolution (1: beams per
-//             sample), .min_angle (-pi), .max_angle (pi minus the width of one beam);
-//             scan.vertical.* likewise (1 sample at 0). A single beam has min_angle. range.min
-//             (0.08), range.max (10). noise (m), see noise.h: each beam has its own bias, a dropout
-//             reads as no hit, and noise does not move a range beyond the limits. range.resolution
-//             has no effect, as in Gazebo. intensity_scale (0), intensity_range (0: any), see
-//             below.
-// Intensity   with an intensity_scale above 0, the reading has after all ranges an intensity for
-//             each beam: intensity_scale × reflectance × cosine of the angle of incidence
-//             (Lambert's law), and 0 without an echo. Without an intensity_range the device
-//             compensates for the distance. With one, the intensity falls as (intensity_range /
-//             distance)²: a surface that is larger than the beam (Höfle and Pfeifer, ISPRS Journal
-//             of Photogrammetry and Remote Sensing 62 (2007)). The reflectance follows from the
-//             colour (rays/echo.h).
+// Parameters  the elements of SDFormat's <lidar> as paths (with their default values)
+//   scan.horizontal.samples (360), .resolution (1)   their product is the number of beams
+//   scan.horizontal.min_angle (-pi), .max_angle (pi minus the width of one beam)
+//   scan.vertical.*         the same for the rows (1 sample at 0); a single beam is at min_angle
+//   range.min (0.08 m), range.max (10 m); range.resolution has no effect, as in Gazebo
+//   noise (m)               see noise.h. Each beam has its own bias. A dropout reads as no hit, and
+//                           noise does not move a range beyond the limits.
+//   intensity_scale (0), intensity_range (0 m)   see below
+// Intensity   with an intensity_scale above 0, the intensities of all beams follow the ranges. An
+//             intensity is intensity_scale × reflectance × cosine of the angle of incidence
+//             (Lambert's law), or 0 without an echo. If intensity_range is 0, the device
+//             compensates for the distance. Otherwise the intensity is multiplied by
+//             (intensity_range / distance)², as for a surface that is larger than the beam (Höfle
+//             and Pfeifer, ISPRS Journal of Photogrammetry and Remote Sensing 62 (2007)). The
+//             reflectance follows from the colour (rays/echo.h).
 // Message     sensor_msgs/LaserScan for one fan, with its intensities. For several fans
 //             gsv_msgs/LidarScan, which has all ranges, and in addition (/ROBOT/SENSOR/points) a
 //             sensor_msgs/PointCloud2, see lidar_messages.h.

@@ -1,15 +1,17 @@
 // Errors of real lidars besides white noise. They depend on the distance of a surface, on its angle
 // (from the ranges of the adjacent beams), and on its edges.
 //
-// Parameters  all are 0 by default, which changes nothing. range_noise (m per metre): deviation
-//             that grows with range. incidence_noise (m): deviation per unit of the tangent of the
-//             angle of incidence. beam_divergence (rad): width of a beam. A beam on an edge
-//             measures a range between the two surfaces (mixed pixel), with the probability that it
-//             covers the edge. reach (m): the range up to which a surface at right angles gives an
-//             echo. For other angles the reach is multiplied by the root of the cosine.
-//             short_probability, short_range (m, 1): the fraction of beams that hit objects which
-//             the world does not have (dust, people), and the mean of their exponentially
-//             distributed ranges.
+// Parameters  (default 0 except short_range: no errors)
+//   range_noise (m per metre)   standard deviation that grows with the range
+//   incidence_noise (m)     standard deviation per unit of the tangent of the angle of incidence
+//   beam_divergence (rad)   width of a beam. A beam that covers an edge measures a range between
+//                           the two surfaces (mixed pixel).
+//   reach (m)               maximum range of an echo from a surface at right angles to the beam. At
+//                           an angle of incidence a, it is multiplied by sqrt(cos a).
+//   short_probability       fraction of beams that hit objects which the world does not have, such
+//                           as dust or people
+//   short_range (1 m)       mean range of these hits, which is exponentially distributed
+//
 // Source      for the fractions: Thrun, Burgard and Fox, "Probabilistic Robotics", section 6.3. For
 //             the cosine: Lambert's law and the equation of the lidar.
 // Determinism random numbers are keyed by (seed, robot, sensor, step) and the beam.
@@ -22,6 +24,7 @@
 
 namespace gsv::sensing {
 
+// The error parameters of a lidar.
 struct LidarErrors {
   double range_noise = 0, incidence_noise = 0;
   double beam_divergence = 0;
@@ -34,6 +37,7 @@ struct LidarErrors {
   }
 };
 
+// Reads the parameters. Reports invalid ones to the reader.
 LidarErrors ReadLidarErrors(ParameterReader& reader);
 
 // Changes the ranges of one row. `step` (rad) is the angle between beams, and `first_beam` the

@@ -1,4 +1,4 @@
-// The intensities of a lidar are compared with Lambert's law in closed form.
+// Compares the intensities of a lidar with Lambert's law in closed form.
 #include <cmath>
 #include <cstring>
 

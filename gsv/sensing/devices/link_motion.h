@@ -10,12 +10,14 @@
 
 namespace gsv::sensing {
 
+// The velocities and accelerations of a link, in world axes.
 struct LinkMotion {
   geometry::Pose world_from_link;
-  // The point of the link at `place`, with its velocity and acceleration.
+  // `place` is a point of the link. `velocity` and `acceleration` are those of this point.
   geometry::Vector3 place, velocity, acceleration;
   geometry::Vector3 angular_velocity, angular_acceleration;
 
+  // Returns the acceleration of another point of the link.
   geometry::Vector3 AccelerationOf(const geometry::Vector3& point) const;
 };
 

@@ -1,11 +1,13 @@
-// A microphone: the sound level, and the loudest source.
+// The sensor type "microphone": the sound level at the sensor, and the loudest source.
 //
-// Model       Each speaker is an omnidirectional point source: its level falls by 20 dB for ten
+// Model       Each speaker is an omnidirectional point source. Its level falls by 20 dB for ten
 //             times the distance (inverse-square law), and is constant nearer than 0.1 m. Sounds
 //             and ambient noise add as powers. There are no walls, echoes or delays.
 // Reading     level (dB re 20 µPa), frequency (Hz) of the loudest sound; 0 if no sound is louder
 //             than the ambient noise. Label: its ROBOT/SPEAKER, or empty.
-// Parameters  ambient (30 dB: ambient noise), noise (dB, of the level).
+// Parameters  (with their default values)
+//   ambient (30 dB)         level of the ambient noise
+//   noise (dB)              of the measured level, see noise.h
 // Message     gsv_msgs/Microphone
 #pragma once
 

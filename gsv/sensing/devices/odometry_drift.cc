@@ -49,7 +49,7 @@ geometry::PlanarPosition DriftState::EstimateAt(const world::Snapshot& now, int 
                     static_cast<std::uint64_t>(now.state.step));
   const double first = noise.Gaussian(), second = noise.Gaussian(), third = noise.Gaussian();
   const OdometryStep drifted = Drifted(drift_, {way, turn}, first, second, third);
-  // The path has the shape of the exact path, but the estimate has its own heading.
+  // Scales the exact path of the step, and rotates it to the estimated heading.
   const double stretch = way == 0 ? 0 : drifted.way / way;
   geometry::PlanarPosition estimate = estimate_;
   estimate.x += stretch * (estimate_.cosine * ahead - estimate_.sine * aside);

@@ -1,11 +1,11 @@
 // Errors of odometry that accumulate. They come from wheels whose size or distance differs from the
 // robot's parameters, and from random slip.
 //
-// Model        for the distance ds and the turn da of each step, the odometry has ds' =
-//              scale.linear ds + a random part of variance random.linear_per_metre^2 |ds|, and da'
-//              = scale.angular da + a random part of variance random.angular_per_metre^2 |ds| +
-//              random.angular_per_radian^2 |da|. So the variance over a distance does not depend on
-//              the length of the steps.
+// Model        in each step, the robot travels the distance ds and turns by da. The odometry
+//              measures ds' = scale.linear ds + a random part of variance random.linear_per_metre^2
+//              |ds|. It measures da' = scale.angular da + a random part of variance
+//              random.angular_per_metre^2 |ds| + random.angular_per_radian^2 |da|. So the variance
+//              over a distance does not depend on the length of the steps.
 // Source       Thrun, Burgard and Fox, "Probabilistic Robotics", section 5.4, whose coefficients
 //              are variances.
 // Determinism  each step's draws are keyed by (seed, robot, sensor, step).
@@ -20,6 +20,7 @@
 
 namespace gsv::sensing {
 
+// The parameters of accumulating odometry errors. scale: factor between odometry and truth.
 struct OdometryDrift {
   double linear_scale = 1, angular_scale = 1;
   double linear_per_metre = 0;    // m after one metre
@@ -30,12 +31,15 @@ struct OdometryDrift {
   friend bool operator==(const OdometryDrift&, const OdometryDrift&) = default;
 };
 
+// Reads the parameters. Reports invalid ones to the reader.
 OdometryDrift ReadOdometryDrift(ParameterReader& reader);
 
-// The odometry's estimate of a distance (m) and a turn (rad), with three standard normal numbers.
+// A step of a robot's motion: a distance (m) and a turn (rad).
 struct OdometryStep {
   double way = 0, turn = 0;
 };
+// Returns the odometry's estimate of the exact step. `first` to `third` are standard normal
+// numbers.
 OdometryStep Drifted(const OdometryDrift& drift, OdometryStep exact, double first, double second,
                      double third);
 

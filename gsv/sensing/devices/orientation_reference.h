@@ -8,20 +8,21 @@
 
 namespace gsv::sensing {
 
-// East, north and up are those of the world's place on the earth. x points east, turned by the
-// heading of <spherical_coordinates>, if there is one.
+// The reference frame of an orientation. East, north and up are those at the world's position on
+// the earth. x points east, turned by the heading of <spherical_coordinates>, if there is one.
 class OrientationReference {
  public:
   // Parameters orientation_reference_frame.localization (default: the world's frame),
   // .custom_rpy and .grav_dir_x, both in the world's frame.
   explicit OrientationReference(ParameterReader& reader);
 
-  // Whether it is the world's frame itself.
+  // Whether the reference frame is the world's frame itself.
   bool is_world() const { return is_world_; }
   // The rotation of vectors from the world's frame to the reference frame.
   geometry::Quaternion ReferenceFromWorld(const model::WorldDescription& world) const;
 
  private:
+  // Returns the rotation to the frame GRAV_UP or GRAV_DOWN.
   geometry::Quaternion AlongGravity(const geometry::Vector3& gravity) const;
 
   enum class Kind { kCustom, kEnu, kNed, kNwu, kGravityUp, kGravityDown };

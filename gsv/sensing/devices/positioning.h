@@ -1,9 +1,11 @@
-// A positioning system: the pose of the sensor in the world.
+// The sensor type "positioning": the true pose of the sensor in the world, with optional noise, as
+// an indoor positioning system measures it.
 //
-// Reading     values = {x, y, z, roll, pitch, yaw} of the sensor's frame in the world; metres,
-//             radians (roll and yaw in (-pi, pi], pitch in [-pi/2, pi/2]).
-// Parameters  noise.position.stddev (0): Gaussian, metres, on x, y and z each.
-//             noise.orientation.stddev (0): Gaussian, radians, on yaw.
+// Reading     values {x, y, z (m), roll, pitch, yaw (rad)} of the sensor's frame in the world. Roll
+//             and yaw are in (-pi, pi], and the pitch is in [-pi/2, pi/2].
+// Parameters  (with their default values)
+//   noise.position.stddev (0 m)        Gaussian noise of x, y and z
+//   noise.orientation.stddev (0 rad)   Gaussian noise of the yaw
 // Message     geometry_msgs/PoseStamped in the frame "world".
 #pragma once
 

@@ -54,7 +54,8 @@ class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, 
                     std::to_string(setup_->max_size));
     }
     if (message.word.size() > kMaxNameLength) {
-      return Refuse("a robot's name has at most 128 characters");
+      return Refuse("the receiver's name has " + std::to_string(message.word.size()) +
+                    " characters; at most " + std::to_string(kMaxNameLength) + " are allowed");
     }
     return {};
   }
@@ -74,7 +75,7 @@ class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, 
     message.sent = step.now->state.time;
     message.content = command.content;
     step.transmissions.push_back(
-        {world::Sealed(std::move(message)), AntennaOf(*step.now, MountOn(robot), setup_), {}});
+        {world::WithDigest(std::move(message)), AntennaOf(*step.now, MountOn(robot), setup_), {}});
     return before;
   }
 

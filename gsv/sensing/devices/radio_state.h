@@ -1,7 +1,7 @@
 // The messages that a radio has received since it was switched on.
 //
 // Determinism  The received messages and their order depend on the messages sent since the last
-//              step and on the poses of the robots, not on the order in which behaviours ran. The
+//              step and on the robots' poses. The order in which behaviours ran has no effect. The
 //              random numbers of fading and loss are keyed by (seed, robot, radio, message, step).
 #pragma once
 
@@ -15,6 +15,7 @@
 
 namespace gsv::sensing {
 
+// A received message.
 struct HeardMessage {
   world::RadioMessagePtr message;
   std::uint64_t number = 0;  // counts the received messages, from 1
@@ -54,8 +55,11 @@ class RadioState final : public world::DeviceState {
   // do not arrive. The radio's own transmissions do not arrive.
   std::vector<std::optional<double>> Arriving(const world::DeviceStep& step,
                                               const world::Antenna& here) const;
+  // Whether a message is lost by chance or because other messages are too strong. `place` is its
+  // index in step.transmissions.
   bool IsLost(const world::DeviceStep& step, std::size_t place,
               const std::vector<std::optional<double>>& arriving) const;
+  // Returns the number of the random stream for a message.
   std::uint64_t StreamOf(const world::RadioMessage& message) const;
 
   const world::RadioSetupPtr setup_;

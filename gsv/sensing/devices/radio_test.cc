@@ -48,7 +48,7 @@ class RadioLink : public ::testing::Test {
   world::RadioSetup from_, to_;
 };
 
-TEST_F(RadioLink, InFreeSpaceFollowsFriis) {
+TEST_F(RadioLink, FollowsTheFriisEquationInFreeSpace) {
   // In watts: P_r = P_t G_t G_r (lambda / 4 pi d)^2.
   from_.power = 14.5, from_.gain = 2.5, to_.gain = 6;
   const double watts = 1e-3 * std::pow(10, 1.45);
@@ -184,7 +184,7 @@ TEST(Radio, ReturnsReceivedMessages) {
 
   auto state = std::make_shared<RadioState>(SwitchedOn(**radio));
   const std::string content("a\0b\xff", 4);
-  const auto message = world::Sealed({"other", "r", "", base::SimTime(1'500'000'000), content});
+  const auto message = world::WithDigest({"other", "r", "", base::SimTime(1'500'000'000), content});
   for (int i = 0; i < 7; ++i) state->Hear(message, -41.5);
   snapshot->state.devices = std::make_shared<const world::DeviceStates>(world::DeviceStates{state});
   const auto reading = (*radio)->Sample(Sampling(snapshot, 0, 1, rays));
@@ -210,7 +210,7 @@ TEST(Radio, HashIncludesReceivedMessages) {
   const auto radio = MakeRadio();
   ASSERT_TRUE(radio);
   RadioState state = SwitchedOn(**radio);
-  const auto message = world::Sealed({"other", "r", "", base::SimTime(5), "hello"});
+  const auto message = world::WithDigest({"other", "r", "", base::SimTime(5), "hello"});
   state.Hear(message, -41.5);
   base::Hash hash, expected;
   state.AddToHash(hash);
@@ -242,7 +242,7 @@ class RadioOnTheAir : public RadioLink {
         world::RadioMessage message;
         message.sender = robot;
         message.content = std::to_string(i);
-        sent.push_back({world::Sealed(std::move(message)), AntennaOf(robot, from_), {}});
+        sent.push_back({world::WithDigest(std::move(message)), AntennaOf(robot, from_), {}});
       }
       world::DeviceStep step{
           snapshot_, base::SimTime(0), *rays_.At(snapshot_), snapshot_->state, sent, 1};

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/noise.h"
 #include "gsv/sensing/radio_link.h"
@@ -26,7 +28,7 @@ class RangingSensor final : public SensorOf<readings::Ranging, messages::sensor_
         max_walls_(reader.Count("max_walls", 8, 0, 1000)) {
     if (anchor_.empty())
       reader.Refuse("anchor is missing; set it to the name of the anchor's model");
-    if (min_ > max_) reader.Refuse("min is larger than max");
+    if (min_ > max_) reader.Refuse(fmt::format("min ({}) is larger than max ({})", min_, max_));
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {

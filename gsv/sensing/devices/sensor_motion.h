@@ -1,4 +1,4 @@
-// The motion of a sensor in the world.
+// Computes the pose, velocity and acceleration of a sensor in the world.
 //
 // Frames  world axes.
 // Exactness  velocities are those of the state, including joints. The acceleration is the body's
@@ -10,6 +10,7 @@
 
 namespace gsv::sensing {
 
+// The motion of a sensor at one instant.
 struct SensorMotion {
   geometry::Pose world_from_sensor;
   geometry::Vector3 velocity;          // m/s
@@ -17,6 +18,7 @@ struct SensorMotion {
   geometry::Vector3 acceleration;      // m/s²
 };
 
+// Returns the motion of a sensor at the instant of the sampling.
 SensorMotion MotionOf(const Sampling& sampling, const model::SensorDescription& description);
 
 }  // namespace gsv::sensing

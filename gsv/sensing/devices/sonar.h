@@ -1,15 +1,16 @@
-// A sonar: the distance to the nearest echo.
+// The sensor type "sonar": the distance to the nearest surface that returns an echo.
 //
 // Frame       sensor frame: the beam is along x. The robot's own body gives no echo.
-// Beam        "ray" is the rule of the original system. It casts one ray to the maximum range. If
-//             there is no echo, or one nearer than the minimum range (the transducer still rings),
-//             the reading is the maximum. "cone" models a transducer, see sound_cone.h, within the
-//             same limits.
+// Beam        "ray" casts one ray to the maximum range. If there is no echo, or one nearer than the
+//             minimum range (the transducer still rings), the reading is the maximum. "cone" models
+//             a transducer, see sound_cone.h, within the same limits.
 // Reading     readings::Sonar.
-// Parameters  beam ("ray"); min (0), max (5): range in metres. field_of_view (0.26): the cone's
-//             width in radians, for the message only; SDFormat's `radius`, the cone's radius at
-//             max, may be given instead. noise (m), see noise.h: it applies to echoes, and a
-//             dropout removes an echo. A cone also has the parameters of sound_cone.h.
+// Parameters  (with their default values)
+//   beam ("ray")            see above; a cone also has the parameters of sound_cone.h
+//   min (0 m), max (5 m)    limits of the range
+//   field_of_view (0.26 rad)   width of the cone, for the message only. SDFormat's `radius`, the
+//                           radius of the cone at `max`, may be given instead.
+//   noise (m)               see noise.h; noise changes echoes, and a dropout removes an echo
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -1,25 +1,27 @@
 // The beam of an ultrasonic transducer: a piston that sends a short tone and receives its echo.
 //
 // Directivity  of a circular piston of radius a at the wave number k: 2 J1(k a sin t) / (k a sin t)
-//              at the angle t off its axis, taken twice, there and back. A Polaroid transducer (a =
-//              19 mm, 49.4 kHz) is down by 6 dB at 7.4 degrees and has its first null at 12.9:
-//              SensComp's data sheet of the 600 series has a beam of 15 degrees at -6 dB.
+//              at the angle t off its axis. It applies twice: when the sound is sent and when it is
+//              received. A Polaroid transducer (a = 19 mm, 49.4 kHz) is down by 6 dB at 7.4 degrees
+//              and has its first null at 12.9: SensComp's data sheet of the 600 series has a beam
+//              of 15 degrees at -6 dB.
 // Surfaces     smooth surfaces are mirrors for waves of 7 mm: an echo returns from points where the
 //              surface is at right angles to the sound. So a wall is detected at its perpendicular
 //              distance, and beyond a critical angle not at all. Rough surfaces return a part of
 //              the sound from everywhere.
 // Source       R. Kuc and M. W. Siegel, "Physically based simulation model for acoustic sensor
 //              robot navigation", IEEE PAMI 9(6), 1987.
-// Full model   Each effect of real rings has a parameter that is off by default.
-//              gain_range: the amplifier compensates attenuation with distance up to this range.
-//              Beyond it, an echo must be stronger by distance / gain_range to be detected.
-//              target_size: a target smaller than the first Fresnel zone, which is
-//              sqrt(wave length x distance / 2) wide, reflects less, by the fraction of the zone
-//              that it fills across and up (Kirchhoff's approximation).
-//              second_reflections: sound that a smooth surface reflects to a second surface
-//              returns the same way, if the second is at right angles to it or forms a corner.
-//              firing_slot: sonars of one robot with the same slot (above 0) fire together and
-//              detect each other's echoes.
+// Full model   Each further effect of real sonars has a parameter that is off by default.
+//   gain_range           the amplifier compensates attenuation with distance up to this range.
+//                        Beyond it, an echo must be stronger by distance / gain_range.
+//   target_size          a target smaller than the first Fresnel zone reflects less, by the
+//                        fraction of the zone that it fills across and up (Kirchhoff's
+//                        approximation). The zone is sqrt(wave length x distance / 2) wide.
+//   second_reflections   a smooth surface may reflect sound to a second surface. The sound returns
+//                        if the second surface is at right angles to it, or if the two surfaces
+//                        form a corner.
+//   firing_slot          sonars of one robot with the same slot (above 0) fire together, and detect
+//                        each other's echoes.
 // Left out     diffraction at edges; echoes of an earlier slot that arrive late.
 // Threads      const members may run concurrently.
 #pragma once
@@ -33,13 +35,13 @@
 
 namespace gsv::sensing {
 
+// The parameters of a transducer.
 struct SoundSettings {
   double radius = 0.019;      // radius of the transducer, m
   double frequency = 49.4e3;  // Hz
-  double threshold = 0.02;    // smallest detected echo; the strongest is 1 from straight ahead,
+  double threshold = 0.02;    // smallest detected echo; the strongest from straight ahead is 1,
                               // 0.0175 from the side lobes
-  // Rad: the largest angle between the sound and a smooth surface's normal at which an echo
-  // returns.
+  // Largest angle between the sound and a smooth surface's normal at which an echo returns, rad.
   double specular_width = 0.035;
   double roughness = 0;   // fraction of the sound that is scattered in all directions
   double gain_range = 0;  // m; 0: the amplifier compensates every distance
@@ -85,14 +87,18 @@ class SoundCone {
   double EchoOf(const Ray& ray, const Hit& hit, double strength) const;
   // Returns the fraction that a surface reflects if its normal is at `angle` (rad) to the sound.
   double Mirrored(double angle) const;
+  // Whether an echo of this relative strength is detected from this distance.
   bool IsHeard(double strength, double distance) const;
-  // Returns the nearest detected echo if the size of targets matters.
+  // Returns the distance of the nearest echo that is detected, also considering target_size;
+  // infinite if there is none.
   double NearestHeard(const Sampling& sampling, std::vector<Echo> echoes) const;
   // Returns the fraction of the first Fresnel zone that the target of an echo fills.
   double FilledPart(const Sampling& sampling, const Echo& echo) const;
+  // Adds the echoes that return after a second reflection. hits[i] is the hit of rays[i].
   void AddSecondReflections(const Sampling& sampling, std::span<const Ray> rays,
                             std::span<const std::optional<Hit>> hits, double max_distance,
                             std::vector<Echo>& echoes) const;
+  // Adds the echoes of the sound of another sonar.
   void AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
                     std::span<const std::optional<Hit>> hits, std::vector<Echo>& echoes) const;
   // Returns the echo of the nearest point of the hit body, searched in steps from the hit. It is

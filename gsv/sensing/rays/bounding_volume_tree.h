@@ -34,6 +34,7 @@ class BoundingVolumeTree {
     // one.
     virtual double Visit(std::uint32_t box) = 0;
   };
+  // Calls Visit() for each box that the ray may hit.
   void Cast(const Ray& ray, Visitor& visitor) const;
 
   // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may

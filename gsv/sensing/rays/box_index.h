@@ -53,7 +53,7 @@ class BoxIndex {
   Kind kind_ = Kind::kList;
   std::uint32_t count_ = 0;
   ColumnGrid grid_;
-  std::unique_ptr<BoundingVolumeTree> tree_;  // null until one was needed
+  std::unique_ptr<BoundingVolumeTree> tree_;  // null until it is needed
 };
 
 }  // namespace gsv::sensing

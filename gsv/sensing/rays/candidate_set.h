@@ -34,7 +34,7 @@ class CandidateSet {
   const geometry::Vector3& place() const { return place_; }
   double reach() const { return reach_; }
 
-  // Adds a solid with its bounding sphere if `counts`. `number` is its number in the scene.
+  // Adds a solid with its bounding sphere if `counts` is true. `number` is its number in the scene.
   void Add(const BoundingSphere& ball, std::uint32_t number, bool counts) {
     if (count_ == kMax) {
       is_overfull_ = is_overfull_ || counts;

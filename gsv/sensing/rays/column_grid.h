@@ -81,6 +81,7 @@ class ColumnGrid {
 
   // Returns the index of the column (row) of a coordinate, counted from the ring.
   int IndexOf(double from_low) const { return static_cast<int>(from_low * per_metre_ + 1); }
+  // Divides an area of `width` by `depth` metres into columns with sides of `cell` metres.
   void Divide(double cell, double width, double depth);
   // Counts the boxes of each column. Returns false if the total exceeds `limit`.
   bool Count(std::span<const geometry::Bounds> boxes, std::size_t limit);

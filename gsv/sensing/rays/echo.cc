@@ -16,7 +16,7 @@ double Luminance(double red, double green, double blue) {
   return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
 }
 
-// Decodes a byte of an image.
+// Converts a byte of an sRGB image to linear light in [0, 1].
 double LinearOf(std::uint8_t channel) {
   static const std::array<double, 256> table = [] {
     std::array<double, 256> made{};

@@ -13,6 +13,7 @@
 
 namespace gsv::sensing {
 
+// The echo of one ray.
 struct Echo {
   double distance = 0;     // m
   double cosine = 1;       // of the angle of incidence; 1 at right angles to the surface
@@ -26,7 +27,7 @@ void FindEchoes(const RayScene& scene, std::span<const Ray> rays, int ignored_bo
 // Returns the reflectance of the collision with this index: the luminance (ITU-R BT.709, linear
 // light) of a visual's base colour. The visual is the one with the collision's name, else the one
 // with the same index, else the first one. For a texture, the mean of some of its pixels is used.
-// 0.5 for a link without visuals.
+// The reflectance of a link without visuals is 0.5.
 double ReflectanceOf(const model::Link& link, std::size_t collision);
 
 }  // namespace gsv::sensing

@@ -1,4 +1,4 @@
-// The rays of one row of a scanner: from one point, at evenly spaced azimuths.
+// A fan: the rays of one row of a lidar, from one point and at evenly spaced azimuths.
 //
 // Exactness  the sector of a solid contains every ray that touches it; callers compute the
 //            intersections.
@@ -15,8 +15,8 @@
 
 namespace gsv::sensing {
 
-// Ray i has the azimuth first + i step about the z axis of the fan's frame, from its x axis, and
-// the elevation over its xy plane.
+// Ray i has the azimuth first + i * step about the z axis of the fan's frame, counted from the x
+// axis. All rays have the same elevation over the xy plane.
 struct Fan {
   geometry::Pose world_from_fan;
   double first = 0, step = 0;                     // rad; step > 0 unless there is only one ray

@@ -6,8 +6,9 @@ double FloorHeight(const RayScene& scene, double x, double y,
                    const std::function<bool(int body)>& may_carry) {
   constexpr double kMaxDepthBelow = 10;
   constexpr double kSteepest = 0.70710678118654757;
-  constexpr double kRounding = 1e-9;  // a floor exactly at kMaxFloorHeight counts as well
-  constexpr int kMaxBodies = 64;      // maximum number of ignored bodies above one another
+  // Tolerance, so that a floor exactly at kMaxFloorHeight counts.
+  constexpr double kRounding = 1e-9;
+  constexpr int kMaxBodies = 64;  // maximum number of ignored bodies above one another
   Ray down{{x, y, kMaxFloorHeight + kRounding}, {0, 0, -1}, kMaxFloorHeight + kMaxDepthBelow};
   for (int i = 0; i < kMaxBodies; ++i) {
     const std::optional<Hit> hit = scene.Cast(down, -1);

@@ -10,7 +10,7 @@ namespace {
 using testing::MakeSnapshot;
 using testing::ModelOf;
 
-TEST(FloorHeight, IsThatOfTheHighestFloorWithoutTables) {
+TEST(FloorHeight, IsTheHeightOfTheHighestFloorAndIgnoresTables) {
   RaySceneCache cache;
   const auto scene = cache.At(MakeSnapshot({
       {"plane", ModelOf(geometry::Plane{}), {}, true},

@@ -43,7 +43,7 @@ std::vector<Part> MakeParts(const model::Model& model) {
 }  // namespace
 
 LayoutSolids::LayoutSolids(std::shared_ptr<const world::Layout> of) : layout(std::move(of)) {
-  // The number of parts that a thread positions at a time.
+  // The index in `models` of each model's parts. The map is never iterated.
   std::map<const model::Model*, int> known;
   std::vector<BodyPart> endless;
   std::vector<std::pair<int, int>> bodies;  // moving bodies and the numbers of their models

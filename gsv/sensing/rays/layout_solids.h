@@ -1,4 +1,4 @@
-// The solids of all bodies of a layout, before they are posed.
+// The solids of all bodies of a layout. Those of moving bodies are in the frames of their links.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -26,6 +26,7 @@ struct BodyPart {
   int body;
 };
 
+// The solids of all bodies of a layout.
 struct LayoutSolids {
   explicit LayoutSolids(std::shared_ptr<const world::Layout> of);
   LayoutSolids(const LayoutSolids&) = delete;

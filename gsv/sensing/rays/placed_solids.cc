@@ -24,8 +24,8 @@ using geometry::Vector3;
 // thread saves no time.
 constexpr std::size_t kPartsAtOnce = 128, kMinParts = 400;
 
-// Up to this number of shapes, rays are cast at all shapes of a part; otherwise at those that its
-// index finds.
+// If a part has at most this number of shapes, rays are cast at all of them. Otherwise they are
+// cast at the shapes that its index finds.
 constexpr std::uint32_t kFewShapes = 4;
 
 // If more rays of a packet than this touch a shape's bounding sphere, the shape may be long.
@@ -42,8 +42,8 @@ double DistanceOf(const Nearest& nearest) {
   return nearest.body < 0 ? kInfinity : nearest.distance;
 }
 
-// Returns an upper bound of the distance from the place to the points of the packet's rays. It is not
-// finite if a ray or the place is not sound; see IsSound().
+// Returns an upper bound of the distance from the place to the points of the packet's rays. It is
+// not finite if a ray or the place is invalid; see IsSound().
 double ReachOf(const RayPacket& packet, const Vector3& place) {
   double reach = 0, unsound = 0;
   for (std::size_t i = 0; i < packet.count; ++i) {

@@ -45,12 +45,18 @@ class PlacedSolids final : public RayScene {
   };
   struct Shading;  // a solid and the rays of a fan that may hit it
 
+  // Sets the pose of the moving part with this index.
   void Place(std::size_t index, const world::Snapshot& snapshot);
+  // Returns the index of boxes_, and builds it on first use.
   const BoxIndex& index() const;
   int BodyOf(std::size_t part) const { return solids_->moving[part].body; }
+  // Returns the nearest hit of a ray.
   Nearest Find(const Ray& ray, int ignored_body) const;
+  // Returns the surface normal at a hit, in the world.
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
+  // Returns the body, part and numbering that identify hits of a moving part.
   Bearer BearerOf(std::size_t part) const;
+  // Casts a ray at one moving part.
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
   // Finds the bounded solids within the fan's reach, the nearest first. Returns false if there are
   // too many.
@@ -59,6 +65,8 @@ class PlacedSolids final : public RayScene {
   // `nearest`, and the body to any that is not -1.
   void CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
                      const RayPacket& packet, int ignored_body, std::span<Nearest> nearest) const;
+  // Casts a ray at everything that index() does not contain: planes, and the triangles of static
+  // meshes.
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;

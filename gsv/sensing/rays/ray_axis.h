@@ -6,6 +6,7 @@
 
 namespace gsv::sensing {
 
+// The x, y or z coordinate of a ray as a function of the distance.
 struct RayAxis {
   double origin, direction;
   double inverse;  // reciprocal of the direction; finite, because 0 times infinity is undefined
@@ -18,7 +19,8 @@ struct RayAxis {
         is_falling(std::signbit(d)) {}
 
   double At(double distance) const { return origin + distance * direction; }
-  // Returns the distance of the coordinate; huge, with any sign, if the ray hardly approaches it.
+  // Returns the distance along the ray at which it reaches the coordinate. If the ray is nearly
+  // perpendicular to the axis, the result is huge and may have either sign.
   double Reaches(double coordinate) const { return (coordinate - origin) * inverse; }
   // Clips the interval [begin, end] of the ray to the part between two coordinates.
   void Clip(double low, double high, double& begin, double& end) const {

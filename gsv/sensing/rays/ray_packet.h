@@ -8,6 +8,7 @@
 
 namespace gsv::sensing {
 
+// A packet of rays, of which `count` are used.
 struct RayPacket {
   static constexpr std::size_t kMax = 8;
   using Coordinates = std::array<double, kMax>;
@@ -17,6 +18,7 @@ struct RayPacket {
   alignas(32) Coordinates direction_x{}, direction_y{}, direction_z{};  // direction of unit length
   alignas(32) Coordinates max_distance{};                               // m
 
+  // Adds a ray. The packet must have space for it.
   void Add(const world::Ray& ray) {
     origin_x[count] = ray.origin.x, origin_y[count] = ray.origin.y, origin_z[count] = ray.origin.z;
     direction_x[count] = ray.direction.x, direction_y[count] = ray.direction.y;

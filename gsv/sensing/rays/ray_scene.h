@@ -40,8 +40,8 @@ class RayScene : public world::RayCaster {
   // Returns only the distance, which is faster; infinite if Cast() finds nothing.
   virtual double Range(const Ray& ray, int ignored_body) const = 0;
 
-  // Sets ranges[i] to the range of ray i of a fan. This is even faster than Range(): the rays of
-  // each solid are found, beginning with the nearest solid.
+  // Sets ranges[i] to the range of ray i of a fan. This is even faster than Range(): for each
+  // solid, it computes which rays may hit the solid, beginning with the nearest one.
   virtual void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const = 0;
 
   // Gathers the candidate set within `reach` of `place` without `ignored_body`, which makes several

@@ -184,7 +184,7 @@ Vector3 Against(const Vector3& normal, const Vector3& direction) {
   return Dot(unit, direction) > 0 ? -unit : unit;
 }
 
-// Whether a crossing at this distance counts.
+// Whether a crossing at this distance is on the ray.
 bool Counts(double distance, const Ray& ray) {
   return distance >= 0 && distance <= ray.max_distance;
 }

@@ -20,7 +20,9 @@ struct Triangle {
   geometry::Vector3 corner, edge1, edge2;
 };
 
+// Returns the distance, or nullopt if the ray does not cross the triangle.
 std::optional<double> DistanceToTriangle(const Ray& ray, const Triangle& triangle);
+// Returns the normal of a triangle that the ray crosses.
 geometry::Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle);
 
 // A Plane is the unbounded surface of a half-space. A Mesh is not allowed.
@@ -28,6 +30,7 @@ std::optional<double> DistanceToShape(const Ray& ray, const geometry::Shape& sha
 // Returns the distances for many rays; infinite for a ray without a crossing.
 void DistancesToShape(std::span<const Ray> rays, const geometry::Shape& shape,
                       std::span<double> distances);
+// Returns the normal at the first crossing.
 geometry::Vector3 NormalOfShape(const Ray& ray, const geometry::Shape& shape);
 
 }  // namespace gsv::sensing

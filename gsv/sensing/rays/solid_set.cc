@@ -57,7 +57,7 @@ BoundingSphere Padded(const BoundingSphere& ball) {
   return {ball.centre, ball.radius + kPadding * (1 + ball.radius + Norm(ball.centre))};
 }
 
-// Whether a part of the box is inside.
+// Whether a part of the box is within the reach of the candidate set.
 bool Reaches(const CandidateSet& candidates, const Bounds& box) {
   const Vector3& place = candidates.place();
   const auto gap = [](double low, double x, double high) {
@@ -205,8 +205,9 @@ void SolidSet::CastAtShapeFrom(const Vector3& origin_in_shape, RayBatch& rays, s
   }
 }
 
-// The rate at which a ray approaches the plane per metre: at most that of the normal's part in the
-// fan's plane, plus that of the elevation.
+// Compares the height of the fan's origin over each plane with the maximum height that a ray can
+// lose. Per metre, this is at most the normal's component in the fan's plane plus that of the
+// elevation.
 bool SolidSet::OthersReach(const Fan& fan) const {
   if (!triangles_.empty()) return true;
   for (const SolidPlane& plane : planes_) {

@@ -78,7 +78,7 @@ class SolidSet {
   // Finds a hit on the ray that is nearer than `nearest`, but not of `ignored_body`.
   void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
 
-  // Casts the ray at a part of the set: all shapes, one shape, or the rest.
+  // Casts the ray at a part of the set: all shapes, one shape, or all planes and triangles.
   void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
   void CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
@@ -152,7 +152,9 @@ class SolidSet {
     geometry::Vector3 normal;  // normal in the set's frame
     double offset;             // along it
   };
+  // Adds the triangles of a mesh.
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
+  // Extends bounds_ so that it contains these bounds.
   void Include(const geometry::Bounds& bounds);
   // Numbers of solids: shapes, then planes, then triangles.
   static void CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray, int ignored_body,

@@ -216,7 +216,7 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
   for (std::uint32_t i = 0; i < spheres.size(); ++i) {
     const BoundingSphere& sphere = spheres[i];
     cell_of_[i] = kNoCell;
-    // A few spheres share one cell, whatever their size.
+    // If there are only a few spheres, none is listed separately: they share one cell.
     if (sphere.radius > too_large && spheres.size() > kMaxLarge) {
       large_.push_back({boxes[i], i});
       continue;

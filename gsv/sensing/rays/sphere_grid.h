@@ -46,11 +46,11 @@ struct PacketRays {
   alignas(32) Floats length;
   float place_x, place_y, place_z;
   float reach;
-  float rounding;  // by which spheres are enlarged
-  unsigned used;   // a bit for each ray
+  float rounding;  // m, by which spheres are enlarged
+  unsigned used;   // bit i: whether ray i exists
 };
 
-// Rays of a packet near one place, which several grids are searched with.
+// The rays of a packet near one place, prepared for searches in several grids.
 class PacketSearch {
  public:
   // `reach` is the largest distance from `place` to a point of a ray.
@@ -85,6 +85,7 @@ class SphereGrid {
   static int CellOf(double cells, int count) {
     return static_cast<int>(std::clamp(cells, 0.0, count - 1.0));
   }
+  // Adds the large spheres near the packet. Returns false if there is no space.
   bool AddLarge(const PacketSearch& search, TouchedSpheres& found) const;
   bool Divide(std::span<const BoundingSphere> spheres);
 

@@ -11,6 +11,7 @@
 
 namespace gsv::sensing::testing {
 
+// Pseudorandom numbers, points and poses.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : noise_(seed, 0, 0) {}
@@ -27,6 +28,7 @@ class Random {
   base::Noise noise_;
 };
 
+// Returns triangles at random places, with sides of about `size`.
 inline geometry::Mesh RandomMesh(Random& random, int triangles, double size) {
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i < triangles; ++i) {

@@ -153,7 +153,7 @@ class ArgumentReader {
       known += parameter.name;
     }
     return Refuse(fmt::format("there is no parameter '{}'{}", name.substr(0, kMaxQuoted),
-                              known.empty() ? "; it takes none" : known));
+                              known.empty() ? "; the command takes no parameters" : known));
   }
   tl::unexpected<base::Error> Wrong(const Parameter& parameter, const std::string& found) const {
     return Refuse(

@@ -79,7 +79,7 @@ TEST(ArgumentReader, RejectsTextsOfTheWrongType) {
   }
   EXPECT_EQ(
       ReadArguments(Command{"halt", "", {}, nullptr}, Texts{{"at", "once"}}).error().Sentence(),
-      "halt: there is no parameter 'at'; it takes none");
+      "halt: there is no parameter 'at'; the command takes no parameters");
 }
 
 }  // namespace

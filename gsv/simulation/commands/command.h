@@ -31,6 +31,7 @@ const char* ToString(ParameterType type);
 // Returns the value as users write it, such as "-1.62" or "true"; also for sba::NameValue.
 std::string ToText(const ArgumentValue& value);
 
+// A parameter of a command.
 struct Parameter {
   std::string_view name;           // lower_case
   std::string_view former_name{};  // a former name that is still accepted; empty if there is none
@@ -77,6 +78,7 @@ class Arguments {
   Values values_;
 };
 
+// A command for a simulation, such as "pause".
 struct Command {
   std::string_view name;     // lower_case
   std::string_view summary;  // an imperative, as in docs/api.yaml

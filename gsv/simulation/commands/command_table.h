@@ -9,6 +9,7 @@
 
 namespace gsv::simulation {
 
+// All commands under their present names.
 std::span<const Command> Commands();
 
 // All commands. A command with a former name has a second entry under that name. Front ends whose

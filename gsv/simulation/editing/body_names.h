@@ -10,6 +10,7 @@
 
 namespace gsv::simulation {
 
+// Returns an error unless the name has 1 to 128 characters and no "/".
 base::Status CheckBodyName(const std::string& name);
 
 // Returns a name that no body in `layout` has: the model's name, with a number from 2 if it is

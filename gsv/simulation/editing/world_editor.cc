@@ -126,7 +126,8 @@ base::Result<int> WorldEditor::FindMovable(const std::string& name) const {
   const model::PlacedModel* const placed = FindInWorld(*world_.layout(), name);
   if (world_.layout()->bodies[static_cast<std::size_t>(body)].is_static() && placed != nullptr &&
       world::KindOf(*placed) == world::BodyKind::kStatic) {
-    return base::Fail(base::ErrorCode::kNotFound, "it is fixed to the world", name);
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "the body is fixed to the world, so it cannot be moved or removed", name);
   }
   return body;
 }
@@ -156,7 +157,7 @@ base::Result<world::Body> WorldEditor::BodyOf(const ObjectSpecification& object)
                       object.copy_of);
   }
   if (body.model->drive) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "it has a drive, so add it as a robot",
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the model has a drive; add it as a robot",
                       body.model->name);
   }
   return body;
@@ -190,8 +191,8 @@ base::Status WorldEditor::RemoveObject(const std::string& name) {
   if (!body) return base::Fail(body.error());
   const world::Body& object = world_.layout()->bodies[static_cast<std::size_t>(*body)];
   if (object.is_robot()) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "it is a robot, so remove it as a robot",
-                      name);
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the body is a robot; remove it as a robot", name);
   }
   removed_.push_back(object);
   if (removed_.size() > kMaxRemoved) removed_.pop_front();

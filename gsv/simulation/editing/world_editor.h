@@ -54,12 +54,16 @@ class WorldEditor {
   base::Status ChangeWorld(std::vector<world::Body> bodies,
                            std::shared_ptr<const model::WorldDescription> description,
                            const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);
+  // Resolves the placement of new or moved bodies, and emits an event for each robot that is pushed
+  // out.
   base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,
                        world::State& state) GSV_REQUIRES(world_mutex);
   // Returns the index of the body, or an error with the reason why it cannot be moved.
   base::Result<int> FindMovable(const std::string& name) const GSV_REQUIRES(world_mutex);
+  // Returns the body that an object specification describes.
   base::Result<world::Body> BodyOf(const ObjectSpecification& object) const
       GSV_REQUIRES(world_mutex);
+  // Returns the requested name of an object, or a free one. Fails if the name is taken.
   base::Result<std::string> NameOf(const ObjectSpecification& object,
                                    const model::Model& model) const GSV_REQUIRES(world_mutex);
 

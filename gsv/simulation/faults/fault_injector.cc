@@ -10,7 +10,7 @@ using FaultKind = scenario::Fault::Kind;
 
 tl::unexpected<base::Error> RefuseFault(base::ErrorCode code, const Fault& fault,
                                         const std::string& message) {
-  return base::Fail(code, "the fault cannot happen: " + message, fault.source.text);
+  return base::Fail(code, "cannot apply the fault: " + message, fault.source.text);
 }
 
 const char* WhatHappens(FaultKind kind) {
@@ -24,7 +24,7 @@ const char* WhatHappens(FaultKind kind) {
     case FaultKind::kMotorFails:
       return "the motor fails";
     case FaultKind::kBodyMoves:
-      return "the scenario moves it";
+      return "the scenario moves the body";
     case FaultKind::kJointMoves:
       return "the scenario moves the joint";
   }
@@ -123,7 +123,7 @@ base::Status FaultInjector::MoveBody(const Fault& fault) {
   const int index = world_.layout()->Find(fault.body);
   if (index < 0) {
     return RefuseFault(base::ErrorCode::kNotFound, fault,
-                       "it does not exist any more: " + fault.body);
+                       "the body does not exist any more: " + fault.body);
   }
   const world::Body before = world_.layout()->bodies[static_cast<std::size_t>(index)];
   // Faults may also move a part of the world, such as a door.
@@ -145,7 +145,7 @@ base::Status FaultInjector::MoveJoint(const Fault& fault) {
   const int joint = body == nullptr ? -1 : model::FindJoint(body->model->joints, fault.part);
   if (joint < 0) {
     return RefuseFault(base::ErrorCode::kNotFound, fault,
-                       "it does not exist any more: " + fault.body);
+                       "the joint does not exist any more: " + fault.body + "/" + fault.part);
   }
   constexpr world::JointCommand::Kind kKinds[]{world::JointCommand::Kind::kPosition,
                                                world::JointCommand::Kind::kVelocity,

@@ -1,6 +1,6 @@
 // The events of a simulation, and the observers that are notified of them.
 //
-// Threads  any; the log has its own lock, and takes no other lock meanwhile.
+// Threads  any; the log has its own lock, and takes no other lock while it holds this one.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
-// Follows the motion of robots' bases: since when each one moves or does not move, and for how long
-// it was commanded to move without effect. For this, the poses of each robot are compared every 0.1
-// s of simulated time.
+// Tracks the motion of robots' bases: since when each base has been moving or at rest, and for how
+// long it has been commanded to move without effect. For this, the poses of each robot are compared
+// every 0.1 s of simulated time.
 //
 // A base counts as moving if within the last second its distance from an earlier pose exceeded 1 cm
 // or 0.02 rad. So a base that vibrates or creeps does not count as moving.
@@ -17,7 +17,8 @@
 
 namespace gsv::simulation {
 
-// Whether the base did not move for `stuck_after` although it was commanded to, and still does not.
+// Whether the base is at rest although it has been commanded to move for at least `stuck_after`,
+// and still is.
 bool IsStuck(const Motion& motion, SimTime stuck_after);
 
 class MotionHistory {
@@ -42,7 +43,9 @@ class MotionHistory {
     bool is_in_contact = false;
   };
 
+  // Keeps the tracks of bodies that are also in the new layout, by name.
   void FollowLayout(const world::Snapshot& snapshot);
+  // Returns the track of a body that is at rest from now on.
   static Track Begin(const world::Snapshot& snapshot, std::size_t body);
 
   std::shared_ptr<const world::Layout> layout_;

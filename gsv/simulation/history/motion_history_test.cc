@@ -52,14 +52,14 @@ class MotionHistoryTest : public ::testing::Test {
   MotionHistory history_;
 };
 
-TEST_F(MotionHistoryTest, ARobotThatNeverMovedStandsSinceTheStart) {
+TEST_F(MotionHistoryTest, ARobotThatNeverMovedIsAtRestSinceTheStart) {
   Run(3s, 0);
   EXPECT_FALSE(Now().is_moving);
   EXPECT_FALSE(Now().has_moved);
   EXPECT_EQ(Now().since, 0s);
 }
 
-TEST_F(MotionHistoryTest, MeasuresSinceWhenARobotMovesAndStands) {
+TEST_F(MotionHistoryTest, MeasuresSinceWhenARobotMovesOrIsAtRest) {
   Run(2s, 0);
   Run(4s, 0.5);
   EXPECT_TRUE(Now().is_moving);
@@ -87,7 +87,7 @@ TEST_F(MotionHistoryTest, TurningIsMoving) {
   EXPECT_TRUE(Now().is_moving);
 }
 
-TEST_F(MotionHistoryTest, IsStuckAfterItWasCommandedToMoveForTheTime) {
+TEST_F(MotionHistoryTest, IsStuckIfACommandHasNoEffectForTheGivenTime) {
   Run(3s, 0.5);
   robot().drive.command.linear = 0.5;
   Run(4900ms, 0);

@@ -1,5 +1,5 @@
-// Stores the snapshots that sensors read: the latest one and, for each cadence in use, the newest
-// snapshot at a sampling instant whose readings are already available.
+// Stores the snapshots that sensors read. These are the latest snapshot and, for each cadence in
+// use, the newest snapshot at a sampling instant whose readings are already available.
 //
 // A sensor with the period P samples at 0, P, 2P, …. Sample k is taken at the first step at or
 // after kP. It becomes available at the first step at which the latency has passed. Before the
@@ -20,6 +20,7 @@
 
 namespace gsv::simulation {
 
+// When a sensor takes samples, and when they are available.
 struct Cadence {
   base::SimTime period{0};   // 0 means a sample at every step, without a latency
   base::SimTime latency{0};  // the time from the sampling instant until the sample is available
@@ -58,8 +59,10 @@ class SnapshotHistory {
   // Registers a cadence. Sensors call this when they are mounted, so that later reads by observers
   // do not change the result.
   void Use(const Cadence& cadence) { (void)At(cadence); }
+  // Fills `frame` with the snapshots that sensors read now.
   void MakeFrame(Frame& frame) const;
 
+  // Adds the snapshot of the newest step.
   void Publish(SnapshotPtr snapshot);
   // Restarts the history after a change between two steps, such as an added robot. Older snapshots
   // are dropped.

@@ -2,12 +2,16 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace gsv::simulation {
 
 base::Status CheckRealTimeFactor(double factor, const std::string& simulation) {
   if (factor > 0 && factor <= 1e6) return {};
-  return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "the real-time factor must lie above 0 and not above 1e6", simulation);
+  return base::Fail(
+      base::ErrorCode::kInvalidArgument,
+      fmt::format("the real-time factor is {}; it must be above 0 and at most 1e6", factor),
+      simulation);
 }
 
 void RunPace::SetRunning(bool is_running, base::SimTime now) {

@@ -22,6 +22,7 @@ class RunPace {
 
   // Records that the simulation starts or stops running.
   void SetRunning(bool is_running, base::SimTime now);
+  // Clears all statistics. The target real-time factor stays.
   void Reset();
 
   double target_real_time_factor() const { return factor_; }

@@ -10,6 +10,7 @@ namespace gsv::simulation {
 
 class RunStatistics {
  public:
+  // Record that the simulation starts or stops running.
   void Started(WallTime wall, base::SimTime time);
   void Stopped(WallTime wall, base::SimTime time);
   // Records a step, which took `duration`. Call it after each step. About ten samples per second

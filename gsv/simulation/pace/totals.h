@@ -8,6 +8,7 @@
 
 namespace gsv::simulation {
 
+// The number of all steps, and of late steps (see pacer.h).
 struct Totals {
   std::atomic<std::uint64_t> steps{0};
   std::atomic<std::uint64_t> late_steps{0};

@@ -1,4 +1,5 @@
-// The agents of a simulation's robots, by name. Also calls the robots' behaviours.
+// The agents of all robots of a simulation, by the robot's name. It also calls the robots'
+// behaviours.
 //
 // Threads  any, with SharedState::mutex (simulation_mutex) as declared.
 #pragma once
@@ -31,7 +32,7 @@ class AgentPopulation {
   void Remove(const std::string& name) GSV_REQUIRES(simulation_mutex);
   void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour)
       GSV_REQUIRES(simulation_mutex);
-  // Tells each agent the index of its body in the layout.
+  // Sets, for each agent, the index of its robot's body in the layout.
   void AssignBodies(const world::Layout& layout) GSV_REQUIRES(simulation_mutex);
 
   const std::map<std::string, AgentPtr>& all() const GSV_REQUIRES(simulation_mutex) {
@@ -39,6 +40,7 @@ class AgentPopulation {
   }
   AgentPtr Find(const std::string& name) const
       GSV_REQUIRES(simulation_mutex);  // Returns null if there is no agent with that name.
+  // Returns the agents of robots that have a behaviour.
   std::vector<AgentPtr> WithBehaviour() const GSV_REQUIRES(simulation_mutex);
   // Whether a behaviour has ever run in this process.
   bool has_hosted() const { return has_hosted_; }

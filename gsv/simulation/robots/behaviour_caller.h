@@ -21,6 +21,7 @@ class BehaviourCaller {
   BehaviourCaller(const BehaviourCaller&) = delete;
   BehaviourCaller& operator=(const BehaviourCaller&) = delete;
 
+  // Adds a call to the queue. Returns at once.
   void Post(std::string key, std::function<void()> call);
   // Waits until all posted calls have returned. No call may be posted afterwards.
   void Close();

@@ -3,7 +3,7 @@
 //
 // Threads      a behaviour takes one turn at a time, not always on the same thread. Different
 //              behaviours take turns at the same time.
-// Determinism  a turn may depend on its readings and on the state of the behaviour.
+// Determinism  a turn may depend only on its readings and on the state of the behaviour.
 #pragma once
 
 #include <atomic>

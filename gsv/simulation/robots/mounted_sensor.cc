@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace gsv::simulation {
 namespace {
@@ -13,18 +17,24 @@ constexpr double kMaxUnderWay = 100;
 // Reads the parameter `latency` (s, default 0), which sensors of all types have.
 base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
                                 const std::string& where) {
-  const auto refuse = [&](const char* sentence) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, sentence, where);
+  const auto refuse = [&](std::string sentence) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, std::move(sentence), where);
   };
   const double rate = description.update_rate;
   if (!std::isfinite(rate) || (rate != 0 && (rate < 1e-6 || rate > 1e6))) {
-    return refuse("the update rate must be 0 or lie between 1e-6 and 1e6 Hz");
+    return refuse(
+        fmt::format("the update rate is {} Hz; it must be 0 or lie between 1e-6 and 1e6 Hz", rate));
   }
   const double latency = model::NumberOr(description.parameters, "latency", 0);
-  if (!(latency >= 0 && latency <= 10)) return refuse("the latency must lie between 0 and 10 s");
-  if (latency > 0 && rate == 0) return refuse("a sensor with a latency needs an update rate");
+  if (!(latency >= 0 && latency <= 10)) {
+    return refuse(fmt::format("the latency is {} s; it must lie between 0 and 10 s", latency));
+  }
+  if (latency > 0 && rate == 0) {
+    return refuse("a sensor with a latency needs an update rate; set <update_rate>");
+  }
   if (latency * rate > kMaxUnderWay) {
-    return refuse("the latency must not exceed 100 update periods");
+    return refuse(
+        fmt::format("the latency is {} s; it must not exceed 100 update periods", latency));
   }
   if (rate == 0) return Cadence{};
   return Cadence{base::FromSeconds(1 / rate), base::FromSeconds(latency)};

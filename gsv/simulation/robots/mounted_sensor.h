@@ -16,6 +16,7 @@
 
 namespace gsv::simulation {
 
+// A sensor of a model, which all robots of the model share.
 struct SensorDesign {
   model::SensorDescription description;
   // null if the parameters are invalid; `refusal` has the reason
@@ -97,7 +98,9 @@ class MountedSensor {
   void Forget();
 
  private:
+  // Returns the reading of this step, and takes it if it was not taken yet.
   base::Result<sensing::Reading> SampleOnce(const sensing::Sampling& sampling) GSV_REQUIRES(mutex_);
+  // From now on, the behaviour must read the sensors of the sweep one by one.
   void ForbidSweeps() GSV_REQUIRES(mutex_);
 
   const SensorDesignPtr design_;

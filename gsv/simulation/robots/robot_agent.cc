@@ -85,8 +85,8 @@ base::Result<ClockId> RobotAgent::OpenClock() {
   const ClockId clock = clocks_.Open();
   if (clocks_.count() > kMaxClocks) {
     clocks_.Close(clock);
-    return base::Fail(base::ErrorCode::kInvalidArgument, "an agent has at most 64 clocks open",
-                      robot_);
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "an agent has at most 64 clocks open; close one first", robot_);
   }
   UpdateRunningCount();
   return clock;
@@ -228,7 +228,8 @@ base::Result<Exchanged> RobotAgent::SleepAndRead(ClockId clock,
 
 base::Status RobotAgent::OfferDrive(ClockId clock, const world::DriveCommand& command) {
   if (!world::IsFinite(command)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the command has a value that is not finite", robot_);
   }
   Commands().OfferDrive({clock, command});
   return {};
@@ -434,9 +435,8 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-// No lock is needed for the next three functions: the index of the body changes only with the
-// world's lock held, which the stepping thread holds now. The behaviour changes only before the run
-// has started.
+// The next three functions need no lock. The index of the body changes only with the world's lock
+// held, which the stepping thread holds now. The behaviour changes only before the run has started.
 void RobotAgent::PrefetchBehaviour(const world::Snapshot& snapshot) const
     GSV_NO_THREAD_SAFETY_ANALYSIS {
   PrefetchLines(local_, kBehaviourLines);

@@ -1,4 +1,5 @@
-// The Agent of one robot. Its state is guarded by SharedState::mutex (simulation_mutex).
+// Implements Agent for one robot: its clocks, commands and sensors, and the turns of a local
+// behaviour. Its state is guarded by SharedState::mutex (simulation_mutex).
 #pragma once
 
 #include <atomic>
@@ -146,8 +147,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool ApplyDriveCommand(world::State& state) GSV_REQUIRES(simulation_mutex);
   // Loads the agent's data into the cache, because a call for it follows soon.
   void Prefetch() const { PrefetchLines(&shared_, kPrefetchedLines); }
-  // Does the same for the data of a turn at `snapshot`. The agent's own data should be there already,
-  // and for the second function also those of the first.
+  // Load the data of a turn at `snapshot` into the cache, in two parts. For speed, call these
+  // functions in this order, some time after Prefetch().
   void PrefetchBehaviour(const world::Snapshot& snapshot) const;
   void PrefetchTurn() const;
   // The same for the next two stages of ApplyDriveCommand().
@@ -172,10 +173,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Waits on the clock. Releases `lock` while it waits.
   base::Result<Wait> WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,
                             std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
+  // Returns the present readings of all sensors that are open.
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
   // Makes the clock wait. Returns false if `until` is already reached.
   bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
+  // Reports that the agent is dead because its behaviour ended with this error.
   void ReportFailure(std::string_view reason) GSV_REQUIRES(simulation_mutex);
   // Updates whether the simulation waits for this agent. Call it after every change that may affect
   // this.
@@ -230,7 +233,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const bool is_avatar_;
   SensorRack rack_;
   WaitEvent wait_event_;
+  // The joints that no longer follow commands, because of a fault.
   std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
+  // As in RobotStatus.
   std::string detail_ GSV_GUARDED_BY(simulation_mutex);
   std::string cause_ GSV_GUARDED_BY(simulation_mutex);  // see RobotStatus
   SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};

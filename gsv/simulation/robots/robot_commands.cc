@@ -77,7 +77,8 @@ base::Status RobotCommands::Send(const MountedSensor& radio, const std::string& 
     return RefuseCommand(radio, robot, ok.error().message);
   }
   if (std::count_if(devices_.begin(), devices_.end(), IsMessage) >= kMaxMessagesPerStep) {
-    return RefuseCommand(radio, robot, "a robot sends at most 64 messages in one step");
+    return RefuseCommand(radio, robot,
+                         "a robot sends at most 64 messages in one step; send this one later");
   }
   Add({Kind::kCommand, std::move(device), std::move(message)});
   return {};

@@ -45,6 +45,7 @@ class RobotCommands {
   // Sets the command of the drive, unless a command of a clock with a higher id is already set.
   void OfferDrive(const Drive& drive);
   void CommandJoint(int joint, const world::JointCommand& command);
+  // Removes the command of a joint.
   void ForgetJoint(int joint);
   // Adds an action, and removes earlier actions that the new one replaces.
   void Add(DeviceAction action);
@@ -70,6 +71,7 @@ class RobotCommands {
   std::optional<Drive>& drive() { return drive_; }
   // Commands of joints, by index in the robot's model. For each joint, the last command applies.
   const std::vector<std::pair<int, world::JointCommand>>& joints() const { return joints_; }
+  // Actions on sensors, actuators and radios, in the order in which they were added.
   std::vector<DeviceAction>& devices() { return devices_; }
 
  private:

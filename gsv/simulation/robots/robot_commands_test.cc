@@ -28,7 +28,7 @@ std::vector<Kind> KindsOf(RobotCommands& commands) {
   return kinds;
 }
 
-TEST(RobotCommands, AreEmptyOnceTheyWereTaken) {
+TEST(RobotCommands, AreEmptyAfterTheyWereTaken) {
   RobotCommands commands;
   EXPECT_TRUE(commands.empty());
   commands.SetDrive({0, {1, 0, 0}});

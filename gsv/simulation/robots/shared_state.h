@@ -25,6 +25,7 @@ class GSV_CAPABILITY("mutex") SimulationMutex {
 };
 inline SimulationMutex simulation_mutex;
 
+// The shared state, its mutex, and parts that have their own locks.
 struct SharedState {
   SharedState(std::shared_ptr<const world::Snapshot> initial, Mode m, std::uint64_t s,
               std::shared_ptr<const sensing::SensorRegistry> types)
@@ -93,9 +94,9 @@ class GSV_SCOPED_CAPABILITY SimulationLock {
   base::MutexLock lock_;
 };
 
-// A lock of SharedState::mutex for calls of agents, of which there may be a thousand at once. These
-// calls first queue at `line`. The stepping thread locks the mutex directly, so it waits for at
-// most one of them.
+// A lock of SharedState::mutex for calls of agents. There may be a thousand such calls at once, so
+// they first queue at `line`. The stepping thread locks the mutex directly, so it waits for at most
+// one of them.
 class GSV_SCOPED_CAPABILITY AgentCallLock {
  public:
   explicit AgentCallLock(SharedState& state) GSV_ACQUIRE(simulation_mutex) : state_(state) {

@@ -31,8 +31,8 @@ class TimerQueue {
     return !entries_.empty() && entries_.begin()->first <= now;
   }
 
-  // Removes the sleepers whose instant has come and calls `wake` for each, in the order of the
-  // instants and, for equal instants, in the order in which they were added.
+  // Removes the sleepers whose instant has come, and calls `wake` for each in the order of the
+  // instants. Sleepers with equal instants wake in the order in which they were added.
   template <typename Wake>
   void TakeDue(base::SimTime now, const Wake& wake) {
     while (HasDue(now)) {
@@ -66,7 +66,7 @@ class TimerQueue {
   void Clear() { entries_.clear(); }
 
  private:
-  // How many sleepers ahead data is loaded into the cache.
+  // When sleeper i of an instant is woken, the data of sleeper i + kAhead is loaded into the cache.
   static constexpr std::size_t kAhead = 8;
 
   std::map<base::SimTime, std::vector<Sleeper*>> entries_;

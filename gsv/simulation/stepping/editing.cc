@@ -177,7 +177,7 @@ base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
   const int body = snapshot->layout->Find(name);
   if (body >= 0 && world::IsStation(snapshot->layout->bodies[static_cast<std::size_t>(body)])) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "it is not a robot, so remove it as an object", name);
+                      "the body is not a robot; remove it as an object", name);
   }
   AwaitTurns();
   return RemoveRobots({name});

@@ -118,8 +118,8 @@ TEST(Editing, AStaticObjectThatWasAddedCanBeMovedAndRemoved) {
   ASSERT_TRUE(simulation->AddObject(Thing(Crate(0.5, true), 1, 1, "shelf")));
   ASSERT_TRUE(simulation->PlaceBody("shelf", PlanarPose(1, -1, 0, 0), true));
   EXPECT_NEAR(PoseOf(*simulation, "shelf").position.y, -1, 1e-12);
-  // At this place there is not enough space for a robot. There is at the place where the object was
-  // before.
+  // At this place there is not enough space for a robot. There is enough at the place where the
+  // object was before.
   EXPECT_FALSE(simulation->AddRobot(Robot("robot", 1, -1)));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   EXPECT_TRUE(simulation->RemoveObject("shelf"));

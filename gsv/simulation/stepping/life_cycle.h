@@ -32,6 +32,7 @@ class LifeCycle {
         agents_(agents),
         caller_(caller) {}
 
+  // The state machine of the run: its phase, and the changes that are allowed in it.
   RunControl& run() GSV_REQUIRES(simulation_mutex) { return run_; }
   const RunControl& run() const GSV_REQUIRES(simulation_mutex) { return run_; }
   RunPace& pace() GSV_REQUIRES(simulation_mutex) { return pace_; }
@@ -40,6 +41,7 @@ class LifeCycle {
   // Carries out a change that run() returned. `detail` becomes the detail of the change's event.
   void Apply(RunControl::Change change, const std::string& detail = {})
       GSV_REQUIRES(simulation_mutex);
+  // Ends the run in the phase "failed".
   void Fail(const std::string& reason) GSV_REQUIRES(simulation_mutex);
   // Begins a reset. Returns false if there is nothing to reset.
   bool BeginReset() GSV_REQUIRES(simulation_mutex);
@@ -49,12 +51,14 @@ class LifeCycle {
   // Starts behaviours. The run begins when all of them have answered.
   void StartBehaviours(const std::vector<AgentPopulation::AgentPtr>& agents)
       GSV_REQUIRES(simulation_mutex);
+  // Stops all behaviours and ends the calls of agents with `reason`.
   void EndBehaviours(std::string reason) GSV_REQUIRES(simulation_mutex);
 
   // See Simulation::WaitForPhase().
   Phase WaitForPhase(const std::vector<Phase>& phases, std::chrono::milliseconds timeout) const;
 
  private:
+  // Wakes the threads in WaitForPhase().
   void NotifyPhase() GSV_REQUIRES(simulation_mutex);
 
   RunControl run_ GSV_GUARDED_BY(simulation_mutex);

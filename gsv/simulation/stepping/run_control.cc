@@ -59,7 +59,9 @@ base::Result<RunControl::Change> RunControl::Resume() {
 base::Result<RunControl::Change> RunControl::Step(std::int64_t count) {
   if (count < 1 || count > 1'000'000'000) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the number of steps must lie between 1 and 1e9", simulation_);
+                      "the number of steps is " + std::to_string(count) +
+                          "; it must lie between 1 and 1000000000",
+                      simulation_);
   }
   if (auto ok = Require({Phase::kCreated, Phase::kPaused}, "step"); !ok)
     return base::Fail(ok.error());
@@ -74,8 +76,8 @@ base::Result<RunControl::Change> RunControl::RunUntil(SimTime until, SimTime now
   }
   if (until <= now) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the time to run until is " + std::to_string(base::ToSeconds(now - until)) +
-                          " s in the past",
+                      "cannot run until a time that is " +
+                          std::to_string(base::ToSeconds(now - until)) + " s in the past",
                       simulation_);
   }
   if (phase_ == Phase::kCreated || phase_ == Phase::kPaused) return Run(until, -1);
@@ -87,7 +89,9 @@ base::Result<RunControl::Change> RunControl::RunThrough(SimTime until, SimTime n
   if (auto ok = Require({Phase::kCreated, Phase::kPaused}, "run"); !ok)
     return base::Fail(ok.error());
   if (until < now) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "the time to run through is in the past",
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "cannot run through a time that is " +
+                          std::to_string(base::ToSeconds(now - until)) + " s in the past",
                       simulation_);
   }
   const Change change = Run(SimTime(0), -1);

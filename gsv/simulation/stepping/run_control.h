@@ -1,7 +1,6 @@
 // The life cycle of a run: its phase, its end, and the result.
 //
 // RunControl decides. Its owner carries out the Change that a call returns: it starts behaviours,
-// RunControl decides. Its owner carries out the Change that a call returns: starts behaviours,
 // emits events and wakes threads.
 //
 // Errors   a request that the phase does not allow fails with kNotRunning and changes nothing.
@@ -90,6 +89,7 @@ class RunControl {
   bool was_edited() const { return was_edited_; }
 
  private:
+  // Starts or resumes the run until `until` (0: no limit) or for a number of steps (-1: no limit).
   Change Run(SimTime until, std::int64_t steps);
   Change Enter(Phase phase, Change change);
 

@@ -370,7 +370,7 @@ void StepLoop::ApplyCommands() {
   std::vector<RobotAgent*>& commanded = parts_.shared->commanded;
   parts_.team->ParallelFor(
       commanded.size(), kAgentsAtOnce, [&](std::size_t begin, std::size_t end) {
-        simulation_mutex.AssertHeld();  // by the stepping thread, which waits for this
+        simulation_mutex.AssertHeld();  // held by the stepping thread, which waits here
         for (std::size_t i = begin; i < end; ++i) {
           if (i + kAgentsAhead < end) commanded[i + kAgentsAhead]->PrefetchCommands();
           if (i + kDrivesAhead < end) commanded[i + kDrivesAhead]->PrefetchDrive(state);

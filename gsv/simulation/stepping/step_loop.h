@@ -70,10 +70,14 @@ class StepLoop {
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
   // Stores the robot whose turn took the longest, unless another agent delays the step.
   void NoteLongestTurn() GSV_REQUIRES(simulation_mutex);
+  // Runs the work of Turn::Block() on another thread. The agent is then ready for its next turn.
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
+  // Marks an agent as unresponsive, and fails the run if the specification requires it.
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
   // Returns true if every agent waits. Otherwise waits for a change and returns false.
   bool AllWait(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
+  // Returns true if the next step is due. Otherwise waits until it is, or for a change, and returns
+  // false.
   bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   void TakeStep();
   // Begins a step. Returns false if the step must not be taken.

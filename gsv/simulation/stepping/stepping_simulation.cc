@@ -27,7 +27,9 @@ base::Status Check(const Specification& specification) {
   if (specification.step < std::chrono::microseconds(1) ||
       specification.step > std::chrono::seconds(10)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the step must lie between 1 microsecond and 10 s", specification.name);
+                      "the step is " + std::to_string(base::ToSeconds(specification.step)) +
+                          " s; it must lie between 1 microsecond and 10 s",
+                      specification.name);
   }
   return CheckRealTimeFactor(specification.factor, specification.name);
 }

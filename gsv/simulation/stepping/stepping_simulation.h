@@ -84,6 +84,7 @@ class SteppingSimulation final : public Simulation {
  private:
   AgentPopulation::AgentPtr FindAgent(const std::string& robot) const;
   base::Result<AgentPopulation::AgentPtr> RequireAgent(const std::string& robot) const;
+  // Returns the error of a simulation that is stuck, see world_lock.h.
   base::Status RefuseStuck() const;
 
   // Calls `request` with run_, with the locks held. `request` returns a Result<RunControl::Change>.
@@ -95,6 +96,7 @@ class SteppingSimulation final : public Simulation {
 
   // Waits a short time until behaviours in other processes have ended their turns.
   void AwaitTurns() const;
+  // Fails if the simulation is stuck, or if its phase allows no edits.
   base::Status CheckMayEdit(const WorldGuard& guard) const;
   void AssignBodies() GSV_REQUIRES(world_mutex);
   // Emits the event of an edit.

@@ -21,6 +21,7 @@ class Watchdog {
 
  private:
   void Run();
+  // Whether the run is starting, running or paused.
   bool IsUnderWay() const GSV_REQUIRES(simulation_mutex);
   void CheckTurnDeadlines() GSV_REQUIRES(simulation_mutex);
 

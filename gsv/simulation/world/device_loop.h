@@ -1,4 +1,4 @@
-// Steps the devices of all robots, whatever their types.
+// Steps the devices of all robots: actuators, radios and other sensors that keep a state.
 //
 // Determinism  the result is a function of the snapshot, the state and the actions. It does not
 //              depend on the order of robots in `actions`.

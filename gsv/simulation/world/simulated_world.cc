@@ -68,12 +68,14 @@ void SimulatedWorld::Step(base::SimTime step, world::Snapshot& snapshot) {
   FinishStep(base::ToSeconds(step), snapshot);
 }
 
-// One pass over the bodies does all that remains, while a body's state is in the cache.
+// Completes the step in one pass over the bodies, so that the state of each body is loaded into the
+// cache only once.
 void SimulatedWorld::FinishStep(double step_seconds, world::Snapshot& snapshot) {
   world::FinishContacts(state_, snapshot.accelerations, snapshot.contacts);
   world::FinishJointAccelerations(state_.joint_velocities, step_seconds,
                                   snapshot.joint_accelerations);
-  // The bodies are set aside, so that this copies everything except them.
+  // The bodies are moved out of both states, so that the assignment copies everything except the
+  // bodies.
   std::vector<world::BodyState> bodies = std::move(state_.bodies);
   std::vector<world::BodyState> copies = std::move(snapshot.state.bodies);
   snapshot.state = state_;

@@ -16,8 +16,8 @@ namespace gsv::simulation {
 
 class SimulatedWorld {
  public:
-  // The world starts in the initial state of `layout`, which must be the engine's layout. Step()
-  // shares the bodies of a large world among the threads of `team`.
+  // The world starts in the initial state of `layout`, which must be the engine's layout. In a
+  // large world, Step() processes the bodies in parallel on `team`.
   SimulatedWorld(std::unique_ptr<dynamics::Engine> engine,
                  std::shared_ptr<const world::Layout> layout,
                  std::shared_ptr<base::ThreadTeam> team);
@@ -41,7 +41,9 @@ class SimulatedWorld {
                          const world::State& state) GSV_REQUIRES(world_mutex) {
     return attachments_.SetLayout(layout, state, *engine_);
   }
+  // Sets the engine's layout back to the current one, after TryLayout() failed.
   base::Status Restore() GSV_REQUIRES(world_mutex) { return TryLayout(layout_, state_); }
+  // Makes this layout and this state the current ones.
   base::Status Replace(std::shared_ptr<const world::Layout> layout, world::State state)
       GSV_REQUIRES(world_mutex);
   // Sets the initial state.

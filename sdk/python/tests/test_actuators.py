@@ -31,7 +31,7 @@ def in_run(simulate, prepare, work, model="pebble", world="playground"):
     return given[0]
 
 
-def test_a_lamp_shines_as_it_is_told(simulate):
+def test_lamp_reports_its_command(simulate):
     def work(robot, lamp):
         lamp.set(gsv.Colour(1, 0.5, 0), 0.25)
         robot.sleep_for(0.05)
@@ -47,7 +47,7 @@ def test_a_lamp_shines_as_it_is_told(simulate):
     assert after.brightness == 0
 
 
-def test_a_speaker_plays_and_says_how_long(simulate):
+def test_speaker_plays_and_reports_the_remaining_time(simulate):
     def work(robot, speaker):
         speaker.play("chirp", 440, 2, volume=0.5)
         robot.sleep_for(0.05)
@@ -64,7 +64,7 @@ def test_a_speaker_plays_and_says_how_long(simulate):
     assert after.name == ""
 
 
-def test_a_microphone_hears_another_robots_speaker(simulate):
+def test_microphone_hears_the_speaker_of_another_robot(simulate):
     heard = []
 
     class Beeping(gsv.Behaviour):
@@ -91,7 +91,7 @@ def test_a_microphone_hears_another_robots_speaker(simulate):
     assert hearing.level == pytest.approx(90 - 20 * math.log10(2), abs=0.01)  # the microphone is 2 m away
 
 
-def test_a_gripper_closes_and_opens(simulate):
+def test_gripper_closes_and_opens(simulate):
     def work(robot, gripper):
         before = gripper.read()
         gripper.grasp()
@@ -108,7 +108,7 @@ def test_a_gripper_closes_and_opens(simulate):
     assert after.opening == before.opening
 
 
-def test_a_porter_gives_the_same_hash_as_in_cpp(simulator, simulate, examples, tmp_path):
+def test_porter_has_the_same_hash_as_in_cpp(simulator, simulate, examples, tmp_path):
     world = tmp_path / "can.sdf"
     world.write_text(CAN_AHEAD)
     goal = ["--goal-x", "0.5", "--goal-y", "1.2"]
@@ -127,19 +127,19 @@ def test_a_porter_gives_the_same_hash_as_in_cpp(simulator, simulate, examples, t
     assert len(hashes) == 1
 
 
-def test_a_wide_angle_camera_is_a_camera(simulate, tmp_path):
+def test_wide_angle_camera_is_opened_as_a_camera(simulate, tmp_path):
     model = tmp_path / "eye.sdf"
     model.write_text("""<sdf version='1.9'><model name='eye'><link name='base'>
       <collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
       <sensor name='eye' type='wideanglecamera'><camera><horizontal_fov>2.5</horizontal_fov>
         <image><width>32</width><height>24</height></image></camera></sensor></link>
       <plugin filename='gz-sim-velocity-control-system' name='v'/></model></sdf>""")
-    picture = in_run(simulate, lambda robot: robot.open("eye", gsv.Camera),
+    image = in_run(simulate, lambda robot: robot.open("eye", gsv.Camera),
                      lambda robot, camera: camera.take_image(), model=str(model))
-    assert picture.shape == (24, 32, 3)
+    assert image.shape == (24, 32, 3)
 
 
-def test_deprecated_names_are_the_new_ones():
+def test_deprecated_names_refer_to_the_new_ones():
     assert gsv.SatelliteReceiver is gsv.GnssReceiver
     assert gsv.Gripper.Jaws is gsv.Gripper.State
     for kind, old, name in (

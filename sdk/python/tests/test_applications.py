@@ -15,7 +15,7 @@ class Ahead(gsv.Behaviour):
             robot.drive(0.2, 0.0)
 
 
-def test_a_simulator_is_found_by_constraint(simulator):
+def test_simulator_is_found_by_constraint(simulator):
     with simulator.create("playground", constraint="cores >= 1 and name == 'gsv'",
                           preference="min load") as simulation:
         assert simulation.state().phase == "created"
@@ -25,7 +25,7 @@ def test_a_simulator_is_found_by_constraint(simulator):
         simulator.create("playground", constraint="cores >")
 
 
-def test_a_run_freezes_exactly_at_its_instant_and_repeats(simulate):
+def test_run_until_pauses_at_the_instant_and_is_reproducible(simulate):
     hashes = set()
     for _ in range(2):
         simulation = simulate("playground", seed=3)
@@ -39,7 +39,7 @@ def test_a_run_freezes_exactly_at_its_instant_and_repeats(simulate):
     assert len(hashes) == 1
 
 
-def test_a_reset_goes_back_to_the_start(simulate):
+def test_reset_returns_to_the_start(simulate):
     simulation = simulate("playground")
     simulation.add("pebble", behaviour=Ahead)
     simulation.run_until(1)
@@ -50,7 +50,7 @@ def test_a_reset_goes_back_to_the_start(simulate):
     assert simulation.state_hash() == first
 
 
-def test_how_fast_real_time_goes_can_be_set(simulator, simulate):
+def test_real_time_factor_can_be_set(simulator, simulate):
     with simulator.create("playground", lockstep=False, factor=1e-4) as simulation:
         simulation.set_factor(1e6)
         simulation.run_until(5)  # at its first real-time factor, this would take fourteen hours
@@ -61,7 +61,7 @@ def test_how_fast_real_time_goes_can_be_set(simulator, simulate):
         simulate("playground").set_factor(2)
 
 
-def test_any_command_is_given_by_its_name(simulate):
+def test_commands_are_called_by_name(simulate):
     simulation = simulate("playground")
     before = simulation.state_hash()
     simulation.command("set_gravity", z=-1.62)
@@ -74,7 +74,7 @@ def test_any_command_is_given_by_its_name(simulate):
         simulation.command("explode", loudly=True)
 
 
-def test_a_run_until_something_is_true_stops_at_the_same_instant(simulate):
+def test_run_until_a_condition_stops_at_the_same_instant(simulate):
     instants = set()
     for _ in range(2):
         simulation = simulate("playground")
@@ -87,7 +87,7 @@ def test_a_run_until_something_is_true_stops_at_the_same_instant(simulate):
     assert simulation.run_until_true(lambda state: False, at_most=0.25) is None
 
 
-def test_what_the_simulator_refuses_says_why(simulate):
+def test_refused_requests_contain_the_reason(simulate):
     with pytest.raises(gsv.Refused, match="nowhere"):
         simulate("nowhere")
     with pytest.raises(ValueError, match="step_ns"):
@@ -106,7 +106,7 @@ def test_what_the_simulator_refuses_says_why(simulate):
         simulation.state()
 
 
-def test_robots_come_and_go(simulate):
+def test_robots_can_be_added_and_removed(simulate):
     simulation = simulate("playground")
     simulation.add("pebble", x=-1, name="one", behaviour=Ahead)
     simulation.add("pebble", x=1, name="two")
@@ -114,7 +114,7 @@ def test_robots_come_and_go(simulate):
     assert list(simulation.state().robots) == ["one"]
 
 
-def test_it_records(simulate, tmp_path):
+def test_simulation_can_be_recorded(simulate, tmp_path):
     simulation = simulate("playground")
     simulation.add("pebble", behaviour=Ahead)
     simulation.start_recording(str(tmp_path / "run.mcap"))
@@ -123,7 +123,7 @@ def test_it_records(simulate, tmp_path):
     assert (tmp_path / "run.mcap").read_bytes().startswith(b"\x89MCAP")
 
 
-def test_nobody_at_the_broker_is_said_in_a_sentence(monkeypatch):
+def test_missing_broker_is_reported(monkeypatch):
     with pytest.raises(ConnectionError, match="127.0.0.1:1"):
         gsv.connect("corbaloc::1.2@127.0.0.1:1/TradingService")
     monkeypatch.delenv("GSV_BROKER", raising=False)
@@ -155,7 +155,7 @@ with gsv.connect(sys.argv[1]).create("playground", lockstep=False) as simulation
     assert program.returncode == -signal.SIGINT  # the exit code with which Python itself ends
 
 
-def test_a_program_that_forgets_all_ends_cleanly(simulator):
+def test_program_that_does_not_close_its_objects_ends_cleanly(simulator):
     program = run_script("""
 import sys, gsv
 class Busy(gsv.Behaviour):
@@ -171,7 +171,7 @@ offer = gsv.Offer(sys.argv[1], "busy", Busy)
     assert program.returncode == 0
 
 
-def test_an_orb_starts_again_after_all_has_ended(simulator):
+def test_orb_starts_again_after_its_last_user_has_ended(simulator):
     text = """
 import sys, gsv
 for _ in range(3):
@@ -186,6 +186,6 @@ print("well")
     assert run_script(text, simulator.broker).communicate(timeout=60) == ("well\n", "")
 
 
-def test_a_private_simulator_that_cannot_start_says_why():
+def test_private_simulator_that_cannot_start_reports_the_reason():
     with pytest.raises(gsv.Unavailable, match="--no-such-option"):
         PrivateSimulator("--no-such-option")

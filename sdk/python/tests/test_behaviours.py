@@ -20,13 +20,13 @@ def hash_of(simulate, behaviour, seconds=20.0):
     return simulation.state_hash()
 
 
-def test_the_first_behaviour_gives_the_same_hash_as_in_cpp(simulator, simulate, examples):
+def test_first_behaviour_has_the_same_hash_as_in_cpp(simulator, simulate, examples):
     simulator.start("gsv-first", "--name", "first-cpp")
     simulator.start(str(examples / "first_behaviour.py"), "--name", "first-py")
     assert hash_of(simulate, "first-cpp") == hash_of(simulate, "first-py")
 
 
-def test_wander_gives_the_same_hash_as_in_cpp(simulator, simulate, examples):
+def test_wander_has_the_same_hash_as_in_cpp(simulator, simulate, examples):
     simulator.start("gsv-wander", "--name", "wander-cpp")
     simulator.start(str(examples / "wander.py"), "--name", "wander-py")
     assert hash_of(simulate, "wander-cpp") == hash_of(simulate, "wander-py")
@@ -44,12 +44,12 @@ class First(gsv.Behaviour):
                 return
 
 
-def test_a_class_in_the_applications_own_process_gives_that_hash_too(simulator, simulate):
+def test_class_in_the_process_of_the_application_has_the_same_hash(simulator, simulate):
     simulator.start("gsv-first", "--name", "first-beside")
     assert hash_of(simulate, First) == hash_of(simulate, "first-beside")
 
 
-def test_a_controller_drives_as_a_loop_of_exchanges_does(simulate):
+def test_controller_equals_a_loop_of_exchanges(simulate):
     class Controlled(gsv.Controller):
         def init(self, robot):
             self.sonars = gsv.SonarRing(robot, 8)
@@ -92,7 +92,7 @@ class ControlledSideways(gsv.Controller):
 
 
 @pytest.mark.parametrize("behaviour", [Sideways, ControlledSideways])
-def test_a_base_that_can_moves_sideways(simulate, tmp_path, behaviour):
+def test_omnidirectional_base_moves_sideways(simulate, tmp_path, behaviour):
     (tmp_path / "slider.sdf").write_text(SLIDER)
     simulation = simulate("playground")
     simulation.add(str(tmp_path / "slider.sdf"), behaviour=behaviour)
@@ -121,7 +121,7 @@ def test_one_instance_drives_one_robot(simulate):
     assert all(robot.distance > 0.3 for robot in simulation.state().robots.values())
 
 
-def test_what_is_raised_in_init_refuses_the_robot_in_a_sentence(simulate):
+def test_exception_in_init_rejects_the_robot(simulate):
     class Picky(gsv.Behaviour):
         def init(self, robot):
             raise ValueError("I want a gripper")
@@ -133,7 +133,7 @@ def test_what_is_raised_in_init_refuses_the_robot_in_a_sentence(simulate):
         simulate("playground").add("pebble", behaviour=Picky)
 
 
-def test_what_is_raised_in_run_ends_the_run_and_no_more(simulate):
+def test_exception_in_run_ends_only_the_run(simulate):
     class Faulty(gsv.Behaviour):
         def run(self, robot):
             robot.sleep_for(0.5)
@@ -148,7 +148,7 @@ def test_what_is_raised_in_run_ends_the_run_and_no_more(simulate):
     assert robots["first"].distance > 0.3
 
 
-def test_a_robot_that_is_kept_past_the_run_does_nothing(simulate):
+def test_robot_does_nothing_after_the_end_of_the_run(simulate):
     kept, ended = {}, threading.Event()
 
     class Keeping(gsv.Behaviour):
@@ -177,7 +177,7 @@ def test_a_robot_that_is_kept_past_the_run_does_nothing(simulate):
         robot.open("sonar_01")
 
 
-def test_a_pause_is_told(simulate):
+def test_pause_is_notified(simulate):
     told, both = [], threading.Event()
 
     class Listening(First):
@@ -197,7 +197,7 @@ def test_a_pause_is_told(simulate):
     assert told == ["paused", "resumed"]
 
 
-def test_times_that_are_none_are_refused(simulate):
+def test_invalid_times_are_rejected(simulate):
     refused = []
 
     class Timeless(gsv.Behaviour):
@@ -219,7 +219,7 @@ def start_program(program, *arguments):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_withdraws_the_offer_and_ends_the_program_well(simulator, examples, number):
+def test_signal_withdraws_the_offer_and_ends_the_program_cleanly(simulator, examples, number):
     program = start_program(examples / "first_behaviour.py", "--broker", simulator.broker,
                             "--name", "fleeting")
     assert program.stdout.readline() == f"fleeting: offered at {simulator.broker}\n"
@@ -231,7 +231,7 @@ def test_a_signal_withdraws_the_offer_and_ends_the_program_well(simulator, examp
     assert "fleeting" not in subprocess.run(offers, capture_output=True, text=True).stdout
 
 
-def test_a_signal_that_another_thread_takes_ends_the_program_too(simulator, tmp_path):
+def test_signal_to_another_thread_ends_the_program(simulator, tmp_path):
     script = tmp_path / "threads.py"
     script.write_text("""
 import signal, threading, gsv
@@ -254,7 +254,7 @@ gsv.serve("threads", gsv.Behaviour)
     (["--broker", "nonsense"], 2, "nonsense"),
     (["--broker", "corbaloc::1.2@127.0.0.1:1/TradingService"], 5, "127.0.0.1:1"),
 ])
-def test_what_cannot_be_offered_is_said_in_one_sentence(examples, arguments, code, sentence):
+def test_behaviour_that_cannot_be_offered_is_reported(examples, arguments, code, sentence):
     environment = {key: value for key, value in os.environ.items() if key != "GSV_BROKER"}
     ended = subprocess.run([sys.executable, str(examples / "first_behaviour.py"), *arguments],
                            capture_output=True, text=True, env=environment)
@@ -262,7 +262,7 @@ def test_what_cannot_be_offered_is_said_in_one_sentence(examples, arguments, cod
     assert sentence in ended.stderr and "Traceback" not in ended.stderr
 
 
-def test_what_a_behaviour_prints_is_seen_and_never_holds_it_up(tmp_path):
+def test_output_of_a_behaviour_is_printed_and_does_not_block_it(tmp_path):
     script = tmp_path / "gsv-chatter"
     script.write_text(f"""#!{sys.executable}
 import gsv
@@ -282,7 +282,7 @@ gsv.serve("chatter", Chatter)
     assert "unresponsive" not in ended.stderr and ended.stderr.count("word") > 40_000
 
 
-def test_gsv_run_starts_a_program_in_python_by_its_name(tmp_path, examples):
+def test_gsv_run_starts_a_python_program_by_name(tmp_path, examples):
     (tmp_path / "gsv-first-in-python").symlink_to(examples / "first_behaviour.py")
     environment = dict(os.environ, PATH=f"{tmp_path}:{os.environ['PATH']}")
     ended = subprocess.run(
@@ -309,7 +309,7 @@ def run_recorded(tmp_path, name, body):
     return ended, [json.loads(line)["message"] for line in printed.stdout.splitlines()]
 
 
-def test_what_a_behaviour_printed_before_it_died_is_recorded_and_reported(tmp_path):
+def test_output_of_a_behaviour_that_died_is_recorded_and_reported(tmp_path):
     ended, lines = run_recorded(tmp_path, "faller", """import gsv
 class Faller(gsv.Behaviour):
     def run(self, robot):
@@ -327,7 +327,7 @@ gsv.serve("faller", Faller)
         (m["name"], m["msg"], m["file"]) for m in lines]
 
 
-def test_the_end_of_a_behaviours_program_is_recorded_with_its_last_error(tmp_path):
+def test_end_of_a_behaviour_program_is_recorded_with_its_last_error(tmp_path):
     ended, lines = run_recorded(tmp_path, "crasher", """import os, sys, gsv
 class Crasher(gsv.Behaviour):
     def run(self, robot):

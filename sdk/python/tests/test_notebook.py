@@ -26,7 +26,7 @@ class Served:
         return self._url
 
 
-def test_a_view_is_the_element_of_the_simulations_server():
+def test_view_is_an_element_of_the_server_of_the_simulation():
     view = gsv.view(Served("http://127.0.0.1:8080/?simulation=my%20run"), follow="pebble", fov=60)
     found = Elements(view._repr_html_()).found
     assert found["script"]["src"] == "http://127.0.0.1:8080/gsv-view.js"
@@ -39,14 +39,14 @@ def test_a_view_is_the_element_of_the_simulations_server():
                                    "&follow=pebble&fov=60")
 
 
-def test_an_address_will_do_and_is_escaped():
+def test_view_of_an_address_escapes_the_address():
     view = gsv.view('http://host:1/"><script>alert(1)</script>', label='a "b" <c>')
     assert "<script>alert" not in view._repr_html_()
     found = Elements(view._repr_html_()).found
     assert found["gsv-view"]["label"] == 'a "b" <c>'
 
 
-def test_what_cannot_be_shown_is_refused():
+def test_view_rejects_what_it_cannot_show():
     with pytest.raises(gsv.Unavailable, match="no viewer"):
         gsv.view(Served(""))
     with pytest.raises(TypeError, match="no attribute 'colour'"):

@@ -47,14 +47,14 @@ def in_run(simulate, world, prepare, look, model="pebble"):
     return seen[0]
 
 
-def test_a_sonar_measures_to_the_wall(simulate, world):
+def test_sonar_measures_the_distance_to_the_wall(simulate, world):
     ahead = in_run(simulate, world,
                    lambda robot: robot.create(gsv.Sonar, "s", gsv.Placement(z=0.3), {"max": 3.0}),
                    lambda robot, sonar: (sonar.range(), sonar.max_range))
     assert ahead == (pytest.approx(2.0, abs=1e-6), 3.0)
 
 
-def test_a_scan_is_a_view_of_its_reading(simulate, world):
+def test_scan_is_a_view_of_its_reading(simulate, world):
     parameters = {"scan.horizontal.samples": 3.0, "scan.horizontal.min_angle": -math.pi / 3,
                   "scan.horizontal.max_angle": math.pi / 3}
     scan = in_run(simulate, world,
@@ -66,18 +66,18 @@ def test_a_scan_is_a_view_of_its_reading(simulate, world):
     assert scan.base.values.ctypes.data == scan.ctypes.data
 
 
-def test_a_picture_shows_the_red_wall(simulate, world):
+def test_image_shows_the_red_wall(simulate, world):
     size = {"image.width": 64, "image.height": 48, "horizontal_fov": 1.0}
-    picture = in_run(simulate, world,
+    image = in_run(simulate, world,
                      lambda robot: robot.create(gsv.Camera, "c", gsv.Placement(z=0.5), size),
                      lambda robot, camera: camera.take_image())
-    assert picture.shape == (48, 64, 3) and picture.dtype == numpy.uint8
-    assert not picture.flags.owndata
-    red, green, blue = picture[24, 32]
+    assert image.shape == (48, 64, 3) and image.dtype == numpy.uint8
+    assert not image.flags.owndata
+    red, green, blue = image[24, 32]
     assert red > 60 and green < red / 2 and blue < red / 2
 
 
-def test_depth_and_labels_are_pictures_of_numbers(simulate, world):
+def test_depth_and_labels_are_images_of_numbers(simulate, world):
     size = {"image.width": 32, "image.height": 24, "horizontal_fov": 1.0}
 
     def prepare(robot):
@@ -94,7 +94,7 @@ def test_depth_and_labels_are_pictures_of_numbers(simulate, world):
     assert names[labels[12, 16] - 1] == "wall"
 
 
-def test_temperatures_are_a_picture_of_kelvins(simulate, world):
+def test_temperatures_are_an_image_in_kelvins(simulate, world):
     size = {"image.width": 32, "image.height": 24}
     kelvins = in_run(simulate, world,
                      lambda robot: robot.create(gsv.ThermalCamera, "t", gsv.Placement(z=0.5), size),
@@ -112,7 +112,7 @@ def test_normals_are_unit_vectors_towards_the_camera(simulate, world):
     assert normals[12, 16] == pytest.approx((-1, 0, 0), abs=1e-3)
 
 
-def test_poses_and_forces_have_names(simulate, world):
+def test_poses_and_forces_have_named_members(simulate, world):
     def prepare(robot):
         return (robot.create("positioning", "p"), robot.create("imu", "i"),
                 robot.create("odometry", "o"))
@@ -127,7 +127,7 @@ def test_poses_and_forces_have_names(simulate, world):
     assert (estimate.x, estimate.linear) == (0, 0)
 
 
-def test_a_radio_carries_bytes(simulate, world):
+def test_radio_sends_bytes(simulate, world):
     heard = []
 
     class Speaking(gsv.Behaviour):
@@ -166,7 +166,7 @@ def test_sensors_are_found_by_name_and_checked_by_type(simulate, world):
     assert sonar.traits.parameters["max"] > 1
 
 
-def test_a_refusal_names_the_robot_once(simulate, world):
+def test_refusal_names_the_robot_once(simulate, world):
     def prepare(robot):
         with pytest.raises(gsv.Refused) as none:
             robot.open("nose")
@@ -178,7 +178,7 @@ def test_a_refusal_names_the_robot_once(simulate, world):
         'pebble: the robot has no sensor "nose"', 'pebble/nose: there is no sensor type "smell"')
 
 
-def test_a_reading_outlives_its_sensor(simulate, world):
+def test_reading_outlives_its_sensor(simulate, world):
     values = in_run(simulate, world, lambda robot: robot.open("sonar_00"),
                     lambda robot, sonar: sonar.measure().values)
     assert values.shape == (1,) and 1.5 < values[0] < 2
@@ -186,7 +186,7 @@ def test_a_reading_outlives_its_sensor(simulate, world):
     assert values[0] == 7
 
 
-def test_an_exchange_reads_what_is_open(simulate, world):
+def test_exchange_reads_all_open_sensors(simulate, world):
     def prepare(robot):
         robot.open("sonar_00")
         robot.create("positioning", "where")
@@ -197,14 +197,14 @@ def test_an_exchange_reads_what_is_open(simulate, world):
     assert readings["where"].time == 0.15 and readings["where"].values.shape == (6,)
 
 
-def test_a_radio_tag_measures_the_distance_to_its_anchor(simulate, world):
+def test_radio_tag_measures_the_distance_to_its_anchor(simulate, world):
     measured = in_run(simulate, world,
                       lambda robot: robot.create(gsv.Ranging, "tag", gsv.Placement(z=0.3), {"anchor": "wall"}),
                       lambda robot, tag: (tag.distance(), tag.traits.type))
     assert measured == (pytest.approx(math.hypot(2.5, 0.2), abs=1e-6), "ranging")
 
 
-def test_a_lidar_reads_intensities_if_its_parameter_asks_for_them(simulate, world):
+def test_lidar_reads_intensities_if_its_parameter_is_set(simulate, world):
     def prepare(robot):
         scan = {"scan.horizontal.samples": 3.0, "scan.horizontal.min_angle": -0.1,
                 "scan.horizontal.max_angle": 0.1}

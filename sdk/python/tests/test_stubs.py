@@ -31,11 +31,11 @@ def found_in(holder):
     return names
 
 
-def test_the_stub_declares_what_the_module_has():
+def test_stub_declares_all_names_of_the_module():
     stub = Path(gsv.__file__).with_name("_native.pyi")
     assert declared_in(ast.parse(stub.read_text()).body) == found_in(_native)
 
 
-def test_what_users_call_has_a_docstring():
+def test_public_functions_have_docstrings():
     for name in gsv.__all__:
         assert inspect.getdoc(getattr(gsv, name)), name

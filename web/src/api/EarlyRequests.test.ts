@@ -38,7 +38,7 @@ test("requests the first simulation if the wanted one is not there", async () =>
   expect(paths(fetched)).toContain("api/simulations/house/scene");
 });
 
-test("an answer is handed out once, and later requests reach the server", async () => {
+test("an early answer is used once, and later requests reach the server", async () => {
   const fetched = server(ANSWERS);
   const early = new EarlyRequests(ROOT, fetched);
   await early.begin("yard");
@@ -50,13 +50,13 @@ test("an answer is handed out once, and later requests reach the server", async 
   expect(fetched.mock.calls.length).toBe(before + 1);
 });
 
-test("a refusal is handed out with its status", async () => {
+test("a refused early request is returned with its HTTP status", async () => {
   const early = new EarlyRequests(ROOT, server({}));
   await early.begin(null);
   expect((await early.fetch(`${ROOT}api/simulations`)).status).toBe(404);
 });
 
-test("an old answer is not handed out, nor one for another kind of request", async () => {
+test("an early answer is not used if it is old, or for another kind of request", async () => {
   const fetched = server(ANSWERS);
   let now = 0;
   const early = new EarlyRequests(ROOT, fetched, () => now);
@@ -68,7 +68,7 @@ test("an old answer is not handed out, nor one for another kind of request", asy
   expect(fetched.mock.calls.length).toBe(before + 2);
 });
 
-test("after a failure the page asks by itself", async () => {
+test("after a failed early request, the page sends the request again", async () => {
   const fetched = vi.fn(async () => Response.json([])).mockRejectedValueOnce(new Error("no network"));
   const early = new EarlyRequests(ROOT, fetched as typeof fetch);
   await early.begin(null);

@@ -9,7 +9,7 @@ test("metrics are read by name with their labels, and comments and invalid numbe
   ]);
 });
 
-test("the warnings belong to the server, whatever simulation is shown", async () => {
+test("the warnings are those of the server, whatever simulation is shown", async () => {
   const asked: string[] = [];
   const api = new MetricsApi("http://gsv/x/", (async (url: string) => {
     asked.push(url);

@@ -15,8 +15,9 @@ export interface Abilities {
   creates: boolean; // whether simulations can be created and edited
   records: boolean;
   recordings: boolean; // whether recordings can be listed and replayed
-  recording: string; // for a replay: the recording's name, with which each viewer can open a replay of their own;
-                     // else empty
+  // For a replay: the recording's name, with which each viewer can open a replay of their own; else
+  // empty.
+  recording: string;
 }
 
 export interface ModelChoice {

@@ -24,7 +24,7 @@ test("the real-time factor is posted to its own address", async () => {
   expect(init).toMatchObject({ method: "POST", body: '{"real_time_factor":2.5}' });
 });
 
-test("a drive command ends by itself if no other one follows", async () => {
+test("a drive command has a timeout, after which the robot stops", async () => {
   const { api, fetchPage } = answering({});
   await api.drive("a b", "r", { linear_m_s: 1, lateral_m_s: 0, angular_rad_s: 0 });
   expect(JSON.parse(String(fetchPage.mock.calls[0]![1]?.body))).toEqual({ linear_m_s: 1, lateral_m_s: 0, angular_rad_s: 0, timeout_s: 1 });
@@ -38,7 +38,7 @@ test("a command is posted to its own address with its arguments", async () => {
   expect(init).toMatchObject({ method: "POST", body: '{"z":-1.62}' });
 });
 
-test("a replay is controlled at its own addresses", async () => {
+test("play, pause, seek and step requests of a replay have their own addresses", async () => {
   const { api, fetchPage } = answering({ ...STATUS, start_s: 0, end_s: 9, speed: 2, loop: false });
   await api.seek("a b", 1.5);
   await api.stepPoses("a b", -10);
@@ -68,7 +68,7 @@ test("a refusal contains the server's sentence", async () => {
   });
 });
 
-test("an error without a sentence gets one", async () => {
+test("an error response without a sentence gets a default sentence", async () => {
   const api = new SimulationApi("http://127.0.0.1/", async () => new Response("<html>", { status: 502 }));
   await expect(api.simulations()).rejects.toThrow("The server returned an error: 502.");
 });
@@ -84,7 +84,7 @@ test("an unreachable server and a silent server are distinguished", async () => 
   await expect(silent.simulations()).rejects.toThrow("The server did not respond in time. Check that gsv still runs.");
 });
 
-test("addresses are below the page's own", () => {
+test("request addresses are relative to the page's address", () => {
   const api = new SimulationApi("https://example.test/gsv/");
   expect(api.modelUrl("r/1")).toBe("https://example.test/gsv/api/models/r%2F1.glb");
   expect(api.socketUrl("a b")).toBe("wss://example.test/gsv/ws?simulation=a%20b");

@@ -69,7 +69,7 @@ export class SimulationApi {
     this.server.moveTo(textAt(answer.base, "replay.base"));
   }
 
-  // An API of the same server, for another replay than this page's.
+  // Returns an API of the same server, for a second replay beside this page's replay.
   another(): SimulationApi {
     return new SimulationApi(this.base, this.fetchPage, this.credentials);
   }
@@ -201,8 +201,8 @@ export class SimulationApi {
     return parseOutput(await this.server.get(`${simulationPath(name)}/health?robot=${encodeURIComponent(robot)}`));
   }
 
-  // Returns a value over the whole recording, as far as the server has read it, with at most `most`
-  // points.
+  // Returns the curve of a value over the whole recording, as far as the server has read it. It has
+  // at most `most` points.
   async curve(name: string, of: CurveOf, most: number): Promise<WholeCurve> {
     return parseCurve(await this.server.get(`${simulationPath(name)}/curve?${curveQuery(of, most)}`));
   }

@@ -1,4 +1,4 @@
-// A value over a whole recording, as far as the server has read it.
+// A curve: a value over a whole recording, as far as the server has read it.
 import { listAt, numberAt, objectAt, textOr } from "./json";
 
 // The requested value: a number in a topic's messages, in a robot's state, or (if neither is given)

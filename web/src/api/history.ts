@@ -1,4 +1,5 @@
-// The past of a running simulation that the server stores, and the notes of viewers.
+// The part of a running simulation's past that the server stores (its time range), and the notes of
+// viewers.
 import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
 
 export interface Kept {

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { parseEvents, parseReplay } from "./replay";
 
-test("a replay has a span and a speed, and may loop", () => {
+test("a replay is read with its time span, its speed and whether it loops", () => {
   expect(parseReplay({ start_s: 1, end_s: 9.5, time_s: 2, speed: 0.5, loop: true })).toEqual({
     start: 1,
     end: 9.5,

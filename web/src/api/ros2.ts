@@ -1,4 +1,4 @@
-// How a simulation is published to ROS 2 nodes: the key `ros2` of a scenario
+// The settings for publishing a simulation to ROS 2 nodes: the key `ros2` of a scenario
 // (docs/formats/scenario.md).
 import type { JsonObject } from "./json";
 import { objectAt, textOr } from "./json";

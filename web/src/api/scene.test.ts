@@ -46,7 +46,7 @@ function document() {
   };
 }
 
-test("a scene is read with its lights, bodies and the meaning of its poses", () => {
+test("a scene is read with its lights, its bodies, and the body of each pose", () => {
   const scene = parseScene(document());
   expect(scene.layoutVersion).toBe(3);
   expect(scene.bounds.max).toEqual([1, 2, 3]);

@@ -27,7 +27,7 @@ const AS_JSON = {
   ],
 };
 
-test("the status reads the same from the API and from the live stream", () => {
+test("the status is parsed equally from the API and from the live stream", () => {
   const fromMessage = statusFromMessage({
     stamp: { sec: 2, nsec: 500_000_000 },
     step: 250n,

@@ -205,11 +205,11 @@ export class App {
     this.store.set(({ shown }) => ({ shown: { ...shown, [overlay]: !shown[overlay] } }));
   }
 
-  // Shows the view as a map: from above, north up.
   colourOverlays(change: Partial<OverlayColours>): void {
     this.store.set(({ overlayColours }) => ({ overlayColours: { ...overlayColours, ...change } }));
   }
 
+  // Shows the view as a map: from above, north up.
   setMap(mapMode: boolean): void {
     this.store.set({ mapMode, ...(mapMode && { viewMode: "orbit" }) });
   }

@@ -59,7 +59,7 @@ export class CompareControl {
     );
   }
 
-  // Returns the recordings that can be compared with. The replayed one is left out.
+  // Returns the recordings with which the replayed one can be compared.
   async choices(): Promise<RecordingLine[]> {
     const { lines } = await fetchRecordings(this.api.rootServer);
     const shown = recordingOf(this.store.get());

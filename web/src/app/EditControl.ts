@@ -267,8 +267,8 @@ export class EditControl {
     return this.until(() => this.bodyOf(body) === undefined);
   }
 
-  // Gives up after some seconds, because the connection may be lost, and if the page shows
-  // something else.
+  // Stops waiting after some seconds, because the connection may be lost. Also stops if the page
+  // shows another simulation.
   private async until(isTrue: () => boolean): Promise<void> {
     const { simulation } = this.store.get();
     const end = Date.now() + SHOWN_WITHIN_MS;
@@ -375,7 +375,7 @@ export class EditControl {
     return true;
   }
 
-  // Waits until the pause is reported: the stream reports it some time after the server's answer.
+  // Waits until the stream reports the pause, which may be some time after the server's answer.
   private standsStill(): Promise<void> {
     return new Promise((resolve) => {
       const unwatch = this.store.watch(

@@ -47,7 +47,7 @@ export class NotesControl {
       const detail = author ? `${author}: ${text}` : text;
       const note = { time: instant, event: "note", robot: "", detail };
       // Notes of a running simulation arrive with its other events. If the page shows the past,
-      // that was opened before this note, so the note is added here.
+      // its replay was opened before this note, so the note is added here.
       if (state.inPast) this.store.set(({ events }) => ({ events: withNewEvents(events, [note]) }));
     });
   }

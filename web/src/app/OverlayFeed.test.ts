@@ -113,7 +113,7 @@ test("hidden overlays are unsubscribed and cleared", () => {
   expect(view.keepReadings).toHaveBeenLastCalledWith(new Set(["/tf_static", "/a/bumper", "/b/bumper"]));
 });
 
-test("another simulation's topics are subscribed again, even with equal names", () => {
+test("topics are subscribed again for another simulation, even if their names are equal", () => {
   const store = new Store<State>(showing(["points"]));
   const subscribe = vi.fn((_topic: string, _handler: unknown) => () => {});
   const view = fakeView();

@@ -42,7 +42,7 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
     ...sensors.filter(acts).slice(0, MOST_ACTUATORS),
   ];
   const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
-  // The scene need not list a radio, because a behaviour may create one at any time.
+  // The scene may not list all radios, because a behaviour may create one at any time.
   const mayHaveRadio = shown.actuators && robotsOf(scene).length > 0;
   const beams = shown.beams && scene ? beamsToDraw(robotsOf(scene), selection, replay !== null) : null;
   return [

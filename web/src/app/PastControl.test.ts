@@ -44,7 +44,7 @@ test("the span of the history and the new events are requested repeatedly", asyn
   expect(store.get().events).toEqual([EVENT]);
 });
 
-test("a server without a history is asked once", async () => {
+test("a server without a stored history is queried only once", async () => {
   const kept = vi.fn(async () => null);
   const { store } = past({ kept });
   await vi.advanceTimersByTimeAsync(10_000);

@@ -1,5 +1,5 @@
-// The past of a running simulation: the part that the server stores, the events in it, and its
-// replay while the run continues.
+// Shows the past of a running simulation: requests the part that the server stores and its events,
+// and replays it while the run continues.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { CurveOf, WholeCurve } from "../api/curve";
 import type { RecordedEvent } from "../api/replay";

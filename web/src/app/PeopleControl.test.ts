@@ -79,7 +79,7 @@ test("a change of control is reported by the stream at once", async () => {
   vi.useRealTimers();
 });
 
-test("a server without a list of viewers lets all act", async () => {
+test("if the server has no list of viewers, all viewers have control", async () => {
   const { store, control: it } = control(async () => Promise.reject(new ApiError(404, "nothing here")));
   await it.load();
   expect(store.get().people).toEqual(NO_PEOPLE);

@@ -52,7 +52,7 @@ test("there is no record button in a replay, or if the server does not support r
   expect(button.hidden).toBe(true);
 });
 
-test("a refusal is shown", async () => {
+test("a refusal of the server is shown", async () => {
   const { api, app, store } = await recording();
   api.record.mockRejectedValueOnce(new Error("the disk is full"));
   app.records.press();

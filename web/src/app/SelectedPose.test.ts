@@ -8,7 +8,7 @@ function at(x: number, stamp: number) {
   return { pose: new Matrix4().makeRotationZ(0.5).setPosition(x, 2, 0), stamp };
 }
 
-test("it provides position, heading, and the speed in simulated time", () => {
+test("the pose has position, heading, and the speed in simulated time", () => {
   const selected = new SelectedPose();
   expect(selected.update("a", at(1, 10), 0)).toEqual({
     x: 1,

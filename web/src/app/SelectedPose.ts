@@ -7,8 +7,9 @@ import type { RobotPose } from "../state/State";
 
 export const SHORTEST_UPDATE_MS = 100;
 const SPEED_WINDOW_S = 0.2; // simulated
-const LONGEST_WINDOW_S = 3; // longer than the time between updates at ten times real time; after a longer time, the
-                            // replay has jumped
+// Longer than the time between updates at ten times real time; after a longer time, the replay has
+// jumped.
+const LONGEST_WINDOW_S = 3;
 
 export interface StampedPose {
   pose: Matrix4;

@@ -31,7 +31,7 @@ import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
 import { SlowPage } from "./SlowPage";
-import { TopicWishes } from "./TopicWishes";
+import { TopicRequests } from "./TopicRequests";
 
 const EMPTY_POLL_MS = 2000;
 const SCENE_RETRY_MS = 3000;
@@ -95,9 +95,9 @@ export class Session implements TopicSource, LiveViewSource {
   private hasOpened = false; // whether the requested recording was opened
   private instant: number | null = null; // simulated time, s, at which a replay is to continue
   private newsSince = Infinity; // s, simulated
-  private isSwitching = false; // while the page changes between a run and its past, a closed stream is no lost
-                               // connection
-  private readonly wishes: TopicWishes;
+  // While the page changes between a run and its past, a closed stream is no lost connection.
+  private isSwitching = false;
+  private readonly topicRequests: TopicRequests;
 
   constructor(
     private readonly api: SimulationApi,
@@ -105,7 +105,7 @@ export class Session implements TopicSource, LiveViewSource {
     private readonly wanted: Wanted,
     private readonly makeClient: ClientFactory = (url, events) => new FoxgloveClient(url, events),
   ) {
-    this.wishes = new TopicWishes(api, store, () => this.client?.missingTopics ?? []);
+    this.topicRequests = new TopicRequests(api, store, () => this.client?.missingTopics ?? []);
     store.watch(
       ({ view }) => view !== "starting",
       (isThere) => isThere && this.hear(),
@@ -189,7 +189,7 @@ export class Session implements TopicSource, LiveViewSource {
 
   // Subscribes to a topic of the present simulation, and of each simulation that is shown later.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void {
-    this.wishes.lookSoon();
+    this.topicRequests.lookSoon();
     return this.topics.subscribe(topic, handler, options);
   }
 
@@ -348,13 +348,13 @@ export class Session implements TopicSource, LiveViewSource {
     if (isFirst && instant === null && scene && status && status.phase !== "failed") {
       // Both answers are new. The stream reports all changes after them.
       this.newsSince = status.time;
-      return this.wishes.lookSoon();
+      return this.topicRequests.lookSoon();
     }
     this.newsSince = Infinity;
-    if (instant !== null) await this.api.seek(name, instant).catch(() => {}); // if this fails, the replay stays at
-                                                                              // its start
+    // If this fails, the replay stays at its start.
+    if (instant !== null) await this.api.seek(name, instant).catch(() => {});
     await Promise.all([this.fetchScene(name), this.fetchStatus(name)]);
-    this.wishes.lookSoon();
+    this.topicRequests.lookSoon();
   }
 
   // Checks whether the simulation still exists; it may not after a restart of the server. If not,

@@ -25,7 +25,7 @@ test("without WebGL the server draws, and there is no choice", () => {
   expect(choice.serverFailed()).toBe(false);
 });
 
-test("in software the server draws after five slow seconds in a row", () => {
+test("without a graphics card, the server draws after five slow seconds in a row", () => {
   const { choice, drawer } = started();
   tell(choice, 4, 4);
   tell(choice, 15, 1);
@@ -35,7 +35,7 @@ test("in software the server draws after five slow seconds in a row", () => {
   expect(drawer()).toBe("server");
 });
 
-test("a graphics card keeps drawing, however slow", () => {
+test("with a graphics card, the browser continues to draw, however slowly", () => {
   const { choice, drawer } = started({ inSoftware: false });
   tell(choice, 4, 20);
   expect(drawer()).toBe("browser");
@@ -54,7 +54,7 @@ test("a choice by the user is kept", () => {
   expect(kept.drawer()).toBe("browser");
 });
 
-test("the browser draws again if the server cannot, and stays", () => {
+test("the browser draws again, and continues to, if the server cannot draw", () => {
   const { choice, drawer } = started();
   tell(choice, 4, 5);
   expect(choice.serverFailed()).toBe(true);

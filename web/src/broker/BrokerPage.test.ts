@@ -63,7 +63,7 @@ test("shows which offers match a constraint, and which term failed", async () =>
   expect(host.querySelector("[data-matches=false] dd")!.textContent).toBe('"<b>"');
 });
 
-test("shows a refused constraint as the broker's sentence, and a link that does not respond", async () => {
+test("shows the broker's reason for a rejected constraint, and a link that does not respond", async () => {
   const { host } = await open({
     types: [200, TYPES],
     offers: [400, { error: "expected a value at 9" }],

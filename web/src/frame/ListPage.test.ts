@@ -36,7 +36,7 @@ test("after a token was typed, the request is repeated with it", async () => {
   expect(sentence().hidden).toBe(true);
 });
 
-test("no other problem asks for a token", async () => {
+test("errors other than a missing token do not ask for a token", async () => {
   const { form, sentence } = await open(async () => Promise.reject(new ApiError(503, "the broker is silent")));
   expect(sentence().textContent).toBe("the broker is silent");
   expect(form.hidden).toBe(true);

@@ -1,4 +1,5 @@
-// The page for joining a simulation: all instances that the broker knows, with their simulations.
+// The page for joining a simulation: all servers (instances) that the broker knows, with their
+// simulations, and simulations that ended by a crash.
 import type { JsonServer } from "../api/JsonServer";
 import { NO_BROKER } from "../frame/noBroker";
 import { ListPage } from "../frame/ListPage";
@@ -36,7 +37,7 @@ function lostItem({ number, name, sentence, replay }: LostSimulation, dismiss: (
   return element(
     "li",
     { class: "card frame-item lost" },
-    element("h2", {}, `Lost: ${name}`),
+    element("h2", {}, `Ended by a crash: ${name}`),
     element("p", {}, sentence),
     element(
       "div",

@@ -5,7 +5,7 @@ function samples(series: Series): [number, number][] {
   return Array.from({ length: series.length }, (_, i) => [series.timeAt(i), series.valueAt(i)]);
 }
 
-test("values are in the order of time, whenever they arrived", () => {
+test("values are ordered by time, in whatever order they arrive", () => {
   const series = new Series();
   for (const time of [1, 3, 5, 2, 0, 4]) series.push(time, 10 * time);
   expect(samples(series)).toEqual([0, 1, 2, 3, 4, 5].map((time) => [time, 10 * time]));
@@ -31,7 +31,7 @@ test("it stores a limited number of the newest values", () => {
   expect(series.valueAt(MOST_SAMPLES - 1)).toBe(-(5 * MOST_SAMPLES - 1));
 });
 
-test("the value of an instant is the newest that is not after it", () => {
+test("the value at an instant is the newest one at or before it", () => {
   const series = new Series();
   series.push(1, 10);
   series.push(2, 20);

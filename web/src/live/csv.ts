@@ -26,7 +26,7 @@ export function csvOf(columns: Column[]): string {
   return `${lines.join("\r\n")}\r\n`;
 }
 
-// Names are untrusted: text that a spreadsheet would read as a formula is quoted.
+// Names are untrusted. Text that a spreadsheet would read as a formula gets an apostrophe in front.
 function cell(text: string): string {
   const safe = /^[=+\-@\t]/.test(text) ? `'${text}` : text;
   return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;

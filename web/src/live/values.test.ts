@@ -26,7 +26,7 @@ test("a long list is summarised by its finite values", () => {
   ]);
 });
 
-test("joints are called by their names", () => {
+test("values of joints are named after the joints", () => {
   const joints = {
     header,
     name: ["left", "right"],

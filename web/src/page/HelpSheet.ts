@@ -76,7 +76,7 @@ const GESTURES: [gesture: string, meaning: string][] = [
   ["Click a robot", "Select the robot"],
   ["Drag a robot or object, while editing", "Move it over the floor; drag its handles to move or turn it along an axis"],
   ["Press Place, then click the floor, while editing", "Place the selected robot or object there"],
-  ["Shift and click, or Shift and drag, while editing", "Choose one more, or all in a rectangle"],
+  ["Shift and click, or Shift and drag, while editing", "Add to the selection, or select all in a rectangle"],
 ];
 
 export function createHelpSheet(app: App): HTMLElement {

@@ -70,7 +70,7 @@ function modelsOf({ editing, scene }: State): Option[] {
   return [
     ...modelsBy(editing, false).map((name) => ({ value: name, label: name, group: "Robots" })),
     ...editing.objects.map((name) => ({ value: OBJECT + name, label: name, group: "Objects" })),
-    ...modelsBy(editing, true).map((name) => ({ value: name, label: name, group: "Avatars, which people drive" })),
+    ...modelsBy(editing, true).map((name) => ({ value: name, label: name, group: "Avatars, driven by viewers" })),
     ...copiesOf(scene).map((name) => ({ value: COPY + name, label: `like ${name}`, group: "Add another one like this" })),
   ];
 }

@@ -59,7 +59,7 @@ test("the holder sees who requests control, and answers", () => {
   const card = createControlQuestion(app);
   expect(card.hidden).toBe(true);
   store.set(people({ holds: true }, { asks: 1, passesIn: 19.2 }));
-  expect(card.textContent).toContain("<b>Bob</b> asks for control. Control passes on in 20 s.");
+  expect(card.textContent).toContain("<b>Bob</b> asks for control, and gets it in 20 s if you do not answer.");
   const [give, keep] = card.querySelectorAll("button");
   give!.click();
   expect(answer).toHaveBeenLastCalledWith(true);

@@ -120,7 +120,7 @@ export function createControlQuestion(app: App): HTMLElement {
       const end = performance.now() + person.passesIn * 1000;
       const tell = () => {
         const left = Math.max(0, Math.ceil((end - performance.now()) / 1000));
-        setText(sentence, `${person.name} asks for control. Control passes on in ${left} s.`);
+        setText(sentence, `${person.name} asks for control, and gets it in ${left} s if you do not answer.`);
       };
       tell();
       countdown = setInterval(tell, 1000);

@@ -54,7 +54,7 @@ test("dragging the slider seeks", () => {
   expect(seek).toHaveBeenCalledWith(33);
 });
 
-test("its buttons request their actions", () => {
+test("the timeline's buttons send their requests", () => {
   const { app, named } = timeline();
   const step = vi.spyOn(app.replay, "step").mockImplementation(() => {});
   const toEnd = vi.spyOn(app.replay, "toEnd").mockImplementation(() => {});
@@ -68,7 +68,7 @@ test("its buttons request their actions", () => {
   expect(play).toHaveBeenCalledOnce();
 });
 
-test("the main button follows the phase", () => {
+test("the main button shows play or pause according to the phase", () => {
   const { named, store } = timeline();
   expect(named("Play").disabled).toBe(false);
   store.set({ status: simulationStatus("running") });
@@ -77,7 +77,7 @@ test("the main button follows the phase", () => {
   expect(named("Play").disabled).toBe(false);
 });
 
-test("without a connection nothing can be moved", () => {
+test("without a connection, the timeline's controls are disabled", () => {
   const { bar, store, slider } = timeline();
   store.set({ connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } });
   expect(slider.disabled).toBe(true);

@@ -175,7 +175,7 @@ function loopButton(app: App): HTMLElement {
       class: "button plain",
       type: "button",
       "aria-label": "Loop",
-      title: "Start again at the end",
+      title: "Loop: start again at the end",
       onclick: () => void app.replay.toggleLoop(),
     },
     icon("loop"),

@@ -50,7 +50,7 @@ function transport(app: App): HTMLElement {
     mainButton(app),
     actionButton(app, "step", "step", "Step", "Take one step (paused)"),
     createPaceMenu(app),
-    actionButton(app, "stop", "stop", "Stop", "Stop for good"),
+    actionButton(app, "stop", "stop", "Stop", "Stop the simulation; only Reset starts it again"),
     actionButton(app, "reset", "reset", "Reset", "Reset to the start"),
     editButton(app),
     createRecordButton(app),

@@ -68,8 +68,8 @@ test("the real-time factor and the number of steps can be set", () => {
   expect(button("1×").getAttribute("aria-pressed")).toBe("false");
   button("5×").click();
   expect(setFactor).toHaveBeenCalledWith("house", 5);
-  store.set({ pending: null, status: simulationStatus("paused", { targetFactor: 0.25 }) }); // another viewer has
-                                                                                            // pressed the button
+  // Another viewer has pressed the button.
+  store.set({ pending: null, status: simulationStatus("paused", { targetFactor: 0.25 }) });
   const [typed, steps] = menu.querySelectorAll("input");
   expect(typed!.value).toBe("0.25");
 

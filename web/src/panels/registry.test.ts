@@ -24,7 +24,7 @@ test.each(PANELS)("the panel $id is mounted, opened, closed and opened again", a
   vi.restoreAllMocks();
 });
 
-test("panels access the page only by their ports", () => {
+test("panels access the page only through their ports", () => {
   const folder = path.join(process.cwd(), "src/panels");
   const sources = (fs.readdirSync(folder, { recursive: true }) as string[]).filter(
     (file) => file.endsWith(".ts") && !file.endsWith(".test.ts"),

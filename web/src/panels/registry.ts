@@ -59,7 +59,7 @@ export const PANELS: readonly Panel[] = [
   {
     id: "commands",
     title: "Commands",
-    hint: "Commands of the simulation",
+    hint: "Commands that the simulation accepts, with their arguments",
     picture: "gauge",
     group: "Control",
     isAvailable: ({ replay }) => replay === null,
@@ -129,12 +129,12 @@ export const PANELS: readonly Panel[] = [
   {
     id: "physics",
     title: "Physics",
-    hint: "Gravity, step and speed, the cost of steps, and the behaviours that hold them up",
+    hint: "Gravity, step and speed, the time that steps take, and behaviours that delay them",
     picture: "clock",
     group: "Health",
     key: "U",
     isAvailable: ({ replay }) => replay === null,
-    absence: "A recording has no costs of steps. Open a running simulation.",
+    absence: "A recording has no step times. Open a running simulation.",
     load: () => import("./physics/PhysicsPanel"),
   },
 ];

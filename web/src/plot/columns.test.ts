@@ -28,7 +28,7 @@ test("a curve has a gap where values are missing", () => {
   expect(breaks([2, NaN], [2.1, 1])).toBe(1);
 });
 
-test("a gap is long compared with the interval of the values", () => {
+test("a gap in a curve is several times as long as the interval of its values", () => {
   const slow = seriesOf([0, 1], [5, 1], [10, 1]);
   expect(gapOf(slow, { min: 0, max: 11 })).toBe(40);
   expect(gapOf(seriesOf([0, 1]), { min: 0, max: 1 })).toBe(Infinity);
@@ -43,7 +43,7 @@ test("a path has a point for each value of y, with the newest x", () => {
   ]);
 });
 
-test("a range has room, and is never empty", () => {
+test("a range of values has a margin, and is never empty", () => {
   expect(rangeOf([[0, 10, null]])).toEqual({ min: -0.6, max: 10.6 });
   expect(rangeOf([[]])).toEqual({ min: 0, max: 1 });
   const { min, max } = rangeOf([[3, 3]]);
@@ -51,7 +51,7 @@ test("a range has room, and is never empty", () => {
   expect(max).toBeGreaterThan(3);
 });
 
-test("the axis ends at the present or at the last value", () => {
+test("the time axis ends at the present time or at the last value", () => {
   const curves = [curve([2, 0], [8, 0]), curve()];
   expect(timeRange(curves, 5, 20)).toEqual({ min: 15, max: 20 });
   expect(timeRange(curves, 30, 4)).toEqual({ min: 0, max: 30 });

@@ -11,7 +11,7 @@ import type { TopicOptions, TopicSource } from "./SharedTopics";
 export const SUBPROTOCOLS = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 
 const OPENING_TIMEOUT_MS = 5000;
-const REST_SHARE = 4; // of the time that a message took
+const REST_SHARE = 4; // pause after a decoded message, as a multiple of the time that decoding took
 const LONGEST_REST_MS = 250;
 const MESSAGE_DATA = 1;
 const MESSAGE_DATA_HEADER_BYTES = 13;
@@ -72,7 +72,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   private nextSubscription = 1;
   private readonly channels = new Map<number, Channel>();
   private readonly subscriptions = new Set<Subscription>();
-  private readonly subscribed = new Map<number, SubscribedChannel>(); // by the ID that the server knows
+  private readonly subscribed = new Map<number, SubscribedChannel>(); // by the ID that this client gave to the subscription
   private readonly decoders = new MessageDecoders();
   private readonly reported = new Set<string>();
   private readonly counted = new Map<string, TopicCount>(); // by topic
@@ -319,7 +319,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     const id = frame.getUint32(1, true);
     const payload = new DataView(frame.buffer, frame.byteOffset + MESSAGE_DATA_HEADER_BYTES);
     const entry = this.subscribed.get(id);
-    // Otherwise it is an image of a view, or it was unsubscribed while this was under way.
+    // A message of an unknown subscription is an image of a view, or of a topic that was
+    // unsubscribed while the message was under way.
     if (!entry) return void this.views.takeMessage(id, frame.getBigUint64(5, true), payload);
     const { subscriptions, channel } = entry;
     this.count(channel.topic, frame.byteLength);

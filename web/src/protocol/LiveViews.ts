@@ -4,7 +4,7 @@
 const HEADER_BYTES = 20; // after the header of all messages: sequence, number, time
 
 export interface PushedImage {
-  sequence: number; // of the camera, as the reader chose it
+  sequence: number; // number of the camera, chosen by the reader in show()
   number: number; // grows with each change of the world
   stamp: number; // s, simulated
   seenMs: number; // when the server first saw this state, in ms since 1970

@@ -1,4 +1,5 @@
-// The poses, rounded if the server offers that: this needs a third of the bytes.
+// Unpacks the poses of the bodies. A server offers rounded poses (/gsv/packed_poses), because they
+// need a third of the bytes.
 import type { PackedPosesMessage, PosesMessage } from "./messages";
 
 export const PACKED_POSES = "/gsv/packed_poses";

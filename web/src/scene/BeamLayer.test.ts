@@ -59,7 +59,7 @@ test("each end has its own colour, and beams without colours are red", () => {
   expect(colours.getY(1) + colours.getZ(1)).toBeLessThan(0.2);
 });
 
-test("many robots' beams fit", () => {
+test("the buffers grow for the beams of many robots", () => {
   const layer = new BeamLayer(10_000);
   const many = Array.from({ length: 48 }, (_, i) => ({ x: i, y: 0, z: 0 }));
   for (let robot = 0; robot < 100; robot++) layer.setRobot(`r${robot}`, marker(many), new Matrix4());

@@ -101,13 +101,13 @@ export class BodyLayer {
     return (model !== undefined && this.templates.get(model)) || null;
   }
 
-  // The first body on the ray.
+  // Returns the first body on the ray.
   pick(raycaster: Raycaster): SceneBody | null {
     const hit = this.hitsOf(raycaster)[0];
     return hit ? this.bodyAt(hit) : null;
   }
 
-  // The point at which the ray hits something that is fixed to the world.
+  // Returns the point at which the ray hits a body that is fixed to the world.
   pointOf(raycaster: Raycaster): Vector3 | null {
     return this.staticHitsOf(raycaster)[0]?.point ?? null;
   }
@@ -148,7 +148,7 @@ export class BodyLayer {
   }
 }
 
-// The length of the diagonal.
+// Returns the length of the box's diagonal.
 function sizeOf(bounds: Box3): number {
   return bounds.getSize(new Vector3()).length();
 }

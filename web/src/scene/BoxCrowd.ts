@@ -86,7 +86,7 @@ function trianglesOfABox(): number[] {
   return Array.from(box.index!.array, cornerOf);
 }
 
-// A copy of the material whose normals follow from the faces.
+// Returns a copy of the material with flat shading: one normal for each face.
 function flat(material: Material): Material {
   const copy = material.clone();
   if ("flatShading" in copy) copy.flatShading = true;

@@ -75,7 +75,7 @@ test("a chase moves back gradually and requests frames until it is done", () => 
   expect(drawnFrom(rig)).toBeCloseTo(rig.viewpoint.position.distanceTo(rig.viewpoint.target), 1);
 });
 
-test("walls have an effect only in a chase", () => {
+test("walls move the camera only while it follows a robot", () => {
   const rig = rigBeforeWalls({ m: 1 });
   rig.update(1000);
   expect(drawnFrom(rig)).toBeCloseTo(Math.hypot(4, 12));

@@ -273,7 +273,7 @@ export class CameraRig {
     this.fly(beforeEye);
   }
 
-  // Uses the width of the robot's view.
+  // Sets the field of view: in a robot's view that of the robot's camera, else the view's own.
   private widen(): void {
     const { camera, eyeView } = this;
     const ownFov = this.beforeMap ? MAP_FIELD_OF_VIEW_DEG : FIELD_OF_VIEW_DEG;
@@ -343,7 +343,7 @@ export class CameraRig {
   }
 }
 
-// Keeps the heading, from at least the height for following a robot.
+// Raises the camera, if necessary, to the minimum height for following a robot. The heading stays.
 function steepened(back: Vector3): Vector3 {
   back.z = Math.max(back.z, FOLLOWING_STEEPNESS * Math.hypot(back.x, back.y));
   return back;

@@ -65,7 +65,8 @@ export class CollisionLayer {
   }
 }
 
-// The same bodies with the same poses. Bodies that are not shown have no model.
+// Returns a scene with the same bodies and poses, whose models are the collision shapes. Bodies
+// that are not shown have no model.
 export function collisionScene(scene: SceneDescription, selection: string | null): SceneDescription {
   const bodies = scene.bodies.map((body) => ({
     ...body,

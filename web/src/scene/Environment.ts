@@ -45,7 +45,7 @@ export class Environment {
 
 type Radiance = (direction: Vector3, out: Color) => Color;
 
-// Returns the light from each direction (unit length, z up).
+// Returns a function that computes the light (radiance) from a direction: a unit vector, z up.
 export function radianceOf(look: Look): Radiance {
   const above = ambientOf(look.ambient);
   const { zenith, horizon } = shadesOfSky(look.sky ? null : colourOf(look.background));

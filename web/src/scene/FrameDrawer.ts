@@ -9,7 +9,7 @@ import type { EditTools } from "./EditTools";
 import type { FrameRate } from "./FrameRate";
 import type { OverlayLayers } from "./OverlayLayers";
 import type { RobotSigns } from "./RobotSigns";
-import type { RobotWatch } from "./RobotWatch";
+import type { RobotFollower } from "./RobotFollower";
 import type { SceneParts } from "./SceneParts";
 import { ShadowPace } from "./ShadowPace";
 import type { ShownPoses } from "./ShownPoses";
@@ -23,7 +23,7 @@ export interface DrawnLayers {
   overlays: OverlayLayers;
   collisions: CollisionLayer;
   signs: RobotSigns;
-  watch: RobotWatch;
+  follower: RobotFollower;
   arranger: Arranger;
   tools: EditTools;
   frameRate: FrameRate;
@@ -45,13 +45,13 @@ export class FrameDrawer {
 
   // Returns whether another frame must follow. `now`: ms, as performance.now().
   draw(now: number, shown: Shown): boolean {
-    const { surface, root, rig, poses, overlays, collisions, signs, watch, arranger, tools, frameRate } = this.layers;
+    const { surface, root, rig, poses, overlays, collisions, signs, follower, arranger, tools, frameRate } = this.layers;
     if (!this.hasGraphics && !surface.isDrawnByServer) return false;
     const parts = this.layers.parts();
     surface.advance();
     if (this.showPoses(now)) {
       this.shadows.moved();
-      watch.move();
+      follower.move();
     }
     const { width, height } = surface;
     const isFlying = rig.update(now);
@@ -59,7 +59,7 @@ export class FrameDrawer {
     if (parts) collisions.place(parts.bodies);
     parts?.bodies.chooseDetail(rig.camera, height);
     if (parts) parts.grid.visible = shown.grid;
-    watch.showRing();
+    follower.showRing();
     arranger.showHandle();
     tools.show();
     const isMoving = !poses.isSettled(now);
@@ -68,7 +68,7 @@ export class FrameDrawer {
     surface.prepare();
     signs.placeMarks(this.shownCamera, height, surface.pixelRatio, shown);
     surface.render(root, rig.camera, () => this.painted(parts, shown));
-    signs.placeLabels(this.shownCamera, width, height, watch.selection, shown, isMoving);
+    signs.placeLabels(this.shownCamera, width, height, follower.selection, shown, isMoving);
     frameRate.count(surface.images ?? this.layers.frames(), now);
     return isFlying || (isMoving && !surface.isDrawnByServer);
   }
@@ -88,8 +88,8 @@ export class FrameDrawer {
 
   // The objects that the page draws over an image from the server.
   private painted(parts: SceneParts | null, shown: Shown): Object3D[] {
-    const { overlays, signs, watch, arranger, tools } = this.layers;
-    const objects: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group, tools.group];
+    const { overlays, signs, follower, arranger, tools } = this.layers;
+    const objects: Object3D[] = [overlays.group, signs.marks.points, follower.ring.mesh, arranger.handle.group, tools.group];
     return parts && shown.grid ? [parts.grid, ...objects] : objects;
   }
 }

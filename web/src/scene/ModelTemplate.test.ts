@@ -40,7 +40,7 @@ test("a mesh without a link belongs to the model", () => {
   expect(new Vector3().setFromMatrixPosition(parts[0]!.linkFromPart).toArray()).toEqual([0, 0, 0.5]);
 });
 
-test("the parts of one visual share its name and its shape", () => {
+test("the parts of one visual have its name and its shape", () => {
   const root = cart();
   const group = new Object3D();
   group.userData = { visual: "cab", shape: { kind: "box", size: [1, 2, 3] } };

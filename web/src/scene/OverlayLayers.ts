@@ -49,7 +49,7 @@ export class OverlayLayers {
   private readonly player = new SoundPlayer();
   private readonly radio = new RadioLinks();
   readonly expectations: ExpectationMarks;
-  private trailsOf = ""; // name of the scene of the trails
+  private trailsOf = ""; // name of the scene to which the trails belong
   private readonly contacts = new Map<string, TouchPoint[]>(); // by topic, in the sensor's frame
   private bodies: BodyLayer | null = null;
   private sensors = new Map<string, MountedSensor>(); // by topic

@@ -56,7 +56,7 @@ test("early and late arrivals are smoothed", () => {
   }
 });
 
-test("it ends at the last update and stays there", () => {
+test("the displayed pose ends at the last update and stays there", () => {
   const interpolator = moving(5);
   expect(interpolator.isSettled(4 * INTERVAL_MS)).toBe(false);
   expect(interpolator.isSettled(1000)).toBe(true);

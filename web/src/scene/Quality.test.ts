@@ -32,7 +32,7 @@ test("the pixels increase again when there is time", () => {
   expect(quality.pixelRatio).toBe(1);
 });
 
-test("a fixed quality does not change", () => {
+test("the quality does not change if the user has fixed it", () => {
   const quality = new Quality(1, true);
   frames(quality, 1000, 80);
   expect(quality.pixelRatio).toBe(1);

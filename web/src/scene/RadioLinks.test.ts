@@ -38,7 +38,7 @@ test("a message without receivers is a vertical line, and removed robots and oth
   expect(drawn(links, 1).segments).toBe(0);
 });
 
-test("a flood of lines is limited", () => {
+test("the number of lines is limited", () => {
   const links = new RadioLinks();
   for (let i = 0; i < 10_000; i++) links.take({ sender: "ann", heard_by: ["bob"] }, 0);
   expect(drawn(links, 1).segments).toBe(500);

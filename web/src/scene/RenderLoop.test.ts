@@ -29,7 +29,7 @@ test("any number of requests before a frame cause one frame", () => {
   expect(loop.frames).toBe(1);
 });
 
-test("it continues while frames differ, and requests none afterwards", () => {
+test("the loop draws further frames while they differ, and then stops", () => {
   let left = 3;
   const loop = new RenderLoop(
     () => --left > 0,

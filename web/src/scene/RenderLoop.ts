@@ -14,7 +14,7 @@ const LONGEST_REST_MS = 400;
 const SLOW_MS = 50;
 const ANSWER_MS = 120;
 
-// Whether the submitted frame is drawn.
+// Finds out whether the submitted frame is drawn: mark() after submitting it, then poll isReached().
 export interface Fence {
   mark(): void;
   isReached(): boolean;

@@ -11,7 +11,7 @@ import type { OverlayLayers } from "./OverlayLayers";
 import type { RenderLoop } from "./RenderLoop";
 import { RobotPlaces } from "./RobotPlaces";
 import type { RobotSigns } from "./RobotSigns";
-import type { RobotWatch } from "./RobotWatch";
+import type { RobotFollower } from "./RobotFollower";
 import { SceneParts } from "./SceneParts";
 import type { ShownPoses } from "./ShownPoses";
 
@@ -28,14 +28,14 @@ export interface StageLayers {
   collisions: CollisionLayer;
   poses: ShownPoses;
   signs: RobotSigns;
-  watch: RobotWatch;
+  follower: RobotFollower;
   environment: Environment | null; // null: there is no environment map
 }
 
 export interface StageEvents {
   onModelsMissing(count: number): void;
   onProblem(sentence: string): void;
-  onChange(): void; // the view must be drawn again, with new shadows
+  onChange(): void; // called when the view must be drawn again, with new shadows
 }
 
 export class SceneStage {
@@ -70,22 +70,22 @@ export class SceneStage {
   }
 
   private clear(): void {
-    const { overlays, collisions, watch, signs } = this.layers;
+    const { overlays, collisions, follower, signs } = this.layers;
     this.parts?.dispose();
     this.parts = null;
     overlays.setScene(null);
     collisions.setScene(null);
-    watch.robots = null;
+    follower.robots = null;
     signs.setRobots(null);
   }
 
   private build(scene: SceneDescription): void {
-    const { root, library, rig, loop, overlays, collisions, poses, signs, watch, environment } = this.layers;
+    const { root, library, rig, loop, overlays, collisions, poses, signs, follower, environment } = this.layers;
     environment?.show(scene.look);
     this.parts = new SceneParts(scene, root, environment !== null);
     const { bodies, focus } = this.parts;
-    watch.robots = new RobotPlaces(bodies, overlays.frames);
-    signs.setRobots(watch.robots);
+    follower.robots = new RobotPlaces(bodies, overlays.frames);
+    signs.setRobots(follower.robots);
     overlays.setScene(bodies);
     collisions.setScene(scene);
     const place = environmentOf(scene);
@@ -105,7 +105,7 @@ export class SceneStage {
       },
       onProblem: (sentence) => this.events.onProblem(sentence),
     });
-    watch.update();
+    follower.update();
   }
 
   private takeBeams(message: MarkerArrayMessage): void {

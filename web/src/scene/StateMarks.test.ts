@@ -31,7 +31,7 @@ test("a filter marks only the robots that it selects", () => {
   expect(marks([[5, "moving"], [100, "stuck"], [5, "standing"]], (robot) => robot !== 1).shown).toEqual(["moving", "standing"]);
 });
 
-test("the labels of additional robots get room", () => {
+test("the buffers grow when robots are added", () => {
   const { layer } = marks([[100, "moving"]]);
   const many = Array.from({ length: 300 }, (): [number, ShownState] => [100, "late"]);
   const tops = Float64Array.from(many.flatMap(([x]) => [x, 0, 0]));

@@ -80,8 +80,7 @@ export class Surface {
     return hasChanged;
   }
 
-  // Selects the newest image from the server, if the server draws. Call this at the beginning of a
-  // frame.
+  // If the server draws, takes its newest image for display. Call this at the beginning of a frame.
   advance(): void {
     this.drawn?.advance();
   }

@@ -7,7 +7,8 @@ import type { TrailColour } from "../state/overlays";
 const MOST_PLACES = 400; // number of places of one robot
 const MOST_ROBOTS = 200;
 const APART_M = 0.05;
-// m: a longer step between two updates means that the robot was placed, or the replay has jumped
+// m: if a robot moves farther between two updates, its trail is interrupted, because the robot was
+// moved by an edit or the replay has jumped
 const JUMP_M = 2;
 const COLOURS = [0x2f81e0, 0xe0701a, 0x2a9d4a, 0xc2399b, 0xd0453e, 0x12938f].map(rgb);
 const ABOVE_FLOOR_M = 0.02;
@@ -15,7 +16,7 @@ const ABOVE_FLOOR_M = 0.02;
 const LEAST_TOP_SPEED = 0.1;
 
 interface Trail {
-  places: Float32Array; // x y z, a ring
+  places: Float32Array; // x y z of each place, as a ring buffer
   stamps: Float64Array; // s, one for each place
   first: number;
   count: number;

@@ -32,7 +32,7 @@ import { makeBareRenderer, makeRenderer } from "./renderer";
 import { RenderLoop } from "./RenderLoop";
 import type { RobotStates } from "./RobotSigns";
 import { RobotSigns } from "./RobotSigns";
-import { RobotWatch } from "./RobotWatch";
+import { RobotFollower } from "./RobotFollower";
 import { SceneStage } from "./SceneStage";
 import { ShownPoses } from "./ShownPoses";
 import { Surface } from "./Surface";
@@ -76,7 +76,7 @@ export class World3D {
   private readonly poses = new ShownPoses((sample) => this.overlays.takePoses(sample));
   private readonly signs: RobotSigns;
   private readonly ghosts = new GhostLayer();
-  private readonly watch: RobotWatch;
+  private readonly follower: RobotFollower;
   private readonly arranger: Arranger;
   readonly tools: EditTools;
   private readonly stage: SceneStage;
@@ -116,13 +116,13 @@ export class World3D {
       () => this.loop.request(),
       (from, direction, far) => this.bodies?.freeAlong(from, direction, far) ?? Infinity,
     );
-    this.watch = new RobotWatch(this.rig);
-    this.picker = new BodyPicker({ host, camera: () => this.drawer.shownCamera, bodies: () => this.bodies, robots: () => this.watch.robots });
+    this.follower = new RobotFollower(this.rig);
+    this.picker = new BodyPicker({ host, camera: () => this.drawer.shownCamera, bodies: () => this.bodies, robots: () => this.follower.robots });
     this.arranger = new Arranger(this.arrangerView(), events);
     this.tools = new EditTools(this.toolsView(), { ...events, onPlacePoint: (point) => this.arranger.placeAt(point) });
     this.stage = this.makeStage();
     this.drawer = this.makeDrawer();
-    this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
+    this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.follower.ring.mesh, this.arranger.handle.group, this.tools.group);
     // the canvas is below the elements that lie over the image
     host.prepend(canvas, this.signs.labels.element);
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
@@ -166,7 +166,7 @@ export class World3D {
 
   setSensorFrames(message: TransformsMessage): void {
     this.overlays.takeFrames(message);
-    this.watch.update();
+    this.follower.update();
     this.loop.request();
   }
 
@@ -182,7 +182,7 @@ export class World3D {
   }
 
   select(robot: string | null): void {
-    this.watch.select(robot);
+    this.follower.select(robot);
     this.overlays.select(robot);
     this.collisions.select(robot);
     this.loop.request();
@@ -190,12 +190,12 @@ export class World3D {
 
   // Sets the object that the user can move.
   choose(object: string | null): void {
-    this.watch.choose(object);
+    this.follower.choose(object);
     this.loop.request();
   }
 
   setViewMode(mode: ViewMode): void {
-    this.watch.setMode(mode);
+    this.follower.setMode(mode);
     this.loop.request();
   }
 
@@ -297,8 +297,8 @@ export class World3D {
     this.refresh();
   }
 
-  // The times from a state of the world to its image on the screen, in ms, of the last images of
-  // the server.
+  // The delays of the server's last images, in ms: from a state of the world to its image on the
+  // screen.
   get imageDelaysMs(): readonly number[] {
     return this.surface.imageDelaysMs;
   }
@@ -342,9 +342,9 @@ export class World3D {
   }
 
   private makeStage(): SceneStage {
-    const { scene: root, library, rig, loop, overlays, collisions, poses, signs, watch, environment } = this;
+    const { scene: root, library, rig, loop, overlays, collisions, poses, signs, follower, environment } = this;
     return new SceneStage(
-      { root, library, rig, loop, overlays, collisions, poses, signs, watch, environment },
+      { root, library, rig, loop, overlays, collisions, poses, signs, follower, environment },
       {
         onModelsMissing: (count) => this.events.onModelsMissing(count),
         onProblem: (sentence) => this.events.onProblem(sentence),
@@ -354,9 +354,9 @@ export class World3D {
   }
 
   private makeDrawer(): FrameDrawer {
-    const { scene: root, surface, rig, poses, overlays, collisions, signs, watch, arranger, tools, environment } = this;
+    const { scene: root, surface, rig, poses, overlays, collisions, signs, follower, arranger, tools, environment } = this;
     return new FrameDrawer({
-      ...{ root, surface, rig, poses, overlays, collisions, signs, watch, arranger, tools },
+      ...{ root, surface, rig, poses, overlays, collisions, signs, follower, arranger, tools },
       frameRate: new FrameRate((rate) => this.events.onFrameRate(rate)),
       hasFineLight: environment !== null,
       parts: () => this.stage.parts,
@@ -375,8 +375,8 @@ export class World3D {
       host: this.host,
       camera: this.rig.camera,
       bodies: () => this.bodies,
-      robots: () => this.watch.robots,
-      selection: () => this.watch.selection,
+      robots: () => this.follower.robots,
+      selection: () => this.follower.selection,
       isTaken: (event) => isAdding(event) || this.tools.clickUse !== "choose" || this.tools.isHandleAt({ x: event.clientX, y: event.clientY }),
       redraw: () => this.refresh(),
     };
@@ -389,7 +389,7 @@ export class World3D {
       camera: this.rig.camera,
       orbit: this.rig.controls,
       bodies: () => this.bodies,
-      robots: () => this.watch.robots,
+      robots: () => this.follower.robots,
       bodyAt: (at) => this.picker.robotAt(at) ?? this.picker.movableAt(at),
       pointAt: (at) => this.arranger.floorAt(at),
       redraw: () => this.refresh(),
@@ -419,10 +419,10 @@ export class World3D {
     if (this.tools.click(place)) return;
     const robot = this.picker.robotAt(place);
     const added = robot === null && this.arranger.isOn ? this.picker.addedStaticAt(place) : null;
-    const firm = added === this.watch.selection ? null : added;
+    const firm = added === this.follower.selection ? null : added;
     // In edit mode, a click beside all bodies keeps the selection, because the user wants to move
     // it.
-    if (firm === null && robot === null && this.arranger.isOn && this.watch.selection !== null) return;
+    if (firm === null && robot === null && this.arranger.isOn && this.follower.selection !== null) return;
     this.events.onPick(firm ?? robot ?? (this.arranger.isOn ? null : this.picker.objectAt(place)));
   }
 }

@@ -11,7 +11,7 @@ test("a robot's view is along its x axis, with its z axis up", () => {
   expect(up.distanceTo(new Vector3(0, 0, 1))).toBeCloseTo(0, 12);
 });
 
-test("without a camera, the robot's view is from the front of its top", () => {
+test("for a robot without a camera, the view is from the front of its top", () => {
   const bounds = new Box3(new Vector3(-0.2, -0.3, 0), new Vector3(0.25, 0.3, 1.1));
   const robot = new Matrix4().makeRotationZ(Math.PI).setPosition(5, 0, 0);
   const eye = new Vector3().setFromMatrixPosition(eyeAt(robot, bounds));

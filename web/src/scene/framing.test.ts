@@ -9,7 +9,7 @@ function camera(aspect: number): PerspectiveCamera {
   return made;
 }
 
-test("another world of the same name is another environment, but added or moving bodies are not", () => {
+test("another world of the same name resets the camera, but an added robot does not", () => {
   const wall = (model: string, x = 0) =>
     body("wall", { model, isStatic: true, isFixed: true, pose: [x, 0, 0, 0, 0, 0, 1] });
   const robot = body("a", { isRobot: true });

@@ -6,7 +6,7 @@ import { robotsOf } from "../api/scene";
 const UP = new Vector3(0, 0, 1);
 const AROUND_ROBOTS = 4; // m: margin around the robots in the first view
 const SMALL_WORLD = 13; // m: a world of at most this half-width is shown whole
-const TALLEST_SHOWN = 3; // m: what rises higher does not push the camera away
+const TALLEST_SHOWN = 3; // m: higher parts of the world do not move the camera farther away
 
 // A body is far away if its distance from the centre exceeds FAR_RADII times that of all nearer
 // bodies, and FAR metres. `gsv world draw` uses the same rule.

@@ -6,12 +6,12 @@ import { equivalentBox } from "./inertia";
 const MASS = 12;
 const MOMENTS = [13, 10, 5] as const;
 
-test("a box is equivalent to itself", () => {
+test("the equivalent box of a box's inertia is that box", () => {
   const { half } = equivalentBox({ mass: MASS, inertia: [...MOMENTS, 0, 0, 0] });
   half.forEach((value, i) => expect(value).toBeCloseTo((i + 1) / 2, 9));
 });
 
-test("a turned box has its sides along its principal axes", () => {
+test("the equivalent box of a rotated box has its sides along the principal axes", () => {
   // Turned by 30° about z: R I Rᵀ.
   const [c, s] = [Math.cos(Math.PI / 6), Math.sin(Math.PI / 6)];
   const [a, b, z] = MOMENTS;

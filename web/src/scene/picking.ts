@@ -7,7 +7,8 @@ export interface ScreenPlace {
   y: number;
 }
 
-const NEAREST_PX = 18; // a click this near to a robot means it: small ones are hard to hit
+// A click within this distance selects a robot, because small robots are hard to hit.
+const NEAREST_PX = 18;
 const DRAG_PX = 5;
 
 // Reports clicks, but not the end of a drag.

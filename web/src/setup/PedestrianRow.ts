@@ -18,7 +18,7 @@ export class PedestrianRow {
 
   constructor(app: App, index: number) {
     const change = (patch: Partial<PedestrianSetUp>) => app.setUp.changePedestrians(index, patch);
-    this.count = numberField("How many", 1, (count) => change({ count: count ?? 1 }), { step: "1", least: "1" });
+    this.count = numberField("Number", 1, (count) => change({ count: count ?? 1 }), { step: "1", least: "1" });
     this.route = textField("Walk between", "-4,0,1:4,0,1", (text) => {
       const route = parseRoute(text);
       this.route.refuse(route ? "" : `expected ${ROUTE_FORM}`);

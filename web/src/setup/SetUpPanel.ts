@@ -218,7 +218,7 @@ function parameterFields(app: App) {
     ["real_time_factor", numberField("Real-time factor (simulated seconds per second)", 1, take("real_time_factor"), { least: "0" })],
     ["duration", numberField("Duration in s (0: until stopped)", 0, take("duration"), { least: "0" })],
     ["step", numberField("Step (s), 0 for the step of the world file", 0, take("step"), { least: "0" })],
-    ["seed", numberField("Seed of all noise", 0, take("seed"), { step: "1", least: "0" })],
+    ["seed", numberField("Random seed", 0, take("seed"), { step: "1", least: "0" })],
     ["record", checkField("Record from the start", take("record"))],
   ]);
 }

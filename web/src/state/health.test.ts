@@ -30,7 +30,7 @@ function health(...robots: RobotHealthMessage[]) {
   return healthOf({ stamp: AT(30), step: 3000n, stuck_after_s: 5, ...counts, robots });
 }
 
-test("a robot that is not in the report moves", () => {
+test("a robot that the health report does not list is shown as moving", () => {
   const known = health(told("a"));
   expect(stateOf(known, { name: "a", agentPhase: "running" })).toBe("stuck");
   expect(stateOf(known, { name: "b", agentPhase: "running" })).toBe("moving");

@@ -12,8 +12,9 @@ export interface Tabs {
 
 export interface Split {
   split: "row" | "column";
-  parts: { part: Part; share: number }[]; // shares in thousandths, at least 1; rows contain columns and tabs, columns
-                                          // contain rows and tabs
+  // Shares in thousandths, at least 1; rows contain columns and tabs, columns contain rows and
+  // tabs.
+  parts: { part: Part; share: number }[];
 }
 
 export type Part = Tabs | Split;

@@ -1,4 +1,4 @@
-// A view in an address:
+// Writes the present view to the page's address, and reads it:
 // #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid&layout=drive. All parts are
 // optional. A missing part has the same effect as no link.
 import type { OverlayName, Shown } from "./overlays";

@@ -1,4 +1,4 @@
-// Which part of the world inspectors, tree and view show as selected.
+// Determines which part of the world is shown as selected in the inspectors, the tree and the view.
 import type { State } from "./State";
 import type { WorldPart } from "./worldPart";
 

@@ -9,7 +9,7 @@ function event(time: number, event: string, more: Partial<RecordedEvent> = {}): 
   return { time, event, robot: "", detail: "", ...more };
 }
 
-test("an instant has a place in the span only", () => {
+test("an instant outside the timeline's span is shown at its start or end", () => {
   expect(shareOf(12.5, REPLAY)).toBe(0.25);
   expect(shareOf(9, REPLAY)).toBe(0);
   expect(shareOf(21, REPLAY)).toBe(1);

@@ -91,7 +91,7 @@ test("a constraint can be typed while offers change", () => {
   expect(taken).toEqual(["name == 'wander'"]);
 });
 
-test("without a typed constraint the former choice is kept", () => {
+test("if no constraint is typed, the former choice is kept", () => {
   const field = choiceOrText("Behaviour", { choice: "By constraint…", placeholder: "" }, () => {});
   const select = controlOf<HTMLSelectElement>(field, "select");
   const input = field.element.querySelector("input")!;

@@ -35,8 +35,8 @@ interface DecodedImage {
 export class DrawnView {
   readonly canvas = document.createElement("canvas");
   images = 0; // number of images so far
-  // The times from a state of the world to its image on the screen, in ms, of the last images.
-  // Correct only if the server has the same clock.
+  // The delays of the server's last images, in ms: from a state of the world to its image on the
+  // screen. Correct only if the server has the same clock.
   readonly delaysMs: number[] = [];
   // Called when there is another image for advance().
   onNewImage = () => {};
@@ -119,7 +119,7 @@ export class DrawnView {
   }
 
   private take(image: ArrivedImage): void {
-    this.waiting?.shown(); // the older image is skipped
+    this.waiting?.shown(); // the older image is skipped: reports it as shown
     this.waiting = image;
     if (!this.isDecoding) void this.decode();
   }

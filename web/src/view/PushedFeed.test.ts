@@ -64,7 +64,7 @@ test("an image of an unknown camera is left out", async () => {
   expect(images).toEqual([]);
 });
 
-test("messages of other subscriptions are not taken, and a truncated image is an error", () => {
+test("messages of other subscriptions are ignored, and a truncated image is an error", () => {
   const { views, feed } = fixture();
   views.connected(true);
   feed.show(CAMERA);

@@ -35,8 +35,8 @@ export interface ViewParts {
 
 export class Workspace {
   readonly element = element("main", { class: "workspace" });
-  onChange: (layout: string) => void = () => {}; // called after a change by the user or a program; not on narrow
-                                                 // screens
+  // Called after a change by the user or a program; not on narrow screens.
+  onChange: (layout: string) => void = () => {};
   private readonly api: DockviewApi;
   private readonly frames = new Map<string, Frame>();
   private readonly narrow: MediaQueryList | null;

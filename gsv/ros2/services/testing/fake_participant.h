@@ -79,7 +79,9 @@ class FakeParticipant final : public dds::Participant {
       participant_.replies_.push_back({{sample.begin(), sample.end()}, request});
       participant_.came_.notify_all();
     }
-    bool HasReaderBeside(const dds::Guid&) const override { return participant_.knows_clients; }
+    bool HasReaderInSameParticipant(const dds::Guid&) const override {
+      return participant_.knows_clients;
+    }
     bool has_readers() const override { return true; }
     dds::Guid guid() const override { return {1}; }
 

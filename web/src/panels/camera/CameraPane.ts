@@ -23,8 +23,8 @@ export function mount(ports: Ports): MountedPanel {
   const note = element("p", { class: "dim camera-note" });
   const hint = element("p", { class: "hint" }, "No robot has a camera.");
   let isOpen = false;
-  let only: CameraChoice | null = null; // a depth camera that the user chose here; other panels do not know this
-                                        // choice
+  // A depth camera that the user chose here; other panels do not know this choice.
+  let only: CameraChoice | null = null;
   let tiles: CameraTile[] = [];
 
   let showsAll = state.get().allCameras;

@@ -1,4 +1,5 @@
-// The line that says why commands need control, with the button that requests it.
+// A line that explains why commands need control of the simulation, with the button that requests
+// control.
 import { holderOf, needsControl, youOf } from "../../state/people";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";

@@ -29,7 +29,7 @@ test("requests and subscriptions exist only between start and end", async () => 
   expect(figures).toHaveBeenCalledTimes(3);
 });
 
-test("the first status is the simulation's, the others are robots'", async () => {
+test("the first diagnostic status is that of the simulation, the others are those of robots", async () => {
   const { store, topics, feed } = feeding();
   feed.start();
   const status = (level: number, name: string) => ({ level, name, message: "m", values: [{ key: "k", value: "v" }] });

@@ -10,7 +10,7 @@ import type { MountedPanel } from "../contract/Panel";
 import type { PanelPorts } from "../contract/ports";
 import { DiagnosticsFeed } from "./DiagnosticsFeed";
 import type { Diagnosis, Diagnostics } from "./diagnostics";
-import { NO_DIAGNOSTICS, unwell } from "./diagnostics";
+import { NO_DIAGNOSTICS, robotsWithProblems } from "./diagnostics";
 
 const MAX_ROWS = 100;
 const NOTHING_YET = "No data yet. The panel fills when the server responds.";
@@ -65,7 +65,7 @@ function simulationFacts(simulation: Diagnosis | null): Fact[] {
 
 function robotFacts({ robots }: Diagnostics): Fact[] {
   if (robots.length === 0) return [];
-  const bad = unwell(robots);
+  const bad = robotsWithProblems(robots);
   const good = robots.length - bad.length;
   const rest: Fact[] = good > 0 ? [["", bad.length === 0 ? `${count(good, "robot")} OK.` : good === 1 ? "The other robot is OK." : `The other ${good} robots are OK.`]] : [];
   const rows = bad.slice(0, MAX_ROWS).map(({ name, message, health }): Fact => [name, message, health]);

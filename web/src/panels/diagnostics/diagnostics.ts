@@ -25,7 +25,7 @@ export const NO_DIAGNOSTICS: Diagnostics = {
 };
 
 // Returns the robots with problems, the worst first.
-export function unwell(robots: readonly Diagnosis[]): Diagnosis[] {
+export function robotsWithProblems(robots: readonly Diagnosis[]): Diagnosis[] {
   const rank = ({ health }: Diagnosis) => (health === "error" ? 0 : 1);
   return robots.filter(({ health }) => health !== "ok").sort((a, b) => rank(a) - rank(b));
 }

@@ -40,8 +40,8 @@ class OutputReader {
 
   read(): void {
     const { simulation, selection, connection } = this.ports.state.get();
-    if (connection.phase !== "open" && this.robot === selection) return; // if the connection is lost, the printed
-                                                                         // lines stay
+    // If the connection is lost, the printed lines stay.
+    if (connection.phase !== "open" && this.robot === selection) return;
     this.end();
     this.end = () => {};
     this.robot = selection;

@@ -75,7 +75,7 @@ test("while the simulation is paused, a joint keeps the set value and says when 
   end();
 });
 
-test("a joint without limits has its velocity on the slider, and a button that stops it", async () => {
+test("the slider of a joint without limits sets its velocity, and a button stops the joint", async () => {
   const { commandJoint, end } = await opened({ joints: [{ ...ELBOW, kind: "continuous", minimum: -Infinity, maximum: Infinity }] });
   [...document.querySelectorAll("button")].find(({ textContent }) => textContent === "Stop")!.click();
   await vi.advanceTimersByTimeAsync(1);

@@ -22,7 +22,7 @@ function message(sec: number, msg: string) {
   return { stamp: { sec, nsec: 0 }, level: 30, name: "a", msg };
 }
 
-test("a live simulation is subscribed", () => {
+test("the log of a live simulation is subscribed", () => {
   const { topics, lines } = feeding();
   topics.send("/rosout", message(1, "low battery"));
   topics.send("/rosout", message(2, "empty"));

@@ -139,7 +139,7 @@ class Waterfall {
     element(
       "thead",
       {},
-      element("tr", {}, ...["Step", "Parts", "Held up by", "Time"].map((name) => element("th", { scope: "col" }, name))),
+      element("tr", {}, ...["Step", "Parts", "Delayed by", "Time"].map((name) => element("th", { scope: "col" }, name))),
     ),
     this.rows,
   );
@@ -176,10 +176,10 @@ class Waterfall {
 function holdUpTable(select: (robot: string) => void) {
   const rows = element("tbody");
   const empty = element("p", { class: "dim" }, "No behaviour delays the steps.");
-  const head = ["Behaviour of", "Steps", "Mean", "Longest"].map((name) => element("th", { scope: "col" }, name));
+  const head = ["Robot", "Steps", "Mean", "Longest"].map((name) => element("th", { scope: "col" }, name));
   const table = element("table", { class: "panel-table" }, element("thead", {}, element("tr", {}, ...head)), rows);
   return {
-    element: element("div", { class: "facts" }, element("h2", {}, "Behaviours that hold the steps up"), empty, table),
+    element: element("div", { class: "facts" }, element("h2", {}, "Behaviours that delay the steps"), empty, table),
     show(costs: StepCosts) {
       const found = costs.holdUps.slice(0, MAX_HOLD_UPS);
       empty.hidden = found.length > 0;

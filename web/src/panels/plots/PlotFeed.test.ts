@@ -78,7 +78,7 @@ test("poses of another layout are ignored", () => {
   expect(samples(feed, A, "x")).toEqual([]);
 });
 
-test("a pause adds nothing, and a reset starts again", () => {
+test("a pause adds no values, and a reset clears the curves", () => {
   const { feed, takePoses } = feeding([curve(A, "x"), curve(A, "speed")]);
   for (const [time, x] of [
     [7, 1],
@@ -92,7 +92,7 @@ test("a pause adds nothing, and a reset starts again", () => {
   expect(samples(feed, A, "speed")).toEqual([]);
 });
 
-test("in a recording, values stay in both directions", () => {
+test("in a recording, values are kept while time goes forwards or backwards", () => {
   const replay = { start: 0, end: 20, speed: 1, loop: false };
   const { feed, takePoses } = feeding([curve(A, "x"), curve(A, "speed")], { replay });
   for (const [time, x] of [
@@ -131,7 +131,7 @@ test("the status contains the real-time factor and the robots' distances", () =>
   expect(samples(feed, A, "distance")).toEqual([[4, 3]]);
 });
 
-test("the curves of another simulation start again", () => {
+test("the curves are cleared for another simulation", () => {
   const { store, feed, takePoses } = feeding([curve(A, "x")]);
   takePoses(poses(1, 5));
   store.set({ simulation: "yard" });

@@ -68,7 +68,7 @@ test("without a selection, only the simulation's values are offered", () => {
   expect(groups()).toEqual(["Simulation"]);
 });
 
-test("the choice shows the selected span", () => {
+test("the list of time spans shows the selected span", () => {
   const { store, choose } = panelIn();
   choose("Time shown", "null");
   expect(store.get().plots.span).toBeNull();

@@ -7,7 +7,7 @@ function curve(samples: [number, number][], more: Partial<WholeCurve> = {}): Who
   return { times: column(0), values: column(1), isWhole: true, done: true, problem: "", ...more };
 }
 
-test("values of different instants are combined with the newest of each", () => {
+test("values at different instants are combined with the newest value of each other curve", () => {
   const slow = curve([
     [1, 10],
     [3, 30],

@@ -13,16 +13,16 @@ const FEWEST_ROBOTS = 6;
 
 const SORTING_LABELS: Record<Sorting, string> = {
   worst: "Worst first",
-  name: "By name",
-  distance: "Most driven",
-  collisions: "Most collisions",
+  name: "Sort by name",
+  distance: "Longest distance first",
+  collisions: "Most collisions first",
 };
 const GROUPING_LABELS: Record<Grouping, string> = {
   none: "No groups",
-  namespace: "By namespace",
-  model: "By model",
-  state: "By state",
-  behaviour: "By behaviour",
+  namespace: "Group by namespace",
+  model: "Group by model",
+  state: "Group by state",
+  behaviour: "Group by behaviour",
 };
 
 export function createRobotTools(ports: Ports): HTMLElement {

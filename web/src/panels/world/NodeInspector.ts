@@ -38,9 +38,9 @@ export class NodeInspector {
   close(): void {
     this.end();
     this.end = () => {};
-    setText(this.title, "Nothing chosen");
+    setText(this.title, "Nothing selected");
     this.actions.replaceChildren();
-    this.show([["", "Choose a part of the world to see where it is and what it reads."]]);
+    this.show([["", "Select a part of the world to see where it is and what it reads."]]);
   }
 
   // Reads the data of the node until another node is opened, or close() is called.
@@ -154,7 +154,7 @@ export class NodeInspector {
 
   private transformLines(child: string): Line[] {
     const frame = this.transforms.get(child);
-    if (!frame) return [["", "This transform has not come. Keep Transforms open in the tree."]];
+    if (!frame) return [["", "No message has this transform yet. Keep Transforms open in the tree."]];
     return [
       ["Parent", frame.parent],
       ["Translation", positionText(frame.position)],

@@ -68,7 +68,7 @@ test("an object and a moving link have their pose and its age", () => {
   expect(topics.read).toEqual([]);
 });
 
-test("a sensor shows what it reads, with a curve, its age, and the way to its messages", () => {
+test("a sensor is shown with its reading, a plot button, its age, and a link to its messages", () => {
   const { ports, topics, choose, unfold, facts, end } = opened();
   unfold("Parts of b");
   choose("b::sensor::sonar");

@@ -1,6 +1,6 @@
 // If there are very many sensors, a server lists the topics of the first ones only, and those of
-// other robots on request (docs/formats/live.md). This class requests the topics of robots if a
-// subscription to one of their sensors has no topic.
+// other robots on request (docs/formats/live.md). If the page subscribes to a sensor whose topic is
+// not listed, this class requests the topics of its robot.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
@@ -8,7 +8,7 @@ import type { Store } from "../state/Store";
 // Within this time, the server may still list the topic of a new subscription without a request.
 const LISTED_MS = 300;
 
-export class TopicWishes {
+export class TopicRequests {
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   // `missing` returns the topics that are subscribed to but not listed.

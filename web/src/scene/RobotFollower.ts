@@ -1,10 +1,11 @@
-// The selected robot, and the camera mode: moves the camera with the displayed robot.
+// Moves the camera with the selected robot, according to the camera mode, and draws the ring around
+// the selected body.
 import type { ViewMode } from "../state/State";
 import type { CameraRig } from "./CameraRig";
 import { SelectionRing } from "./Ground";
 import type { RobotPlaces } from "./RobotPlaces";
 
-export class RobotWatch {
+export class RobotFollower {
   readonly ring = new SelectionRing();
   robots: RobotPlaces | null = null; // the robots of the present scene
   private robot: string | null = null;

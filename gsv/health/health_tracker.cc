@@ -1,4 +1,4 @@
-#include "gsv/health/health_book.h"
+#include "gsv/health/health_tracker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,8 +48,8 @@ std::optional<Limit> FindLimit(const std::string& robot, const SensorAccess& acc
   return nearest;
 }
 
-Report HealthBook::Update(const simulation::SimulationStatus& status, base::SimTime stuck_after,
-                          const SensorAccess& access) {
+Report HealthTracker::Update(const simulation::SimulationStatus& status, base::SimTime stuck_after,
+                             const SensorAccess& access) {
   Report report;
   report.time = status.time;
   report.step = status.step;
@@ -84,7 +84,7 @@ Report HealthBook::Update(const simulation::SimulationStatus& status, base::SimT
 }
 
 Report HealthNow(simulation::Simulation& simulation) {
-  return HealthBook(kRobotsReadAtOnce)
+  return HealthTracker(kRobotsReadAtOnce)
       .Update(simulation.status(), simulation.specification().stuck_after, SensorsOf(simulation));
 }
 

@@ -30,10 +30,11 @@ SensorAccess SensorsOf(simulation::Simulation& simulation);
 // is below 1 m.
 std::optional<Limit> FindLimit(const std::string& robot, const SensorAccess& access);
 
-class HealthBook {
+// Computes health reports. It keeps the last sensor reading of each robot that does not move.
+class HealthTracker {
  public:
   // `robots_read` is the maximum number of robots whose sensors one update reads.
-  explicit HealthBook(std::size_t robots_read = 64) : robots_read_(robots_read) {}
+  explicit HealthTracker(std::size_t robots_read = 64) : robots_read_(robots_read) {}
 
   Report Update(const simulation::SimulationStatus& status, base::SimTime stuck_after,
                 const SensorAccess& access);
