@@ -52,7 +52,7 @@ TEST(MutexLock, ReleasesTheMutexBetweenUnlockAndLock) {
     lock.lock();
     lock.unlock();
   }
-  // the destructor of a lock does not unlock a mutex that unlock() has already released
+  // The destructor of a lock does not unlock a mutex that unlock() has already released.
   EXPECT_TRUE(IsFree(mutex));
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 64;
 constexpr std::size_t kMinNameLength = 3;
-// names with at least this many letters may differ by two letters
+// Names with at least this many letters may differ by two letters.
 constexpr std::size_t kLongName = 8;
 
 // Returns the only known name that begins with `written`, or that is `written` without its last

@@ -10,7 +10,7 @@ TEST(Spelling, DistanceCountsChangedLetters) {
   EXPECT_EQ(SpellingDistance("statik", "static", 2), 1);
   EXPECT_EQ(SpellingDistance("sttaic", "static", 2), 1);  // two adjacent letters are swapped
   EXPECT_EQ(SpellingDistance("colision", "collision", 2), 1);
-  // the distance exceeds the limit, so the result is the limit plus one
+  // The distance exceeds the limit, so the result is the limit plus one.
   EXPECT_EQ(SpellingDistance("mass", "material", 2), 3);
   EXPECT_EQ(SpellingDistance(std::string(65, 'a'), std::string(65, 'a'), 2), 3);
 }

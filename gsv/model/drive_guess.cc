@@ -13,12 +13,12 @@ namespace {
 using geometry::Vector3;
 
 constexpr double kAcross = 0.9;  // minimum cosine between an axle and the model's y axis
-// wheels below this fraction of the largest wheel's radius are not driven
+// Wheels below this fraction of the largest wheel's radius are not driven.
 constexpr double kIdlerRadius = 0.8;
-// wheels nearer to the middle than this fraction of the half track are casters
+// Wheels nearer to the middle than this fraction of the half track are casters.
 constexpr double kMiddle = 0.25;
 constexpr double kNarrowest = 0.01;  // minimum half track, m
-// minimum distance of a caster behind its swivel, as a fraction of the radius
+// Minimum distance of a caster behind its swivel, as a fraction of the radius.
 constexpr double kTrail = 0.15;
 constexpr double kMaxSteeringAngle = 1.4;  // rad
 constexpr double kFullTurn = 6.2;          // rad

@@ -43,7 +43,7 @@ struct Surface {
   double friction = 1.0;   // along friction_direction
   double friction2 = 1.0;  // friction coefficient across friction_direction
   double restitution = 0.0;
-  // in the collision's frame, of unit length; zero for the world's x axis
+  // Unit vector in the collision's frame; zero for the world's x axis.
   geometry::Vector3 friction_direction;
   // Velocity at which the surfaces slide on each other, per friction force, m/(s N): <slip1> and
   // <slip2>, along and across friction_direction.
@@ -78,7 +78,7 @@ struct Link {
   std::vector<Collision> collisions;
   bool has_gravity = true;
   bool has_wind = false;  // whether wind pushes the link
-  // whether forces do not move the link, but only its drive or the command of its joint
+  // Whether only the drive or the command of its joint moves the link, and forces do not.
   bool is_kinematic = false;
   // The fraction of its velocity that the link loses in each step of the world's length, in [0, 1]:
   // SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
@@ -93,8 +93,8 @@ enum class JointKind {
   kRevolute,
   kContinuous,
   kPrismatic,
-  // one of three consecutive joints that together form a ball joint, see SplitJoint() in
-  // gsv/formats
+  // One of three consecutive joints that together form a ball joint, see SplitJoint() in
+  // gsv/formats.
   kBall,
   kScrew,  // rotates, and slides by thread_pitch times the rotation
 };

@@ -14,7 +14,7 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr int kDirections = 16;  // number of directions in which a wheel's extent is measured
-// minimum ratio of the smallest to the largest extent; a 12-sided mesh counts as round
+// Minimum ratio of the smallest to the largest extent; a 12-sided mesh counts as round.
 constexpr double kRoundness = 0.88;
 constexpr double kMinRadius = 0.005;
 // Maximum sine of an axle's slope, because wheels may have camber.

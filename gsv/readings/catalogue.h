@@ -240,7 +240,7 @@ struct Ranging {
 struct Microphone {
   static constexpr const char* kType = "microphone";
   double level = 0;  // sound level of all sounds, dB re 20 uPa
-  // frequency of the loudest sound; 0 if no sound is louder than the ambient noise
+  // Frequency of the loudest sound; 0 if no sound is louder than the ambient noise.
   double frequency = 0;
   std::string source;  // ROBOT/SPEAKER of the loudest sound
   static constexpr auto kFields =
@@ -282,7 +282,7 @@ struct Speaker {
 // The image itself is not part of the values.
 struct Camera {
   static constexpr const char* kType = "camera";
-  // the type of a camera with a wide-angle lens
+  // The type of a camera with a wide-angle lens.
   static constexpr const char* kWideAngleType = "wideangle_camera";
   int width = 0, height = 0;
   static constexpr auto kFields =

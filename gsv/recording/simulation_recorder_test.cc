@@ -90,7 +90,7 @@ TEST_F(SimulationRecorderTest, RecordsRadioMessages) {
   EXPECT_EQ(said[0].receiver, "");
   EXPECT_EQ(std::string(said[0].content.begin(), said[0].content.end()), "hello");
   EXPECT_EQ(said[0].heard_by, (std::vector<std::string>{"b", "d"}));
-  // the message was sent at 50 ms and received in the next step, at 60 ms
+  // The message was sent at 50 ms and received in the next step, at 60 ms.
   EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);
 }
 
@@ -154,7 +154,7 @@ TEST_F(SimulationRecorderTest, RecordsEditsFromBeforeItsStart) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto edits = Read<messages::gsv_msgs::Edit>("/gsv/edits");
-  // the scenario already includes the added robot, so only the other edit is recorded
+  // The scenario already includes the added robot, so only the other edit is recorded.
   ASSERT_EQ(edits.size(), 1u);
   const auto edit = presentation::EditFrom(edits[0]);
   ASSERT_TRUE(edit);

@@ -20,7 +20,7 @@ enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
 struct Options {
   std::optional<dds::Range> range{};  // if not set: the range from the environment, else localhost
   Distro distro = Distro::kJazzy;
-  // namespace of a robot, by the robot's name (default: "/ROBOT")
+  // Namespace of a robot, by the robot's name (default: "/ROBOT").
   std::map<std::string, std::string> namespaces{};
   bool is_cmd_vel_stamped = false;     // true for TwistStamped, false for Twist
   std::shared_ptr<NodeSteps> steps{};  // robots that ROS 2 nodes step; null if there are none

@@ -16,8 +16,8 @@ struct ContactPoint {
   geometry::Vector3 point;   // world
   geometry::Vector3 normal;  // normal in the world, unit length, from the first body to the second
   double depth = 0;          // m
-  // impulse on the second body over the step, in the world, N s: friction and normal force; zero if
-  // the engine does not compute it
+  // Impulse on the second body over the step, in the world, N s: friction and normal force; zero if
+  // the engine does not compute it.
   geometry::Vector3 impulse;
 };
 
@@ -32,7 +32,7 @@ struct Contact {
   double depth = 0;          // m
   bool began = false;        // whether the bodies did not touch one step earlier
   double closing_speed = 0;  // m/s along the normal when the bodies met; 0 unless `began`
-  // impulse along the normal over the step, N s, summed over all contact points; NaN if the engine
+  // Impulse along the normal over the step, N s, summed over all contact points; NaN if the engine
   // does not compute it. Planar kinematics computes it only for a push.
   double impulse = std::numeric_limits<double>::quiet_NaN();
   // Whether the second body, static or planar, supports the first body from below, like the ground.
@@ -60,12 +60,12 @@ struct Snapshot {
   State state;
   std::vector<Contact> contacts;  // contacts of the last step, ordered by (first, second, supports)
   base::SimTime step_length{0};   // length of the last step; 0 before the first step
-  // in the order of Layout::bodies; empty before the first step
+  // In the order of Layout::bodies; empty before the first step.
   std::vector<Acceleration> accelerations;
   // rad/s² or m/s², means over the last step, in the order of State::joint_velocities; empty before
   // the first step
   std::vector<double> joint_accelerations;
-  // messages that were sent in the last step, ordered by sender
+  // Messages that were sent in the last step, ordered by sender.
   std::vector<Transmission> transmissions;
 };
 

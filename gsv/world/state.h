@@ -87,7 +87,7 @@ struct State {
   std::vector<double> joint_positions;
   // The values of a ball joint are its angular velocity about the three axes of the child.
   std::vector<double> joint_velocities;
-  // in the order of joint_positions; empty before the first command
+  // The command of each joint, in the order of joint_positions; empty before the first command.
   std::vector<JointCommand> joint_commands;
   // N m or N: the integral terms of the joints' controllers (model::JointGains), in the order of
   // joint_positions; empty if no joint has one

@@ -28,10 +28,10 @@ class BadBehaviour final : public Behaviour {
   void Run(Robot& robot) override {
     robot.Drive(0.1, 0);
     if (fault_ == "never-wait") {
-      // the behaviour is busy and never calls the simulation
+      // The behaviour is busy and never calls the simulation.
       while (robot.IsRunning()) usleep(1000);
     }
-    // the behaviour does not end, even after the end of the run
+    // The behaviour does not end, even after the end of the run.
     while (fault_ == "never-end") usleep(1000);
     while (fault_ == "flood" && robot.IsRunning()) (void)sonar_->Range();
     const bool goes_on = robot.SleepFor(200ms);

@@ -86,7 +86,7 @@ TEST(BadInput, CorruptMeshIsAWarningAndTheRestRuns) {
 TEST(BadInput, MeshWithABillionDeclaredTrianglesIsRejected) {
   base::testing::TestFolder folder;
   std::string stl(84, '\0');
-  // the number of triangles: 1,000,000,000
+  // The number of triangles: 1,000,000,000.
   stl[80] = '\0', stl[81] = '\xca', stl[82] = '\x9a', stl[83] = '\x3b';
   folder.Write("huge.stl", stl);
   const auto robot = folder.Write("r.sdf", RobotWithMesh("huge.stl"));

@@ -87,7 +87,7 @@ TEST_F(CampaignCommand, SharesOfAnotherQueueAreCollectedAndContinued) {
   EXPECT_EQ(Campaign("run", {"--shard", "1/3"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("run", {"--shard", "3/3", "--jobs", "1"}).ending, "exit code 0");
   const Outcome report = Campaign("report", {"--by", "robots[0].x"});
-  // the shard has the runs 0, 2, 6; their values are 0, 3, 6, 2, 5
+  // The shard has the runs 0, 2, 6; their values are 0, 3, 6, 2, 5.
   EXPECT_THAT(report.out, HasSubstr("0            3 "));
   const Outcome rest = Campaign("run", {"--json"});
   EXPECT_EQ(rest.ending, "exit code 1") << rest.err;

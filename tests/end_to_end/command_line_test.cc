@@ -33,7 +33,7 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
   std::set<std::string> behaviours;
   for (const auto& robot : report["robots"]) {
     EXPECT_GT(robot["distance_m"], 0.1) << robot;
-    // at least one reading of each of eight sonars, even on a slow machine
+    // At least one reading of each of eight sonars, even on a slow machine.
     EXPECT_GE(robot["readings"]["sonar"], 8) << robot;
     behaviours.insert(robot["behaviour"]);
   }

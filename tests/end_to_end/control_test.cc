@@ -139,7 +139,7 @@ TEST_F(Control, SetsTheRealTimeFactor) {
   ExpectError({"real-time-factor"}, 2, "missing argument real_time_factor");
   EXPECT_EQ(Json({"ps"})["target_factor"], 2.5);
   EXPECT_EQ(Gsv({"factor", "1000000"}).ending, "exit code 0");
-  // at the initial real-time factor, the run would take 5.5 hours
+  // At the initial real-time factor, the run would take 5.5 hours.
   EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");
 }
 

@@ -274,7 +274,7 @@ TEST_F(CorbaTls, StalledHandshakesDelayNoOtherClient) {
   std::vector<std::unique_ptr<Peer>> stalled;
   for (int i = 0; i < 300; ++i) {
     stalled.push_back(std::make_unique<Peer>(broker.port()));
-    // sends the start of a TLS hello
+    // Sends the start of a TLS hello.
     if (i % 2 == 0) stalled.back()->Send({"\x16\x03\x01\x02\x00\x01", 6});
   }
   const Outcome offers = broker.Offers();

@@ -112,7 +112,7 @@ TEST_F(Faults, UnresponsiveBehaviourIsSkippedAfterTheDeadline) {
     const sba::SimulationState_var state = simulation->state();
     EXPECT_EQ(CountOf(state, sba::AGENT_UNRESPONSIVE), 1);
     const double stuck = RobotIn(sba::AGENT_UNRESPONSIVE, state).distance_m;
-    // the robot of the stopped program stopped as well
+    // The robot of the stopped program stopped as well.
     EXPECT_LT(stuck, RobotIn(sba::AGENT_WAITING, state).distance_m);
     FirstProgram().Signal(SIGCONT);
     simulation->destroy();

@@ -31,7 +31,7 @@ Three Solve(const std::array<Three, 3>& rows, const Three& right) {
 
 struct Support {
   Vector3 point;  // in frame H
-  // the velocity of the wheel's surface at the point because of its rotation, m/s; in frame H
+  // The velocity of the wheel's surface at the point because of its rotation, m/s; in frame H.
   Vector3 surface;
   double friction = 1, load = 0;
   int link = 0;

@@ -19,7 +19,7 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kPan = 0.7, kTilt = 0.3;
-// the angle in rad by which the camera points down from its bracket
+// The angle in rad by which the camera points down from its bracket.
 constexpr double kMounting = 0.1;
 
 class Looks final : public Behaviour {
@@ -119,7 +119,7 @@ void TurnHead(model::Movement movement) {
   ASSERT_TRUE(reading) << reading.error().Sentence();
   const rendering::Blob ball = rendering::FindBlob(*reading->image, 0);
   EXPECT_GT(ball.pixels, 500);
-  // an angle of 0.02 rad is 5.5 pixels wide
+  // An angle of 0.02 rad is 5.5 pixels wide.
   EXPECT_NEAR(ball.u, 160, 6);
   EXPECT_NEAR(ball.v, 120, 6);
 }

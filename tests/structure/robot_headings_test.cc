@@ -35,7 +35,7 @@ constexpr double kExact = 2e-3;
 // Tolerance as a fraction of the command, for robots that roll, about Coulomb's law
 // (coulomb_motion.h).
 constexpr double kCoulomb = 0.05;
-// the maximum angle in rad by which a robot on its wheels leans
+// The maximum angle in rad by which a robot on its wheels leans.
 constexpr double kLeans = 0.25;
 
 // The position of the robot's origin after the run in the frame of its start, its maximum lean, and
@@ -87,7 +87,7 @@ TestWorld Started(const std::shared_ptr<const model::Model>& model,
   EXPECT_TRUE(world.Start());
   world.Run(kSettling, kStep);
   for (int i = 0; i < static_cast<int>(kStarting / kStep + 0.5); ++i) {
-    // the command is repeated, because drives stop without commands
+    // The command is repeated, because drives stop without commands.
     world.Command("robot", command);
     world.Step(kStep);
   }

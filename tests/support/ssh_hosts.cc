@@ -66,7 +66,7 @@ std::vector<int> Processes() {
   return processes;
 }
 
-// parses "PID (sshd) STATE PARENT …"
+// Parses "PID (sshd) STATE PARENT …".
 bool IsSshdBelow(int process, int parent) {
   const std::string status = TextOf("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name = status.find(" (sshd) ");

@@ -111,13 +111,13 @@ class McapWriter {
   bool flush_ GSV_GUARDED_BY(mutex_) = false;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
   std::chrono::steady_clock::time_point oldest_
-      // time of the oldest message that is not flushed; zero if there is none
+      // Time of the oldest message that is not flushed; zero if there is none.
       GSV_GUARDED_BY(mutex_){};
   base::Status status_ GSV_GUARDED_BY(mutex_);
   Progress progress_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, ChannelRecord> channels_ GSV_GUARDED_BY(mutex_);  // channels by topic
   std::vector<SchemaRecord> schemas_ GSV_GUARDED_BY(mutex_);
-  // the next sequence number, by channel
+  // The next sequence number, by channel.
   std::vector<std::uint32_t> sequences_ GSV_GUARDED_BY(mutex_);
 
   std::atomic<bool> failed_ = false;

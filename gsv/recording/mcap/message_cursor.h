@@ -39,7 +39,7 @@ class MessageCursor {
   const Summary& summary_;
   const Limits& limits_;
   const base::SimTime from_;
-  // blocks that are not open yet; the earliest is at the end
+  // Blocks that are not open yet; the earliest is at the end.
   std::vector<const MessageBlock*> waiting_;
   std::vector<std::unique_ptr<OpenBlock>> open_;
   std::priority_queue<OpenBlock*, std::vector<OpenBlock*>, Later> next_;

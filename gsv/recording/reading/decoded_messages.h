@@ -55,7 +55,7 @@ class DecodedMessages {
 struct Difference {
   base::SimTime time{};
   std::string topic;
-  // such as "pose.position.x"; empty if the message is missing in one of the recordings
+  // Such as "pose.position.x"; empty if the message is missing in one of the recordings.
   std::string field;
   std::string in_first, in_second;  // the values as JSON, or "missing"
   // The content of the message: of the first recording, or of the only one that has it.

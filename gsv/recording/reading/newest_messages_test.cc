@@ -19,7 +19,7 @@ std::map<std::uint16_t, base::SimTime> TimesAt(const McapReader& reader, base::S
 using Times = std::map<std::uint16_t, base::SimTime>;
 
 TEST(NewestMessages, AreTheLastAtOrBeforeTheInstant) {
-  // channel 0 has messages at 0, 20, 40, … ms, and channel 1 at 10, 30, 50, …
+  // Channel 0 has messages at 0, 20, 40, … ms, and channel 1 at 10, 30, 50, …
   const Bytes bytes = ThreeChunks();
   const auto reader = Open(bytes).value();
   EXPECT_EQ(TimesAt(*reader, 0ms), (Times{{0, 0ms}}));

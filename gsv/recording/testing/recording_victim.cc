@@ -31,7 +31,7 @@ int Run(const char* path, std::chrono::microseconds dawdling) {
   };
   const auto recorder = SimulationRecorder::Start(simulation, path, std::move(options));
   if (!recorder) return 1;
-  // this observer was added after the recorder, so it is called after the recorder
+  // This observer was added after the recorder, so it is called after the recorder.
   simulation->AddObserver(std::make_shared<HandOverWriter>());
   if (!simulation->Start()) return 1;
   for (;;) pause();

@@ -15,7 +15,7 @@ TEST(Instants, PassAtTheFirstSnapshotAtOrAfterThem) {
   for (int time = 0; time <= 120; time += 20) {
     if (instants.AdvanceTo(std::chrono::milliseconds(time))) taken.push_back(time);
   }
-  // the first snapshots at or after 0, 30, 60, 90 and 120 ms
+  // The first snapshots at or after 0, 30, 60, 90 and 120 ms.
   EXPECT_EQ(taken, (std::vector<int>{0, 40, 60, 100, 120}));
 }
 

@@ -22,7 +22,7 @@ export class EditActions {
     private readonly edits: EditControl,
     private readonly setUp: SetUpControl,
     private readonly placeOf: (body: string) => Required<BodyPlace> | null, // null: unknown
-    // the point that the camera looks at, in metres in the world; null: there is no view
+    // The point that the camera looks at, in metres in the world; null: there is no view.
     private readonly lookedAt: () => { x: number; y: number } | null,
   ) {}
 

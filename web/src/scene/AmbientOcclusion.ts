@@ -71,7 +71,7 @@ void main() {
     float angle = turn + 2.3999632 * float(i);
     vec3 other = placeAt(at + pixel * reach * part * vec2(cos(angle), sin(angle))) - place;
     float squared = dot(other, other);
-    // ignores differences that are due to the rounding of depths
+    // Ignores differences that are due to the rounding of depths.
     float height = dot(other, normal) - 0.002 * -place.z;
     float near = max(0.0, ${(RADIUS * RADIUS).toFixed(4)} - squared);
     sum += near * near * near * max(0.0, height / (squared + 0.0001));

@@ -39,7 +39,7 @@ export class BodyFrames {
     return this.ofLinks[body]!;
   }
 
-  // world_from_frame.
+  // Returns the displayed pose of a frame: world_from_frame.
   matrixOf(frame: number, out = new Matrix4()): Matrix4 {
     return readMatrix(this.numbers, POSE_NUMBERS * frame, out);
   }

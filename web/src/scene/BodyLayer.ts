@@ -80,18 +80,18 @@ export class BodyLayer {
     return this.poseEntries.get(name) ?? null;
   }
 
-  // world_from_body as displayed now.
+  // Returns the displayed pose of a body: world_from_body.
   poseOf(body: number): Matrix4 | null {
     return this.scene.bodies[body] ? this.frames.matrixOf(this.frames.frameOf(body)) : null;
   }
 
-  // world_from_link as displayed now, for a link that moves relative to its body.
+  // Returns the displayed pose of a link that moves relative to its body: world_from_link.
   linkPoseOf(body: number, link: string): Matrix4 | null {
     const frame = this.scene.bodies[body] && this.frames.linksOf(body).get(link);
     return frame === undefined ? null : this.frames.matrixOf(frame);
   }
 
-  // world_from_link of the links that move relative to their body.
+  // Returns the displayed poses of the links that move relative to their body: world_from_link.
   movingLinksOf(body: number): Matrix4[] {
     return [...this.frames.linksOf(body).values()].map((frame) => this.frames.matrixOf(frame));
   }

@@ -11,7 +11,7 @@ export class BoxCrowd {
   readonly mesh: Mesh;
   private readonly positions: Float32Array;
   private readonly corner: Vector3; // the corner with index 0, in the frame
-  // the edges that start at the first corner
+  // The edges that start at the first corner.
   private readonly edges: readonly [Vector3, Vector3, Vector3];
 
   // `count` is the number of boxes. The box is in its part's frame, which is fixed in the frame of

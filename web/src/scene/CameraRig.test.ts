@@ -146,7 +146,7 @@ test("a robot's view has the width of its camera in windows of any shape", () =>
   rig.resize(1600, 900);
   rig.lookFrom({ worldFromEye: new Matrix4(), view: { horizontalFov: Math.PI / 3, aspect: 4 / 3 } });
   expect(rig.camera.fov).toBeCloseTo(46.826, 3);
-  // the window is narrower than the camera's image, whose width fills the window
+  // The window is narrower than the camera's image, whose width fills the window.
   rig.resize(600, 600);
   expect(rig.camera.fov).toBeCloseTo(60, 9);
   rig.lookFrom({ worldFromEye: new Matrix4(), view: { horizontalFov: Math.PI, aspect: 1 } });
@@ -165,12 +165,12 @@ test("a map looks straight down, north up and without perspective, and shows as 
   const at = (x: number, y: number, z: number) => new Vector3(x, y, z).project(rig.camera);
   expect(at(1, 0, 0).x).toBeGreaterThan(0); // east is to the right
   expect(at(0, 1, 0).y).toBeGreaterThan(0); // north is up
-  // the height of a point hardly changes its place on the map
+  // The height of a point hardly changes its place on the map.
   expect(Math.abs(at(3, 2, 1).x - at(3, 2, 0).x)).toBeLessThan(0.005);
   expect(Math.abs(at(3, 2, 1).y - at(3, 2, 0).y)).toBeLessThan(0.005);
   expect(at(3, 2, 0).z).toBeLessThan(1);
   expect(rig.controls.enableRotate).toBe(false);
-  // the numbers in a link
+  // The numbers in a link.
   expect(rig.viewNumbers.map((value) => Math.round(value))).toEqual([0, -8, 6, 0, 0, 0]);
   rig.setMap(false);
   expectNear(rig.viewpoint.position, 0, -8, 6);

@@ -23,7 +23,7 @@ const FIRST_DIRECTION = new Vector3(0.35, 0.72, -0.85).normalize();
 // Not exactly vertical, because the orbit would have no heading then. North is up in the image.
 const DOWN = new Vector3(0, 0.001, -1).normalize();
 const FOLLOWING_DISTANCE = 5; // m
-// steep enough to see over the walls beside a robot
+// Steep enough to see over the walls beside a robot.
 const FOLLOWING_STEEPNESS = Math.tan((68 * Math.PI) / 180);
 const BEHIND = 2.4; // m: distance behind a followed robot
 const ABOVE = 1.5;
@@ -63,7 +63,7 @@ export class CameraRig {
   private flight: Flight | null = null;
   private subject: Subject | null = null;
   private turning = false; // whether it rotates with the subject
-  // the view before that of a robot; null: no robot's view is shown
+  // The view before that of a robot; null: no robot's view is shown.
   private beforeEye: Viewpoint | null = null;
   private eyeView: CameraView | null = null; // field of view of the robot's camera
   private beforeMap: Viewpoint | null = null; // the view before the map; null: no map is shown

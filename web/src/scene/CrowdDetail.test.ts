@@ -52,7 +52,7 @@ describe("CrowdDetail", () => {
     const isCoarse = (distance: number) => look(distance).boxes.length > 0;
     expect(isCoarse(6)).toBe(false); // 13 pixels
     expect(isCoarse(7)).toBe(true); // 11
-    // between the two limits, so the level of detail stays the same
+    // Between the two limits, so the level of detail stays the same.
     expect(isCoarse(6)).toBe(true);
     expect(isCoarse(4.5)).toBe(false); // 18
   });

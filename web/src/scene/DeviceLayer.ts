@@ -20,7 +20,7 @@ import { glowOf, jawsOf, soundOf } from "../live/devices";
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 
-// maximum number of lights of each kind, because each costs time for every pixel
+// Maximum number of lights of each kind, because each costs time for every pixel.
 const MOST_LIGHTS = 4;
 const HALO = 10; // radii
 const SOUND_COLOUR = rgb(0x00a7b5);

@@ -35,7 +35,7 @@ export interface EditToolsEvents {
   onChoose(bodies: readonly string[]): void;
   onPoint(point: Point): void;
   onPlacePoint(point: Point): void;
-  // called with the pose of the first selected body while it is dragged
+  // Called with the pose of the first selected body while it is dragged.
   onDrag(pose: BodyPose): void;
   // Resolves to whether all bodies have their pose now.
   onPose(poses: readonly BodyPose[]): Promise<boolean>;
@@ -52,7 +52,7 @@ export class EditTools {
   private tool: GizmoTool | null = null; // null: edit mode is off
   private chosen: readonly string[] = [];
   private held: BodyLayer | null = null;
-  // the poses of the dragged bodies before the drag
+  // The poses of the dragged bodies before the drag.
   private before: { index: number; pose: Matrix4 }[] = [];
   private isMoved = false; // whether the drag has moved the bodies
 
@@ -80,7 +80,7 @@ export class EditTools {
     this.view.redraw();
   }
 
-  // null: edit mode is off.
+  // Sets the mode of the gizmo; null: edit mode is off.
   setTool(tool: GizmoTool | null): void {
     this.tool = tool;
     this.rectangle.isOn = tool !== null;

@@ -43,7 +43,7 @@ function lightOf([r, g, b]: Triple): Color {
 
 export class LightRig {
   readonly group = new Group();
-  // the shadow of the first sun that casts shadows
+  // The shadow of the first sun that casts shadows.
   private readonly shadow: FittedShadow | null = null;
 
   // `focus` is the part of the world that shadows must cover. With `hasEnvironment`, the ambient

@@ -22,7 +22,7 @@ export class RobotSigns {
   readonly marks = new StateMarks();
   private robots: RobotPlaces | null = null;
   private known: RobotStates = { states: null, chosen: null };
-  // state of each robot, as an index of SHOWN_STATES
+  // State of each robot, as an index of SHOWN_STATES.
   private states: Uint8Array = new Uint8Array(0);
   private radii: Float64Array = new Float64Array(0);
   private tops: Float64Array = new Float64Array(0); // places above the robots in the present frame

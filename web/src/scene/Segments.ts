@@ -26,7 +26,7 @@ const NUMBERS_PER_SEGMENT = 6;
 
 export class Segments {
   readonly lines: LineSegments | LineSegments2;
-  // x y z and r g b of both ends of each segment.
+  // The positions (x y z) and colours (r g b) of both ends of each segment.
   positions = new Float32Array(0);
   colours = new Float32Array(0);
   count = 0; // number of segments to draw

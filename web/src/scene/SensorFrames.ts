@@ -30,7 +30,7 @@ export class SensorFrames {
     );
   }
 
-  // world_from_sensor for the displayed bodies; null while it is unknown.
+  // Returns the displayed pose of a sensor: world_from_sensor; null while it is unknown.
   worldFrom(robot: string, sensor: string, bodies: BodyLayer): Matrix4 | null {
     const mount = this.mounts.get(`${robot}/${sensor}`);
     const body = bodies.indexOf(robot);

@@ -58,7 +58,8 @@ export class ShownPoses {
     return this.interpolator.at(stamp) ?? this.interpolator.latest?.poses ?? null;
   }
 
-  // world_from_body as last reported, with its simulated time; null while unknown.
+  // Returns the last reported pose of a body (world_from_body), with its simulated time; null while
+  // unknown.
   latestOf(body: string): { pose: Matrix4; stamp: number } | null {
     const { latest } = this.interpolator;
     const entry = this.bodies?.poseEntryOf(body) ?? null;

@@ -33,7 +33,7 @@ export const STATE_COLOURS: Record<ShownState, string> = {
 export interface MarkedRobots {
   states: ArrayLike<number>; // state of each robot, as an index of SHOWN_STATES
   radii: ArrayLike<number>; // m
-  // whether a filter selects the robot; null: there is no filter
+  // Whether a filter selects the robot; null: there is no filter.
   isChosen: ((robot: number) => boolean) | null;
 }
 

@@ -50,7 +50,7 @@ export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditT
   onModelsMissing(count: number): void;
   onProblem(sentence: string): void;
   onFrameRate(framesPerSecond: number): void;
-  // called with each frame; the scale is that at the camera's target
+  // Called with each frame; the scale is that at the camera's target.
   onScale(metresPerPixel: number): void;
   onGraphics(isThere: boolean): void; // the browser has removed WebGL, or restored it
 }
@@ -59,7 +59,7 @@ export interface WorldOptions {
   library: ModelLibrary;
   inSoftware: boolean; // whether images are drawn without a graphics card
   fixedQuality: boolean;
-  // whether there are an environment map, ambient occlusion and fitted shadows
+  // Whether there are an environment map, ambient occlusion and fitted shadows.
   hasFineLight: boolean;
 }
 
@@ -123,7 +123,7 @@ export class World3D {
     this.stage = this.makeStage();
     this.drawer = this.makeDrawer();
     this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.follower.ring.mesh, this.arranger.handle.group, this.tools.group);
-    // the canvas is below the elements that lie over the image
+    // The canvas is below the elements that lie over the image.
     host.prepend(canvas, this.signs.labels.element);
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
@@ -316,12 +316,13 @@ export class World3D {
     return this.surface.video();
   }
 
-  // world_from_robot as last reported, with its simulated time; null while unknown.
+  // Returns the last reported pose of a robot (world_from_robot), with its simulated time; null
+  // while unknown.
   latestPose(robot: string): { pose: Matrix4; stamp: number } | null {
     return this.poses.latestOf(robot);
   }
 
-  // world_from_body of any body; null while unknown.
+  // Returns the last reported pose of any body: world_from_body; null while unknown.
   bodyPose(body: string): Matrix4 | null {
     const index = this.bodies?.indexOf(body) ?? -1;
     return this.poses.latestOf(body)?.pose ?? this.bodies?.poseOf(index) ?? null;

@@ -26,7 +26,7 @@ const MASS_COLOUR = rgb(0xd946c0);
 const BOX_COLOUR = rgb(0x8b5cf6);
 const ORIGIN = [0, 0, 0] as const;
 
-// x red, y green, z blue.
+// Draws the axes of a frame: x red, y green, z blue.
 export function drawAxes(lines: LineLayer, worldFromFrame: Matrix4, length: number): void {
   lines.add(worldFromFrame, ORIGIN, [length, 0, 0], RED);
   lines.add(worldFromFrame, ORIGIN, [0, length, 0], GREEN);

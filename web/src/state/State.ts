@@ -86,7 +86,7 @@ export interface State {
   stopRecordingAsked: boolean; // whether the question is shown if the recording shall end
   endSeen: boolean; // whether the user has closed the summary of an ended run
   setUp: SetUp | null; // null while no simulation is being set up
-  // null if unknown
+  // Null if unknown.
   simulations: SimulationSummary[] | null;
   simulation: string | null;
   status: SimulationStatus | null;

@@ -41,7 +41,7 @@ export class DrawnView {
   // Called when there is another image for advance().
   onNewImage = () => {};
   private feed: Feed;
-  // cameras of the images that have been requested
+  // Cameras of the images that have been requested.
   private readonly cameras = new Map<string, PerspectiveCamera>();
   private wanted: ServerCamera | null = null;
   private waiting: ArrivedImage | null = null; // the newest image that is not decoded yet

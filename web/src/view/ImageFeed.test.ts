@@ -47,7 +47,7 @@ test("a new camera ends the wait for a change, but not an image that is being dr
   expect(asked[0]!.signal.aborted).toBe(false);
   asked[0]!.answer(image(7));
   await vi.waitFor(() => expect(asked).toHaveLength(2));
-  // the camera with which the image was drawn
+  // The camera with which the image was drawn.
   expect(onImage.mock.calls[0]![0].camera).toEqual(CAMERA);
   expect(asked[1]!.query).toContain("eye=9.0000,9.0000,9.0000");
   expect(asked[1]!.query).not.toContain("after");

@@ -35,7 +35,7 @@ export interface Feed {
 export type FetchImage = (query: string, signal: AbortSignal) => Promise<Response>;
 
 export const RETRY_MS = 1000;
-// number of consecutive failures that are allowed, as while the server restarts
+// Number of consecutive failures that are allowed, as while the server restarts.
 export const TRIES = 3;
 
 export class ImageFeed implements Feed {

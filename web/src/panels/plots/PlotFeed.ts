@@ -40,16 +40,16 @@ interface PlacedAt {
 
 export class PlotFeed {
   private readonly series = new Map<string, Series>(); // by curve
-  // whole curves that the server has computed
+  // Whole curves that the server has computed.
   private readonly whole = new Map<string, WholeCurve>();
-  // curves of the recording that is compared with
+  // Curves of the recording that is compared with.
   private readonly compared = new Map<string, Series>();
   private readonly ends = new Map<string, () => void>(); // by topic
   private readonly last = new Map<string, PlacedAt>(); // by robot
-  // the collected values: curves, and the fields of expressions
+  // The collected values: curves, and the fields of expressions.
   private inputs: readonly Input[] = [];
   private formulas: readonly Formula[] = [];
-  // the newest value of each input that expressions use
+  // The newest value of each input that expressions use.
   private readonly newestValues = new Map<string, number>();
   private simulation: string | null = null;
   private newest = -Infinity; // s, simulated

@@ -4,7 +4,7 @@ import { element } from "../../ui/element";
 import type { Wish } from "./driving";
 import { STILL, isDrivingKey, isStill, wishOfKeys, wishOfPoint } from "./driving";
 
-// the knob's maximum distance from the centre, as a percentage of the pad's size
+// The knob's maximum distance from the centre, as a percentage of the pad's size.
 const REACH_PERCENT = 35;
 
 export class DrivingPad {

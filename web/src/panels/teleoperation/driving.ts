@@ -21,7 +21,7 @@ const TURN_RIGHT = ["d", "arrowright"];
 const LEFT = ["q"];
 const RIGHT = ["e"];
 const KEYS = new Set([FORWARD, BACK, TURN_LEFT, TURN_RIGHT, LEFT, RIGHT].flat());
-// deflection of a stick that counts as zero, because a stick seldom rests exactly at zero
+// Deflection of a stick that counts as zero, because a stick seldom rests exactly at zero.
 const DEAD_ZONE = 0.12;
 
 export function isDrivingKey(key: string): boolean {

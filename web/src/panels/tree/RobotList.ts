@@ -24,7 +24,7 @@ export class RobotList {
   private heights = new Map<string, number>(); // px, by robot
   private isPointed = false;
   private hasFocus = false;
-  // the inputs with which the present order of the rows was made
+  // The inputs with which the present order of the rows was made.
   private held: { filter: RobotFilter } | null = null;
 
   constructor(private readonly ports: Ports) {
