@@ -110,9 +110,8 @@ class McapWriter {
   std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;
   bool flush_ GSV_GUARDED_BY(mutex_) = false;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
-  std::chrono::steady_clock::time_point oldest_
-      // Time of the oldest message that is not flushed; zero if there is none.
-      GSV_GUARDED_BY(mutex_){};
+  // Time of the oldest message that is not flushed; zero if there is none.
+  std::chrono::steady_clock::time_point oldest_ GSV_GUARDED_BY(mutex_){};
   base::Status status_ GSV_GUARDED_BY(mutex_);
   Progress progress_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, ChannelRecord> channels_ GSV_GUARDED_BY(mutex_);  // channels by topic
