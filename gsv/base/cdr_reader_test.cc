@@ -32,7 +32,7 @@ TEST(CdrReader, AlignsEachNumberToItsSize) {
   EXPECT_EQ(in.remaining(), 0u);
 }
 
-TEST(CdrReader, ReadsZerosAfterAValueThatExceedsTheBytes) {
+TEST(CdrReader, ReadsZerosAfterAValueBeyondTheEnd) {
   CdrReader in("\x01\x02\x03"sv, true);
   EXPECT_EQ(in.ULong(), 0u);
   EXPECT_FALSE(in.ok());

@@ -194,7 +194,7 @@ TEST(BoundsOf, EnclosesTheTessellationTightly) {
   }
 }
 
-TEST(BoundsOf, OfAMirroredMeshIsOrdered) {
+TEST(BoundsOf, HaveMinBelowMaxForAMirroredMesh) {
   auto triangles = std::make_shared<TriangleMesh>();
   triangles->positions = {{0, 0, 0}, {1, 2, 3}};
   const Bounds bounds = BoundsOf(Shape(Mesh{triangles, {-1, 1, 2}}));

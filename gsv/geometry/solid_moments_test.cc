@@ -25,7 +25,7 @@ void ExpectNear(const SolidMoments& a, const SolidMoments& b, double relative) {
   }
 }
 
-TEST(SolidMoments, OfABoxEqualTheClosedForm) {
+TEST(SolidMoments, BoxEqualsTheClosedForm) {
   const SolidMoments moments = MomentsOf(Box{{1, 2, 3}});
   EXPECT_DOUBLE_EQ(moments.volume, 6);
   EXPECT_DOUBLE_EQ(moments.xx, 0.5);
@@ -33,13 +33,13 @@ TEST(SolidMoments, OfABoxEqualTheClosedForm) {
   EXPECT_DOUBLE_EQ(moments.zz, 4.5);
 }
 
-TEST(SolidMoments, OfABoxMeshEqualThoseOfTheBoxAtAnyPlace) {
+TEST(SolidMoments, BoxMeshEqualsTheBoxAtAnyPosition) {
   SolidMoments expected = MomentsOf(Box{{1, 2, 3}});
   expected.centroid = {100, -20, 7};
   ExpectNear(MomentsOf(MeshOf(Box{{1, 2, 3}}, 3, {100, -20, 7})), expected, 1e-9);
 }
 
-TEST(SolidMoments, OfAMirroredMeshEqualThoseOfItsMirrorImage) {
+TEST(SolidMoments, MirroredMeshEqualsItsMirrorImage) {
   Mesh mesh = MeshOf(Box{{1, 2, 3}}, 3, {1, 0, 0});
   mesh.scale = {-2, 1, 1};
   SolidMoments expected = MomentsOf(Box{{2, 2, 3}});
@@ -48,14 +48,14 @@ TEST(SolidMoments, OfAMirroredMeshEqualThoseOfItsMirrorImage) {
 }
 
 // The moments of fine meshes of round shapes are close to the closed forms.
-TEST(SolidMoments, OfRoundShapesEqualThoseOfTheirMeshes) {
+TEST(SolidMoments, RoundShapesEqualTheirFineMeshes) {
   for (const Shape& shape : {Shape(Sphere{0.7}), Shape(Cylinder{0.5, 2}), Shape(Capsule{0.4, 1}),
                              Shape(Ellipsoid{{0.3, 0.5, 0.8}}), Shape(Cone{0.6, 1.5})}) {
     ExpectNear(MomentsOf(shape), MomentsOf(MeshOf(shape, 256)), 1e-3);
   }
 }
 
-TEST(SolidMoments, OfAPlaneAreZero) { EXPECT_EQ(MomentsOf(Plane{}).volume, 0); }
+TEST(SolidMoments, PlaneHasNoVolume) { EXPECT_EQ(MomentsOf(Plane{}).volume, 0); }
 
 TEST(BelowHeight, CutsABoxAtTheSurface) {
   const Mesh box = MeshOf(Box{{1, 2, 3}});

@@ -63,7 +63,7 @@ TEST(Health, StandingIsAWarningAfterTenSecondsIfItsBehaviourRuns) {
   EXPECT_EQ(HealthOf(robot).reason, "it has no behaviour, and no command to move");
 }
 
-TEST(Health, ARobotThatMovesIsFine) {
+TEST(Health, ARobotThatMovesHasNoWarning) {
   simulation::RobotStatus robot = Robot();
   robot.motion.is_moving = true;
   robot.motion.command.linear = 0.3;
@@ -87,7 +87,7 @@ TEST(Health, AStuckRobotNamesCommandAndContactPartner) {
             "has been stuck for 20 s: commanded 0.3 m/s and -0.5 rad/s, touches shelf_3");
 }
 
-TEST(Health, AContactCountsSinceItBegan) {
+TEST(Health, AContactIsReportedWithTheTimeSinceItBegan) {
   simulation::RobotStatus robot = Robot();
   robot.motion.is_moving = true;
   robot.motion.contact = "wall";
@@ -210,7 +210,7 @@ TEST_F(HealthTrackerTest, ReadsTheSensorsOfALimitedNumberOfRobots) {
   EXPECT_TRUE(report.robots[4].limit);
 }
 
-TEST_F(HealthTrackerTest, ARangeOfMoreThanAMetreIsNoLimit) {
+TEST_F(HealthTrackerTest, ARangeOfMoreThanAMetreIsNotReportedAsObstacle) {
   range_ = 1.5;
   HealthTracker tracker;
   EXPECT_FALSE(tracker.Update(At(20s, {Robot()}), 5s, access_).robots[0].limit);

@@ -60,7 +60,7 @@ TEST(Cdr, AlignsAFieldToItsSizeCountedFromTheHeadersEnd) {
                                         0, 0, 0, 0, 0,   0,   0xe0, 0xbf})));
 }
 
-TEST(Cdr, AnEmptySequenceIsACountWithoutPadding) {
+TEST(Cdr, EncodesAnEmptySequenceAsACountWithoutPadding) {
   gsv_msgs::Poses poses;
   poses.layout_version = 7;
   EXPECT_THAT(Encoded(poses), ElementsAreArray(BytesOf({0, 1, 0, 0,                  //
@@ -69,7 +69,7 @@ TEST(Cdr, AnEmptySequenceIsACountWithoutPadding) {
                                                         7, 0, 0, 0, 0, 0, 0, 0})));  // 0 poses
 }
 
-TEST(Cdr, ASequenceOfDoublesIsPaddedAfterItsCount) {
+TEST(Cdr, PadsASequenceOfDoublesAfterItsCount) {
   sensor_msgs::JointState state;
   state.position = {2.0};                                            // 0x4000000000000000
   EXPECT_THAT(Encoded(state), ElementsAreArray(BytesOf({0, 1, 0, 0,  //
@@ -143,7 +143,7 @@ TEST(Cdr, AcceptsPaddingAtTheEndButNotAnotherField) {
   EXPECT_FALSE(Decode<builtin_interfaces::Time>(bytes));
 }
 
-TEST(Cdr, ABoolOtherThanOneIsTrue) {
+TEST(Cdr, DecodesAnyNonZeroBoolAsTrue) {
   sensor_msgs::RegionOfInterest region;
   region.do_rectify = true;
   Bytes bytes = Encoded(region);

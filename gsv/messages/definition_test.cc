@@ -56,7 +56,7 @@ TEST(Definition, DecodesBigEndian) {
   EXPECT_EQ((*message)["n"], 0x01020304);
 }
 
-TEST(Definition, OctetsAreCounted) {
+TEST(Definition, ReplacesOctetsByTheirNumber) {
   const Definition definition = Parsed("a/Picture", "uint8[] data\nuint8 last\n");
   const auto message = definition.Decode(Cdr({0, 1, 0, 0, 3, 0, 0, 0, 1, 2, 3, 9}));
   ASSERT_TRUE(message);
@@ -65,7 +65,7 @@ TEST(Definition, OctetsAreCounted) {
 }
 
 // The decoder must consume every message of the generated code exactly.
-TEST(Definition, ReadsEveryTypeOfGsv) {
+TEST(Definition, DecodesEveryMessageTypeOfGsv) {
   ForEachType([](const Schema& schema, auto message) {
     const Definition definition = Parsed(schema.name, schema.text);
     for (std::uint32_t seed = 0; seed < 20; ++seed) {

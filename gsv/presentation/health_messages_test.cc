@@ -33,7 +33,7 @@ health::Report ReportOf(std::vector<health::RobotHealth> robots) {
   return report;
 }
 
-TEST(HealthMessage, HasTheRobotsThatDoNotMove) {
+TEST(HealthMessage, ListsOnlyRobotsThatDoNotMove) {
   health::RobotHealth moving;
   moving.robot = "another";
   const auto message = HealthMessage(ReportOf({moving, Stuck()}));

@@ -12,7 +12,7 @@ simulation::Event Note(std::string detail) {
   return {300, seconds(3), std::string(kNoteEvent), "pebble", std::move(detail), nullptr};
 }
 
-TEST(Notes, AMessageHasTheInstantOfTheNote) {
+TEST(Notes, MessageIsStampedWithTheInstantOfTheNote) {
   const auto message = NoteMessage(Note(NoteDetail(milliseconds(1250), "turns: at 2 s: late")));
   EXPECT_EQ(message.stamp.sec, 1);
   EXPECT_EQ(message.stamp.nanosec, 250'000'000u);

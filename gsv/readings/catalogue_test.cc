@@ -18,7 +18,7 @@ TEST(Readings, AreReadInTheOrderOfTheirFields) {
   EXPECT_EQ(charge->fraction, 0.8);
 }
 
-TEST(Readings, ListsReadValuesAndLabelsByGroup) {
+TEST(Readings, ListsAreDecodedFromGroupsOfValuesAndLabels) {
   const Contact touched{
       {{"wall", {1, 2, 3}, {0, 0, 1}, 0.25, 0.5, {7, 8, 9}}, {"floor", {4, 5, 6}, {}, 0, 0, {}}}};
   Doubles values;

@@ -12,7 +12,7 @@ std::size_t SizeFor(std::size_t gid) {
   return 4 + gid + 4 + (4 + 2 + 2) + (4 + 4) + 4 + 4 + gid;
 }
 
-TEST(RosGraph, HasGidsOfTheDistributionsSize) {
+TEST(RosGraph, HasGidsOfTheSizeOfTheDistribution) {
   const std::vector<NodeInfo> nodes{{"/", "gsv", {}, {dds::Guid{1}}}};
   messages::Bytes humble, jazzy;
   EncodeGraph({7}, nodes, Distro::kHumble, humble);

@@ -38,7 +38,7 @@ TEST(RosNames, IncludeTheirNamespace) {
   EXPECT_EQ(InNamespace("/pebble", "scan"), "/pebble/scan");
 }
 
-TEST(RosNames, OfRecordedTopicsAreMadeValid) {
+TEST(RosNames, ReplaceInvalidNamesOfRecordedTopics) {
   EXPECT_EQ(PublishedTopic("/pebble/camera"), "/pebble/camera");
   EXPECT_EQ(PublishedTopic("tall one//2d/"), "/tall_one/_2d");
   EXPECT_EQ(PublishedTopic("//"), "");

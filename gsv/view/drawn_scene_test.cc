@@ -73,7 +73,7 @@ TEST(DrawnScene, PosesBodiesAndTheirMovingLinks) {
   EXPECT_FALSE(lookup.sensor("robot", "nose"));
 }
 
-TEST(DrawnScene, WithoutAMessageBodiesHaveThePosesOfTheScene) {
+TEST(DrawnScene, UsesThePosesOfTheSceneWithoutAMessage) {
   const DrawnScene room = Room();
   messages::gsv_msgs::Poses none;
   EXPECT_EQ(room.LookupAt(*room.At(none)).pose("robot")->position, (Vector3{1, 2, 3}));
@@ -83,7 +83,7 @@ TEST(DrawnScene, WithoutAMessageBodiesHaveThePosesOfTheScene) {
   EXPECT_EQ(room.LookupAt(*snapshot).pose("robot")->position, (Vector3{1, 2, 3}));
 }
 
-TEST(DrawnScene, KeepsLightAndLook) {
+TEST(DrawnScene, KeepsLightsAndBackground) {
   const auto snapshot = Room().At({});
   const model::WorldDescription& world = *snapshot->layout->description;
   EXPECT_EQ(world.name, "room");

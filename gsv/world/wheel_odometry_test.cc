@@ -54,7 +54,7 @@ Odometry AfterRolling(double left, double right, int steps) {
   return state.bodies[0].odometry;
 }
 
-TEST(WheelOdometry, DrivesStraightByTheDistanceOfTheWheels) {
+TEST(WheelOdometry, MovesStraightByTheDistanceThatBothWheelsRoll) {
   const Odometry odometry = AfterRolling(0.02, 0.02, 50);
   EXPECT_NEAR(odometry.place.x, 1, 1e-12);
   EXPECT_EQ(odometry.place.y, 0);
@@ -89,7 +89,7 @@ TEST(WheelOdometry, FollowsTheActualVelocityOfOtherDrives) {
   EXPECT_NEAR(state.bodies[0].odometry.place.y, 0, 1e-12);
 }
 
-TEST(WheelOdometry, KeepsAUnitHeadingOverAMillionTurns) {
+TEST(WheelOdometry, KeepsTheHeadingAUnitVectorOverAMillionSteps) {
   const Odometry odometry = AfterRolling(-0.01, 0.01, 1'000'000);
   EXPECT_NEAR(std::hypot(odometry.place.cosine, odometry.place.sine), 1, 1e-15);
   EXPECT_NEAR(std::atan2(odometry.place.sine, odometry.place.cosine),

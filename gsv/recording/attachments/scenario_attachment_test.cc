@@ -26,7 +26,7 @@ std::shared_ptr<simulation::Simulation> Room() {
   return simulation;
 }
 
-TEST(ScenarioAttachment, HasTheScenarioOfASimulation) {
+TEST(ScenarioAttachment, ContainsTheSettingsOfTheSimulation) {
   const auto simulation = Room();
   const scenario::Scenario scenario = ScenarioOf(*simulation);
   EXPECT_EQ(scenario.world, simulation->specification().world->name);
@@ -75,7 +75,7 @@ RecorderOptions Options() {
   return options;
 }
 
-TEST(ScenarioAttachment, IsInEachRecordingAndCanBeReadBack) {
+TEST(ScenarioAttachment, IsInEachRecordingAndCanBeParsed) {
   const std::string path = ::testing::TempDir() + "gsv_scenario.mcap";
   const auto simulation = Room();
   ASSERT_TRUE(SimulationRecorder::Start(simulation, path, Options()).value()->Stop());

@@ -54,7 +54,7 @@ TEST_F(BagFolder, ContainsARecordingAndItsMetadata) {
   EXPECT_EQ((*reader)->summary().message_count, 30u);
 }
 
-TEST_F(BagFolder, FailsIfTheNameExists) {
+TEST_F(BagFolder, FailsIfTheFolderExists) {
   ASSERT_TRUE(MakeBagFolder(folder_));
   const auto again = MakeBagFolder(folder_);
   ASSERT_FALSE(again);

@@ -48,7 +48,7 @@ class ChunkRingTest : public ::testing::Test {
   std::mt19937 random_{1};
 };
 
-TEST_F(ChunkRingTest, ReadsLikeARecording) {
+TEST_F(ChunkRingTest, CanBeReadLikeARecording) {
   WriteChunk(100);
   WriteChunk(100);
   const auto reader = ring_->Open().value();

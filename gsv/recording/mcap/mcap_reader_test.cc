@@ -96,7 +96,7 @@ TEST(McapReader, OrdersMessagesOfChunksThatOverlap) {
   EXPECT_GT(TimesIn(**strict).errors, 0);
 }
 
-TEST(McapReader, FindsTheSameContentWithoutTheSummary) {
+TEST(McapReader, FindsTheSameContentByScanningAFileWithoutASummary) {
   const Bytes bytes = ThreeChunks();
   const auto indexed = Open(bytes);
   ASSERT_TRUE(indexed);
@@ -201,7 +201,7 @@ TEST(McapReader, IgnoresASummaryWithOverlappingChunks) {
   EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("chunks overlap"));
 }
 
-TEST(McapReader, StopsAtZerosAtTheEndOfAFile) {
+TEST(McapReader, ReadsUpToZerosAtTheEndOfAFile) {
   Bytes bytes = ThreeChunks();
   const FoundRecord index = FindRecords(bytes)[7];  // the message index after the first chunk
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(index.begin), bytes.end(), std::byte{0});

@@ -123,7 +123,7 @@ TEST(DecodedMessages, ContainTheSelectedTopics) {
   EXPECT_EQ(nanoseconds, (std::vector<std::int64_t>{30'000'000, 40'000'000, 50'000'000}));
 }
 
-TEST(DecodedMessages, AMissingTopicIsAnError) {
+TEST(DecodedMessages, RejectATopicThatTheRecordingDoesNotHave) {
   const Bytes bytes = ThreeChunks();
   const auto reader = Open(bytes);
   const auto messages = DecodedMessages::Open(**reader, {{"/nowhere"}});

@@ -9,7 +9,7 @@
 namespace gsv::recording {
 namespace {
 
-TEST(Instants, PassAtTheFirstSnapshotAtOrAfterThem) {
+TEST(Instants, AreReachedAtTheFirstSnapshotAtOrAfterThem) {
   Instants instants(30ms);
   std::vector<int> taken;
   for (int time = 0; time <= 120; time += 20) {
@@ -19,14 +19,14 @@ TEST(Instants, PassAtTheFirstSnapshotAtOrAfterThem) {
   EXPECT_EQ(taken, (std::vector<int>{0, 40, 60, 100, 120}));
 }
 
-TEST(Instants, DoNotPassBeforeTheFirstSnapshot) {
+TEST(Instants, AreNotReachedBeforeTheFirstSnapshot) {
   Instants instants(50ms);
   EXPECT_FALSE(instants.AdvanceTo(70ms));
   EXPECT_FALSE(instants.AdvanceTo(90ms));
   EXPECT_TRUE(instants.AdvanceTo(100ms));
 }
 
-TEST(Instants, SeveralBetweenTwoSnapshotsCountAsOne) {
+TEST(Instants, AreReportedOnceIfSeveralLieBetweenTwoSnapshots) {
   Instants instants(10ms);
   EXPECT_TRUE(instants.AdvanceTo(0ms));
   EXPECT_TRUE(instants.AdvanceTo(55ms));

@@ -35,7 +35,7 @@ class SimulationServicesTest : public ::testing::Test {
   SimulationServices services_;
 };
 
-TEST_F(SimulationServicesTest, AnswerAsSoonAsTheyExist) {
+TEST_F(SimulationServicesTest, AnswerRequestsThatArriveAtOnce) {
   int count = 0;
   participant_.on_reader = [&](const dds::Topic& topic) {
     if (topic.name != kRequests) return;

@@ -9,7 +9,7 @@
 namespace gsv::ros2 {
 namespace {
 
-TEST(TypeHash, OfMessagesEqualsThePublishedHashOfRos) {
+TEST(TypeHash, MessagesHaveTheHashThatRosPublishes) {
   const std::pair<const char*, const char*> kPublished[] = {
       {"std_msgs/msg/String",
        "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"},
@@ -36,7 +36,7 @@ TEST(TypeHash, OfMessagesEqualsThePublishedHashOfRos) {
   for (const auto& [type, hash] : kPublished) EXPECT_EQ(TypeHashOf(type), hash) << type;
 }
 
-TEST(TypeHash, OfServicesEqualsThePublishedHashOfRos) {
+TEST(TypeHash, ServicesHaveTheHashThatRosPublishes) {
   const std::pair<const char*, const char*> kPublished[] = {
       {"rcl_interfaces/srv/ListParameters",
        "RIHS01_3e6062bfbb27bfb8730d4cef2558221f51a11646d78e7bb30a1e83afac3aad9d"},
@@ -68,7 +68,7 @@ TEST(TypeHash, UserDataOfBothTopicsOfAServiceHasTheHashOfTheService) {
   EXPECT_EQ(TypeHashUserData("std_msgs/msg/Unheard"), "");
 }
 
-TEST(TypeHash, IsFoundInUserDataOfOthers) {
+TEST(TypeHash, IsReadFromTheUserDataOfOtherPrograms) {
   const std::string hash = TypeHashOf("std_msgs/msg/String");
   EXPECT_EQ(TypeHashIn("enclave=/;typehash=" + hash + ";"), hash);
   EXPECT_EQ(TypeHashIn("typehash=" + hash), hash);
