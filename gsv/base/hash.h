@@ -24,7 +24,7 @@ class Hash {
   void Add(std::uint64_t value);
   void Add(std::int64_t value) { Add(static_cast<std::uint64_t>(value)); }
   void Add(double value) { Add(std::bit_cast<std::uint64_t>(value)); }
-  // Also adds the length, so that "ab", "c" and "a", "bc" have different hashes.
+  // Adds the bytes and their number, so that "ab", "c" and "a", "bc" have different hashes.
   void Add(std::string_view bytes);
 
   std::uint64_t Digest() const;

@@ -124,7 +124,7 @@ Vector3 AxisInModel(const Joint& joint) { return joint.model_from_joint.orientat
 
 std::optional<int> SwivelOf(const Model& model, int joint) {
   int link = model.joints[static_cast<std::size_t>(joint)].parent;
-  // This loop ends, because the joints form a forest.
+  // The loop ends, because the joints form a forest.
   while (link >= 0) {
     const int above = JointInto(model, link);
     if (above < 0) break;

@@ -26,8 +26,8 @@ class LikelihoodField {
   // occupied cells. Uses every `stride`th beam.
   double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
                std::size_t stride) const;
-  // Returns the pose with the best score near `guess`: within `reach` m, and within a tenth of a
-  // radian for each 0.1 m of it.
+  // Returns the pose with the best score near `guess`. The local search starts with steps of `reach`
+  // (in m, and half that number in rad) and halves them.
   TimedPose Refined(const Log& log, const RangeScan& scan, TimedPose guess, double reach) const;
 
   const OccupancyMap& map() const { return map_; }

@@ -1,5 +1,5 @@
-// Connects one simulation to ROS 2: publishes the robots' sensors, receives commands, and has the
-// services control the simulation.
+// Connects one simulation to ROS 2: publishes the robots' sensors, receives commands, and offers
+// services that control the simulation.
 //
 // Threads  one publisher thread, one thread for slow sensors, and those of the
 //          services; members from any thread. The stepping thread only hands
@@ -25,7 +25,7 @@ class Bridge {
   static std::unique_ptr<Bridge> Start(dds::Participant& participant, Options options,
                                        const std::shared_ptr<simulation::Simulation>& simulation,
                                        SimulationServices* services = nullptr);
-  // Without a simulation: only the node /gsv with its services exists.
+  // Starts a bridge without a simulation: there is only the node /gsv with its services.
   static std::unique_ptr<Bridge> StartWithoutWorld(dds::Participant& participant, Distro distro,
                                                    SimulationServices& services);
   virtual ~Bridge() = default;

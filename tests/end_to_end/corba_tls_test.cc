@@ -140,7 +140,7 @@ TEST_F(CorbaTls, EveryProgramSupportsTls) {
   EXPECT_EQ(ps.ending, "exit code 0") << ps.err;
   EXPECT_THAT(ps.out, HasSubstr("r"));
   EXPECT_EQ(RunProgram("gsv", {"stop", "r", "--broker", broker.reference()}).ending, "exit code 0");
-  // This includes a program that starts its own broker.
+  // A program that starts its own broker also supports TLS.
   EXPECT_EQ(RunProgram("gsv", {"run", "playground", "--headless", "--lockstep", "--duration", "1",
                                "--robot", "pebble", "--behaviour", "wander"})
                 .ending,

@@ -47,7 +47,7 @@ class Faults : public Served {
     return hash;
   }
   app::ChildProcess& FirstProgram() { return fleet_->program(0).process(); }
-  // Stops the first program, and waits for that. A signal takes effect only when the process runs
+  // Stops the first program, and waits until it has stopped. A signal takes effect only when the process runs
   // again; until then the program continues.
   void StopFirstProgram() {
     FirstProgram().Signal(SIGSTOP);

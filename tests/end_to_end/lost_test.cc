@@ -115,12 +115,12 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   });
   AwaitMessagesIn(file);
   Kill();
-  // This imitates a server that was writing its note at that moment.
+  // Imitates a server that was killed while it wrote its note.
   ASSERT_EQ(std::distance(fs::directory_iterator(notes()), {}), 1);
   const fs::path note = fs::directory_iterator(notes())->path();
   std::ofstream(note.string() + "." + pid + ".draft") << "{";
 
-  // This is done before the next server starts.
+  // `gsv ps` runs before the next server starts.
   const Outcome ps = RunProgram("gsv", {"ps"});
   EXPECT_NE(ps.out.find("arena on lab (process " + pid + ") was lost at about"), std::string::npos)
       << ps.out;

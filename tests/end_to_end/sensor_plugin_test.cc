@@ -20,7 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using Strings = std::vector<std::string>;
 
-// The sensor is 0.1 m ahead of the robot's centre, and the wall is 0.5 m ahead of it.
+// The sensor is 0.1 m ahead of the robot's centre, and the wall is 0.5 m ahead of the centre.
 constexpr double kDistance = 0.4;
 
 constexpr const char* kWorld = R"(<sdf version='1.9'><world name='w'>
@@ -42,7 +42,7 @@ class SensorPlugin : public ::testing::Test {
     folder_ = new base::testing::TestFolder;
     const std::string source = std::getenv("GSV_SOURCE_DIR"), build = std::getenv("GSV_BUILD_DIR");
     const std::string out = build + "/tests/infrared";
-    // Each test is a separate process. The first one builds the example, and the others wait for
+    // Each test is a separate process. The first test builds the example, and the others wait for
     // that.
     const Outcome built = RunProgram(
         "/usr/bin/flock", {build + "/tests/infrared.lock", "sh", "-ec",

@@ -10,5 +10,5 @@ export const credentials = pageCredentials(window);
 export const graphics = startGraphics();
 export const requests = new EarlyRequests(document.baseURI, credentials.fetch);
 
-// Not with a recording in the address: the page must open it first.
+// If the address contains a recording, the page must open the recording first.
 if (!parameters.has("recording")) void requests.begin(parameters.get("simulation"));

@@ -37,7 +37,7 @@ class McapFileWriter {
   base::Status AddChannel(ChannelRecord channel);
   // Writes a message. Its channel must have been added before.
   base::Status Write(const MessageRecord& message);
-  // The same for a message whose complete record has been encoded by Append().
+  // Writes a message whose complete record has been encoded by Append().
   base::Status WriteEncoded(std::uint16_t channel, base::SimTime log_time,
                             std::span<const std::byte> record);
   base::Status Attach(const AttachmentRecord& attachment);

@@ -74,7 +74,7 @@ class SimulationFeed final : public simulation::Observer {
   const simulation::Simulation& simulation_;
   const FeedOptions options_;
 
-  // Only the stepping thread uses these members.
+  // The following members are used by the stepping thread only.
   Instants status_instants_;
   Instants sensor_instants_;
   std::shared_ptr<const world::Layout> layout_;  // the layout of the last list of sensors

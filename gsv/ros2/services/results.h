@@ -21,7 +21,7 @@ messages::simulation_interfaces::Result ResultOf(const base::Status& status);
 // Returns the current phase.
 simulation::Phase PhaseOf(const simulation::Simulation& simulation);
 
-// Performs an edit. If the simulation runs, it is paused for that and resumed.
+// Performs an edit. A running simulation is paused for the edit, and then resumed.
 base::Status EditWhilePaused(simulation::Simulation& simulation,
                              const std::function<base::Status()>& edit);
 

@@ -102,7 +102,7 @@ export function isTyping(target: EventTarget | null): boolean {
   return target.closest("input:not([type=range]), textarea, select, [contenteditable], dialog") !== null;
 }
 
-// Whether the key is Ctrl K (Cmd K), which works whatever has the focus.
+// Whether the key is Ctrl K (Cmd K). It works wherever the focus is.
 export function isPaletteKey({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): boolean {
   return key.toLowerCase() === "k" && (ctrlKey || metaKey) && !altKey && !shiftKey;
 }

@@ -93,7 +93,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     this.open();
   }
 
-  // Tries at once instead of after the current waiting time.
+  // Connects at once instead of after the current waiting time.
   retryNow(): void {
     if (this.socket || this.closed) return;
     clearTimeout(this.timer);

@@ -20,7 +20,7 @@ const FLIGHT_MS = 450;
 const MARGIN = 1.04;
 // The view from the south-west, well above the walls of a room.
 const FIRST_DIRECTION = new Vector3(0.35, 0.72, -0.85).normalize();
-// Not exactly vertical, because the orbit would have no heading then. North is up in the image.
+// Straight down, but not exactly vertical, because a vertical view has no heading. North is up.
 const DOWN = new Vector3(0, 0.001, -1).normalize();
 const FOLLOWING_DISTANCE = 5; // m
 // Steep enough to see over the walls beside a robot.
@@ -105,7 +105,7 @@ export class CameraRig {
     return { position: position.clone(), target: target.clone() };
   }
 
-  // Moves there at once. During a robot's view, moves there when that ends.
+  // Moves the camera at once. While a robot's view is shown, the camera moves when that view ends.
   set viewpoint({ position, target }: Viewpoint) {
     this.flight = null;
     if (this.beforeEye) {

@@ -115,7 +115,7 @@ export class DeviceLayer {
     }
     this.points.forEach((light, i) => {
       light.intensity = 0;
-      if (lit[i]) shine(light, lit[i]);
+      if (lit[i]) setLight(light, lit[i]);
     });
   }
 
@@ -128,7 +128,7 @@ export class DeviceLayer {
       light.intensity = 0;
       const each = lit[i];
       if (!each) return;
-      shine(light, each);
+      setLight(light, each);
       light.angle = Math.min(Math.PI / 2, each.glow.angle / 2);
       light.penumbra = 0.2;
       light.target.position.set(1, 0, 0).applyMatrix4(each.frame);
@@ -158,9 +158,9 @@ function placeLamp({ ball, halo }: Lamp, lit: { glow: Glow; frame: Matrix4 } | u
   halo.material.opacity = glow.brightness;
 }
 
-// The same formula as in gsv/rendering/scene/lit_lamps.cc. The factor cancels the one in three's
-// reflectance.
-function shine(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; frame: Matrix4 }): void {
+// Sets a light by the formula of gsv/rendering/scene/lit_lamps.cc. The factor pi cancels the one
+// in three's reflectance.
+function setLight(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; frame: Matrix4 }): void {
   light.position.setFromMatrixPosition(frame);
   light.color.copy(colourOf(glow));
   light.intensity = glow.intensity * glow.brightness * Math.PI;
@@ -168,7 +168,7 @@ function shine(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; fra
   light.decay = 2;
 }
 
-// Rings about the sensor's x axis that expand and fade.
+// Draws rings about the sensor's x axis that expand and fade.
 function drawRings(lines: LineLayer, worldFromSensor: Matrix4, { elapsed, volume }: Sound): void {
   const reach = RING_REACH * Math.max(0.2, volume);
   for (let ring = 0; ring < RINGS; ring++) {

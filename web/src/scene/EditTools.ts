@@ -73,7 +73,7 @@ export class EditTools {
     return this.use;
   }
 
-  // There are no handles while a click has another use than selecting: they would take the click.
+  // While clicks do not select, the gizmo is hidden, because its handles would receive the clicks.
   set clickUse(use: ClickUse) {
     this.use = use;
     this.show();

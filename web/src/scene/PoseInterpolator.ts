@@ -119,8 +119,8 @@ function interpolatePoses(from: Float64Array, to: Float64Array, share: number, o
   }
 }
 
-// Normalised linear interpolation between two unit quaternions, on the shorter arc. Between two
-// updates the angle is small, so that it agrees with the great arc.
+// Interpolates between two unit quaternions linearly on the shorter arc, and normalises the result.
+// The angle between two updates is small, so the result is close to that of slerp.
 function interpolateRotation(
   from: Float64Array,
   to: Float64Array,

@@ -75,7 +75,7 @@ export function robotOfField(field: string): { list: RobotList; index: number; i
 
 const PEDESTRIANS_FIELD = /^pedestrians\[(\d+)\](?:\.(\w+))?/;
 
-// The same for a group of pedestrians.
+// Returns the group of pedestrians and the input to which a field belongs; null if there is none.
 export function pedestriansOfField(field: string): { index: number; input: string } | null {
   const found = PEDESTRIANS_FIELD.exec(field);
   return found && { index: Number(found[1]), input: found[2] ?? "" };

@@ -37,7 +37,7 @@ export function keepChangedKeys(storage: Pick<Storage, "setItem"> | null, change
   try {
     storage?.setItem(CHANGED, JSON.stringify(changed));
   } catch {
-    // As above.
+    // Nothing is saved if the storage is full or not allowed, as in a private window.
   }
 }
 

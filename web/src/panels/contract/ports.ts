@@ -56,9 +56,9 @@ export interface ServerPort {
   output(simulation: string, robot: string): Promise<OutputLine[]>;
   // One value over a whole recording, as far as it is read, with at most `most` samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
-  // The same for the past of a running simulation that the server stores.
+  // One value over the stored past of a running simulation.
   pastCurve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
-  // The same for the recording that the page compares with; null: there is no comparison.
+  // One value over the recording that the page compares with; null: there is no comparison.
   comparedCurve(of: CurveOf, most: number): Promise<WholeCurve | null>;
 }
 

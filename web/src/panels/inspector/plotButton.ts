@@ -1,4 +1,4 @@
-// The curve symbol beside a value. A click plots the value against simulated time.
+// A button with a curve symbol beside a value. A click plots the value against simulated time.
 import { element } from "../../ui/element";
 import { icon } from "../../ui/icons";
 

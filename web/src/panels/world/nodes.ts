@@ -10,7 +10,7 @@ export type WorldNode =
   | { kind: "sensor"; body: SceneBody; sensor: SceneSensor }
   | { kind: "transform"; child: string };
 
-// The same part has the same ID in another description of the scene.
+// Returns the ID of a node. The same part has the same ID in a later scene.
 export function nodeId(node: WorldNode): string {
   switch (node.kind) {
     case "body":
