@@ -11,6 +11,7 @@ import { listAt, numbersAt, objectAt, textAt, textOr } from "./json";
 import type { SceneDescription } from "./scene";
 import { parseScene } from "./scene";
 
+// The capabilities of a server.
 export interface Abilities {
   creates: boolean; // whether simulations can be created and edited
   records: boolean;
@@ -20,22 +21,26 @@ export interface Abilities {
   recording: string;
 }
 
+// A model that can be added as a robot or an avatar.
 export interface ModelChoice {
   name: string;
   isAvatar: boolean;
 }
 
+// An offered behaviour.
 export interface BehaviourChoice {
   name: string;
   description: string;
   place: string; // host:pid
 }
 
+// The offered behaviours.
 export interface Behaviours {
   offers: BehaviourChoice[];
   startCommand: string; // the command that starts a program which offers a behaviour
 }
 
+// The pose of a body that is set up or edited.
 export interface BodyPlace {
   x: number;
   y: number;
@@ -53,6 +58,7 @@ export interface NewObject {
   place: BodyPlace | null; // if null: the first free place
 }
 
+// The start of a simulation that does not exist yet: its scene and its poses.
 export interface Preview {
   scene: SceneDescription;
   poses: Float64Array; // seven numbers for each entry of the scene's poses

@@ -28,6 +28,7 @@ export { ApiError };
 
 export type Action = "start" | "pause" | "resume" | "stop" | "reset" | "step";
 
+// The commanded velocity of a base.
 export interface Drive {
   linear_m_s: number;
   lateral_m_s: number;

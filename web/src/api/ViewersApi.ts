@@ -3,6 +3,7 @@ import type { Credentials } from "./credentials";
 import type { JsonServer } from "./JsonServer";
 import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
 
+// One viewer.
 export interface Person {
   number: number;
   name: string;
@@ -12,6 +13,7 @@ export interface Person {
   passesIn: number; // for the first in the queue: seconds until they get control without an answer
 }
 
+// All viewers of a server, and which of them is this page.
 export interface People {
   viewers: Person[]; // all viewers of the server
   you: number; // your number; 0 if you are not in the list

@@ -6,6 +6,7 @@ export type CommandArguments = Record<string, CommandValue>;
 
 const TYPES = ["number", "integer", "flag", "text"] as const;
 
+// A parameter of a command: its type, unit, range and default.
 export interface CommandParameter {
   name: string;
   type: (typeof TYPES)[number];
@@ -17,6 +18,7 @@ export interface CommandParameter {
   otherwise: string; // the meaning of an absent argument, as a text; empty if the argument is required
 }
 
+// A command with its parameters.
 export interface CommandDescription {
   name: string;
   summary: string;

@@ -9,6 +9,7 @@ export interface CurveOf {
   key: string;
 }
 
+// The samples of a curve that the server has read so far.
 export interface WholeCurve {
   times: Float64Array; // s, simulated, ascending
   values: Float64Array; // NaN means a missing echo or a lost value

@@ -2,6 +2,7 @@
 // viewers.
 import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
 
+// The stored part of a running simulation's past.
 export interface Kept {
   start: number; // s, simulated
   end: number;

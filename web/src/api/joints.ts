@@ -18,6 +18,7 @@ export interface Joint {
   refusal: string; // why the joint accepts no commands; empty if it does
 }
 
+// The joints of one body, at one instant.
 export interface BodyJoints {
   time: number; // s, simulated
   joints: Joint[];

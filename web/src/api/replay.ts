@@ -1,6 +1,7 @@
 // The replay of a recording: its span, its playback state, and its events.
 import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
 
+// The time range and the playback state of a replay.
 export interface Replay {
   start: number; // s, simulated
   end: number;
@@ -15,6 +16,7 @@ export interface RecordedEvent {
   detail: string;
 }
 
+// A line of a recording's log.
 export interface RecordedLine {
   time: number; // s, simulated
   level: number; // as in rcl_interfaces/msg/Log: 10 (debug) to 50 (fatal)

@@ -3,6 +3,7 @@
 import type { JsonObject } from "./json";
 import { objectAt, textOr } from "./json";
 
+// The ROS 2 settings of a simulation that is being set up.
 export interface Ros2SetUp {
   cmd_vel: string; // message type of cmd_vel; empty for the server's default
   distro: string; // ROS 2 distribution of the other nodes; empty for the server's default

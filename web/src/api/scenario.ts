@@ -8,12 +8,14 @@ import { parsePedestrians, pedestriansJson } from "./pedestrians";
 import type { Ros2SetUp } from "./ros2";
 import { parseRos2, ros2Json } from "./ros2";
 
+// The start of a robot on the floor.
 export interface Placed {
   x: number;
   y: number;
   yaw: number;
 }
 
+// A robot or avatar of a simulation that is being set up.
 export interface RobotSetUp {
   name: string;
   model: string;

@@ -30,6 +30,7 @@ export interface CameraView {
 // Units by the path of a field in the sensor's messages. A path applies to all fields below it.
 export type Units = Readonly<Record<string, string>>;
 
+// A sensor of a body: its topic, its type, and where it is mounted.
 export interface SceneSensor {
   name: string;
   type: string;
@@ -42,6 +43,7 @@ export interface SceneSensor {
   parameters?: Readonly<Record<string, string | number | boolean>>; // as in the model file; absent in old recordings
 }
 
+// A body: a robot, an avatar, or another object.
 export interface SceneBody {
   name: string;
   model: string; // the identifier with which its shape is fetched
@@ -76,6 +78,7 @@ export interface SceneInertial {
   inertia: readonly [number, number, number, number, number, number]; // kg m²: ixx iyy izz ixy ixz iyz
 }
 
+// The meaning of one pose in /gsv/poses: the pose of a body or of a link.
 export interface PoseEntry {
   body: number;
   link: string | null; // null for the pose of the body itself
@@ -139,6 +142,7 @@ export function hasAgent({ isRobot, isAvatar, isStation }: SceneBody): boolean {
   return isRobot || isAvatar || isStation;
 }
 
+// A camera that can be shown.
 export interface CameraChoice {
   robot: string;
   sensor: string;

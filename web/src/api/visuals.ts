@@ -6,6 +6,7 @@ export interface ModelVisual {
   shape: Readonly<Record<string, unknown>>; // kind and size in metres; empty if the server does not describe it
 }
 
+// A material as inspectors show it.
 export interface MaterialFacts {
   colour: string; // "#rrggbb", sRGB
   opacity: number;
@@ -14,6 +15,7 @@ export interface MaterialFacts {
   maps: readonly string[]; // "colour", "normals", …
 }
 
+// A visual as inspectors show it.
 export interface VisualFacts extends ModelVisual {
   materials: readonly MaterialFacts[];
 }

@@ -23,6 +23,7 @@ const FARTHEST_APART_S = 0.15;
 type CompareApi = Pick<SimulationApi, "another" | "rootServer" | "difference">;
 type Client = Pick<FoxgloveClient, "connect" | "close" | "subscribe">;
 
+// The poses of the second recording's robots, which are drawn as ghosts.
 export interface GhostPoses {
   stamp: number; // s, simulated
   layoutVersion: number;

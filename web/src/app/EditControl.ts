@@ -17,6 +17,7 @@ const SHOWN_WITHIN_MS = 10_000;
 const SHOWN_POLL_MS = 20;
 const PASTED_AT_M = 0.5; // offset of a copy from the original, along x and y
 
+// Provides the reported poses of bodies.
 export interface Bodies {
   // Returns the last reported pose of a body; null while it is unknown.
   placeOf(body: string): Required<BodyPlace> | null;

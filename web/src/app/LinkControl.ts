@@ -5,6 +5,7 @@ import type { Store } from "../state/Store";
 import type { LinkedView, Viewpoint } from "../state/link";
 import { hashOf, linkedView } from "../state/link";
 
+// The camera that a link contains.
 export interface Place {
   viewpoint: Viewpoint;
 }

@@ -11,6 +11,7 @@ const SPEED_WINDOW_S = 0.2; // simulated
 // jumped.
 const LONGEST_WINDOW_S = 3;
 
+// A reported pose and its simulated time.
 export interface StampedPose {
   pose: Matrix4;
   stamp: number; // s, simulated

@@ -21,6 +21,7 @@ export interface ServiceType {
 
 export type Result = "true" | "false" | "no value";
 
+// One term of a constraint, and whether an offer satisfies it.
 export interface Term {
   term: string;
   result: Result;
@@ -34,11 +35,13 @@ export interface Offer {
   terms: Term[];
 }
 
+// The offers that were found for a question.
 export interface Answer {
   offers: Offer[]; // matching offers in the order of preference, then the others
   isCut: boolean; // whether there are more offers than these
 }
 
+// A link to another broker.
 export interface Link {
   name: string;
   address: string;
@@ -46,6 +49,7 @@ export interface Link {
   answers: boolean;
 }
 
+// The service type, the constraint and the preference of a query.
 export interface Question {
   type: string;
   constraint: string;

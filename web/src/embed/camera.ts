@@ -32,6 +32,7 @@ export function zoomed(side: Side, factor: number): Side {
 export const PLACING = ["eye", "target", "follow", "camera"] as const;
 const PASSED = [...PLACING, "fov", "quality", "token", "simulation"] as const;
 
+// The image that a <gsv-view> element requests.
 export interface Wanted {
   src: string; // absolute address of the viewer; may contain a simulation
   attributes: Readonly<Record<string, string | null>>;

@@ -8,12 +8,14 @@ import { showFrame } from "./frame";
 
 const POLL_MS = 3000;
 
+// The content of the list at one time.
 export interface Listing<Item> {
   note: string; // the source of the list
   items: Item[];
   more?: string; // a sentence below the list
 }
 
+// The texts and functions that a page with a list needs.
 export interface ListSource<Item> {
   title: string; // title of the page
   label: string; // label of the list

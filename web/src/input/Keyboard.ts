@@ -9,6 +9,7 @@ import { originalKey } from "../state/shortcuts";
 
 const MANY_POSES = 10; // number of poses of a step with Shift
 
+// The part of a keyboard event that determines the command.
 export interface Key {
   key: string;
   ctrlKey: boolean;

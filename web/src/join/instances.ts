@@ -12,6 +12,7 @@ export interface JoinableSimulation {
   url: string | null; // address of its view; null if there is none
 }
 
+// A server of simulations that the broker knows.
 export interface Instance {
   name: string;
   place: string; // host:pid

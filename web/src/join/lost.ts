@@ -3,6 +3,7 @@ import { ApiError } from "../api/JsonServer";
 import type { JsonServer } from "../api/JsonServer";
 import { listAt, numberAt, objectAt, textAt, textOr } from "../api/json";
 
+// A simulation whose server crashed.
 export interface LostSimulation {
   number: number; // the number with which it is dismissed
   name: string;

@@ -134,6 +134,7 @@ class PointList {
   }
 }
 
+// A contact of a bumper.
 export interface TouchPoint {
   point: [number, number, number];
   normal: [number, number, number]; // unit vector from the robot to the touched body

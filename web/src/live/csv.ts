@@ -1,6 +1,7 @@
 // Writes curves as a table: one row for each instant with a value, and one column per curve.
 import type { Series } from "./Series";
 
+// A curve with its name and unit.
 export interface Column {
   name: string;
   unit: string; // empty: none

@@ -1,5 +1,6 @@
 // The states of robots' lamps, speakers and grippers, from their messages.
 
+// The state of a lamp that is on.
 export interface Glow {
   brightness: number; // above 0, at most 1
   colour: [number, number, number];
@@ -9,6 +10,7 @@ export interface Glow {
   intensity: number; // intensity at full brightness
 }
 
+// The sound that a speaker plays.
 export interface Sound {
   name: string; // "tone", "buzz", "chirp", "noise"
   frequency: number; // Hz
@@ -16,6 +18,7 @@ export interface Sound {
   elapsed: number; // s
 }
 
+// The state of a gripper's fingers.
 export interface Jaws {
   opening: number; // m
   reach: number; // m

@@ -3,6 +3,7 @@
 
 import type { Units } from "../api/scene";
 
+// One number of a message.
 export interface LiveValue {
   key: string; // path of the field, such as "range", "pose.position.x" or "ranges.min"
   unit: string; // empty if there is none, or if it is unknown

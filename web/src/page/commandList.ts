@@ -8,6 +8,7 @@ import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
 import { OVERLAYS } from "../state/overlays";
 import { PRESETS } from "../workspace/presets";
 
+// An entry of the command palette.
 export interface Command {
   group: string; // "Panel", "Robot"
   label: string;

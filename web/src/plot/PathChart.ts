@@ -10,11 +10,13 @@ const AXIS_PX = 34;
 const TOP_PX = 8;
 const DOT_PX = 4; // diameter of the newest point
 
+// A curve that is drawn against another curve.
 export interface Path {
   colour: string;
   points: [number[], number[]];
 }
 
+// The axes of the chart.
 export interface PathView {
   label: string; // label of the horizontal axis
   isEqual: boolean; // whether both axes have the same scale

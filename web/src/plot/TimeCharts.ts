@@ -14,6 +14,7 @@ const GAP_PX = 6;
 const COMPARED_DASHES = [5, 4];
 const CURSORS = "gsv-plots"; // key of the cursor that all charts share
 
+// The colours of the charts.
 export interface Look {
   ink: string;
   dim: string;
@@ -22,6 +23,7 @@ export interface Look {
   font: string;
 }
 
+// An event that is marked on the time axis.
 export interface Mark {
   time: number; // s, simulated
   label: string;

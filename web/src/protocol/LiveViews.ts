@@ -3,6 +3,7 @@
 
 const HEADER_BYTES = 20; // after the header of all messages: sequence, number, time
 
+// An image that the server has pushed.
 export interface PushedImage {
   sequence: number; // number of the camera, chosen by the reader in show()
   number: number; // grows with each change of the world
@@ -11,6 +12,7 @@ export interface PushedImage {
   jpeg: Blob;
 }
 
+// The callbacks for a view.
 export interface ViewReader {
   // The stream is open, for the first time or again. `isOffered`: the server pushes images, and
   // show() has an effect from now on.
@@ -20,6 +22,7 @@ export interface ViewReader {
   onEnd(sentence: string): void;
 }
 
+// A view that the server draws until end() is called.
 export interface LiveView {
   // `camera`: a text like the query of /view.mjpeg.
   show(camera: string, sequence: number): void;

@@ -2,6 +2,7 @@
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 
+// A channel that the server advertises: a topic with its type.
 export interface Channel {
   id: number;
   topic: string;

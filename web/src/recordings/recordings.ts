@@ -2,6 +2,7 @@
 import type { JsonServer } from "../api/JsonServer";
 import { listAt, numberOr, objectAt, textAt, textOr } from "../api/json";
 
+// One recording in the list.
 export interface RecordingLine {
   name: string;
   size: number; // bytes

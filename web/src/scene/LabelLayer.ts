@@ -13,6 +13,7 @@ const PADDING_PX = 14; // padding on both sides, with the gap between two names
 const CHOICE_MS = 200;
 const CHARACTER_PX = 7; // used if the browser does not return the width of a text
 
+// The robots that may get a label, and their priorities.
 export interface LabelledRobots {
   names: readonly string[];
   tops: Float64Array; // x y z of each label's anchor, in the world

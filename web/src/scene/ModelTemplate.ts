@@ -3,6 +3,7 @@ import type { BufferGeometry, Material, Mesh, Object3D } from "three";
 import { Box3, Matrix4 } from "three";
 import type { ModelVisual } from "../api/visuals";
 
+// A mesh of a model that is drawn.
 export interface ModelPart {
   visual: ModelVisual; // shared by the parts of a visual with several materials
   geometry: BufferGeometry;

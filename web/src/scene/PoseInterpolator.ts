@@ -14,6 +14,7 @@ const DELAY_INTERVALS = 1.6;
 // The weight of a new arrival time in the estimate of the interval.
 const JITTER_TRUST = 0.15;
 
+// The poses in one update.
 export interface PoseSample {
   step: number;
   stamp: number; // s, simulated

@@ -2,6 +2,7 @@
 import type { Camera, Vector3 } from "three";
 import { Raycaster, Vector2 } from "three";
 
+// A position on the page, in CSS pixels.
 export interface ScreenPlace {
   x: number;
   y: number;

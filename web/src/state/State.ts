@@ -25,6 +25,7 @@ import type { WorldPart } from "./worldPart";
 import type { Plots } from "./plots";
 import { NO_PLOTS } from "./plots";
 
+// A short message at the edge of the page.
 export interface Notice {
   id: number;
   kind: "error" | "note";
@@ -74,6 +75,7 @@ export type Drawer = "browser" | "server";
 // robot's own view.
 export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
+// The whole state of the page.
 export interface State {
   connection: ConnectionState;
   connectionProblem: string; // a problem that lasts, such as a slow connection; empty if there is none

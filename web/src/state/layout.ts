@@ -10,6 +10,7 @@ export interface Tabs {
   front: string; // the id of the visible one
 }
 
+// A part of the layout that is divided into a row or a column.
 export interface Split {
   split: "row" | "column";
   // Shares in thousandths, at least 1; rows contain columns and tabs, columns contain rows and

@@ -2,6 +2,7 @@
 import type { Reference } from "../live/expression";
 import { parseExpression } from "../live/expression";
 
+// The source of a plotted value.
 export type Source =
   | { kind: "simulation" }
   | { kind: "robot"; robot: string }
@@ -17,6 +18,7 @@ export interface Curve {
   colour: string;
 }
 
+// The plotted curves and the axes.
 export interface Plots {
   curves: Curve[];
   span: number | null; // show the newest seconds only; null for all

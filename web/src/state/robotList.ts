@@ -38,6 +38,7 @@ export function namespaceOf(name: string): string {
   return slash > 0 ? name.slice(0, slash) : name.replace(/[_-]?\d+$/, "");
 }
 
+// A parsed search text.
 export interface Query {
   test(robot: ListedRobot): boolean;
   problem: string; // empty if the filter is valid

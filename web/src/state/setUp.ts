@@ -3,11 +3,13 @@ import type { Behaviours, ModelChoice } from "../api/SetUpApi";
 import type { Ros2Support } from "../api/ros2";
 import type { RobotList, Scenario } from "../api/scenario";
 
+// An error in the form for a new simulation.
 export interface Wrong {
   field: string; // the server's name of the field, such as "robots[1].model"; empty for none
   sentence: string;
 }
 
+// The worlds, models and behaviours that can be chosen.
 export interface Choices {
   worlds: string[];
   models: ModelChoice[];
@@ -21,6 +23,7 @@ export interface UploadedWorld {
   path: string; // its path on the server's machine
 }
 
+// The state of the form for a new simulation.
 export interface SetUp extends Choices {
   uploaded: UploadedWorld[]; // the newest is first
   scenario: Scenario;

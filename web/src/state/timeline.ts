@@ -4,6 +4,7 @@ import type { RecordedEvent, Replay } from "../api/replay";
 import { count, formatTime } from "../ui/format";
 import type { State } from "./State";
 
+// A mark on the timeline, for one or several events.
 export interface Mark {
   time: number; // simulated time of the first event, s
   share: number; // position in the recording's time range, 0 to 1

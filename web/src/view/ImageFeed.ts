@@ -11,6 +11,7 @@ export interface ServerCamera {
   height: number;
 }
 
+// An image that the server has sent.
 export interface ArrivedImage {
   jpeg: Blob;
   camera: ServerCamera; // the camera with which the image was drawn

@@ -27,11 +27,13 @@ export interface Panel {
   load(): Promise<PanelModule>;
 }
 
+// The module of a panel, which is fetched when the panel is first opened.
 export interface PanelModule {
   // Called once, when the panel is first opened.
   mount(ports: PanelPorts): MountedPanel;
 }
 
+// A panel that was opened: its elements.
 export interface MountedPanel {
   body: HTMLElement;
   tools?: HTMLElement[]; // controls above the body

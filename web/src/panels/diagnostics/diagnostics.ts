@@ -3,6 +3,7 @@ import type { ServerFigures } from "../../api/MetricsApi";
 
 export type Health = "ok" | "warning" | "error";
 
+// The diagnostic status of the simulation or of one robot.
 export interface Diagnosis {
   name: string;
   health: Health;

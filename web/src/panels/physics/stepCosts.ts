@@ -11,6 +11,7 @@ export const PARTS = [
 ] as const;
 export type Part = (typeof PARTS)[number]["key"];
 
+// The time that one step took, by part.
 export interface StepCost extends Record<Part, number> {
   step: bigint;
   held_up_by: string;
@@ -23,6 +24,7 @@ export interface StepCostsMessage {
   longest: StepCost[];
 }
 
+// A behaviour that delayed steps.
 export interface HoldUp {
   robot: string;
   steps: number;

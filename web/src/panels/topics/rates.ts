@@ -4,6 +4,7 @@ export interface Count {
   bytes: number;
 }
 
+// The rates of one topic.
 export interface Traffic {
   rate: number; // messages a second of wall-clock time
   bytesPerSecond: number;

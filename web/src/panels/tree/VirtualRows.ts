@@ -5,6 +5,7 @@ import { element, setAttribute } from "../../ui/element";
 const BEYOND_PX = 200; // rows exist this far above and below the visible part
 const HEIGHT_WITHOUT_LAYOUT_PX = 800;
 
+// A row, which can show any entry of its kind.
 export interface Row<Entry> {
   readonly element: HTMLElement;
   write(entry: Entry): void;

@@ -4,6 +4,7 @@ import type { TransformsMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
 import { anglesOf } from "../../live/values";
 
+// A frame and its transform relative to the parent frame.
 export interface Frame {
   child: string;
   parent: string;
