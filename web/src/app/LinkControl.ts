@@ -17,6 +17,7 @@ export interface LinkedPage {
   seek(time: number): Promise<void>; // simulated time, s: of a recording, or of the past of a run
 }
 
+// The functions for layouts that a link uses.
 export interface LinkedLayouts {
   readonly linkText: string | null;
   showText(text: string, what: string): boolean;
