@@ -20,7 +20,7 @@ inline constexpr bool kHasThreadSanitizer = false;
 inline constexpr bool kReservesAddressSpace = kHasAddressSanitizer || kHasThreadSanitizer;
 
 // The factor by which time limits are extended: sanitizers slow programs down by two to ten times.
-// The build defines GSV_SANITIZED, as GCC 12 has no macro for UndefinedBehaviorSanitizer.
+// The build defines GSV_SANITIZED, because GCC 12 has no macro for UndefinedBehaviorSanitizer.
 #if defined(GSV_SANITIZED)
 inline constexpr int kSlowdown = 5;
 #else

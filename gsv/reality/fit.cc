@@ -119,8 +119,8 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   return device;
 }
 
-// A parameter of a sonar's reflections that is searched. The search changes one parameter at a
-// time.
+// A parameter of a sonar's reflections whose best value is searched. The search changes one
+// parameter at a time.
 struct Searched {
   const char* name;
   const char* unit;

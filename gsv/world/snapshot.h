@@ -62,8 +62,8 @@ struct Snapshot {
   base::SimTime step_length{0};   // length of the last step; 0 before the first step
   // In the order of Layout::bodies; empty before the first step.
   std::vector<Acceleration> accelerations;
-  // rad/s² or m/s², means over the last step, in the order of State::joint_velocities; empty before
-  // the first step
+  // Mean accelerations of the joints over the last step, rad/s² or m/s², in the order of
+  // State::joint_velocities; empty before the first step.
   std::vector<double> joint_accelerations;
   // Messages that were sent in the last step, ordered by sender.
   std::vector<Transmission> transmissions;

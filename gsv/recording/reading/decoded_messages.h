@@ -68,8 +68,8 @@ nlohmann::ordered_json ToJson(const Difference& difference);
 // Which recording may lack messages.
 enum class Gaps {
   kNone,
-  // The first recording may lack messages. An instant and topic is compared only if both recordings
-  // have the same number of messages there.
+  // The first recording may lack messages. A topic is compared at an instant only if both
+  // recordings have the same number of messages there.
   kInFirst,
 };
 

@@ -43,8 +43,8 @@ using eprosima::fastrtps::types::ReturnCode_t;
 constexpr std::uint32_t kMaxDomain = 232;  // domains above this have no ports
 // The number of participants per machine that discovery without multicast looks for.
 constexpr std::uint32_t kMaxLocalPeers = 32;
-// A flow controller for large samples: bursts of four datagrams of 64 KiB, 250 MiB/s in all. A
-// socket has by default a buffer of 208 KiB in Linux, which drops what does not fit.
+// A flow controller for large samples: bursts of four datagrams of 64 KiB, 250 MiB/s in all. By
+// default, Linux gives a socket a buffer of 208 KiB and drops datagrams that do not fit.
 constexpr const char* kLargeSamples = "large";
 constexpr std::int32_t kBurst = 4 << 16;   // bytes
 constexpr std::uint64_t kBurstPeriod = 1;  // ms
