@@ -6,8 +6,8 @@
 
 namespace gsv::sensing {
 
-// While it lives, collects the names that all ParameterReaders of this thread look for. Objects may
-// be nested; a name goes to the innermost one.
+// Collects the names of all parameters that ParameterReaders of this thread read while this object
+// exists. Objects may be nested; a name is added only to the innermost object.
 //
 // Threads  use it on the thread that created it.
 class AskedParameters {

@@ -1,4 +1,5 @@
-// Declares the sensor types of a plug-in. In one source file of the library:
+// Declares the sensor types of a plug-in, which is a shared library. One of its source files
+// contains:
 //
 //   base::Status Add(sensing::SensorRegistry& registry) { return registry.Add(...); }
 //   GSV_SENSOR_MODULE(Add)

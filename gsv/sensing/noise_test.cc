@@ -75,7 +75,8 @@ TEST(Drift, ChangesLittleInAShortTime) {
   }
 }
 
-// A robot with an altimeter, whose readings are those of the height 5 above a reference of 0.
+// A robot with an altimeter. Without noise, the altimeter reads a height of 5 m above a reference
+// of 0 m.
 class NoiseTest : public ::testing::Test {
  protected:
   NoiseTest() {

@@ -23,8 +23,8 @@ double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup
 // of the number of surfaces on the line of sight, rounded up.
 int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenna& to);
 
-// Returns the strength at which `to` receives `from`; nothing if it does not. Casts rays only if
-// walls affect the result.
+// Returns the strength (dBm) at which `to` receives a message from `from`; nullopt if `to` does not
+// receive it. Casts rays only if walls affect the result.
 std::optional<double> HeardAt(const Antenna& from, const Antenna& to, const world::RayCaster& rays);
 
 }  // namespace gsv::sensing

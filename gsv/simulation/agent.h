@@ -28,8 +28,8 @@ namespace gsv::simulation {
 using ClockId = int;
 
 // A wait has a time limit, the lease. If the lease ends before the instant, the wait returns
-// kNotYet, and the caller must repeat it with the same arguments. Meanwhile the agent counts as
-// waiting.
+// kNotYet, and the caller must repeat it with the same arguments. Until the repeated call, the
+// agent counts as waiting.
 enum class Wait { kReached, kNotYet };
 
 // A reading and the name of its sensor.
@@ -96,8 +96,9 @@ class Agent {
                                            base::SimTime until,
                                            std::chrono::milliseconds lease) = 0;
 
-  // Commands the base like Command(), waits, then reads those of `sensors` that are open. Leaves out
-  // sensors that fail or take long, and reads none if the agent does not hold the time.
+  // Commands the base like Command(), waits, then reads those of `sensors` that are open. Leaves
+  // out sensors that fail or take long. Reads no sensors unless simulated time stands still until
+  // this agent waits again (Exchanged::holds_time).
   virtual base::Result<Exchanged> SleepAndRead(ClockId clock,
                                                std::optional<world::DriveCommand> command,
                                                base::SimTime until, std::chrono::milliseconds lease,

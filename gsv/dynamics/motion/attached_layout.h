@@ -17,7 +17,7 @@ class AttachedLayout {
   // Removes all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
-  // The same as Engine::Attach() and Engine::Detach().
+  // Implement Engine::Attach() and Engine::Detach(), which describe the errors.
   base::Status Attach(const Attachment& attachment, const world::State& state);
   void Detach(int held_body);
 
@@ -35,7 +35,7 @@ class AttachedLayout {
   base::Status Check(const Attachment& attachment) const;
   bool IsHeld(int body) const;
   bool IsHolder(int body) const;
-  // Returns the layout in which held shapes belong to their holders.
+  // Returns the layout in which the shapes of each held body belong to its holder.
   std::shared_ptr<const world::Layout> Derive() const;
 
   std::shared_ptr<const world::Layout> layout_;

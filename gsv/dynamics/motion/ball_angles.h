@@ -13,19 +13,20 @@ namespace gsv::dynamics {
 
 class BallAngles {
  public:
-  // For a part on a ball joint.
+  // `part` must be the child of a ball joint.
   BallAngles(const model::Model& model, const Part& part);
 
   // Indices of the model's joints, from parent to child.
   const std::array<int, 3>& joints() const { return joints_; }
 
-  // Converts the angles to the child's rotation from the zero position, in its part frame; and
-  // back. Every rotation has angles. If the middle angle is ±90 degrees, they are not unique.
+  // Turn() converts the joint angles to the child's rotation from the zero position, in its part
+  // frame. AnglesOf() is the inverse. Every rotation has angles. They are not unique if the middle
+  // angle is ±90 degrees.
   geometry::Quaternion Turn(const std::array<double, 3>& angles) const;
   std::array<double, 3> AnglesOf(const geometry::Quaternion& turn) const;
 
-  // Converts the rates (rad/s) about the joint's three axes to the child's angular velocity
-  // relative to its parent, in the child's part frame; and back.
+  // AngularVelocity() converts the rates (rad/s) about the joint's three axes to the child's
+  // angular velocity relative to its parent, in the child's part frame. RatesOf() is the inverse.
   geometry::Vector3 AngularVelocity(const std::array<double, 3>& rates) const;
   std::array<double, 3> RatesOf(const geometry::Vector3& angular_velocity) const;
 

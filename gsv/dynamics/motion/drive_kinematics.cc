@@ -211,7 +211,7 @@ void DriveKinematics::TurnJoints(const Travel& travel, const world::DriveCommand
   }
   if (drive_.kind != DriveKind::kAckermann) return;
   for (const Steered& steered : steered_) {
-    // A base at rest keeps its wheels as they are.
+    // If the base does not move forwards, its steering angles do not change.
     const double angle = motion.linear == 0
                              ? positions[steered.joint]
                              : SteeringAngle(steered, motion.angular / motion.linear);

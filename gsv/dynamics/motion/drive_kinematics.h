@@ -52,7 +52,8 @@ class DriveKinematics {
                            double step_seconds) const;
 
   // The motion of the reference point when the drive rotates the wheels for `motion`. It equals
-  // `motion` unless the wheels' true radii differ from the radii that the drive assumes.
+  // `motion` unless the wheels slip or their true radii differ from the radii that the drive
+  // assumes.
   world::DriveCommand TrueMotion(const world::DriveCommand& motion) const;
 
   // The twist of the model's origin when the drive rotates the wheels for `motion`.

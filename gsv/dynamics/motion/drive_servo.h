@@ -10,7 +10,7 @@ namespace gsv::dynamics {
 
 class DriveServo {
  public:
-  // The servo starts at the state's time.
+  // `now` is the time at the start of the step.
   DriveServo(const DriveKinematics& kinematics, const world::BodyState& body, base::SimTime now)
       : kinematics_(kinematics), drive_(body.drive), now_(now) {}
 

@@ -27,14 +27,15 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  // Prepares for another set of bodies, without attachments. Called before the first Step() and
-  // after each change. If it fails, another layout must be set before anything else is called.
+  // Prepares for another set of bodies, without attachments. It must be called before the first
+  // Step() and after each change of the set of bodies. If it fails, another layout must be set
+  // before anything else is called.
   virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
 
   // Makes the collision shapes of the held body a part of the holder's link. The engine no longer
-  // moves the held body: the caller writes its pose into the state. It adds no mass, and its joints
-  // keep their positions in `state`. All attachments and detachments since the last Step(),
-  // Overlaps() or OverlapsOf() cost together as much as one SetLayout().
+  // moves the held body: the caller writes its pose into the state. The held body adds no mass, and
+  // its joints keep their positions in `state`. All attachments and detachments since the last
+  // Step(), Overlaps() or OverlapsOf() cost together as much as one SetLayout().
   //
   // Returns kInvalidArgument if a body or the link does not exist, or if the holder is static or
   // itself held. The same applies if the held body is not rigid, holds a body itself, or is already
@@ -48,7 +49,7 @@ class Engine {
   // commands within their limits, bodies do not overlap, and wheel joints turn. The caller sets
   // state.step and state.time. Replaces `contacts` by the contacts at t + step, in the order of
   // (first, second, supports). `began` compares with BodyState::in_contact and the contacts of the
-  // step before. A vector that is passed again keeps its memory.
+  // step before. Pass the same vector in each step to avoid memory allocations.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
 

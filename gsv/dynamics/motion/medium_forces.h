@@ -32,7 +32,8 @@ struct PartMedium {
   std::vector<Displacer> displacers;
 };
 
-// Returns an entry for each part of the body; empty if no such forces act on the body.
+// Returns an entry for each part of the body. The vector is empty if the medium exerts no force on
+// the body.
 std::vector<PartMedium> MakeMedium(const world::Layout& layout, const world::Body& body,
                                    const Articulation& articulation);
 

@@ -23,12 +23,13 @@ namespace gsv::dynamics {
 // robot's speed. The force is limited and never pulls.
 struct Push {
   int robot = 0, object = 0;  // indices of the bodies in the layout
-  geometry::Vector3 point;    // in the world; the engine sets z to a height that both bodies have
-  double low = 0;             // the robot pushes above this z, m
-  geometry::Vector3 normal;   // in the world, unit length, from the robot to the body
-  double speed = 0;           // speed of the robot along the normal, m/s, > 0
-  double force = 0;           // maximum force, N
-  double start = 0;           // time from the start of the step to the contact, s
+  // Contact point, world frame. The engine sets z to a height that both bodies have.
+  geometry::Vector3 point;
+  double low = 0;            // the robot pushes above this z, m
+  geometry::Vector3 normal;  // direction from the robot to the body, world axes, unit length
+  double speed = 0;          // speed of the robot along the normal, m/s, > 0
+  double force = 0;          // maximum force, N
+  double start = 0;          // time from the start of the step to the contact, s
 
   // Results.
   double achieved = 0;  // speed of the body's point along the normal after the step, m/s

@@ -22,7 +22,7 @@ struct RollingWheel {
   double PerRateAlong(const model::Slip& ground) const {
     return (wheel.slip.longitudinal + ground.longitudinal) * wheel.radius / wheel.normal_force;
   }
-  // The same for slip along the axle.
+  // Slip velocity along the axle, in the units of PerRateAlong().
   double PerRateAcross(const model::Slip& ground) const {
     return (wheel.slip.lateral + ground.lateral) * wheel.radius / wheel.normal_force;
   }

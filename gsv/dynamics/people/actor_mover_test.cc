@@ -41,7 +41,7 @@ TEST(ActorMover, MovesAnActorAlongItsTrajectory) {
   EXPECT_NEAR(world.body("walker").distance, 16, 1e-9);
 }
 
-TEST(ActorMover, LoopFromTheEndToTheStartAddsNoSpeed) {
+TEST(ActorMover, JumpToTheStartOfALoopHasZeroVelocity) {
   auto model = WalkerOf(false);
   auto script = std::make_shared<model::Script>(*model->script);
   script->loops = true;
@@ -79,7 +79,7 @@ TEST(ActorMover, WalksThroughARobotAtRest) {
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(contacts[0].depth, 0.2, 1e-6);
   EXPECT_EQ(world.body("robot").collisions, 1u);
-  // The robot gets no further into the actor, but can leave it.
+  // The robot cannot move further into the actor, but it can move away from the actor.
   world.Command("robot", {-0.5, 0, 0});
   world.Run(1, kActorStep);
   EXPECT_NEAR(world.position("robot").x, 4.3, 1e-5);

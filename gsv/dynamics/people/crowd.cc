@@ -96,7 +96,8 @@ void Crowd::SliceWalls(const world::State& state) {
   is_sliced_ = true;
 }
 
-// Sorts the others into cells (counting sort). The order of bodies within a cell is kept.
+// Sorts others_, the bodies that pedestrians avoid, into grid cells (counting sort). The order of
+// bodies within a cell is kept.
 void Crowd::SortOthers(const world::State& state) {
   Vector2 low, high;
   for (std::size_t i = 0; i < others_.size(); ++i) {

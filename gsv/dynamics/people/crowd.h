@@ -1,11 +1,11 @@
 // Computes the commands of all pedestrians for the next step by the social force model
 // (social_force.h). Planar kinematics then moves the pedestrians without overlaps.
 //
-// Others        Pedestrians avoid planar bodies, actors and rigid bodies. Each counts as a disc
-//               about its origin. Bodies with a radius above kMaxRadius are ignored.
+// Others        Pedestrians avoid planar bodies, actors and rigid bodies. Each of these bodies acts
+//               as a disc about its origin. Bodies with a radius above kMaxRadius are ignored.
 // Walls         All static bodies are walls, sliced between kStep above a pedestrian's feet and its
-//               top. Each acts with its nearest point. A point within 60 degrees of a nearer one is
-//               ignored, so that a wall of many pieces acts as one wall.
+//               top. Only the nearest point of each wall exerts a force. A point within 60 degrees
+//               of a nearer one is ignored, so that a wall of many pieces acts as one wall.
 // Goals         A goal is reached within kArrival of it. There is no path planning.
 // Heading       The body rotates towards its direction of motion.
 // Threads       One thread at a time. The work runs on a thread team.
@@ -69,7 +69,7 @@ class Crowd {
   // Slices the static bodies again, if one of them has moved.
   void SliceWalls(const world::State& state);
   void SortOthers(const world::State& state);
-  // Decides for the walkers with these indices.
+  // Sets the drive commands of the walkers with these indices. `left` is Relaxation(seconds).
   void DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left, Block& block,
                  world::State& state);
   // Returns the direction to the walker's goal. If the walker has reached the goal, increments its
@@ -95,14 +95,14 @@ class Crowd {
   bool is_sliced_ = false;
 
   std::vector<Other> others_;  // by body
-  // A grid. A cell is at least as wide as the range of the forces. It has a run of entries in
-  // sorted_.
+  // The grid of others_. A cell is at least as wide as the range of the forces. The entries of a
+  // cell are consecutive in sorted_.
   double left_ = 0, bottom_ = 0, per_cell_ = 1;
   int columns_ = 0, rows_ = 0;
   std::vector<std::uint32_t> cell_of_, cell_start_;
   std::vector<Other> sorted_;
-  std::vector<Vector2> sorted_at_;  // theirs
-  // The walkers by cell, because neighbours have the same other pedestrians in range.
+  std::vector<Vector2> sorted_at_;  // positions of sorted_
+  // The walkers, ordered by grid cell. Walkers in one cell mostly have the same bodies in range.
   std::vector<std::uint32_t> walker_order_;
 };
 

@@ -16,10 +16,10 @@
 // Driving    tau = 0.5 s. The driving term is integrated exactly, and the forces by Euler's method.
 //            So a single pedestrian has the speed v0 (1 - exp(-t / tau)) at time t for any step
 //            size.
-// Ours       This implementation differs from the paper in two ways. It has no random fluctuations.
+// Changes    This implementation differs from the paper in two ways. It has no random fluctuations.
 //            Instead, each force of another pedestrian is rotated by kAside to the right, so that
-//            two pedestrians who meet head on pass each other. Both radii reduce the distance: see
-//            Apart().
+//            two pedestrians who meet head on pass each other. The radii of both pedestrians reduce
+//            the distance between them, see Apart().
 // Units      metres, seconds. Vectors in the plane of the world.
 #pragma once
 

@@ -41,7 +41,8 @@ TEST(ObstacleField, FindsAllNearObstacles) {
   std::vector<Obstacle> obstacles;
   for (int i = 0; i < 300; ++i) {
     const Vector2 from{uniform(-20, 20), uniform(-20, 20)};
-    const double length = i == 0 ? 5000 : i % 50 == 0 ? 30 : 2;  // one is too large for the grid
+    // The first obstacle is too large for the grid.
+    const double length = i == 0 ? 5000 : i % 50 == 0 ? 30 : 2;
     const ConvexPiece piece =
         Hull({from, from + Vector2{uniform(-length, length), uniform(-length, length)}});
     const ConvexPiece disc = BoundingDisc(piece);

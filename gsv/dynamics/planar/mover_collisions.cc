@@ -5,8 +5,8 @@
 namespace gsv::dynamics {
 namespace {
 
-// Distance (m) that a mover with a small reach may move before the search for candidates is
-// repeated. With a larger value, each step has more candidates to check.
+// Distance (m) that a slow mover may move before the search for candidates is repeated. Fast movers
+// may move further. With a larger value, each step has more candidates to check.
 constexpr double kRoom = 0.25;
 
 // Number of pairs that one thread checks at a time. With fewer, another thread saves no time.
@@ -162,7 +162,7 @@ std::optional<Impact> MoverCollisions::PairImpact(const Motions& motions,
   std::optional<Impact> impact;
   if (both > 0) impact = FirstImpact(pair, a, b, both);
   if (impact || end <= both) return impact;
-  // One of the two has reached its end and stays there. The other one continues.
+  // One of the two movers has stopped at the end of its motion. The other mover continues.
   a.start = Advance(a.start, a.twist, both);
   b.start = Advance(b.start, b.twist, both);
   (first_time <= both ? a : b).twist = geometry::Twist{};

@@ -75,7 +75,7 @@ class MoverCollisions {
   };
   struct MoverPair {
     std::uint32_t first, second;           // movers
-    std::uint32_t begin_piece, end_piece;  // start and end of its run in near_pieces_
+    std::uint32_t begin_piece, end_piece;  // range of its entries in near_pieces_
   };
   struct Room {
     Vector2 centre;

@@ -1,4 +1,4 @@
-// Moves the joints of planar robots except wheels, such as a head that pans, or a lift.
+// Moves the joints of planar robots that are not wheels, for example of a lift or a pan-tilt head.
 //
 // How          A joint with a position command moves there at its velocity limit (without a limit:
 //              at once) and stops. A joint with a velocity command moves at this velocity. Both

@@ -51,8 +51,8 @@ TEST(PlanarMoverCrowd, IsEqualForAnyNumberOfThreads) {
       testing::RobotOf(geometry::Box{{0.3, 0.2, 0.4}}, 0.4, model::DriveKind::kVelocity);
   const auto expect_same = [](const auto& robot, int longest) {
     const auto alone = DigestsOfRun(robot, longest, nullptr);
-    // Few steps for many threads: if there are more threads than processors, they take turns, which
-    // takes long.
+    // With many threads, the test runs few steps: steps are slow if there are more threads than
+    // processors.
     for (const auto& [threads, steps] : {std::pair{1, 300}, {2, 2000}, {3, 300}, {7, 100}}) {
       const auto together = DigestsOfRun(robot, std::min(steps, longest),
                                          std::make_shared<base::ThreadTeam>(threads));

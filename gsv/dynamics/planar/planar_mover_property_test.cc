@@ -155,7 +155,7 @@ std::shared_ptr<model::Model> RobotOfKind(int kind) {
   if (kind == 2)
     robot = testing::RobotOf(geometry::Box{{0.4, 0.4, 0.5}}, 0.5, model::DriveKind::kVelocity);
   if (kind == 3) {
-    // A low base whose axle is ahead of its origin, with a mast to the side.
+    // A low base whose axle is in front of its origin, with a mast beside the centre.
     robot = testing::BoxRobot(0.6, 0.5);
     robot->links.push_back(
         testing::LinkOf(geometry::Cylinder{0.1, 1}, geometry::PlanarPose(0.4, 0.3, 0.9, 0)));

@@ -116,7 +116,7 @@ TEST(PlanarMover, ReportsTheStartOfAContactOnce) {
     EXPECT_FALSE(contacts[0].began);
   }
   EXPECT_EQ(world.body("robot").collisions, 1u);
-  // It drives away and back, and collides again.
+  // The robot drives away and back, and collides again.
   world.Command("robot", {-1, 0, 0});
   world.Run(0.1, 0.01);
   EXPECT_FALSE(world.body("robot").in_contact);
@@ -132,8 +132,8 @@ TEST(PlanarMover, TurnsOnTheSpotAgainstAWallAndDrivesAway) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 1});
   world.Run(3, 0.01);
-  // After three seconds at 1 rad/s it has rotated by 3 rad, although it touched the wall, and it
-  // has left the wall.
+  // After three seconds at 1 rad/s, the robot has rotated by 3 rad, although it touched the wall.
+  // It has also driven away from the wall.
   EXPECT_NEAR(world.yaw("robot"), 3, 1e-9);
   EXPECT_LT(world.position("robot").x, 0.2);
   EXPECT_FALSE(world.body("robot").in_contact);

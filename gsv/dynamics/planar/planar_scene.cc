@@ -15,7 +15,7 @@ using geometry::Quaternion;
 // Pieces that extend above the climb height by less than this do not collide.
 constexpr double kThinnest = 1e-9;
 
-// Returns the rotation without its part about the vertical.
+// Returns the rotation without its yaw.
 Quaternion TiltOf(const Quaternion& orientation) {
   if (std::abs(orientation.x) < 1e-12 && std::abs(orientation.y) < 1e-12) return {};
   return geometry::FromAxisAngle({0, 0, 1}, -geometry::Yaw(orientation)) * orientation;

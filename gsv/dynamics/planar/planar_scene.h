@@ -1,5 +1,5 @@
-// Data that the planar mover derives from a layout: the movers, which are the bodies that it moves,
-// their footprints, and the obstacles.
+// Data that the planar mover derives from a layout: obstacles, movers and their footprints. A mover
+// is a body that planar kinematics moves.
 //
 // Levels   Obstacles are sliced once for each distinct range of heights of a piece of a footprint.
 //          The range begins at the lowest point of the piece, but not below the height that the

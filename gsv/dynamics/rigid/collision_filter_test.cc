@@ -53,7 +53,8 @@ TEST(CollisionFilter, BodyThatCollidesWithNothingFallsThroughTheGround) {
   EXPECT_NEAR(world.position("box").z, 1 - kG / 2, 1e-9);
 }
 
-// On a box and on a mesh: each of two bodies collides only with the one that has a bit in common.
+// Two spheres fall onto a box, then onto a mesh. Only the sphere that has a collision bit in common
+// with the box or mesh comes to rest on it.
 TEST(CollisionFilter, BodyRestsOnABodyOfItsCategory) {
   for (const geometry::Shape& shape : {geometry::Shape(geometry::Box{{1, 1, 1}}), CubeAsMesh()}) {
     TestWorld world(MakeWorldEngine());

@@ -17,7 +17,7 @@ struct Contact {
   // m/(s N): the velocity at which the solids slide along each axis, per friction force of all
   // their points.
   std::array<double, 2> slip{};
-  std::array<double, 2> softness{};  // (m/s) / (N s): the same per impulse at this point
+  std::array<double, 2> softness{};  // (m/s) / (N s): sliding velocity per impulse at this point
   std::array<double, 3> impulse{};   // N s: along the normal and the axes
 
   geometry::Vector3 on_first() const { return point.on_second + point.distance * point.normal; }
@@ -31,9 +31,10 @@ struct SlippingContact {
 
 // The friction, slip and restitution of two surfaces in contact. The friction is the smaller one,
 // and the restitution is the product of both, as in DART, which Gazebo uses. If one surface has two
-// friction coefficients, they apply along its direction and across it. If both have two, those of
-// the more slippery surface apply. The same holds for a surface with a slip. Otherwise the axes are
-// along and across the rolling direction of `wheel`, which is null if no wheel slips.
+// friction coefficients, they apply along its direction and across it. If both surfaces have two,
+// those of the more slippery surface apply. The slip of a surface also applies along its direction
+// and across it. Otherwise the axes are along and across the rolling direction of `wheel`, which is
+// null if no wheel slips.
 void SetSurfaces(const PlacedPiece& first, const PlacedPiece& second, const SlippingContact* wheel,
                  Contact& contact);
 
@@ -42,8 +43,8 @@ inline constexpr double kRestingDepth = 1e-5;
 
 // Returns the velocity that the first body must have relative to the second at the end of a
 // substep. The value along the normal is a minimum. Friction reaches the values along the axes if
-// it is strong enough. `meeting` is that velocity along the normal when the bodies meet. `free` are
-// the velocities at the end of the substep without impulses.
+// it is strong enough. `meeting` is the relative velocity along the normal when the bodies meet.
+// `free` are the velocities at the end of the substep without impulses.
 std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double meeting,
                                 const std::array<double, 3>& free, double substep);
 

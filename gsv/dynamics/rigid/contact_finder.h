@@ -4,8 +4,8 @@
 // Broad phase   sort and sweep for rigid and planar bodies; for static bodies a BVH, which is kept
 //               until one of them moves. Planes are tested one by one.
 // Margin        contacts begin where two pieces may touch within a substep.
-// Order         by the first body, the second, and their pieces. It depends on nothing else, so
-//               that bodies far away do not change it.
+// Order         by the first body, the second body, and their pieces. Bodies far away do not change
+//               the order.
 // Determinism   Find() is a function of the bodies' poses, velocities and the substep.
 #pragma once
 
@@ -27,7 +27,7 @@ namespace gsv::dynamics {
 struct Collider {
   const Solid* solid = nullptr;
   int moving = -1, part = 0;  // index of the rigid body, and its part; -1: none
-  bool bounces = false;  // touches others at its full speed, so that its contacts have no margin
+  bool bounces = false;       // has contacts without a margin, so that it bounces at its full speed
   // set for planar bodies
   geometry::Vector3 position, velocity, angular_velocity;
 };
@@ -65,7 +65,7 @@ class ContactFinder {
     int first_collider = 0, collider_count = 0;
     int first_piece = 0, piece_count = 0;
     geometry::Vector3 low, high;
-    double reach = 0;  // the maximum distance that it may move in the substep, m
+    double reach = 0;  // maximum distance that the body may move in the substep, m
   };
   struct StaticPiece {
     PlacedPiece placed;

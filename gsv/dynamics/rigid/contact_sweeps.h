@@ -70,7 +70,8 @@ class ContactSweeps {
     std::array<double, 2> softness;
     std::array<double, 3> impulse;
   };
-  // Four contacts, one in each value of a vector. Unused ones belong to bodies that nothing moves.
+  // Four contacts, one in each value of a vector. Unused values refer to bodies that no impulse
+  // moves.
   struct alignas(sizeof(FourDoubles)) Batch {
     using Vectors = FourDoubles[3];
     Vectors arm_first, arm_second;
@@ -88,7 +89,8 @@ class ContactSweeps {
   void Apply(const Contact& contact, std::size_t axis, double impulse);
   // Orders the contacts by level.
   void Order();
-  // The number of bodies between a contact and a body that does not move; -1: there is none.
+  // Returns -1 for a contact with a fixed body, else the larger level of its two bodies. The level
+  // of a body is the number of bodies between it and a fixed body.
   int LevelOf(int contact) const;
   void MakeBatches();
   // Writes a contact into one of the four values of a batch.
@@ -104,7 +106,7 @@ class ContactSweeps {
   std::vector<Contact> contacts_;
   std::vector<Batch> batches_;
   std::vector<int> open_;  // batches with space for more contacts
-  // For each body, and for one that does not move: velocity, inverse mass, angular velocity, 0.
+  // For each body, and for one fixed body: velocity, inverse mass, angular velocity, 0.
   std::vector<double> motions_;
   std::vector<int> order_, levels_, queue_, first_of_body_, contacts_of_body_;
 };

@@ -94,7 +94,7 @@ class IslandSolver {
     std::array<double, 3> velocity{};
   };
 
-  // Add the rows of joints, of a push, and of a contact.
+  // These functions add the rows of all joints, of one push, and of one contact.
   void AddJointRows(std::span<const std::unique_ptr<MovingBody>> bodies);
   void AddPushRow(std::span<const std::unique_ptr<MovingBody>> bodies, const PushRow& push);
   void AddContactRows(const ContactFinder& finder,
@@ -151,7 +151,7 @@ class IslandSolver {
   std::vector<int> bodies_, contacts_, pushes_;
   int size_ = 0;
   std::vector<int> first_;     // index of each body's first velocity
-  std::vector<int> first_of_;  // the same, by the index of the moving body
+  std::vector<int> first_of_;  // index of the first velocity, by the index of the moving body
   std::vector<Row> rows_;      // rows of joints, then rows of pushes
   std::size_t joint_rows_ = 0;
   std::vector<ContactRows> contact_rows_;
@@ -174,7 +174,7 @@ class IslandSolver {
     std::array<double, 3> impulse;
   };
   std::vector<Pending> pending_;  // contacts, before they are added to sweeps_
-  std::vector<int> place_of_;     // in bodies_, by the index of the moving body
+  std::vector<int> place_of_;     // index in bodies_, by the index of the moving body
   // for each body, the index at which its velocities begin in the rows
   std::vector<int> columns_of_rows_;
   std::vector<double> jacobian_[2], response_[2];

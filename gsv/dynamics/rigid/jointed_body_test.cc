@@ -137,7 +137,7 @@ TEST(JointedBody, FallingLinkRespectsItsVelocityLimit) {
 
 TEST(JointedBody, FrictionHoldsAJoint) {
   auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
-  model->joints[0].friction = 9.9;  // it weighs 9.8 N
+  model->joints[0].friction = 9.9;  // the link weighs 9.8 N
   TestWorld world(MakeWorldEngine());
   world.AddRigid("slider", model, At(0, 0, 5));
   ASSERT_TRUE(world.Start());
@@ -258,7 +258,7 @@ TEST(JointedBody, SlidingDownASlopeDoesNotRotateTheWheels) {
 
 TEST(JointedBody, RobotClimbsARampThatStopsAPlanarRobot) {
   TestWorld world = WorldOnGround();
-  // Its upper face begins at the ground at x = 1 and rises by one in five.
+  // The ramp's upper face starts on the ground at x = 1 and has a slope of 1 : 5.
   const double slope = std::atan(0.2);
   const geometry::Quaternion up = geometry::FromAxisAngle({0, 1, 0}, -slope);
   world.AddStatic("ramp", testing::ModelOf(geometry::Box{{4, 3, 0.2}}),

@@ -26,7 +26,7 @@ class KeptImpulses final : public world::EngineState {
   void Add(const ContactFinder& finder, const Contact& contact, double substep);
   // Sorts the added impulses. Call it before StartFrom().
   void Finish();
-  // Sets the impulses of those contacts that are within a centimetre of a stored one.
+  // Sets the impulses of those contacts that are within a centimetre of a stored contact.
   void StartFrom(const ContactFinder& finder, std::vector<Contact>& contacts, double substep) const;
 
   void Clear() { entries_.clear(); }

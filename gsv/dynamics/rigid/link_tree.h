@@ -82,7 +82,8 @@ class LinkTree {
   // Returns the rotation of a ball joint from its zero position.
   const geometry::Quaternion& turn(int part) const { return turns_[Index(part)]; }
 
-  // Returns the velocities that move a part, from its own to those of the base.
+  // Returns the indices of the velocities that move a part: first those of its own joint, last
+  // those of the base.
   std::span<const int> Chain(int part) const { return links_[Index(part)].chain; }
   // For each velocity of the part's chain: the velocity of a point of the part, and its angular
   // velocity, due to a unit of that velocity.
@@ -133,8 +134,8 @@ class LinkTree {
 
   const RigidBody& plan_;
   std::vector<Link> links_;
-  std::vector<BallAngles> balls_;  // for the parts in ball_of_
-  std::vector<int> ball_of_;       // by part, -1: none
+  std::vector<BallAngles> balls_;  // one for each ball joint
+  std::vector<int> ball_of_;       // index in balls_ for each part; -1: none
   int size_ = 0, base_size_ = 6;
   std::vector<int> parents_;  // parents of velocities; -1: none
 

@@ -183,7 +183,7 @@ void Tumble(Tree& body) {
 }
 
 struct Momentum {
-  Vector3 linear, angular;  // the latter about the world's origin
+  Vector3 linear, angular;  // `angular` is about the world's origin
 };
 
 Momentum MomentumOf(const Tree& body, const LinkTree& tree, const std::vector<Vector3>& inertias) {
@@ -224,7 +224,8 @@ TEST(LinkTree, FloatingTreeKeepsItsMomenta) {
   EXPECT_NEAR(errors[0] / errors[1], 4, 0.05);
 }
 
-// The kinetic energy is that of the parts, and the response to a row inverts the mass matrix.
+// The mass matrix gives the sum of the parts' kinetic energies. Respond() multiplies by its
+// inverse.
 TEST(LinkTree, MassMatrixGivesTheKineticEnergyAndRespondInvertsIt) {
   const model::Model model = Satellite();
   const auto parts = MakeArticulation(model).parts;

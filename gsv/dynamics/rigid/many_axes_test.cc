@@ -23,7 +23,7 @@ using testing::WorldOnGround;
 constexpr double kLength = 0.5, kInertia = 1e-3;
 
 // A ball of 1 kg that hangs from the world, kLength below a joint with consecutive `axes`. The
-// reader makes such joints from ball and universal joints.
+// model reader converts ball joints and universal joints to such joints.
 std::shared_ptr<model::Model> HangingBy(JointKind kind, const std::vector<Vector3>& axes) {
   auto model = testing::ModelOf(geometry::Sphere{0.01}, At(0, 0, -kLength));
   model::Inertial& inertial = model->links[0].inertial;

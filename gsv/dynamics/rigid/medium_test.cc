@@ -108,7 +108,7 @@ TEST(Wind, DeflectsAPendulum) {
   EXPECT_NEAR(world.joint("pendulum", 0), std::atan(2 * 3 / kG), 0.02);
 }
 
-// It rises with the acceleration (rho V / m - 1) g.
+// The body rises with the acceleration (rho V / m - 1) g.
 TEST(Buoyancy, LiftsBodiesLighterThanTheFluid) {
   TestWorld world(MakeWorldEngine());
   world.description().fluid = model::Fluid{1000, {}, {}};
@@ -184,7 +184,7 @@ TEST(KinematicLink, IgnoresForces) {
   ASSERT_TRUE(world.Start());
   world.Run(2, kMediumStep);
   EXPECT_EQ(world.position("shelf"), (Vector3{0, 0, 1}));
-  // The body fell by 2 mm in a substep.
+  // The tolerance is the distance that the stone falls in one substep.
   EXPECT_NEAR(world.position("stone").z, 1.2, 2e-3);
 }
 

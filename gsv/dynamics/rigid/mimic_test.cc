@@ -1,4 +1,4 @@
-// Tests joints that follow others, in rigid-body dynamics and in planar kinematics.
+// Tests mimic joints, which follow another joint, in rigid-body dynamics and in planar kinematics.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
@@ -11,7 +11,7 @@ using testing::At;
 using testing::TestWorld;
 using Kind = world::JointCommand::Kind;
 
-// A base with two fingers. The second one follows the first.
+// A base with two fingers. The second finger follows the first.
 std::shared_ptr<model::Model> Fingers(const model::Mimic& mimic) {
   auto model = testing::SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1);
   for (const double side : {1.0, -1.0}) {

@@ -135,8 +135,7 @@ void MovingBody::Drive(double seconds) {
   servo_->kinematics().TurnJoints({}, motion, seconds, wanted_positions_, wanted_rates_);
 }
 
-// Returns the current command of a joint: that of the drive if the joint belongs to it, else the
-// joint's own.
+// Returns the current command of a joint. The command of a joint of the drive comes from the drive.
 world::JointCommand MovingBody::CommandOf(int joint) const {
   const auto index = static_cast<std::size_t>(joint);
   if (servo_) {

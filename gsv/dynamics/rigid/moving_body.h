@@ -21,8 +21,8 @@ class MovingBody {
   void Place();
   // Applies commands in the next substep: sets forces, rows and the velocities without impulses.
   void BeforeSubstep(double seconds);
-  // Sets the velocities at the end of the substep, and moves. A body without contacts follows a
-  // parabola.
+  // Sets the velocities at the end of the substep, and moves the body. A body without contacts
+  // follows a parabola.
   void AfterSubstep(std::span<const double> velocities, bool is_touched, double seconds);
   // Moves by this velocity in this substep only. Call it after AfterSubstep().
   void Separate(const geometry::Vector3& velocity, double seconds);

@@ -83,7 +83,8 @@ class OnPlane {
   }
 
  private:
-  // Adds the point of a sphere around a point of the piece.
+  // Adds the contact of a sphere with the plane. `from_middle` is the vector from the middle of the
+  // piece to the sphere's centre.
   void Add(const Vector3& from_middle, double radius) {
     const double height = height_ + Dot(normal_, from_middle);
     if (!(height - radius < margin_)) return;

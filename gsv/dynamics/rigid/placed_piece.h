@@ -29,8 +29,8 @@ struct TouchPoint {
   double distance = 0;          // m, negative if they overlap
 };
 
-// Adds the points at which two pieces are closer than `margin`, in closed form. Returns false if it
-// has no closed form for this pair of kinds.
+// Adds the points at which two pieces are closer than `margin`, in closed form. Returns false if
+// there is no closed form for this pair of kinds.
 //
 // Sphere and capsule  one point, or one at each end. A sphere on triangles: see TriangleSurface.
 // Cylinder            on a plane: the lowest point of both rims, or four points of the rim on which

@@ -84,7 +84,7 @@ TEST(PlacedPiece, BoxesShareTheAreaOfTheirFaces) {
 }
 
 TEST(PlacedPiece, EdgesOfBoxesCrossAtOnePoint) {
-  // One stands on an edge along y, and the other one lies above it on an edge along x.
+  // The lower box stands on an edge along y. The upper box stands on it with an edge along x.
   const double half = std::sqrt(0.5);
   const auto lower = geometry::FromAxisAngle({0, 1, 0}, geometry::kPi / 4);
   const auto upper = geometry::FromAxisAngle({1, 0, 0}, geometry::kPi / 4);

@@ -93,7 +93,7 @@ TEST(Pushing, BodyOnARobotMovesWithIt) {
   world.Command("robot", {0.2, 0, 0});
   world.Run(5, 0.01);
   EXPECT_NEAR(world.position("robot").x, 1, 1e-9);
-  // It slips while the robot starts at full speed: v² / (2 g) = 2 mm.
+  // The parcel slips while the robot starts at full speed: v² / (2 g) = 2 mm.
   EXPECT_NEAR(world.position("parcel").x, 1, 0.01);
   EXPECT_NEAR(world.position("parcel").z, 0.45, 1e-4);
 }

@@ -15,9 +15,9 @@ class RigidContacts {
   void Clear();
   // Adds the contacts of a substep, with their impulses.
   void Add(const ContactFinder& finder, const std::vector<Contact>& contacts);
-  // `contacts` becomes the list for the step: one contact for each pair of bodies, and one that
-  // supports. Each has the depth of its deepest point, the total impulse, and the points of the
-  // last substep that had any.
+  // `contacts` becomes the list for the step: for each pair of bodies, one contact that supports
+  // and one that does not. Each contact has the depth of its deepest point, the total impulse, and
+  // the points of the last substep with contact.
   void Store(std::vector<world::Contact>& contacts);
 
  private:

@@ -37,7 +37,8 @@ class RigidShapes {
   // object, until the second NextLayout().
   btCollisionShape* Standing(const geometry::Shape& shape);
 
-  // The shapes of a moving body, one or several, in the frame of `shape`. Planes have none.
+  // Returns the shapes of a moving body in the frame of `shape`: none for a plane, else one or
+  // several.
   std::vector<btCollisionShape*> Moving(const geometry::Shape& shape);
 
   // A piece of a footprint from height `low` to its top, in the frame of its model.

@@ -243,7 +243,8 @@ class TriangleSurface::CylinderContacts {
     if (!(axial < list_.margin())) return;
     const double radial = RadialDistance() - radius_;
     if (!(radial < list_.margin())) return;
-    // A contact must be along the direction in which the two are farthest apart.
+    // A contact must be along the direction in which the triangle and the cylinder are farthest
+    // apart.
     constexpr double kBetter = 0.05, kLeast = 1e-6;
     const double best = std::max({face, axial, radial});
     floor_ = best - kBetter * std::abs(best) - kLeast;
@@ -366,7 +367,8 @@ class TriangleSurface::CylinderContacts {
     }
   }
 
-  // Returns the point of the edge that is nearest to the axis.
+  // Adds the contact of the cylinder's side with `at`, the point of the edge that is nearest to the
+  // axis.
   void AddSide(const Triangle& triangle, std::size_t edge, const Vector3& at) {
     const double from_axis = std::sqrt(at.x * at.x + at.y * at.y);
     if (!(from_axis > 0) || !IsContact(from_axis - radius_)) return;
@@ -374,7 +376,8 @@ class TriangleSurface::CylinderContacts {
     if (MayTouch(triangle, edge, normal)) Add(at, normal, from_axis - radius_);
   }
 
-  // The rim at height `end` touches the edge, near the point `at`, at right angles to both.
+  // Adds the contact of the rim at height `end` with the edge, near the point `at`. The normal is
+  // at right angles to the rim and the edge.
   void AddRim(const Triangle& triangle, std::size_t edge, const Vector3& at, double end) {
     // Uses the part of the normal that points away from the rim.
     constexpr double kAway = 0.1;

@@ -20,7 +20,7 @@ namespace gsv::dynamics {
 class TriangleSurface {
  public:
   // Two triangles are neighbours if they share two vertices of equal positions. Triangles without
-  // area are left out, and so are those with the vertices of an earlier one.
+  // area are left out, as are triangles whose vertices equal those of an earlier triangle.
   TriangleSurface(const geometry::TriangleMesh& mesh, const geometry::Vector3& scale);
 
   // Adds the points at which a cylinder or sphere is closer than `margin` to the triangles, as
@@ -56,7 +56,7 @@ class TriangleSurface {
   void AddTriangle(const std::array<int, 3>& vertices);
   // Finds the neighbour of each edge, and whether the two triangles are in one plane.
   void JoinNeighbours();
-  // Lists for each vertex those with which it shares an edge.
+  // Lists for each vertex the vertices with which it shares an edge.
   void ListVerticesBeside();
   const geometry::Vector3& CornerOf(const Triangle& triangle, std::size_t corner) const {
     return vertices_[static_cast<std::size_t>(triangle.vertices[corner])];

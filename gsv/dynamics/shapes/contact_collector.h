@@ -18,7 +18,7 @@ struct BodyPair {
 class ContactCollector {
  public:
   // Clears and fills `contacts`. Bodies further apart than `gap` have no contact. If `gap` is below
-  // 0, bodies that overlap by less than -gap have none.
+  // 0, bodies that overlap by less than -gap have no contact.
   ContactCollector(std::vector<world::Contact>& contacts, double gap);
 
   // Passes the separation of a piece of the first body from a piece of the second one. The deepest

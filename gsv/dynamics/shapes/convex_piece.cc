@@ -108,8 +108,9 @@ Separation SeparateOverlapping(const ConvexPiece& a, const ConvexPiece& b,
   return result;
 }
 
-// The unit vector from the closest point on a to the closest point on b. If one of them lies on an
-// edge, the vector is the edge's normal, because the direction of a short gap is less exact.
+// The unit vector from the closest point on a to the closest point on b. If one of these points
+// lies on an edge, the vector is the edge's normal, because the direction of a short gap is less
+// exact.
 Vector2 GapDirection(const ClosestPoints& closest, double gap) {
   const Vector2 difference = closest.on_b - closest.on_a;
   if (closest.edge == Vector2{}) return {difference.x / gap, difference.y / gap};

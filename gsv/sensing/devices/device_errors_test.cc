@@ -310,7 +310,8 @@ TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
                                   {"threshold", 0.14},
                                   {"gain_range", 1.55}}))[0] < 3.9;
   };
-  // The detected part is threshold max(1, distance / gain range).
+  // A target is detected if it fills at least this fraction of the zone: threshold * max(1,
+  // distance / gain range).
   double expected = 0.1;
   while (0.025 / std::sqrt(wave_length * expected / 2) > 0.155 * std::max(1.0, expected / 1.55)) {
     expected += 0.001;

@@ -267,7 +267,8 @@ TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   EXPECT_NEAR(lines[0].from.x, 0.3, 1e-12);
 }
 
-// The force is that on the robot, whichever of the two bodies it is.
+// The bumper reads the force on the robot, whether the robot is the first or the second body of the
+// contact.
 TEST_F(SensorTypesTest, BumperReadsTheForceOnTheRobot) {
   const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
   snapshot_->step_length = std::chrono::milliseconds(10);
@@ -287,7 +288,7 @@ TEST_F(SensorTypesTest, BumperReadsTheForceOnTheRobot) {
   EXPECT_NEAR(message.contacts[0].force.x, -20, 1e-12);
 }
 
-// A body has a plate in front and one behind. It touches a wall with the front.
+// A body has one plate in front and one plate behind. The front plate touches a wall.
 class NamedCollisionsTest : public ::testing::Test {
  protected:
   NamedCollisionsTest() {

@@ -75,7 +75,7 @@ class MotionReader {
     return model().joints[static_cast<std::size_t>(joint)];
   }
 
-  // Returns the place of a joint among the values of all joints.
+  // Returns the index of a joint in the state's arrays of joint values.
   std::size_t PlaceOf(int joint) const {
     return static_cast<std::size_t>(body_.first_joint + joint);
   }

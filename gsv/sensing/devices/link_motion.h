@@ -1,5 +1,5 @@
 // The motion of each link of a body: velocities of the snapshot, and mean accelerations over its
-// last step. They include those of joints.
+// last step. Both include the motion of the joints.
 //
 // Frames  world axes.
 #pragma once

@@ -18,8 +18,8 @@ using geometry::kInfinity;
 using geometry::Pose;
 using geometry::Vector3;
 
-// The centre of the box around a model's collisions, with all joints at zero; nullopt if it has
-// none.
+// The centre of the box around a model's collisions, with all joints at zero; nullopt if the model
+// has no collisions.
 std::optional<Vector3> CentreOf(const model::Model& model) {
   Vector3 low{kInfinity, kInfinity, kInfinity}, high = -low;
   for (const model::Link& link : model.links) {

@@ -20,7 +20,8 @@
 
 namespace gsv::sensing {
 
-// The parameters of accumulating odometry errors. scale: factor between odometry and truth.
+// The parameters of accumulating odometry errors. A scale is the measured value divided by the true
+// value.
 struct OdometryDrift {
   double linear_scale = 1, angular_scale = 1;
   double linear_per_metre = 0;    // m after one metre
@@ -61,7 +62,8 @@ class DriftState final : public world::DeviceState {
 
  private:
   const OdometryDrift drift_;
-  std::optional<geometry::PlanarPosition> exact_;  // nothing before the first step
+  // True position at the last step; nullopt before the first step.
+  std::optional<geometry::PlanarPosition> exact_;
   geometry::PlanarPosition estimate_;
 };
 

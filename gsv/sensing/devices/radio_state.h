@@ -22,7 +22,7 @@ struct HeardMessage {
   double strength = 0;       // dBm
 };
 
-// Errors of the radio channel at the receiver. With 0 there are none.
+// Errors of the radio channel at the receiver. A value of 0 switches an error off.
 struct RadioErrors {
   double fading = 0;            // deviation of each message's strength, dB
   double loss_probability = 0;  // for a message that is strong enough
@@ -55,8 +55,8 @@ class RadioState final : public world::DeviceState {
   // do not arrive. The radio's own transmissions do not arrive.
   std::vector<std::optional<double>> Arriving(const world::DeviceStep& step,
                                               const world::Antenna& here) const;
-  // Whether a message is lost by chance or because other messages are too strong. `place` is its
-  // index in step.transmissions.
+  // Whether a message is lost by chance or because other messages are too strong. `place` is the
+  // message's index in step.transmissions.
   bool IsLost(const world::DeviceStep& step, std::size_t place,
               const std::vector<std::optional<double>>& arriving) const;
   // Returns the number of the random stream for a message.

@@ -223,8 +223,8 @@ TEST(Radio, HashIncludesReceivedMessages) {
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
-// The fraction of messages that "b" receives, if "a" and perhaps "c" send one each per
-// step.
+// Robot "a", and optionally robot "c", sends one message in each step. Strengths() returns the
+// strengths (dBm) of the messages that "b" receives.
 class RadioOnTheAir : public RadioLink {
  protected:
   std::vector<double> Strengths(const RadioErrors& errors, int messages, bool c_sends = false) {

@@ -31,7 +31,7 @@ struct Line {
   Vector3 At(double distance) const { return origin + distance * direction; }
 };
 
-// Finds the smallest of the distances that are ahead.
+// Finds the smallest distance that is above 0.
 class Nearest {
  public:
   void Offer(double distance) {
@@ -62,14 +62,14 @@ double ToSphere(const Line& line, const Pose& pose) {
   const double b = Dot(line.direction, from_centre);
   const double root =
       std::sqrt(b * b - Dot(from_centre, from_centre) + kSphere.radius * kSphere.radius);
-  Nearest nearest;  // if there is no root, the value is NaN and does not count as ahead
+  Nearest nearest;  // without a root the distance is NaN, which Nearest ignores
   nearest.Offer(-b - root);
   nearest.Offer(-b + root);
   return nearest.distance();
 }
 
-// The curved surface satisfies |m + t e| = r, where m and e are o - c and d perpendicular to the
-// axis. The end faces are planes.
+// The curved surface satisfies |m + t e| = r, where m and e are the components of o - c and d
+// perpendicular to the axis. The end faces are planes.
 double ToCylinder(const Line& line, const Pose& pose) {
   const double radius = kCylinder.radius, half = kCylinder.length / 2;
   const Vector3 axis = pose.orientation * Vector3{0, 0, 1};

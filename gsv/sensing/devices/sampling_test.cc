@@ -1,5 +1,6 @@
-// Compares the readings of a crowd. Sensors that share a sampling, with any number of threads, must
-// have the readings that each takes alone, and those of a brute-force search.
+// Compares the readings of a crowd. Sensors may share a sampling and run on any number of threads.
+// Their readings must equal those of sensors that are read alone, and those of a brute-force
+// search.
 #include <gtest/gtest.h>
 
 #include "gsv/base/thread_team.h"
@@ -107,7 +108,8 @@ class SamplingTest : public ::testing::Test {
 TEST_F(SamplingTest, BeamsHaveTheValuesThatTheirSensorsRead) {
   BeamSet beams;
   std::vector<const Sensor*> with_beam;
-  for (int times = 0; times < 2; ++times) {  // more beams than a packet
+  // Each sensor is added twice, so that there are more beams than fit into one packet.
+  for (int times = 0; times < 2; ++times) {
     for (const auto& sensor : sensors_) {
       if (sensor->beam() == nullptr) continue;
       beams.Add(*sensor);

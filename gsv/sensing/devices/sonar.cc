@@ -120,7 +120,7 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
 
   const SonarSettings settings_;
   std::optional<SoundCone> cone_;
-  std::optional<Beam> beam_;  // set if the value of this beam is the whole reading
+  std::optional<Beam> beam_;  // set if a reading is only the value of this beam
   // Caches, for the last robot's model, the indices of the sonars that fire at the same time.
   mutable base::Mutex mutex_;
   mutable std::shared_ptr<const model::Model> others_of_ GSV_GUARDED_BY(mutex_);

@@ -39,8 +39,9 @@ namespace gsv::sensing {
 struct SoundSettings {
   double radius = 0.019;      // radius of the transducer, m
   double frequency = 49.4e3;  // Hz
-  double threshold = 0.02;    // smallest detected echo; the strongest from straight ahead is 1,
-                              // 0.0175 from the side lobes
+  // Smallest echo that is detected. The strongest echo from straight ahead is 1, and the strongest
+  // echo from the side lobes is 0.0175.
+  double threshold = 0.02;
   // Largest angle between the sound and a smooth surface's normal at which an echo returns, rad.
   double specular_width = 0.035;
   double roughness = 0;   // fraction of the sound that is scattered in all directions

@@ -38,8 +38,8 @@ class BoxIndex {
     }
   }
 
-  // Adds to `found` every box within `reach` of the place, once, and possibly others. If there is
-  // no space or no fast method, returns false, and some boxes are missing.
+  // Adds to `found` every box within `reach` of the place, once, and possibly boxes further away.
+  // If there is no space or no fast method, returns false, and some boxes are missing.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
     if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMax) return false;

@@ -1,4 +1,5 @@
-// The candidate set of solids near one point. It is gathered once for many rays from there.
+// The candidate set of solids near one point. It is gathered once for many rays that start near
+// this point.
 //
 // Exactness  candidates are culled by bounding spheres in single precision. The spheres are
 //            enlarged by more than its error, so that no solid on a ray is omitted.
@@ -88,7 +89,7 @@ class CandidateSet {
 
   geometry::Vector3 place_;
   double reach_ = -1;
-  std::size_t count_ = 0;  // followed by up to three that no ray touches
+  std::size_t count_ = 0;  // number of solids; up to three entries that no ray touches follow
   bool is_overfull_ = false;
   // Centres relative to place_.
   alignas(16) std::array<float, kMax + 4> x_, y_, z_, squared_radius_;

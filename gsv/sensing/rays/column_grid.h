@@ -66,8 +66,8 @@ class ColumnGrid {
     }
   }
 
-  // Adds to `found` every box within `reach` of the place, once, and possibly others. If there is
-  // no space, returns false, and some boxes are missing.
+  // Adds to `found` every box within `reach` of the place, once, and possibly boxes further away.
+  // If there is no space, returns false, and some boxes are missing.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const;
 
  private:

@@ -55,7 +55,8 @@ double QuickArcTangent(double x) {
                                                                            s * 0.0028662257))))))));
 }
 
-// Return the angle with that tangent, and the azimuth of (x, y), with the same error.
+// QuickAngle() returns the angle with the given tangent, and QuickAzimuth() the azimuth of (x, y).
+// Both have the error of QuickArcTangent().
 double QuickAngle(double tangent) {
   if (std::abs(tangent) <= 1) return QuickArcTangent(tangent);
   return std::copysign(std::numbers::pi / 2, tangent) - QuickArcTangent(1 / tangent);

@@ -1,4 +1,4 @@
-// The solids of all bodies of a layout. Those of moving bodies are in the frames of their links.
+// The solids of all bodies of a layout. Solids of moving bodies are in the frames of their links.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -14,7 +14,7 @@ namespace gsv::sensing {
 // The solids of one link, or of all links of a model that do not move relative to each other. All
 // bodies of the model share it.
 struct Part {
-  int link = -1;   // the link whose frame it has; -1: the model's frame
+  int link = -1;   // the solids are in the frame of this link; -1: of the model
   int number = 0;  // number within its model
   SolidSet solids;
   BoundingSphere ball;  // bounding sphere of the solids, unless they are unbounded

@@ -70,8 +70,8 @@ class PlacedSolids final : public RayScene {
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
-  // Casts the rays of a fan that may hit a solid at it. directions[i] is the direction of ray i in
-  // the world; `batch` is working memory.
+  // Casts at one solid the rays of a fan that may hit it. directions[i] is the direction of ray i
+  // in the world; `batch` is working memory.
   void CastInto(const Shading& shading, const Fan& fan,
                 std::span<const geometry::Vector3> directions, std::span<Nearest> nearest,
                 RayBatch& batch) const;
@@ -83,7 +83,7 @@ class PlacedSolids final : public RayScene {
   std::vector<geometry::Bounds> boxes_;
   SphereGrid grid_;  // the grid of spheres_, for packets
 
-  // The index of boxes_, for other rays. It is built for the first of them.
+  // The index of boxes_, for rays outside of packets. The first such ray builds it.
   mutable base::Mutex index_mutex_;
   mutable std::atomic<bool> is_indexed_{false};
   mutable BoxIndex index_;

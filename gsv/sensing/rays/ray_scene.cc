@@ -70,7 +70,8 @@ class RaySceneCache::Impl {
       solids_ = std::make_shared<Solids>();
       solids_->layout = snapshot->layout;
     }
-    if (recent_.size() == kRecent) recent_.pop_front();  // this may return its scene to the pool
+    // The removed entry may return its scene to the pool.
+    if (recent_.size() == kRecent) recent_.pop_front();
     auto entry = std::make_shared<Entry>();
     entry->snapshot = snapshot;
     entry->solids = solids_;

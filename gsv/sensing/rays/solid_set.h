@@ -35,8 +35,8 @@ struct Nearest {
   int part = -1;            // the bearer's
   std::uint32_t solid = 0;  // number in its set, see SolidSet::NormalAt()
 
-  // Takes the hit if it is nearer. At equal distance, the lower body and then the lower primitive
-  // is kept.
+  // Stores the hit if it is nearer. At equal distance, the hit with the lower body index and then
+  // the lower primitive index is kept.
   void Offer(double at, int whose, std::uint32_t which, int of_part, std::uint32_t in_set) {
     if (at > distance) return;
     if (at == distance && body >= 0 && (whose > body || (whose == body && which >= primitive))) {
@@ -68,7 +68,7 @@ class SolidSet {
   void Commit();
 
   bool empty() const { return triangles_.empty() && shapes_.empty() && planes_.empty(); }
-  // Whether it contains a Plane and is unbounded.
+  // Whether the set contains a Plane, and so is unbounded.
   bool endless() const { return !planes_.empty(); }
   // The bounding box of everything except the planes.
   const geometry::Bounds& bounds() const { return bounds_; }
@@ -103,8 +103,8 @@ class SolidSet {
            into.min.y <= b.max.y && b.min.z <= into.max.z && into.min.z <= b.max.z;
   }
 
-  // Adds to `found` the shapes within `reach` of the place, and possibly others. Returns false if
-  // there is no fast method.
+  // Adds to `found` the shapes within `reach` of the place, and possibly shapes further away.
+  // Returns false if there is no fast method.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     return shape_index_.Near(place, reach, found);
   }
@@ -123,7 +123,7 @@ class SolidSet {
   bool FindTouched(const PacketSearch& search, TouchedSpheres& found) const {
     return shape_grid_.FindTouched(search, found);
   }
-  // Whether the set contains planes or triangles, which CastAtOthers() serves.
+  // Whether the set contains planes or triangles, which CastAtOthers() tests.
   bool HasOthers() const { return !planes_.empty() || !triangles_.empty(); }
 
   // Adds the shapes within the reach of `candidates`, with numbers that contain the bits of `mark`.

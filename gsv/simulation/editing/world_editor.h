@@ -54,8 +54,8 @@ class WorldEditor {
   base::Status ChangeWorld(std::vector<world::Body> bodies,
                            std::shared_ptr<const model::WorldDescription> description,
                            const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);
-  // Resolves the placement of new or moved bodies, and emits an event for each robot that is pushed
-  // out.
+  // Moves new or moved bodies out of overlaps with other bodies. Emits an event for each robot
+  // whose pose this changes.
   base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,
                        world::State& state) GSV_REQUIRES(world_mutex);
   // Returns the index of the body, or an error with the reason why it cannot be moved.
