@@ -76,8 +76,8 @@ class Renderer {
   // Profile) Mesa 22.3.6".
   const std::string& renderer_name() const { return renderer_name_; }
 
-  // Frees copies that nobody uses, and returns the number of the others. Waits for the batch in
-  // progress.
+  // Frees the back end's meshes and textures that are not in use. Returns the number of the
+  // remaining meshes and textures. Waits for the batch in progress.
   DrawCopies CountCopies();
 
  private:

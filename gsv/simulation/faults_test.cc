@@ -81,7 +81,7 @@ TEST(Faults, MovedPartOfTheWorldReturnsAfterAReset) {
   EXPECT_EQ(simulation->state_hash(), hash);
 }
 
-TEST(Faults, ImpossibleFaultFailsTheRunWithItsPlace) {
+TEST(Faults, ImpossibleFaultFailsTheRunAndTheErrorNamesItsLine) {
   Fault onto = At(1, Fault::Kind::kBodyMoves, "wall");
   onto.place = {0.5, 0, 0, 0};
   const auto simulation = WithFault(onto);
@@ -106,7 +106,7 @@ RobotSpecification RobotWithAnArm() {
   return robot;
 }
 
-TEST(Faults, MissingJointFailsTheRunWithItsPlace) {
+TEST(Faults, FaultOfARemovedJointFailsTheRunWithAReason) {
   const auto simulation = WithFault(At(1, Fault::Kind::kMotorFails, "r", "hinge"));
   ASSERT_TRUE(simulation->AddRobot(RobotWithAnArm()));
   ASSERT_TRUE(simulation->RunUntil(500ms));

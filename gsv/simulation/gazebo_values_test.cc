@@ -494,7 +494,7 @@ TEST_F(GazeboValues, ForceTorqueSensorReadsTheWeightOnAScale) {
   }
 }
 
-// An arm of 2 kg whose joint is held by a controller, and one that spins freely about the vertical.
+// A controller holds the joint of an arm of 2 kg. Another arm spins freely about the vertical.
 TEST_F(GazeboValues, ForceTorqueSensorReadsTheLoadOfAnArm) {
   const auto arm = [](const std::string& name, const std::string& pose, const std::string& plugin) {
     return "<model name='" + name + "'><pose>" + pose +

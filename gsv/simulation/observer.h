@@ -27,7 +27,8 @@ struct StepTimes {
   std::chrono::nanoseconds bodies{0};      // motion and contacts
   std::chrono::nanoseconds observers{0};   // recorders and viewers
   std::chrono::nanoseconds idle{0};        // in real time: waiting until the step was due
-  // The robot whose behaviour was the last one to wait for; empty if there is none.
+  // The robot for whose behaviour the step waited last; empty if the step did not wait for a
+  // behaviour.
   std::string held_up_by;
 
   std::chrono::nanoseconds total() const {

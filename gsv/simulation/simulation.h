@@ -42,7 +42,8 @@ struct ObjectSpecification {
   std::string name;                           // if empty: the model's name, with a number if that
                                               // is taken
   std::shared_ptr<const model::Model> model;  // if null, the model of `copy_of`
-  // The name of the body to copy: of the simulation, of the world file, or one that a user removed.
+  // The name of the body to copy: a body of the simulation or of the world file, or a body that a
+  // user removed.
   std::string copy_of;
   geometry::Pose world_from_object;
   // Whether the object is moved vertically so that it stands on the floor, see sensing/ground.h.
@@ -161,8 +162,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Returns the events from number `first` on, counted from 0. Only a limited number is kept; the
   // oldest events are dropped.
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
-  // Returns the lines that behaviours' programs printed, in the same way. They have numbers of
-  // their own.
+  // Returns the lines that the programs of behaviours printed, from number `first` on. Lines and
+  // events are numbered separately.
   virtual std::vector<Event> outputs(std::uint64_t first) const = 0;
   // Emits an event at the current step. Must not be called from Observer::OnEvent().
   virtual void Emit(std::string_view kind, const std::string& robot, const std::string& detail) = 0;

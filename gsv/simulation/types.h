@@ -61,7 +61,8 @@ struct Specification {
   // Number of threads for bodies and local behaviours. 0 means: all processors in lockstep, else
   // one thread.
   int threads = 0;
-  // A robot counts as stuck if it did not move for this long although it was commanded to. > 0.
+  // A robot counts as stuck if it did not move for this long although it was commanded to move.
+  // Must be > 0.
   SimTime stuck_after = std::chrono::seconds(5);
 };
 
@@ -121,7 +122,8 @@ struct SimulationStatus {
   std::chrono::nanoseconds wall_time{0};  // wall-clock time spent running
   std::uint64_t late_steps = 0;
   std::chrono::nanoseconds mean_step_time{0};  // wall-clock time per step
-  // such as "robot_3 (wander on host:pid) since 2.1 s"; empty if the simulation waits for nobody
+  // The agent that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s".
+  // Empty if there is none.
   std::string waiting_for;
   std::string failure;              // why the simulation failed
   std::uint64_t events = 0;         // number of lifecycle events so far
@@ -166,8 +168,8 @@ struct ExpectationState {
   Verdict verdict = Verdict::kPending;
   std::int64_t step = 0;  // step of the verdict
   SimTime time{0};
-  // The smallest distance to the limit so far, negative beyond it; for a condition that must become
-  // true once, the largest. Not set if the expectation has no margin.
+  // The smallest distance to the limit so far, negative beyond the limit. For a condition that must
+  // become true once, the largest distance. Not set if the expectation has no margin.
   std::optional<double> margin;
   std::string unit;  // unit of the margin; empty if it has none
   SimTime margin_at{0};

@@ -21,7 +21,7 @@ using RendererResult = base::Result<std::shared_ptr<Renderer>>;
 template <typename Values, typename Message>
 class CameraOf : public sensing::SensorOf<Values, Message> {
  public:
-  // `lens_type` is the lens of cameras whose parameters name none.
+  // `lens_type` is the lens of cameras whose parameters name no lens.
   CameraOf(const model::SensorDescription& description, sensing::ParameterReader& reader,
            RendererResult renderer, const std::string& lens_type = "gnomonical")
       : sensing::SensorOf<Values, Message>(description),
@@ -44,8 +44,8 @@ class CameraOf : public sensing::SensorOf<Values, Message> {
   const RendererResult renderer_;
 };
 
-// Makes the sensor type of the class `Kind`, which derives from CameraOf. Without a renderer such
-// cameras exist, but reading them fails.
+// Makes the sensor type of the class `Kind`, which derives from CameraOf. Without a renderer,
+// sensors of this type can be created, but reading them fails.
 template <typename Kind, typename... Context>
 sensing::SensorType MakeCameraType(std::string name, std::vector<std::string> aliases,
                                    sensing::Overlay overlay,

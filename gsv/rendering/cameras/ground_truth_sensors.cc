@@ -296,8 +296,8 @@ class ThermalCamera final
 };
 
 // Computes surface normals from a depth image. A tangent is the difference between a pixel's point
-// and that of an adjacent pixel of the same visual. Of the neighbours on both sides, the one on the
-// side that is closer to a plane is used. So a normal near an edge belongs to the pixel's own face.
+// and that of an adjacent pixel of the same visual. The adjacent pixel is taken from the side on
+// which the surface is closer to a plane. So a normal near an edge belongs to the pixel's own face.
 // In the image of a plane, the inverse depth is linear along a line, so its second difference
 // measures the deviation from a plane.
 class SurfaceNormals {

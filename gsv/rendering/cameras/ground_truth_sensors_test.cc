@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(BackEnds, ThermalCameraTest,
                          });
 
 // The first visual of a body has a face of 2 m by 1 m, 4 m in front of the camera. On its left is a
-// second visual with a face of 1 m by 1 m, and on its right one without a temperature.
+// second visual with a face of 1 m by 1 m, and on its right a third visual without a temperature.
 TEST_P(ThermalCameraTest, ShowsTheTemperatureOfEachVisualAndOfTheAir) {
   Add("oven", geometry::Box{{1, 2, 1}}, {{4.8, 0, 1}, {}});
   std::vector<model::Visual>& visuals = scene_.LinkOf("oven").visuals;

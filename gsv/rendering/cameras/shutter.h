@@ -38,8 +38,8 @@ class Shutter {
   base::Result<ImagePtr> Take(const SnapshotPtr& snapshot, const Draw& draw) const;
 
  private:
-  double Age(int sample) const;  // Returns how many seconds before the end of the exposure the
-                                 // sample is taken.
+  // Returns how many seconds before the end of the exposure a sample is taken.
+  double Age(int sample) const;
   // Returns the range of samples [first, last] from which a row is composed.
   std::pair<int, int> SamplesOf(int row, int height) const;
 

@@ -52,8 +52,8 @@ struct Frustum {
     }
     return true;
   }
-  // The same for a sphere that moves from `centre` by `offset`. Conservative: may return true
-  // without an intersection.
+  // Whether a sphere that moves from `centre` by `offset` may reach into the frustum. Conservative:
+  // may return true without an intersection.
   bool MeetsMovingSphere(const geometry::Vector3& centre, const geometry::Vector3& offset,
                          double radius) const {
     for (const Plane& plane : planes) {

@@ -89,7 +89,8 @@ class Lens {
   friend bool operator==(const Lens&, const Lens&) = default;
 
  private:
-  // Apply the distortion and invert it, at a distance of 1.
+  // Distorted() applies the distortion, and Undistorted() inverts it. Both are for points in the
+  // plane at a distance of 1.
   geometry::Vector2 Distorted(const geometry::Vector2& p) const;
   std::optional<geometry::Vector2> Undistorted(const geometry::Vector2& p) const;
 

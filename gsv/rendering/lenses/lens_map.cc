@@ -149,7 +149,8 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
       const double f = FocalLength(face.camera);
       source.u = static_cast<float>(0.5 * face.camera.width - f * in_face.y / in_face.x);
       source.v = static_cast<float>(0.5 * face.camera.height - f * in_face.z / in_face.x);
-      // The depth of the nearest pixel is valid on that pixel's ray, not on this one.
+      // The depth of the nearest pixel is valid on that pixel's ray, not on the ray of the sampled
+      // position.
       const Vector3 nearest{1, -(std::floor(source.u) + 0.5 - 0.5 * face.camera.width) / f,
                             -(std::floor(source.v) + 0.5 - 0.5 * face.camera.height) / f};
       source.depth_scale = static_cast<float>((face.camera_from_face * nearest).x);

@@ -11,7 +11,7 @@
 
 namespace gsv::rendering {
 
-// Compile these with a selection of the following defined: BASE_COLOUR_MAP, NORMAL_MAP,
+// Compile these shaders with some of the following macros defined: BASE_COLOUR_MAP, NORMAL_MAP,
 // METALLIC_ROUGHNESS_MAP, EMISSIVE_MAP, OCCLUSION_MAP, LIGHT_MAP, CUT_OUT, SEE_THROUGH, SHADOWS,
 // LAMPS. With SEE_THROUGH, alpha is the opacity. Otherwise alpha is the number of the surface (0:
 // the sky) for SmoothAliasedEdges().

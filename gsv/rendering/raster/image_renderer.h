@@ -20,9 +20,9 @@ namespace gsv::rendering::raster {
 
 class ImageRenderer {
  public:
-  // Renders a posed render list, antialiased. `render_list_id` identifies it. `block` must be
-  // complete. If `shadow` is null, there are no shadows. If `team` is null, everything is done on
-  // the caller's thread.
+  // Renders a posed render list, antialiased. `render_list_id` identifies the render list. `block`
+  // must be complete. If `shadow` is null, there are no shadows. If `team` is null, everything is
+  // done on the caller's thread.
   model::Image Draw(const CameraView& view, const RenderList& render_list,
                     std::uint64_t render_list_id, const FrameBlock& block, const SunShadow* shadow,
                     base::ThreadTeam* team = nullptr);
@@ -75,7 +75,7 @@ class ImageRenderer {
   void Cover(const CameraView& view, const RenderList& render_list);
   // Whether the items that are already drawn hide a sphere.
   bool IsHidden(const CameraView& view, const geometry::Vector3& centre, double radius) const;
-  // Does the same for one item, which is drawn_[number].
+  // Updates the nearest triangle of each pixel by the triangles of the item drawn_[number].
   void CoverWith(std::uint32_t number, float nearest_w);
   // Discards the kept tiles if `background` differs from that of the last image.
   void SetBackground(const Background& background);

@@ -39,8 +39,8 @@ Rgb Mix(const Rgb& a, const Rgb& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
-// Limits ambient light to a useful range. Worlds that specify almost none would be dark; the
-// simulator that they were made for adds its own. Worlds that specify the maximum would show no
+// Limits ambient light to a useful range. Worlds with almost no ambient light would be dark,
+// because the simulator that they were made for adds its own. Worlds with the maximum would show no
 // shadows.
 Rgb Ambient(const model::Colour& asked) {
   constexpr double kMin = 0.3, kMax = 0.45;
@@ -132,8 +132,8 @@ FrameBlock Lighting::BlockFor(const CameraView& view) const {
   block.view_right = AsFloat4(pose.orientation * Vector3{0, -0.5 * view.parameters.width / f, 0});
   block.view_down = AsFloat4(pose.orientation * Vector3{0, 0, -0.5 * view.parameters.height / f});
 
-  // Selects lamps among those that light a part of the image: those that reach nearest to the
-  // camera.
+  // If too many lamps light a part of the image, selects the lamps whose light reaches nearest to
+  // the camera.
   const Frustum frustum = FrustumOf(view);
   std::vector<std::pair<double, const Lamp*>> near;
   for (const Lamp& lamp : lamps_) {

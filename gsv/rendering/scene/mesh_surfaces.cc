@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFloats = 8;
 
-// Disjoint sets that can be joined. One of its members identifies a set.
+// Disjoint sets that can be joined. Each set is identified by one of its members.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {

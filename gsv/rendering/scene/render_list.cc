@@ -66,7 +66,7 @@ class Builder {
       item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
       item.radius = 0.5 * Norm(Scaled(chunk.bounds.max - chunk.bounds.min, shape.scale));
       item.factors = FactorsOf(material);
-      // The number is exact as a float, and has more than eight bits.
+      // Numbers below 4096 are exact as a float, and have more than eight bits.
       item.factors.surface =
           static_cast<float>((first_surface + static_cast<int>(material_index)) % 4096);
       item.casts_shadow = visual.cast_shadows && !plane && group.blending != Blending::kTransparent;

@@ -31,7 +31,7 @@ struct DrawGroup {
   Blending blending = Blending::kOpaque;
   bool mirrored = false;
   bool double_sided = false;
-  bool ground = false;  // a plane is drawn behind coplanar surfaces
+  bool ground = false;  // whether it is a ground plane, which is drawn behind coplanar surfaces
 };
 
 // Linear colours for the shader.
@@ -57,7 +57,7 @@ struct DrawItem {
   bool of_robot = false;  // whether the item belongs to a robot or an avatar
 };
 
-// An item in the world.
+// An item with its pose in the world.
 struct PlacedItem {
   // The columns of the matrix that rotates and scales from the mesh to the world's axes, and the
   // origin of the mesh in the world.

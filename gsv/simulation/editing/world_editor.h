@@ -23,7 +23,8 @@ class WorldEditor {
   WorldEditor(SimulatedWorld& world, std::shared_ptr<SharedState> shared, EventLog& events)
       : world_(world), shared_(std::move(shared)), events_(events) {}
 
-  // Adds robots, after choosing their names and resolving their placement: all of them, or none.
+  // Adds all of the robots, or none of them. Chooses missing names, and moves robots out of
+  // overlaps with other bodies.
   base::Status AddRobots(std::vector<RobotSpecification>& robots) GSV_REQUIRES(world_mutex);
   // Adds an object and returns its name.
   base::Result<std::string> AddObject(const ObjectSpecification& object) GSV_REQUIRES(world_mutex);
@@ -44,7 +45,7 @@ class WorldEditor {
 
  private:
   // Returns `pose` with the height at which the model stands on the surface below. `own` is the
-  // index of the model's own body, which is ignored, or -1 if it has none yet.
+  // index of the model's own body, which is ignored, or -1 if the model has no body yet.
   geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const
       GSV_REQUIRES(world_mutex);
   // `placed` are the names of bodies that are new or moved. These bodies are at their initial

@@ -42,7 +42,8 @@ class FaultInjector {
   // Fails if the fault names a body, sensor or joint that does not exist.
   base::Status CheckOne(const scenario::Fault& fault, const world::Layout& layout) const
       GSV_REQUIRES(simulation_mutex);
-  // These apply a fault, or return why they cannot. The last three apply one kind each.
+  // Apply() applies a fault of any kind. The other functions apply one kind each. If the fault
+  // cannot be applied, they return the reason.
   base::Status Apply(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);
   base::Status FailSensor(const scenario::Fault& fault, RobotAgent& agent);
   base::Status MoveBody(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);

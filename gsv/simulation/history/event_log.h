@@ -24,7 +24,8 @@ class EventLog {
   explicit EventLog(const SnapshotHistory& history, std::size_t capacity = 10'000)
       : history_(history), events_{capacity}, outputs_{kMaxOutputs} {}
 
-  // Appends an event and notifies every observer. The log's lock is held meanwhile.
+  // Appends an event and notifies every observer. The log's lock is held while observers are
+  // notified.
   void Emit(std::string kind, std::string robot = {}, std::string detail = {},
             std::shared_ptr<const Edit> edit = nullptr);
   // Returns the kept events from number `first` on. The first event of a simulation has the number
@@ -32,18 +33,19 @@ class EventLog {
   std::vector<Event> Since(std::uint64_t first) const;
   // The number of events so far, including dropped ones.
   std::uint64_t count() const;
-  // The same for lines of output (IsOutput()). Since() does not return them, and count() does not
-  // count them.
+  // OutputsSince() and output_count() are for lines of output (IsOutput()), which Since() and
+  // count() leave out.
   std::vector<Event> OutputsSince(std::uint64_t first) const;
   std::uint64_t output_count() const;
 
   void AddObserver(std::shared_ptr<Observer> observer);
   void RemoveObserver(const std::shared_ptr<Observer>& observer);
-  // Calls OnSnapshot() of every observer. No lock is held meanwhile.
+  // Calls OnSnapshot() of every observer. No lock is held during these calls.
   void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
   // Whether an observer requests the times of steps.
   bool wants_times() const { return wants_times_.load(std::memory_order_relaxed); }
-  // Calls OnTimes() of the observers that request the times of steps. No lock is held meanwhile.
+  // Calls OnTimes() of the observers that request the times of steps. No lock is held during these
+  // calls.
   void Publish(const StepTimes& times) const;
 
  private:

@@ -17,8 +17,8 @@
 
 namespace gsv::simulation {
 
-// Whether the base is at rest although it has been commanded to move for at least `stuck_after`,
-// and still is.
+// Whether the base is at rest although its drive has had commands to move for at least
+// `stuck_after`, up to now.
 bool IsStuck(const Motion& motion, SimTime stuck_after);
 
 class MotionHistory {

@@ -83,7 +83,7 @@ class Turn {
   // step was already taken.
   void WaitUntil(base::SimTime instant) { end_ = Waiting{instant}; }
   // Ends the turn and runs `work` on another thread, for slow work such as an image. The next turn
-  // starts when `work` is done. In lockstep, simulated time stands still meanwhile.
+  // starts when `work` is done. In lockstep, simulated time stands still until then.
   void Block(std::function<void()> work) { end_ = Blocked{std::move(work)}; }
   void Finish() { end_ = Finished{}; }
   // Ends the behaviour's run with an error. See Agent::GiveUp().
@@ -118,7 +118,7 @@ class LocalBehaviour : public BehaviourPort {
 
   // The clock of the turns, which Start() has opened.
   virtual ClockId clock() const = 0;
-  // Loads data into the cache that the turn needs. Called shortly before the turn.
+  // Loads the data that the turn needs into the processor's cache. Called shortly before the turn.
   virtual void PrefetchTurn() const {}
   // Executes a turn. The function must return, because nothing can interrupt it. If it exceeds the
   // deadline, the simulation fails, and requests that need the world are refused until it returns.

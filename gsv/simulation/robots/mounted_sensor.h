@@ -53,8 +53,8 @@ class SensorDesigns {
       GSV_GUARDED_BY(mutex_);
 };
 
-// The sensors of a robot that its behaviour reads together (a sweep). Sweeps are counted here, and
-// not once per sensor.
+// Counts the sweeps of a robot. In a sweep, the behaviour reads several sensors of its robot
+// together. So one count replaces a count for each sensor.
 struct Sweeps {
   // The number of sweeps. Only the thread of the behaviour's turn writes it.
   std::atomic<std::uint64_t> count{0};

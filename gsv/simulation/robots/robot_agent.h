@@ -105,7 +105,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Returns and clears the commands for the next step. Commands for motors and joints that have
   // failed are left out.
   RobotCommands TakeCommands() GSV_REQUIRES(simulation_mutex);
-  // Applies the initial commands of its devices.
+  // Applies the initial commands of the robot's devices.
   void StartDevices() GSV_REQUIRES(simulation_mutex);
   // Apply faults: from the next step on, the drive stops, or the joint has no motor.
   void LoseMotor() GSV_REQUIRES(simulation_mutex);
@@ -142,8 +142,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // only this agent, so calls for different agents may run concurrently while the stepping thread
   // holds the mutex.
   UsualEnd ApplyUsualTurn(SimTime now) GSV_REQUIRES(simulation_mutex);
-  // Does the same as TakeCommands() and applies the command if the only one is for the drive. Else
-  // does nothing and returns false. Concurrent calls are allowed as for ApplyUsualTurn().
+  // If the agent's only command is for the drive, takes it, applies it to `state` and returns true.
+  // Else does nothing and returns false. Concurrent calls are allowed as for ApplyUsualTurn().
   bool ApplyDriveCommand(world::State& state) GSV_REQUIRES(simulation_mutex);
   // Loads the agent's data into the cache, because a call for it follows soon.
   void Prefetch() const { PrefetchLines(&shared_, kPrefetchedLines); }
@@ -151,7 +151,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // functions in this order, some time after Prefetch().
   void PrefetchBehaviour(const world::Snapshot& snapshot) const;
   void PrefetchTurn() const;
-  // The same for the next two stages of ApplyDriveCommand().
+  // Load the data of ApplyDriveCommand() into the cache, in two parts.
   void PrefetchCommands() const GSV_NO_THREAD_SAFETY_ANALYSIS {
     PrefetchLines(&shared_, 1);
     PrefetchLines(&commands_, 2);
@@ -159,7 +159,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void PrefetchDrive(const world::State& state) const GSV_REQUIRES(simulation_mutex) {
     PrefetchLines(&state.bodies[static_cast<std::size_t>(body_)].drive, 1);
   }
-  // Marks its local behaviour as ready for a turn.
+  // Marks the local behaviour as ready for a turn.
   void MakeReady() GSV_REQUIRES(simulation_mutex);
 
  private:
@@ -181,7 +181,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Reports that the agent is dead because its behaviour ended with this error.
   void ReportFailure(std::string_view reason) GSV_REQUIRES(simulation_mutex);
   // Updates whether the simulation waits for this agent. Call it after every change that may affect
-  // this.
+  // BlocksStep().
   void UpdateRunningCount() GSV_REQUIRES(simulation_mutex);
 
   // Adds the commands of the last turn to commands_.
@@ -235,9 +235,10 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   WaitEvent wait_event_;
   // The joints that no longer follow commands, because of a fault.
   std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
-  // As in RobotStatus.
+  // The reason why the agent is dead or unresponsive.
   std::string detail_ GSV_GUARDED_BY(simulation_mutex);
-  std::string cause_ GSV_GUARDED_BY(simulation_mutex);  // see RobotStatus
+  // The error that the behaviour reported; empty if there is none.
+  std::string cause_ GSV_GUARDED_BY(simulation_mutex);
   SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};
 };
 

@@ -190,8 +190,8 @@ base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& na
     const SimulationLock lock(*shared_);
     for (const std::string& name : names) agents_.Remove(name);
   }
-  // No step is taken meanwhile. Other threads can look up agents without waiting for the
-  // engine.
+  // No step is taken while the world's lock is held. The simulation's lock is not held here, so
+  // other threads can look up agents without waiting for the engine.
   (void)editor_.Remove(names);  // removing bodies cannot fail
   AssignBodies();
   shared_->changed.notify_all();

@@ -170,7 +170,8 @@ void StepLoop::TakeTurns() {
       continue;
     }
     if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
-    // Check again: the agent may have waited meanwhile, for instants that were already past.
+    // A turn may end in a wait for an instant that is already past. The agent then still blocks the
+    // step, and its deadline applies.
     if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
   if (shared.running == 0) shared.changed.notify_all();

@@ -1,5 +1,5 @@
 // Checks once a second whether behaviours have died, and whether a behaviour in this process
-// exceeds its deadline. If one exceeds it, the simulation fails, see world_lock.h.
+// exceeds its deadline. If a behaviour exceeds it, the simulation fails, see world_lock.h.
 #pragma once
 
 #include <chrono>

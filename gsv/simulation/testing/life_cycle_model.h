@@ -141,8 +141,8 @@ class LifeCycleModel {
       case Action::kStep:
         return request.argument < 1 || !IsAtRest(state);
       case Action::kRunUntil:
-        // The request is refused if its instant is past. While the simulation runs, this may be so
-        // or not.
+        // The request is refused if its instant is past. While the simulation runs, either answer
+        // is possible.
         return request.argument <= state.step.high || !(is_running || IsAtRest(state));
       case Action::kStop:
       case Action::kReset:

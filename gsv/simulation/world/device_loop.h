@@ -30,7 +30,7 @@ std::vector<world::Transmission> StepDevices(const std::shared_ptr<const world::
 // Call this after the bodies have moved to their poses at `time`. Calls AfterMove() of each device.
 void MoveDevices(const world::Layout& layout, base::SimTime time, world::State& state);
 
-// Call this after bodies of `layout` were added, removed or moved. `placed` names the moved ones.
+// Call this after bodies of `layout` were added, removed or moved. `placed` names the moved bodies.
 // Calls CarryOver() of each device, and removes devices of removed robots.
 void CarryOverDevices(const world::Layout& layout, const std::vector<std::string>& placed,
                       world::State& state);
