@@ -77,8 +77,8 @@ class WorldEngine final : public Engine {
   }
 
   // Actors move first, because nothing stops them. Then planar bodies move, with the rigid bodies
-  // as static obstacles. Planar bodies that were stopped by rigid ones push them. After the rigid
-  // bodies have moved, the planar bodies move again from the start of the step.
+  // as static obstacles. Planar bodies that rigid bodies have stopped push these rigid bodies.
+  // After the rigid bodies have moved, the planar bodies move again from the start of the step.
   void MoveAll(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     before_ = state;
     actors_.Move(step, state, &before_);
@@ -108,7 +108,7 @@ class WorldEngine final : public Engine {
     }
   }
 
-  // Adds the contacts of the rigid bodies to those of the planar ones, and updates the rigid
+  // Adds the contacts of the rigid bodies to those of the planar bodies, and updates the rigid
   // bodies' counts of contacts with both.
   void AddRigidContacts(world::State& state, std::vector<world::Contact>& contacts) const {
     contacts.insert(contacts.end(), rigid_contacts_.begin(), rigid_contacts_.end());

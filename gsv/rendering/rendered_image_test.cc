@@ -385,8 +385,8 @@ TEST_F(IMAGE_SUITE, SpotLightsOnlyItsCone) {
   scene_.description().lights = {spot};
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   const Blob lit = FindBlob(*Take(FromAbove()), 0, 10);
-  // The cone's radius is 4 tan(0.5) = 2.2 m or 11 pixels at the outer edge, and 4 tan(0.25) or 5
-  // pixels at the inner one.
+  // The cone's radius is 4 tan(0.5) = 2.2 m or 11 pixels at the outer edge. It is 4 tan(0.25) or 5
+  // pixels at the inner edge.
   EXPECT_GT(lit.pixels, 3.14 * 5 * 5);
   EXPECT_LT(lit.pixels, 3.14 * 12 * 12);
 }

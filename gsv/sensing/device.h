@@ -41,7 +41,7 @@ class Device : public Sensor {
   world::DeviceMount MountOn(const std::string& robot) const {
     return {robot, description().name, description().link, description().link_from_sensor};
   }
-  // Returns the device's state in the snapshot, or null if it has none.
+  // Returns the device's state in the snapshot, or null if the device has no state.
   const world::DeviceState* StateIn(const Sampling& sampling) const {
     return world::FindDevice(sampling.snapshot()->state.devices.get(), sampling.robot().name,
                              description().name);

@@ -23,7 +23,7 @@ class SensorSet {
 
  private:
   const SensorRegistry& types_;
-  // The sensors by name, because few models use one name for different sensors. Expired ones are
+  // The sensors by name, because few models use one name for different sensors. Expired sensors are
   // removed when another sensor with their name is made.
   std::map<std::string, std::vector<std::weak_ptr<const Sensor>>, std::less<>> known_;
 };

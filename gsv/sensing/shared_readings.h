@@ -40,7 +40,8 @@ class SharedReadings {
 
   // Whether the entry is the reading of this sensor at this sampling.
   bool IsOf(const Entry& entry, const Sensor& sensor, const Sampling& sampling) const;
-  // Stores a finished reading, or removes its entry if reading failed, and frees the oldest ones.
+  // Stores a finished reading, or removes its entry if reading failed, and frees the oldest
+  // readings.
   void Account(const Sensor& sensor, const Sampling& sampling, const base::Result<Reading>& taken);
 
   const std::size_t capacity_;

@@ -12,7 +12,7 @@ using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.3;
 
 // A disc on two wheels. It has one sensor, 0.15 m ahead, whose name is its type. The true radii of
-// the wheels are `left` and `right` times those that the drive assumes.
+// the wheels are `left` and `right` times the radii that the drive assumes.
 std::shared_ptr<model::Model> Rover(const std::string& sensor, double left = 1, double right = 1) {
   auto model = std::make_shared<model::Model>(*Disc(0.2));
   for (const double side : {1.0, -1.0}) {

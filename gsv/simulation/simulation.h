@@ -150,9 +150,10 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // unknown.
   virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
 
-  // Returns a sensor's reading for an observer: the same that the robot's behaviour gets at the
-  // latest snapshot. This does not change the simulation. The call may be slow, for example for an
-  // image. On the stepping thread, as in Observer::OnSnapshot(), it delays the next step.
+  // Returns a sensor's reading for an observer. It equals the reading that the robot's behaviour
+  // gets at the latest snapshot. This does not change the simulation. The call may be slow, for
+  // example for an image. On the stepping thread, as in Observer::OnSnapshot(), it delays the next
+  // step.
   virtual base::Result<sensing::Reading> Watch(const std::string& robot,
                                                const std::string& sensor) = 0;
   // Returns the sensors of a robot: those of its model, and those that were created.

@@ -62,8 +62,9 @@ TEST(Crowd, TwoPedestriansPassSymmetrically) {
   for (int i = 0; i < 500; ++i) {
     EXPECT_TRUE(world.Step(kCrowdStep).empty());
     const geometry::Vector3 &a = world.position("ann"), &b = world.position("bob");
-    // One path is the other one rotated by 180 degrees about the origin. The tolerance allows for
-    // rounding errors, which grow while the pedestrians avoid each other.
+    // The second pedestrian's path is the first pedestrian's path, rotated by 180 degrees about the
+    // origin. The tolerance allows for rounding errors, which grow while the pedestrians avoid each
+    // other.
     ASSERT_NEAR(a.x, -b.x, 1e-3);
     ASSERT_NEAR(a.y, -b.y, 1e-3);
     const double apart = std::hypot(a.x - b.x, a.y - b.y);

@@ -17,8 +17,8 @@ TEST(Repulsions, EqualTheSumOfSinglePairsInOrder) {
   constexpr std::uint32_t kWalkers = 7;
   std::vector<Vector2> forces(kWalkers), expected(kWalkers);
   Repulsions repulsions;
-  // The test uses more pairs than are computed at a time. Among them are two at the same place and
-  // two side by side.
+  // The test uses more pairs than are computed at a time. Among them are pairs at the same place
+  // and pairs side by side.
   for (int i = 0; i < 1000; ++i) {
     const double angle = 0.37 * i, distance = i % 50 == 0 ? 0 : 0.003 * i;
     const Vector2 between{distance * std::cos(angle), distance * std::sin(angle)};

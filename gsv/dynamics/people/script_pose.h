@@ -33,8 +33,8 @@ struct ScriptInstant {
 // Returns the state of the script at `time`, which must not be negative.
 ScriptInstant InstantOf(const model::Script& script, base::SimTime time);
 
-// The pose on a trajectory. Before the first waypoint it is the pose of the first one, and after
-// the last waypoint that of the last one.
+// Returns the pose on a trajectory at `time`. Before the first waypoint, this is the pose of the
+// first waypoint; after the last waypoint, it is the pose of the last waypoint.
 geometry::Pose PoseOn(const model::Trajectory& trajectory, base::SimTime time);
 
 }  // namespace gsv::dynamics

@@ -75,8 +75,8 @@ const std::vector<BroadPhase::Pair>& BroadPhase::Find(std::span<const Vector2> c
       const std::uint32_t begin = cell_start_[cell], end = cell_start_[cell + 1];
       if (begin == end) continue;
       PairWithin(begin, end);
-      // Compares with the cell to the right and the three cells above; the cells on the other sides
-      // compare with this one. Cells of one row are adjacent in entries_.
+      // Compares with the cell to the right and the three cells above; the cells to the left and
+      // below compare with this cell. Cells of one row are adjacent in entries_.
       if (column + 1 < columns_) PairAcross(begin, end, end, cell_start_[cell + 2]);
       if (row + 1 < rows_) {
         const std::size_t above = cell + columns_;

@@ -64,7 +64,7 @@ TEST(PlanarMoverCrowd, IsEqualForAnyNumberOfThreads) {
 }
 
 // A mover caches data between steps to avoid searches. A mover with an empty cache, or with a
-// different one, must compute the same step.
+// different cache, must compute the same step.
 TEST(PlanarMoverCrowd, CachesDoNotChangeTheResult) {
   Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakeWorldEngine(), kDense);
   ASSERT_TRUE(crowd.Start());

@@ -309,7 +309,7 @@ TEST(PlanarMoverProperty, CachesDoNotChangeTheResult) {
   Random commands(3);
   for (int i = 0; i < 100; ++i) {
     if (i % 5 == 0) CommandAll(world, commands);
-    // A new engine, without data of earlier steps, takes the same step.
+    // A new engine, without data of earlier steps, computes the same step.
     world::State copy = world.state();
     const auto fresh = MakeWorldEngine();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(world.layout())));

@@ -12,7 +12,7 @@ struct Contact {
   TouchPoint point;
   double friction = 0, restitution = 0;
   // Friction acts along these two axes, at right angles to the normal. If a surface has two
-  // friction coefficients, the axis of the lower one is shorter than 1.
+  // friction coefficients, the axis with the lower coefficient is shorter than 1.
   std::array<geometry::Vector3, 2> axes;
   // m/(s N): the velocity at which the solids slide along each axis, per friction force of all
   // their points.

@@ -181,8 +181,8 @@ Vector3 ContactFinder::PointOnFirst(const Contact& contact) const {
   return TransposeTimes(tree.rotation(first.part), contact.on_first() - tree.position(first.part));
 }
 
-// Whether one body is a base without wheels, and the other one carries it. The drive moves such a
-// base directly.
+// Whether one body is a base without wheels, and the other body carries the base. The drive moves a
+// base without wheels directly.
 bool ContactFinder::GlidesOn(const Collider& first, const Collider& second,
                              const Vector3& normal) const {
   const auto is_held = [&](const Collider& collider) {

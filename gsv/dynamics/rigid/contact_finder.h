@@ -23,7 +23,7 @@
 
 namespace gsv::dynamics {
 
-// A solid in the world: a part of a rigid body, a static body, or a planar body near rigid ones.
+// A solid in the world: a part of a rigid body, a static body, or a planar body near rigid bodies.
 struct Collider {
   const Solid* solid = nullptr;
   int moving = -1, part = 0;  // index of the rigid body, and its part; -1: none
@@ -39,7 +39,7 @@ class ContactFinder {
 
   // Reads the poses of the static bodies from the state, and removes all planar bodies.
   void Start(const world::State& state);
-  // Adds a planar body for this step. Returns its index among the planar ones.
+  // Adds a planar body for this step. Returns its index among the planar bodies.
   int AddPlanar(const Solid& solid);
   // Sets the pose and velocities of a planar body. `index` is the result of AddPlanar().
   void MovePlanar(int index, const geometry::Pose& pose, const geometry::Vector3& velocity,
@@ -97,7 +97,7 @@ class ContactFinder {
   std::vector<Collider> colliders_;
   std::vector<PlacedPiece> pieces_;  // pieces of the groups
   std::vector<int> collider_of_piece_;
-  std::vector<Group> groups_;  // rigid bodies, then planar ones
+  std::vector<Group> groups_;  // groups of rigid bodies, then of planar bodies
   // Number of colliders of rigid and static bodies, which stay from step to step.
   std::size_t static_colliders_ = 0;
   std::size_t rigid_pieces_ = 0;

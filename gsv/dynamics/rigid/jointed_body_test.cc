@@ -232,8 +232,8 @@ TEST(JointedBody, RobotTurnsByTheDifferenceOfItsWheels) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0, 0, 1});
   world.Run(1.5, 0.01);
-  // Its tyres are 2 cm wide and slip sideways. The friction may act anywhere within this width, 14
-  // to 16 cm from the centre of the robot.
+  // The robot's tyres are 2 cm wide and slip sideways. The friction may act anywhere within this
+  // width, 14 to 16 cm from the centre of the robot.
   EXPECT_WITHIN_PERCENT(world.yaw("robot"), 1.5, 100 * (1 - 0.15 / 0.16));
   EXPECT_NEAR(world.position("robot").x, 0, 0.02);
   EXPECT_NEAR(world.position("robot").y, 0, 0.02);

@@ -66,7 +66,7 @@ void RigidContacts::Add(const ContactFinder& finder, const std::vector<Contact>&
 
 void RigidContacts::Store(std::vector<world::Contact>& contacts) {
   std::size_t count = 0;
-  // Returns the next contact, with the memory of an earlier one.
+  // Returns the next element of `contacts`, and reuses its memory.
   const auto next = [&](const world::Contact& contact) -> world::Contact& {
     if (count == contacts.size()) contacts.emplace_back();
     world::Contact& kept = contacts[count++];

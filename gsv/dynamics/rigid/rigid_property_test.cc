@@ -51,7 +51,7 @@ TEST(RigidProperty, RunIsRepeatable) {
 }
 
 TEST(RigidProperty, StepDependsOnlyOnTheState) {
-  // A new engine, without data of earlier steps, takes the same step.
+  // A new engine, without data of earlier steps, computes the same step.
   TestWorld lived = Heap(2), fresh = Heap(2);
   lived.Run(1, 0.01);
   fresh.state() = lived.state();

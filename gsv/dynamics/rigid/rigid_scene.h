@@ -35,8 +35,8 @@ class RigidScene {
   const std::vector<Solid>& planar() const { return planar_; }
 
  private:
-  // Each adds a body of the layout, by its index: to bodies_, to standing_ (static bodies), or to
-  // planar_ (planar bodies and actors).
+  // These functions add a body of the layout, by its index: AddRigid() to bodies_, AddStanding() to
+  // standing_, AddPlanar() and AddActor() to planar_.
   base::Status AddRigid(int index);
   void AddStanding(int index);
   void AddPlanar(int index);

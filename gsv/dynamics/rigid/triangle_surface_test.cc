@@ -55,7 +55,7 @@ TriangleMesh WithOwnVertices(const TriangleMesh& mesh) {
   return own;
 }
 
-// Each triangle has a second one for its back, as in meshes for drawing.
+// Each triangle has a second triangle for its back, as in meshes for rendering.
 TriangleMesh WithBacks(TriangleMesh mesh) {
   const auto fronts = mesh.triangles;
   for (const auto& [a, b, c] : fronts) mesh.triangles.push_back({a, c, b});

@@ -99,7 +99,7 @@ double TurnOf(const model::Slip& slip) {
 }
 
 // Each wheel slips along its rolling direction by (1 - w) B / 2 and sideways by w L / 2. The
-// torques of both are in balance.
+// torques of both slips are in balance.
 TEST(WheelSlip, SkidSteeredRobotTurnsMoreSlowlyThanItsWheels) {
   for (const auto& [along, across] : {std::pair{2.0, 2.0}, {2.0, 6.0}, {3.0, 1.5}}) {
     const double b2 = kTrack * kTrack, l2 = kWheelbase * kWheelbase;

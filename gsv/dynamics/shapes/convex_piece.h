@@ -57,7 +57,7 @@ Separation Separate(const ConvexPiece& a, const ConvexPiece& b);
 double DistanceTo(const ConvexPiece& piece, Vector2 point);
 
 // Whether every point of `inner` lies in `outer` (within `tolerance`). If `outer` has both corners
-// and a radius, the result may be false although it does. It is never wrongly true.
+// and a radius, the result may be wrongly false, but never wrongly true.
 bool Contains(const ConvexPiece& outer, const ConvexPiece& inner, double tolerance);
 
 // The smallest circle that contains the piece and has its centre at the mean of the vertices.

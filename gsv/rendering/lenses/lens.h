@@ -27,7 +27,7 @@
 
 namespace gsv::rendering {
 
-// The distortion of a pinhole, see above.
+// The coefficients of Brown and Conrady's distortion of a pinhole camera.
 struct Distortion {
   double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
   geometry::Vector2 centre{0.5, 0.5};  // as fractions of the image's width and height
@@ -44,7 +44,7 @@ struct Intrinsics {
   friend bool operator==(const Intrinsics&, const Intrinsics&) = default;
 };
 
-// The projection function of a wide lens, see above.
+// The projection of a wide lens: r = c1 f function(a / c2 + c3).
 struct WideView {
   enum class Function { kIdentity, kSine, kTangent };
   Function function = Function::kTangent;

@@ -116,7 +116,7 @@ DrawShape MeshStore::Find(const Shape& shape) {
 std::shared_ptr<const DrawMesh> MeshStore::FindFileMesh(
     const std::shared_ptr<const TriangleMesh>& triangles) {
   FileMesh& entry = file_meshes_[triangles.get()];
-  // An equal address is not enough: a destroyed mesh may have had the same one.
+  // An equal address is not enough: a destroyed mesh may have had the same address.
   if (entry.mesh == nullptr || entry.triangles.lock() != triangles) {
     entry = {triangles, make_(ArraysOf(*triangles))};
   }

@@ -58,7 +58,8 @@ class MeshStore {
   };
   using Key = std::tuple<int, double, double, double, double, double>;
 
-  // Return the mesh of a file, or of a shape such as a box, and make it on first use.
+  // FindFileMesh() returns the mesh of a file, and FindGenerated() the mesh of a shape such as a
+  // box. The mesh is made on first use.
   std::shared_ptr<const DrawMesh> FindFileMesh(
       const std::shared_ptr<const geometry::TriangleMesh>& triangles);
   std::shared_ptr<const DrawMesh> FindGenerated(const Key& key, const geometry::Shape& shape);

@@ -18,7 +18,7 @@ namespace gsv::sensing {
 // A gripper's fingers lie along its x axis and close along y.
 struct GripperSetup {
   double opening = 0.1;                   // distance between the open fingers, m
-  double reach = 0.08, height = 0.03;     // reach and height of the fingers, m
+  double reach = 0.08, height = 0.03;     // length and height of the fingers, m
   double closing_time = 0.5;              // s
   std::string left_finger, right_finger;  // joints that show the fingers; empty: none
 };

@@ -1,4 +1,4 @@
-// The ray scene of one snapshot: the static solids, and the others at their poses.
+// The ray scene of one snapshot: the static solids, and the moving solids at their poses.
 #pragma once
 
 #include <atomic>

@@ -41,7 +41,7 @@ class RayScene : public world::RayCaster {
   virtual double Range(const Ray& ray, int ignored_body) const = 0;
 
   // Sets ranges[i] to the range of ray i of a fan. This is even faster than Range(): for each
-  // solid, it computes which rays may hit the solid, beginning with the nearest one.
+  // solid, it computes which rays may hit the solid, beginning with the nearest solid.
   virtual void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const = 0;
 
   // Gathers the candidate set within `reach` of `place` without `ignored_body`, which makes several
@@ -54,8 +54,8 @@ class RayScene : public world::RayCaster {
   virtual void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
                       std::span<double> ranges) const = 0;
 
-  // Like Range() above, for a ray within the candidate set (CandidateSet::Hold()) and with its
-  // ignored body.
+  // Like Range() above, for a ray within the candidate set (CandidateSet::Hold()). The body that
+  // Gather() ignored is ignored.
   virtual double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const = 0;
 };
 

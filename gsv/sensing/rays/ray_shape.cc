@@ -174,7 +174,7 @@ C Along(const Ray& ray, const geometry::Cone& cone) {
   if (first > second) std::swap(first, second);
   if (a > 0) return side(first, second);
   // The ray is steeper than the side: it is inside one half of the double cone before the first
-  // crossing, and inside the other after the last.
+  // crossing, and inside the other half after the last crossing.
   const C before = side(-kInfinity, first);
   return before.empty() ? side(second, kInfinity) : before;
 }

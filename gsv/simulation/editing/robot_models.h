@@ -1,5 +1,5 @@
-// Makes robots, with their drives, from models. Robots of the same model and drive choice share the
-// result.
+// Makes robots, with their drives, from models. Robots of the same model and drive choice share one
+// resulting model.
 #pragma once
 
 #include <map>

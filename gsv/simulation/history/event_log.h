@@ -31,7 +31,7 @@ class EventLog {
   // Returns the kept events from number `first` on. The first event of a simulation has the number
   // 0.
   std::vector<Event> Since(std::uint64_t first) const;
-  // The number of events so far, including dropped ones.
+  // The number of events so far, including dropped events.
   std::uint64_t count() const;
   // OutputsSince() and output_count() are for lines of output (IsOutput()), which Since() and
   // count() leave out.

@@ -19,7 +19,7 @@ TEST(WaitEvent, ReleasesOnlyEarlierWaiters) {
 }
 
 // The caller signals a few events, the signaler's thread signals many, and the destructor signals
-// the rest.
+// the remaining events.
 class EventSignalerTest : public testing::TestWithParam<int> {};
 
 TEST_P(EventSignalerTest, SignalsEachEventOnce) {

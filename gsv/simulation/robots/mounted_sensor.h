@@ -72,7 +72,7 @@ class MountedSensor {
   bool casts_rays() const { return design_->sensor != nullptr && design_->sensor->CastsRays(); }
   bool takes_long() const { return design_->sensor != nullptr && design_->sensor->TakesLong(); }
 
-  // Returns the sensor as a device (an actuator or radio), or null if it is none.
+  // Returns the sensor as a device (an actuator or radio), or null if it is not a device.
   std::shared_ptr<const sensing::Device> device() const {
     const auto* const device = design_->sensor != nullptr ? design_->sensor->device() : nullptr;
     return device != nullptr ? std::shared_ptr<const sensing::Device>(design_, device) : nullptr;
@@ -86,8 +86,8 @@ class MountedSensor {
   // From now on, each of these sweeps also counts as a reading of this sensor.
   void Join(std::shared_ptr<Sweeps> sweeps);
 
-  // Applies a fault. From now on, the newest sample is the one of `snapshot`. If `snapshot` is
-  // null, readings fail.
+  // Applies a fault. From now on, the newest sample is that of `snapshot`. If `snapshot` is null,
+  // readings fail.
   void Fail(std::shared_ptr<const world::Snapshot> snapshot);
 
   // Counts a reading that the behaviour received.

@@ -30,7 +30,7 @@ class SensorRack {
   base::Status Open(const std::string& name);
   // Closes a sensor. A created sensor is removed; a sensor of the model can be opened again.
   base::Status Close(const std::string& name);
-  // Closes all sensors, removes created ones, and clears readings and counts.
+  // Closes all sensors, removes created sensors, and clears readings and counts.
   void Reset();
 
   // Returns a sensor, which may be closed. Fails if the name is unknown.

@@ -67,8 +67,8 @@ struct SharedState {
   bool has_turns() const GSV_REQUIRES(simulation_mutex) { return !ready.empty() || !due.empty(); }
   // Whether deaths of agents were reported. The dead agents may still count as running.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
-  // Whether steps are timed, and the robot whose behaviour the step waited for last (empty for
-  // none).
+  // Whether steps are timed, and the robot whose behaviour the step waited for last (empty if there
+  // is none).
   bool is_timed GSV_GUARDED_BY(simulation_mutex) = false;
   std::string held_up_by GSV_GUARDED_BY(simulation_mutex);
   // The robots whose behaviours have given up, with a sentence each, which the stepping thread

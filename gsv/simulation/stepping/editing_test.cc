@@ -118,8 +118,7 @@ TEST(Editing, AStaticObjectThatWasAddedCanBeMovedAndRemoved) {
   ASSERT_TRUE(simulation->AddObject(Thing(Crate(0.5, true), 1, 1, "shelf")));
   ASSERT_TRUE(simulation->PlaceBody("shelf", PlanarPose(1, -1, 0, 0), true));
   EXPECT_NEAR(PoseOf(*simulation, "shelf").position.y, -1, 1e-12);
-  // At this place there is not enough space for a robot. There is enough at the place where the
-  // object was before.
+  // There is not enough space for a robot at the object's new place, but there is at its old place.
   EXPECT_FALSE(simulation->AddRobot(Robot("robot", 1, -1)));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   EXPECT_TRUE(simulation->RemoveObject("shelf"));

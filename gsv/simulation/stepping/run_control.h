@@ -101,7 +101,7 @@ class RunControl {
   // The instants at which the run pauses by itself. They are set at a start or a resume.
   std::optional<SimTime> run_until_;    // pauses after the step that reaches it
   std::optional<SimTime> run_through_;  // pauses after the turns at this instant
-  std::int64_t steps_left_ = -1;        // pauses after this number of steps; -1 for none
+  std::int64_t steps_left_ = -1;        // pauses after this number of steps; -1: no limit
 
   std::uint64_t run_ = 0;
   std::uint64_t run_of_step_ = 0;  // value of `run_` when the current step began

@@ -17,8 +17,8 @@ using life_cycle::Observed;
 using life_cycle::Request;
 using Change = RunControl::Change;
 
-// A run without a world, in which a step is one nanosecond. It calls RunControl in the way of
-// LifeCycle and StepLoop, but on one thread.
+// A run without a world, in which a step is one nanosecond. It calls RunControl as LifeCycle and
+// StepLoop do, but on one thread.
 class BareRun {
  public:
   // `starts` is the number of behaviours that start with the run. They answer when the test

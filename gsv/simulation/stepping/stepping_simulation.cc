@@ -16,8 +16,8 @@ constexpr int kCallingThreads = 8;
 
 std::atomic<int> left_to_themselves{0};
 
-// In real time, the other processors are left to the behaviours' processes. A team is slower than
-// one thread if one of its threads has to wait for a processor.
+// In real time, one thread is used, so that the behaviours' processes can use the other processors.
+// A team is slower than one thread if one of its threads has to wait for a processor.
 int ThreadsFor(const Specification& specification) {
   if (specification.threads > 0) return specification.threads;
   return specification.mode == Mode::kRealTime ? 1 : base::ThreadTeam::DefaultThreads();
