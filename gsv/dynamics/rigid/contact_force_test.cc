@@ -109,8 +109,6 @@ TEST(ContactForce, WheelsCarryTheWeightOfTheirRobot) {
   ASSERT_TRUE(world.Start());
   world.Run(1, 0.001);
   const std::vector<world::Contact> contacts = world.Step(0.001);
-  // The tolerance allows an acceleration of 0.1 m/s²: below this, the engine treats a robot as at
-  // rest.
   EXPECT_WITHIN(ForceOf(contacts, 0.001).z, -5 * kG, 5 * 0.1, "N");
   ASSERT_EQ(contacts.size(), 1U);
   ASSERT_EQ(contacts[0].points.size(), 4U);

@@ -90,7 +90,7 @@ class StepLoop {
   RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
   bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
 
-  // Only the stepping thread uses the following members.
+  // The stepping thread alone uses these.
   SnapshotPool snapshots_;
   DeviceActions device_actions_;  // the actions for the next step
   Turn::Instant instant_;         // the instant of the current turns
