@@ -15,6 +15,7 @@
 
 namespace gsv::sensing {
 
+// Casts the beams of one robot's range sensors together, which is faster than one by one.
 class BeamSet {
  public:
   // Adds the sensor's beam, which it must have.

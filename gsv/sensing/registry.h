@@ -60,6 +60,7 @@ struct SensorType {
   }
 };
 
+// The sensor types of this process, by name and alias.
 class SensorRegistry {
  public:
   // Adds a type. Fails if its name or an alias is taken.

@@ -111,6 +111,7 @@ struct Beam {
   double ValueOf(double echo) const { return echo >= min ? std::min(echo, max) : max; }
 };
 
+// Base class of all sensors. It computes a reading from a snapshot of the world.
 class Sensor {
  public:
   explicit Sensor(model::SensorDescription description) : description_(std::move(description)) {}

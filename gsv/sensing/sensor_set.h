@@ -13,6 +13,7 @@
 
 namespace gsv::sensing {
 
+// Creates sensors, and shares one Sensor between equal descriptions.
 class SensorSet {
  public:
   // `types` must outlive this object.

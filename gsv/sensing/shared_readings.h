@@ -18,6 +18,7 @@
 
 namespace gsv::sensing {
 
+// Caches readings of slow sensors.
 class SharedReadings {
  public:
   explicit SharedReadings(std::size_t capacity_bytes) : capacity_(capacity_bytes) {}

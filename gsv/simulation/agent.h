@@ -65,6 +65,7 @@ inline JointReading JointReadingIn(const world::Snapshot& snapshot, int body, in
 
 class MountedSensor;
 
+// The interface through which one robot's behaviour uses the simulation.
 class Agent {
  public:
   virtual ~Agent() = default;

@@ -17,6 +17,7 @@ namespace gsv::simulation {
 class Agent;
 class LocalBehaviour;
 
+// The interface through which the simulation calls one robot's behaviour.
 class BehaviourPort {
  public:
   virtual ~BehaviourPort() = default;

@@ -36,6 +36,7 @@ struct StepTimes {
   }
 };
 
+// The interface of an object that receives the snapshots and events of a simulation.
 class Observer {
  public:
   virtual ~Observer() = default;

@@ -22,6 +22,7 @@
 
 namespace gsv::simulation {
 
+// A robot that is added to the world.
 struct RobotSpecification {
   std::string name;  // if empty: the model's name, with a number if that is taken
   std::shared_ptr<const model::Model> model;
@@ -60,6 +61,7 @@ class ExpectationSource {
   virtual std::vector<ExpectationState> states() const = 0;
 };
 
+// The interface of a simulation.
 class Simulation : public std::enable_shared_from_this<Simulation> {
  public:
   // Creates a simulation. `sensors` must outlive it. Fails if the specification or the world is

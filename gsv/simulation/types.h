@@ -42,6 +42,7 @@ const char* ToString(Phase phase);
 // The effect on a run if a behaviour is dead or unresponsive.
 enum class FailurePolicy { kContinue, kFail };
 
+// The parameters of a new simulation.
 struct Specification {
   std::string name = "simulation";
   std::shared_ptr<const model::WorldDescription> world;  // never null
@@ -87,6 +88,7 @@ struct Motion {
   SimTime contact_since{0};
 };
 
+// The status of one robot, with its behaviour and its motion.
 struct RobotStatus {
   std::string name;
   std::string model;
@@ -109,6 +111,7 @@ struct RobotStatus {
   std::chrono::nanoseconds running_for{0};
 };
 
+// The status of a simulation and its robots.
 struct SimulationStatus {
   std::string name;
   Phase phase = Phase::kCreated;

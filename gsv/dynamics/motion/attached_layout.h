@@ -12,6 +12,7 @@
 
 namespace gsv::dynamics {
 
+// Stores a layout and its attachments, and derives the layout that engines use.
 class AttachedLayout {
  public:
   // Removes all attachments.

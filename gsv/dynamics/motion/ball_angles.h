@@ -11,6 +11,7 @@
 
 namespace gsv::dynamics {
 
+// Converts between one rotation of a ball joint and the angles of its three joints in the model.
 class BallAngles {
  public:
   // `part` must be the child of a ball joint.

@@ -36,6 +36,7 @@ struct Travel {
   double forward = 0, left = 0, angle = 0;
 };
 
+// The kinematics of one drive: how its base and its wheels move for a command.
 class DriveKinematics {
  public:
   // Rejects invalid limits and dimensions, and joints that do not exist.

@@ -8,6 +8,7 @@
 
 namespace gsv::dynamics {
 
+// Computes the target velocity of a driven rigid body for each substep of one step.
 class DriveServo {
  public:
   // `now` is the time at the start of the step.

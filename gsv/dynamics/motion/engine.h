@@ -23,6 +23,7 @@ struct Attachment {
   geometry::Pose link_from_held;  // pose of the held model's frame
 };
 
+// The interface of a physics engine.
 class Engine {
  public:
   virtual ~Engine() = default;

@@ -36,6 +36,7 @@ struct Push {
   double impulse = 0;   // impulse over the step, N s
 };
 
+// The interface of a physics engine that moves only rigid bodies.
 class RigidEngine {
  public:
   virtual ~RigidEngine() = default;

@@ -17,6 +17,7 @@
 
 namespace gsv::dynamics {
 
+// Moves actors along their scripts, which no obstacle stops.
 class ActorMover {
  public:
   // Finds the actors of a new layout.

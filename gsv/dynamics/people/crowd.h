@@ -27,6 +27,7 @@
 
 namespace gsv::dynamics {
 
+// Computes the drive commands of all pedestrians.
 class Crowd {
  public:
   static constexpr double kMaxRadius = 1.5;  // m

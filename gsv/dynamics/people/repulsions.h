@@ -16,6 +16,7 @@
 
 namespace gsv::dynamics {
 
+// Computes the social forces between many pairs of bodies at once.
 class Repulsions {
  public:
   // Adds the force of another body on the pedestrian `walker` to forces[walker], at the latest in

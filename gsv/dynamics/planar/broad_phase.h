@@ -12,6 +12,7 @@
 
 namespace gsv::dynamics {
 
+// Finds the pairs of overlapping discs.
 class BroadPhase {
  public:
   struct Pair {

@@ -25,6 +25,7 @@
 
 namespace gsv::dynamics {
 
+// Finds collisions between movers, and stops the movers there.
 class MoverCollisions {
  public:
   MoverCollisions(const PlanarScene& scene, base::ThreadTeam& team) : scene_(scene), team_(team) {}

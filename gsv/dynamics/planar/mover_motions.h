@@ -37,6 +37,7 @@ struct Journey {
   double distance = 0;  // length of the path of the model's origin, m
 };
 
+// The positions and motions of all movers within one step.
 class MoverMotions {
  public:
   explicit MoverMotions(const PlanarScene& scene) : scene_(scene) {}

@@ -18,6 +18,7 @@
 
 namespace gsv::dynamics {
 
+// Finds collisions of movers with obstacles, and stops the movers there.
 class NearObstacles {
  public:
   explicit NearObstacles(const PlanarScene& scene) : scene_(scene) {}

@@ -12,6 +12,7 @@
 
 namespace gsv::dynamics {
 
+// Computes how planar robots push the rigid bodies that stopped them.
 class PlanarPushes {
  public:
   // Rejects invalid drives with kBadModel.

@@ -53,6 +53,7 @@ struct Sight {
   double radius = 0;
 };
 
+// The movers of a layout, and slices of its bodies as obstacles for these movers.
 class PlanarScene {
  public:
   static constexpr int kMaxLevels = 64;

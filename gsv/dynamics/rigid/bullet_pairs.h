@@ -23,6 +23,7 @@ class PairAlgorithms final : public btDefaultCollisionConfiguration {
   btConvexConvexAlgorithm::CreateFunc at_one_point_;
 };
 
+// Finds the contact points of two pieces with Bullet.
 class BulletPairs {
  public:
   BulletPairs();

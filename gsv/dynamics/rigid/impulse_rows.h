@@ -31,6 +31,7 @@
 
 namespace gsv::dynamics {
 
+// Solves velocity constraints (rows) for the impulses that satisfy them.
 class ImpulseRows {
  public:
   // The effect of a row on one body. The spans have equal sizes, with one value per degree of

@@ -16,6 +16,7 @@ struct JointRow {
   double lower = 0, upper = 0;
 };
 
+// A list of constraint rows on the joints of one tree of links.
 class JointRows {
  public:
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();

@@ -22,6 +22,7 @@
 
 namespace gsv::dynamics {
 
+// The state and the equations of motion of a tree of links that joints connect.
 class LinkTree {
  public:
   explicit LinkTree(const RigidBody& plan);

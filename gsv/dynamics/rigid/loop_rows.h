@@ -11,6 +11,7 @@
 
 namespace gsv::dynamics {
 
+// A joint that closes a loop of links. The solver treats it as constraint rows.
 class LoopJoint {
  public:
   // `kind` is fixed, revolute, continuous, prismatic or ball. `part` is an index in the

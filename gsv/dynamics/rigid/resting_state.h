@@ -11,6 +11,7 @@
 
 namespace gsv::dynamics {
 
+// Detects that a step would change nothing, because all rigid bodies are at rest.
 class RestingState {
  public:
   void Forget() { rests_ = false; }

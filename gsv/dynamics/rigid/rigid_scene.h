@@ -20,6 +20,7 @@ struct Area {
 bool IsNear(const Solid& planar, const world::State& before, const world::State& after,
             const std::vector<Area>& areas);
 
+// The bodies of a layout, as rigid-body dynamics uses them.
 class RigidScene {
  public:
   // Rejects invalid drives.

@@ -17,6 +17,7 @@
 
 namespace gsv::dynamics {
 
+// The triangles of a static mesh, which wheels and spheres can touch.
 class TriangleSurface {
  public:
   // Two triangles are neighbours if they share two vertices of equal positions. Triangles without

@@ -15,6 +15,7 @@ struct BodyPair {
   friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
 };
 
+// Collects the contacts of one step, one for each pair of bodies.
 class ContactCollector {
  public:
   // Clears and fills `contacts`. Bodies further apart than `gap` have no contact. If `gap` is below

@@ -24,6 +24,7 @@ struct Obstacle {
   model::CollisionFilter filter{};
 };
 
+// A grid that finds the obstacles near a position.
 class ObstacleField {
  public:
   ObstacleField() = default;

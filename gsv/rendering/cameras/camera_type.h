@@ -18,6 +18,7 @@ namespace gsv::rendering {
 // The result of Renderer::Start(), which may be a failure.
 using RendererResult = base::Result<std::shared_ptr<Renderer>>;
 
+// Base class of camera sensors with these values and this message.
 template <typename Values, typename Message>
 class CameraOf : public sensing::SensorOf<Values, Message> {
  public:

@@ -18,6 +18,7 @@
 
 namespace gsv::rendering {
 
+// Applies exposure, vignetting and noise to the images of one camera.
 class Exposure {
  public:
   // Reports invalid parameters to the reader.

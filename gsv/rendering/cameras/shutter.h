@@ -25,6 +25,7 @@ namespace gsv::rendering {
 // Returns the world `seconds` earlier, extrapolated from its velocities.
 std::shared_ptr<const world::Snapshot> Earlier(const world::Snapshot& snapshot, double seconds);
 
+// Combines images of several instants into an image with motion blur or a rolling shutter.
 class Shutter {
  public:
   // Reports invalid parameters to the reader.

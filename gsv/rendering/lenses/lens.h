@@ -57,6 +57,7 @@ struct WideView {
 // "orthographic".
 base::Result<WideView> WideViewNamed(const std::string& type);
 
+// A camera lens: converts between image points and directions.
 class Lens {
  public:
   // A pinhole without distortion.

@@ -17,6 +17,7 @@
 
 namespace gsv::rendering {
 
+// Computes an image through a lens from pinhole images.
 class LensMap {
  public:
   // `camera` gives near and far. The pinhole images have the largest resolution (pixels per radian)

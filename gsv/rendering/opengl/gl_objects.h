@@ -17,6 +17,7 @@ void FreeFramebuffer(unsigned name);
 void FreeRenderbuffer(unsigned name);
 void FreeProgram(unsigned name);
 
+// Owns one OpenGL object, and deletes it in the destructor.
 template <void (*Free)(unsigned)>
 class GlObject {
  public:

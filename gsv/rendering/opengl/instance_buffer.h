@@ -22,6 +22,7 @@ struct InstanceData {
 InstanceData InstanceOf(const DrawItem& item, const PlacedItem& placed,
                         const geometry::Vector3& origin);
 
+// The instances of a draw call on the graphics card.
 class InstanceBuffer {
  public:
   InstanceBuffer();

@@ -14,6 +14,7 @@
 
 namespace gsv::rendering {
 
+// Renders the image of one camera with OpenGL.
 class ViewPass {
  public:
   ViewPass();

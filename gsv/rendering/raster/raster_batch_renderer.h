@@ -21,6 +21,7 @@ inline constexpr const char* kRasteriserName = "GSV rasteriser (AVX2)";
 // Whether this processor has AVX2 and FMA, which the rasteriser needs.
 bool CanRasterise();
 
+// The back end that renders on the processor.
 class RasterBatchRenderer final : public BatchRenderer {
  public:
   // `threads` is at least 1.

@@ -16,6 +16,7 @@
 
 namespace gsv::rendering {
 
+// The interface of a renderer's back end.
 class BatchRenderer {
  public:
   virtual ~BatchRenderer() = default;

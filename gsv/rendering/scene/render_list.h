@@ -66,6 +66,7 @@ struct PlacedItem {
   geometry::Vector3 centre;
 };
 
+// The meshes, materials and poses of all visuals of a layout, ready for drawing.
 class RenderList {
  public:
   // The stores must outlive the list.

@@ -12,6 +12,7 @@ namespace gsv::rendering {
 
 inline constexpr int kShadowSide = 2048;  // side of the map in texels
 
+// The box that a shadow map covers.
 class ShadowRegion {
  public:
   // Makes an empty region, without casters.

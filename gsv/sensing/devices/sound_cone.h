@@ -58,6 +58,7 @@ SoundSettings ReadSound(ParameterReader& reader);
 // Returns the relative amplitude, one way, at an angle from the axis.
 double Directivity(const SoundSettings& sound, double angle);
 
+// Computes the echo that an ultrasonic transducer detects.
 class SoundCone {
  public:
   explicit SoundCone(const SoundSettings& sound);

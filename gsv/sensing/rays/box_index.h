@@ -15,6 +15,7 @@
 
 namespace gsv::sensing {
 
+// Finds the boxes that a ray passes through, by the method that suits the boxes.
 class BoxIndex {
  public:
   // Replaces all boxes. `often`: the boxes are replaced often, so a quick build matters more than

@@ -24,6 +24,7 @@ struct BoundingSphere {
   double radius = 0;
 };
 
+// The solids near a point, which rays from there may hit.
 class CandidateSet {
  public:
   // Maximum number of solids. Larger sets are slower than the broad phase.

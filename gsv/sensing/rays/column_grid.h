@@ -28,6 +28,7 @@ struct FoundBoxes {
   std::size_t count = 0;
 };
 
+// Finds the boxes that a ray passes through, by a grid over the ground.
 class ColumnGrid {
  public:
   static constexpr double kMargin = 1e-6;        // m

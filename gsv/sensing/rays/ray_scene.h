@@ -29,6 +29,7 @@ inline Ray Moved(const geometry::Pose& to_from, const Ray& ray, double length) {
 
 class CandidateSet;
 
+// The solids of a world at one instant, for ray casting.
 class RayScene : public world::RayCaster {
  public:
   using world::RayCaster::Cast;

@@ -12,6 +12,7 @@
 
 namespace gsv::simulation {
 
+// Makes the models of robots, with their drives, and shares equal models.
 class RobotModels {
  public:
   // Calls model::AsRobot(). An avatar without a drive accepts any velocity.

@@ -12,6 +12,7 @@
 
 namespace gsv::simulation {
 
+// The faults of a run, in the order of their times.
 class FaultSchedule {
  public:
   // Faults are applied in the order of their times. Faults with equal times keep the given order.

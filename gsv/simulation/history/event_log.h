@@ -17,6 +17,7 @@
 
 namespace gsv::simulation {
 
+// Stores the events of a simulation, and notifies its observers.
 class EventLog {
  public:
   // Events carry the step and time of the latest snapshot of `history`, which must outlive the log.

@@ -21,6 +21,7 @@ namespace gsv::simulation {
 // `stuck_after`, up to now.
 bool IsStuck(const Motion& motion, SimTime stuck_after);
 
+// Records since when each robot has been moving, at rest or stuck.
 class MotionHistory {
  public:
   // Samples the first snapshot at or after each multiple of 0.1 s. A snapshot of an earlier time

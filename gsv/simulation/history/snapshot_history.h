@@ -28,6 +28,7 @@ struct Cadence {
   friend auto operator<=>(const Cadence&, const Cadence&) = default;
 };
 
+// Stores the snapshots that sensors read at their update rates.
 class SnapshotHistory {
  public:
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;

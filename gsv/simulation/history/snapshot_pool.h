@@ -11,6 +11,7 @@
 
 namespace gsv::simulation {
 
+// Reuses the memory of old snapshots for new snapshots.
 class SnapshotPool {
  public:
   // Returns a snapshot, whose content may be old. When its last reader releases it, the snapshot

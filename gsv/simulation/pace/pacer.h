@@ -11,6 +11,7 @@
 
 namespace gsv::simulation {
 
+// Computes when steps are due on the wall clock.
 class Pacer {
  public:
   // `factor` is the target real-time factor, > 0.

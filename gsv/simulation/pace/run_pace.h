@@ -16,6 +16,7 @@ namespace gsv::simulation {
 // Fails for a target real-time factor that is not in (0, 1e6]. The error names `simulation`.
 base::Status CheckRealTimeFactor(double factor, const std::string& simulation);
 
+// The real-time schedule and the measured real-time factor of a run.
 class RunPace {
  public:
   RunPace(base::SimTime step, double factor) : pacer_(step, factor), factor_(factor) {}

@@ -17,6 +17,7 @@
 
 namespace gsv::simulation {
 
+// The clocks of one agent. A behaviour uses a clock to wait for an instant of simulated time.
 class AgentClocks {
  public:
   // Opens a clock, which then runs.

@@ -17,6 +17,7 @@
 
 namespace gsv::simulation {
 
+// The agents of all robots of a simulation.
 class AgentPopulation {
  public:
   using AgentPtr = std::shared_ptr<RobotAgent>;

@@ -14,6 +14,7 @@
 
 namespace gsv::simulation {
 
+// A pool of threads that call behaviours.
 class BehaviourCaller {
  public:
   explicit BehaviourCaller(int threads);

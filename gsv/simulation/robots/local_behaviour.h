@@ -110,6 +110,7 @@ class Turn {
   std::variant<Finished, Failed, Waiting, Blocked> end_;
 };
 
+// Base class of behaviours that run in this process, in turns.
 class LocalBehaviour : public BehaviourPort {
  public:
   LocalBehaviour* local() final { return this; }

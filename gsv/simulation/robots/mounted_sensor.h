@@ -63,6 +63,7 @@ struct Sweeps {
   std::atomic<bool> is_allowed{true};
 };
 
+// One sensor of one robot, with its newest reading.
 class MountedSensor {
  public:
   explicit MountedSensor(SensorDesignPtr design) : design_(std::move(design)) {}

@@ -34,6 +34,7 @@ bool TakesCommands(const MountedSensor& sensor);
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot);
 
+// The commands that one robot has received since the last step.
 class RobotCommands {
  public:
   struct Drive {

@@ -15,6 +15,7 @@ namespace gsv::simulation {
 
 using MountedSensorPtr = std::shared_ptr<MountedSensor>;
 
+// The sensors of one robot: those of its model, and those that a caller has created.
 class SensorRack {
  public:
   // The rack begins with the sensors of the robot's model. `designs` must outlive the rack.

@@ -11,6 +11,7 @@
 
 namespace gsv::simulation {
 
+// An event on which threads wait, and which another thread signals.
 class WaitEvent {
  public:
   // The number of signals so far. A thread that reads it under the lock of its condition, and then

@@ -17,6 +17,7 @@
 
 namespace gsv::simulation {
 
+// Starts, pauses, stops and resets a run as RunControl decides.
 class LifeCycle {
  public:
   // All arguments except the specification must outlive the life cycle. The BehaviourCaller must be

@@ -17,6 +17,7 @@
 
 namespace gsv::simulation {
 
+// The state machine of a run: its phase, and the requests that each phase allows.
 class RunControl {
  public:
   // How a call changes the phase.

@@ -22,6 +22,7 @@
 
 namespace gsv::simulation {
 
+// The thread that takes the steps of a simulation.
 class StepLoop {
  public:
   // The objects that the loop uses. All must outlive the loop.

@@ -20,6 +20,7 @@
 
 namespace gsv::simulation {
 
+// The implementation of Simulation.
 class SteppingSimulation final : public Simulation {
  public:
   SteppingSimulation(Specification specification,

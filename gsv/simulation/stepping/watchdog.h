@@ -10,6 +10,7 @@
 
 namespace gsv::simulation {
 
+// A thread that detects dead behaviours, and behaviours that do not return.
 class Watchdog {
  public:
   // Starts the watchdog. A turn may last at most `deadline`.

@@ -15,6 +15,7 @@ namespace gsv::simulation::life_cycle {
 
 enum class Action { kStart, kPause, kResume, kStep, kRunUntil, kStop, kReset };
 
+// A request to a simulation.
 struct Request {
   Action action;
   // number of steps for kStep, or target step for kRunUntil
@@ -29,6 +30,7 @@ struct Observed {
 
 inline constexpr std::int64_t kUnbounded = std::numeric_limits<std::int64_t>::max();
 
+// A range of steps.
 struct Interval {
   std::int64_t low = 0, high = 0;
 };
@@ -53,6 +55,7 @@ inline State Frozen(Phase phase, Interval step) {
   return {.phase = phase, .step = step, .counted = {}, .run_until = {}};
 }
 
+// All states that the simulation may be in after the requests and observations so far.
 class LifeCycleModel {
  public:
   explicit LifeCycleModel(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}

@@ -14,6 +14,7 @@
 
 namespace gsv::simulation {
 
+// The current layout and state of a simulated world, and the engine that moves it.
 class SimulatedWorld {
  public:
   // The world starts in the initial state of `layout`, which must be the engine's layout. In a

@@ -19,6 +19,7 @@ namespace gsv::simulation {
 class GSV_CAPABILITY("mutex") WorldMutex {};
 inline WorldMutex world_mutex;
 
+// A mutex of a simulated world. Threads that wait for it get an error if the simulation is stuck.
 class WorldLock {
  public:
   // Waiting threads check at this interval whether the simulation is stuck.
