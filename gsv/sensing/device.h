@@ -38,6 +38,7 @@ class Device : public Sensor {
  protected:
   using Sensor::Sensor;
 
+  // Returns where this device is mounted on a robot.
   world::DeviceMount MountOn(const std::string& robot) const {
     return {robot, description().name, description().link, description().link_from_sensor};
   }
@@ -46,6 +47,7 @@ class Device : public Sensor {
     return world::FindDevice(sampling.snapshot()->state.devices.get(), sampling.robot().name,
                              description().name);
   }
+  // Returns a kInvalidArgument error with this sentence.
   base::Status Refuse(std::string sentence) const {
     return base::Fail(base::ErrorCode::kInvalidArgument, std::move(sentence), description().name);
   }

@@ -55,6 +55,7 @@ class Sampling {
   // Announces `count` rays from near the robot, so that gathering a candidate set may save time.
   void ExpectRays(std::size_t count) const { expected_rays_ += count; }
 
+  // Returns the pose of a sensor of this robot in the world.
   geometry::Pose WorldFromSensor(const model::SensorDescription& description) const {
     if (link_ != description.link) {
       link_ = description.link;

@@ -51,6 +51,7 @@ class SensorOf : public Base {
   // sensor's.
   virtual Message ToMessage(const Values& values, const Reading& reading,
                             const std::string& frame_id) const = 0;
+  // Returns the beams of a reading for viewers; see Sensor::Beams().
   virtual std::vector<Segment> BeamsOf(const Values& /*values*/) const { return {}; }
 };
 

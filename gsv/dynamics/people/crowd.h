@@ -69,6 +69,7 @@ class Crowd {
 
   // Slices the static bodies again, if one of them has moved.
   void SliceWalls(const world::State& state);
+  // Sorts others_ into the grid cells.
   void SortOthers(const world::State& state);
   // Sets the drive commands of the walkers with these indices. `left` is Relaxation(seconds).
   void DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left, Block& block,

@@ -93,6 +93,7 @@ class MoverCollisions {
     std::span<const double> times;
   };
 
+  // Removes the pairs of the last step.
   void Clear();
   // Adds the pair if two of its pieces are closer than `within`.
   void AddIfNear(std::uint32_t first, std::uint32_t second,

@@ -114,10 +114,14 @@ class ImpulseRows {
   double Coupling(const Row& a, const Row& b) const;
   // Replaces two rows by weighted sums of both.
   void Combine(int first_row, const Axes& axes);
+  // Returns the row's velocity J v.
   double VelocityOf(const Row& row) const;
+  // Adds `impulse` to the row's impulse, and its effect to the velocities.
   void Apply(Row& row, double impulse);
+  // Solve one row or cone, with all other impulses unchanged.
   void SolveRow(Row& row);
   void SolveCone(Cone& cone);
+  // Solves each row and cone once.
   void Sweep(bool backwards);
   // Continues each impulse in the direction of its last change.
   void Accelerate(double beta);
@@ -145,6 +149,7 @@ class ImpulseRows {
   // Tries to find the solution from the velocities alone. Returns false, and changes nothing, if
   // this fails.
   bool Guess();
+  // Applies the guessed impulses. Returns false if one of them is outside of its bounds.
   bool TakeGuess();
   // Stores the impulses and velocities. GoBack() restores them.
   void Remember();

@@ -126,6 +126,7 @@ class LinkTree {
   void WriteSingle();
   // Writes the row of the mass matrix for `velocity`.
   void WriteMassesOf(int part, int velocity);
+  // Factorises the mass matrix.
   void Factorise();
   // Accelerates a body without joints.
   void AccelerateSingle(double seconds);

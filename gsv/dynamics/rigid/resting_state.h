@@ -14,6 +14,7 @@ namespace gsv::dynamics {
 // Detects that a step would change nothing, because all rigid bodies are at rest.
 class RestingState {
  public:
+  // Discards the stored step.
   void Forget() { rests_ = false; }
 
   // Call this after a step of `seconds` from `before` to `after`, with the areas that the rigid

@@ -53,6 +53,7 @@ class LensMap {
     float reach = 1;         // number of face pixels along one side of this pixel
     float depth_scale = 0;   // factor that converts depth in the face to depth in the camera
   };
+  // Sets the member `reach` of all sources.
   void FindReach();
 
   int width_, height_;

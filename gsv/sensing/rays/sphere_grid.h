@@ -87,6 +87,7 @@ class SphereGrid {
   }
   // Adds the large spheres near the packet. Returns false if there is no space.
   bool AddLarge(const PacketSearch& search, TouchedSpheres& found) const;
+  // Chooses the cells. Returns false if the spheres do not suit a grid.
   bool Divide(std::span<const BoundingSphere> spheres);
 
   bool is_suitable_ = true;

@@ -52,6 +52,7 @@ class WorldEditor {
   // poses.
   base::Status ChangeBodies(std::vector<world::Body> bodies, const std::vector<std::string>& placed)
       GSV_REQUIRES(world_mutex);
+  // Like ChangeBodies(), with another description of the world.
   base::Status ChangeWorld(std::vector<world::Body> bodies,
                            std::shared_ptr<const model::WorldDescription> description,
                            const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);

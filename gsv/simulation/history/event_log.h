@@ -62,6 +62,7 @@ class EventLog {
   };
 
   std::vector<std::shared_ptr<Observer>> Observers() const;
+  // Updates wants_times_ after the observers have changed.
   void UpdateWantsTimes() GSV_REQUIRES(mutex_);
 
   const SnapshotHistory& history_;

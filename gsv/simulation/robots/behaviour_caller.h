@@ -35,6 +35,7 @@ class BehaviourCaller {
     std::function<void()> call;
   };
 
+  // Runs on each thread: makes the posted calls until Close().
   void Work();
   // Returns the first task whose key is not in use by a running call, or end() if there is none.
   std::deque<Task>::iterator FindRunnable() GSV_REQUIRES(mutex_);

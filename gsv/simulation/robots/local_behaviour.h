@@ -41,6 +41,7 @@ class Turn {
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 
+    // Records that a turn has cast rays, so that Prepare() builds the ray scene at the next instant.
     void NoteRays() const;
 
     mutable std::atomic<bool> casts_rays{false};
@@ -85,6 +86,7 @@ class Turn {
   // Ends the turn and runs `work` on another thread, for slow work such as an image. The next turn
   // starts when `work` is done. In lockstep, simulated time stands still until then.
   void Block(std::function<void()> work) { end_ = Blocked{std::move(work)}; }
+  // Ends the behaviour's run without an error.
   void Finish() { end_ = Finished{}; }
   // Ends the behaviour's run with an error. See Agent::GiveUp().
   void Fail(std::string reason) { end_ = Failed{std::move(reason)}; }

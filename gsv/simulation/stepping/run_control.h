@@ -68,6 +68,7 @@ class RunControl {
   void BeginTurns() { turns_have_begun_ = true; }
   // Call this when all turns at `now` are over. Returns kPaused if RunThrough() ends at `now`.
   Change EndTurns(SimTime now);
+  // Call this when a step begins.
   void BeginStep() { run_of_step_ = run_; }
   // Call this when the step that ended at `now` is complete.
   Change EndStep(SimTime now);
@@ -92,6 +93,7 @@ class RunControl {
  private:
   // Starts or resumes the run until `until` (0: no limit) or for a number of steps (-1: no limit).
   Change Run(SimTime until, std::int64_t steps);
+  // Enters a phase, and returns `change`.
   Change Enter(Phase phase, Change change);
 
   const std::string simulation_;

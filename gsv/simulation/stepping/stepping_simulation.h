@@ -99,12 +99,14 @@ class SteppingSimulation final : public Simulation {
   void AwaitTurns() const;
   // Fails if the simulation is stuck, or if its phase allows no edits.
   base::Status CheckMayEdit(const WorldGuard& guard) const;
+  // Updates the index of each agent's body after a change of the layout.
   void AssignBodies() GSV_REQUIRES(world_mutex);
   // Emits the event of an edit.
   void RecordEdit(Edit edit, const char* event, const std::string& detail = {})
       GSV_REQUIRES(world_mutex);
   // Creates the agent of an object with sensors.
   void AddStation(const std::string& name) GSV_REQUIRES(world_mutex);
+  // Adds the robots to the world, and creates their agents.
   base::Status PlaceRobots(std::vector<RobotSpecification>& robots);
   base::Status RemoveRobots(const std::vector<std::string>& names);
 

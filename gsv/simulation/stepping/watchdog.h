@@ -24,6 +24,7 @@ class Watchdog {
   void Run();
   // Whether the run is starting, running or paused.
   bool IsUnderWay() const GSV_REQUIRES(simulation_mutex);
+  // Fails the run if a behaviour has not returned from its turn within the deadline.
   void CheckTurnDeadlines() GSV_REQUIRES(simulation_mutex);
 
   const std::chrono::milliseconds deadline_;
