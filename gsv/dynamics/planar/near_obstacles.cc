@@ -27,7 +27,7 @@ void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const geometry:
                          double travel) {
   const double within = travel + kTouchGap;
   const double radius = scene_.footprint(mover).radius;
-  if (scene_.has_loose()) {
+  if (scene_.has_dynamic()) {
     Search(chunks_[chunk], mover, at, within, radius + within + kRounding, true);
   }
   Clearance& clearance = clearances_[mover];
@@ -40,7 +40,7 @@ void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const geometry:
 }
 
 double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const geometry::PlanarPosition& at,
-                             double within, double look, bool loose) const {
+                             double within, double look, bool dynamic) const {
   const Mover& mover = scene_.movers()[m];
   const Footprint& footprint = scene_.kind(mover).footprint;
   const Vector2 origin{at.x, at.y};
@@ -51,7 +51,7 @@ double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const geometry::Plan
     if (level < 0) continue;
     const Footprint::Piece& piece = footprint.pieces[p];
     const Vector2 centre = PointAt(piece.centre, at);
-    const ObstacleField& field = loose ? scene_.loose_field(level) : scene_.field(level);
+    const ObstacleField& field = dynamic ? scene_.dynamic_field(level) : scene_.field(level);
     bool is_placed = false;
     field.ForEachNear(origin, look, [&](std::uint32_t index) {
       const Obstacle& obstacle = field[index];

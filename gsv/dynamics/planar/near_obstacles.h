@@ -70,11 +70,11 @@ class NearObstacles {
   const Obstacle& ObstacleOf(const Near& near) const { return (*near.field)[near.obstacle]; }
   // Returns the separation of the piece from the obstacle if the mover is at `at`.
   Separation SeparationAt(const Near& near, const geometry::PlanarPosition& at) const;
-  // Lists the dynamic obstacles (if `loose`) or the static obstacles (otherwise) within `within` of
+  // Lists the dynamic obstacles (if `dynamic`) or the static obstacles (if not) within `within` of
   // the mover. Returns the distance from the mover's origin to the nearest obstacle within `look`.
   // `look` must be at least the mover's radius and `within`.
   double Search(Chunk& chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
-                double within, double look, bool loose) const;
+                double within, double look, bool dynamic) const;
 
   const PlanarScene& scene_;
   std::vector<Clearance> clearances_;

@@ -107,7 +107,7 @@ void TeamMover::AddSight(std::uint32_t mover) {
 }
 
 void TeamMover::SliceVisibleObstacles(const world::State& state, double seconds) {
-  if (!scene_.has_loose()) return;
+  if (!scene_.has_dynamic()) return;
   sights_.clear();
   for (std::uint32_t m = 0; m < count(); ++m) {
     motions_.Load(m, state);
@@ -119,7 +119,7 @@ void TeamMover::SliceVisibleObstacles(const world::State& state, double seconds)
 
 // Finds the obstacles and pairs for a step of `seconds`. Nothing moves in a step of 0 s.
 void TeamMover::Begin(const world::State& state, double seconds) {
-  if (!scene_.StandsAsSliced(state)) Slice(state);
+  if (!scene_.HasValidSlices(state)) Slice(state);
   SliceVisibleObstacles(state, seconds);
   const auto all = [&](bool Chunk::*is) {
     return std::all_of(chunks_.begin(), chunks_.end(), [&](const Chunk& c) { return c.*is; });
@@ -148,7 +148,7 @@ void TeamMover::BeginChunk(std::size_t index, const world::State& state, double 
     motions_.Load(m, state);
     motions_.FollowCommand(m, state, seconds);
     if (body.in_contact) chunk.in_contact.push_back(m);
-    if (!scene_.IsAsSliced(m, body.world_from_model.position.z)) chunk.is_as_sliced = false;
+    if (!scene_.IsSlicedAtHeight(m, body.world_from_model.position.z)) chunk.is_as_sliced = false;
     if (!pairs_.HasRoom(m, motions_.positions[m], motions_.reaches[m])) chunk.has_room = false;
     obstacles_.Find(index, m, motions_.positions[m], motions_.reaches[m]);
   }
@@ -299,7 +299,7 @@ bool TeamMover::FindNeighbours(std::uint32_t mover, const world::State& state) {
   bool is_as_sliced = true;
   for (std::uint32_t m = 0; m < movers.size(); ++m) {
     const geometry::Pose& pose = state.bodies[movers[m].body].world_from_model;
-    is_as_sliced = is_as_sliced && scene_.IsAsSliced(m, pose.position.z);
+    is_as_sliced = is_as_sliced && scene_.IsSlicedAtHeight(m, pose.position.z);
     const Vector2 apart{pose.position.x - at.x, pose.position.y - at.y};
     const double reach =
         scene_.footprint(m).radius + scene_.footprint(mover).radius + 2 * kTouchGap;
@@ -322,7 +322,7 @@ std::vector<world::Contact> TeamMover::OverlapsOf(const world::State& state, int
     return contacts;
   }
   const auto mover = static_cast<std::uint32_t>(found - movers.begin());
-  if (!scene_.StandsAsSliced(state) || !FindNeighbours(mover, state)) {
+  if (!scene_.HasValidSlices(state) || !FindNeighbours(mover, state)) {
     Slice(state);
     FindNeighbours(mover, state);
   }

@@ -68,7 +68,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   GSV_CHECK(layout != nullptr);
   std::vector<MoverKind> kinds;
   std::vector<Mover> movers;
-  std::vector<int> standing, loose;
+  std::vector<int> static_bodies, dynamic;
   std::map<const model::Model*, std::uint32_t> known;  // footprints of upright models; used only
                                                        // for lookups
   std::uint32_t pieces = 0;
@@ -79,7 +79,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
                         "the pose contains a number that is not finite", body.name);
     }
     if (!body.is_planar()) {
-      (body.is_rigid() || body.is_actor() ? loose : standing).push_back(static_cast<int>(i));
+      (body.is_rigid() || body.is_actor() ? dynamic : static_bodies).push_back(static_cast<int>(i));
       continue;
     }
     const Quaternion tilt = TiltOf(body.initial_pose.orientation);
@@ -101,10 +101,10 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   layout_ = std::move(layout);
   kinds_ = std::move(kinds);
   movers_ = std::move(movers);
-  standing_ = std::move(standing);
-  loose_ = std::move(loose);
-  loose_radii_.clear();
-  for (const int body : loose_) loose_radii_.push_back(DynamicRadius(layout_->bodies[body]));
+  static_bodies_ = std::move(static_bodies);
+  dynamic_ = std::move(dynamic);
+  dynamic_radii_.clear();
+  for (const int body : dynamic_) dynamic_radii_.push_back(DynamicRadius(layout_->bodies[body]));
   levels_.assign(pieces, -1);
   is_sliced_ = false;
   return {};
@@ -116,29 +116,30 @@ void PlanarScene::Slice(const world::State& state) {
   for (const Mover& mover : movers_) {
     heights_.push_back(state.bodies[mover.body].world_from_model.position.z);
   }
-  standing_poses_.clear();
-  for (const int body : standing_) standing_poses_.push_back(state.bodies[body].world_from_model);
+  static_poses_.clear();
+  for (const int body : static_bodies_)
+    static_poses_.push_back(state.bodies[body].world_from_model);
   intervals_ = AssignLevels();
   SliceLevels(state);
-  is_loose_sliced_ = false;
+  is_dynamic_sliced_ = false;
   is_sliced_ = true;
 }
 
 void PlanarScene::FindDynamicObstacles(const world::State& state, std::span<const Sight> sights) {
   seen_.clear();
-  for (std::size_t i = 0; i < loose_.size(); ++i) {
-    const auto& origin = state.bodies[loose_[i]].world_from_model.position;
+  for (std::size_t i = 0; i < dynamic_.size(); ++i) {
+    const auto& origin = state.bodies[dynamic_[i]].world_from_model.position;
     const bool is_seen = std::any_of(sights.begin(), sights.end(), [&](const Sight& sight) {
       const Vector2 apart = Vector2{origin.x, origin.y} - sight.centre;
-      const double reach = sight.radius + loose_radii_[i];
+      const double reach = sight.radius + dynamic_radii_[i];
       return Dot(apart, apart) <= reach * reach;
     });
-    if (is_seen) seen_.push_back(loose_[i]);
+    if (is_seen) seen_.push_back(dynamic_[i]);
   }
 }
 
 void PlanarScene::SliceDynamicObstacles(const world::State& state, std::span<const Sight> sights) {
-  if (loose_.empty()) return;
+  if (dynamic_.empty()) return;
   FindDynamicObstacles(state, sights);
   std::vector<double> now;
   for (const int body : seen_) {
@@ -148,25 +149,25 @@ void PlanarScene::SliceDynamicObstacles(const world::State& state, std::span<con
     now.insert(now.end(), first,
                first + static_cast<std::ptrdiff_t>(layout_->bodies[body].model->joints.size()));
   }
-  if (is_loose_sliced_ && now == loose_state_) return;
-  is_loose_sliced_ = true;
-  loose_state_ = std::move(now);
-  loose_fields_.clear();
+  if (is_dynamic_sliced_ && now == dynamic_state_) return;
+  is_dynamic_sliced_ = true;
+  dynamic_state_ = std::move(now);
+  dynamic_fields_.clear();
   const std::vector<double> margins = MarginsOfLevels();
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval heights{intervals_[i].low, intervals_[i].high - kRides};
     auto obstacles = heights.high > heights.low
                          ? CollectDynamicObstacles(*layout_, state, seen_, heights)
                          : std::vector<Obstacle>{};
-    loose_fields_.emplace_back(std::move(obstacles), margins[i]);
+    dynamic_fields_.emplace_back(std::move(obstacles), margins[i]);
   }
 }
 
-bool PlanarScene::StandsAsSliced(const world::State& state) const {
+bool PlanarScene::HasValidSlices(const world::State& state) const {
   GSV_CHECK(layout_ != nullptr && state.bodies.size() == layout_->bodies.size());
   if (!is_sliced_) return false;
-  for (std::size_t i = 0; i < standing_.size(); ++i) {
-    if (state.bodies[standing_[i]].world_from_model != standing_poses_[i]) return false;
+  for (std::size_t i = 0; i < static_bodies_.size(); ++i) {
+    if (state.bodies[static_bodies_[i]].world_from_model != static_poses_[i]) return false;
   }
   return true;
 }

@@ -68,9 +68,9 @@ class PlanarScene {
   void SliceDynamicObstacles(const world::State& state, std::span<const Sight> sights);
   // Whether the slices of static bodies are valid: Slice() was called, and no static body has moved
   // since.
-  bool StandsAsSliced(const world::State& state) const;
+  bool HasValidSlices(const world::State& state) const;
   // Whether the mover had the height z at the last Slice().
-  bool IsAsSliced(std::size_t mover, double z) const { return heights_[mover] == z; }
+  bool IsSlicedAtHeight(std::size_t mover, double z) const { return heights_[mover] == z; }
 
   const world::Layout& layout() const { return *layout_; }
   const std::vector<Mover>& movers() const { return movers_; }
@@ -84,8 +84,8 @@ class PlanarScene {
   }
   const ObstacleField& field(int level) const { return fields_[level]; }
   // Whether there are dynamic obstacles: rigid bodies or actors.
-  bool has_loose() const { return !loose_.empty(); }
-  const ObstacleField& loose_field(int level) const { return loose_fields_[level]; }
+  bool has_dynamic() const { return !dynamic_.empty(); }
+  const ObstacleField& dynamic_field(int level) const { return dynamic_fields_[level]; }
   // The height of a mover's origin, as last sliced.
   double height(std::size_t mover) const { return heights_[mover]; }
 
@@ -104,16 +104,16 @@ class PlanarScene {
   std::vector<Mover> movers_;
   std::vector<int> levels_;
   std::vector<Interval> intervals_;  // height intervals of the levels
-  std::vector<int> standing_;        // bodies that are neither movers nor dynamic obstacles
-  std::vector<geometry::Pose> standing_poses_;  // poses of static bodies when they were sliced
-  std::vector<double> heights_;                 // heights of the movers at the last slicing
+  std::vector<int> static_bodies_;   // bodies that are neither movers nor dynamic obstacles
+  std::vector<geometry::Pose> static_poses_;  // poses of static bodies when they were sliced
+  std::vector<double> heights_;               // heights of the movers at the last slicing
   std::vector<ObstacleField> fields_;
-  std::vector<int> loose_;           // indices of rigid bodies and actors
-  std::vector<double> loose_radii_;  // theirs
-  std::vector<int> seen_;            // indices of the sliced dynamic obstacles
-  std::vector<double> loose_state_;  // bodies, poses and joints at the last slicing
-  std::vector<ObstacleField> loose_fields_;
-  bool is_sliced_ = false, is_loose_sliced_ = false;
+  std::vector<int> dynamic_;           // indices of rigid bodies and actors
+  std::vector<double> dynamic_radii_;  // radii of dynamic_ (DynamicRadius())
+  std::vector<int> seen_;              // indices of the sliced dynamic obstacles
+  std::vector<double> dynamic_state_;  // bodies, poses and joints at the last slicing
+  std::vector<ObstacleField> dynamic_fields_;
+  bool is_sliced_ = false, is_dynamic_sliced_ = false;
 };
 
 }  // namespace gsv::dynamics

@@ -172,7 +172,7 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }
 
-TEST_F(DeviceErrors, ImuNoiseHasItsDensity) {
+TEST_F(DeviceErrors, ImuNoiseHasTheConfiguredDensity) {
   Place({});
   const auto imu = Create("imu", {{"angular_velocity.noise_density", 1e-3}}, 400);
   std::vector<double> rates;
@@ -213,7 +213,7 @@ TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
 
 // The Allan deviation of a bias that drifts with the correlation time T and the deviation d has its
 // maximum, 0.617 d, at 1.89 T (IEEE 952, C.1.5). It is the instability, to a tenth.
-TEST_F(DeviceErrors, ImuBiasHasItsInstability) {
+TEST_F(DeviceErrors, ImuBiasHasTheConfiguredInstability) {
   Place({});
   const double instability = 1e-3, time = 189;
   const auto imu = Create("imu", {{"angular_velocity.bias_instability", instability}}, 100);
