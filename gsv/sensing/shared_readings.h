@@ -36,7 +36,7 @@ class SharedReadings {
     std::uint64_t seed;
     model::SensorDescription description;
     Taken taken;
-    std::size_t bytes;  // 0 while it is being taken
+    std::size_t bytes;  // size of the reading; 0 until it is finished
   };
 
   // Whether the entry is the reading of this sensor at this sampling.

@@ -15,7 +15,7 @@ namespace gsv::dynamics {
 // Stores a layout and its attachments, and derives the layout that engines use.
 class AttachedLayout {
  public:
-  // Removes all attachments.
+  // Sets a layout, and removes all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
   // Implement Engine::Attach() and Engine::Detach(), which describe the errors.

@@ -84,7 +84,7 @@ TEST(DriveKinematics, BrakesAfterTheCommandTimeout) {
   EXPECT_EQ(drive.Next(state, FromSeconds(2.5), 0.01), (world::DriveCommand{}));
 }
 
-TEST(DriveKinematics, NonFiniteCommandsAreZeroAndLargeOnesAreLimited) {
+TEST(DriveKinematics, NonFiniteCommandsAreZeroAndLargeCommandsAreLimited) {
   const DriveKinematics drive = Make(FourWheels(DriveKind::kDifferential));
   const double nan = std::nan("");
   EXPECT_EQ(drive.Next(Commanded({nan, nan, INFINITY}), {}, 0.01), (world::DriveCommand{}));

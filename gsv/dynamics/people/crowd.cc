@@ -14,8 +14,8 @@ constexpr double kTurningTime = 0.3;   // s
 constexpr double kMaxTurnRate = 4;     // rad/s
 constexpr double kStandsStill = 0.05;  // a pedestrian that is slower than this keeps its heading,
                                        // m/s
-constexpr double kSameSide = 0.5;      // cosine of 60 degrees: obstacles within this angle count as
-                                       // one
+// Cosine of 60 degrees. Obstacles within this angle count as one obstacle.
+constexpr double kSameSide = 0.5;
 constexpr double kRoundingOfCells = 1e-9;
 
 // The lowest and the highest point of a body, relative to its origin. Approximate for a body that

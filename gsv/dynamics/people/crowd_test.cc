@@ -101,7 +101,7 @@ TEST(Crowd, PedestrianWalksInTheMiddleOfACorridor) {
   EXPECT_GT(world.position("ann").x, 2);
 }
 
-TEST(Crowd, PedestriansAvoidARobotAndStopAFastOne) {
+TEST(Crowd, PedestriansAvoidARobotAndStopAFastRobot) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", testing::DiscRobot(), PlanarPose(4, 0, 0, 0));
   AddPedestrian(world, "ann", GroupTo({{0, 0}, {9, 0}}), {});
@@ -154,7 +154,7 @@ TEST(Crowd, IsRepeatableForAnyNumberOfThreads) {
   EXPECT_EQ(digest(3), alone);
 }
 
-TEST(Crowd, NeverOverlaps) {
+TEST(Crowd, PedestriansNeverOverlap) {
   TestWorld world = Square(200, 1);
   ASSERT_TRUE(world.Start());
   for (int i = 0; i < 10; ++i) {

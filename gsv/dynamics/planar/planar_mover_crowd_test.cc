@@ -101,7 +101,7 @@ TEST(PlanarMoverCrowd, OverlapsOfABodyAreASubsetOfAllOverlaps) {
   ASSERT_TRUE(crowd.Start());
   for (int i = 0; i < 300; ++i) crowd.Step();
   world::State state = crowd.world().state();
-  // Some robots drive into others and into boxes.
+  // Moves some robots into other robots and into boxes.
   for (std::size_t i = 0; i < crowd.robots().size(); i += 3) {
     state.bodies[crowd.robots()[i]].world_from_model.position.x += 0.3;
   }

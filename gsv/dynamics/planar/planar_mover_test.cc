@@ -198,7 +198,7 @@ TEST(PlanarMover, RobotsOnDifferentFloorsPassEachOther) {
   EXPECT_NEAR(world.position("b").x, -1, 1e-9);
 }
 
-TEST(PlanarMover, FloorIsNoObstacleButItsEdgeIsOne) {
+TEST(PlanarMover, FloorIsNoObstacleButItsEdgeIsAnObstacle) {
   TestWorld world = Empty();
   world.AddBox("slab", {6, 6, 0.19}, 0, 0);
   world.AddRobot("inside", DiscRobot(0.2), PlanarPose(0, 0, 0.19, 0));
@@ -303,7 +303,7 @@ TEST(PlanarMover, WheelAnglesEqualTheRolledDistance) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0.4, 0, 1});
   world.Run(2, 0.01);
-  // The left wheel has 0.4 - 0.15 m/s, the right one 0.4 + 0.15 m/s.
+  // The left wheel has 0.4 - 0.15 m/s, the right wheel 0.4 + 0.15 m/s.
   EXPECT_NEAR(world.joint("robot", 0), 2 * 0.25 / 0.05, 1e-9);
   EXPECT_NEAR(world.joint("robot", 1), -2 * 0.55 / 0.05, 1e-9);
   EXPECT_NEAR(world.joint_velocity("robot", 0), 0.25 / 0.05, 1e-12);

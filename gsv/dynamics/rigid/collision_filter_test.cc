@@ -36,7 +36,7 @@ geometry::Shape CubeAsMesh() {
       geometry::Tessellate(geometry::Box{{1, 1, 1}}))};
 }
 
-TEST(CollisionFilter, BodiesCollideIfOneSelectsTheOthersCategory) {
+TEST(CollisionFilter, BodiesCollideIfOneBodySelectsTheOthersCategory) {
   EXPECT_TRUE(model::Meet({}, {}));
   EXPECT_FALSE(model::Meet({0, 0}, {}));
   EXPECT_FALSE(model::Meet({1, 1}, {2, 2}));

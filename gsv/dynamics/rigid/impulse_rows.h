@@ -59,7 +59,8 @@ class ImpulseRows {
   int AddRow(const Side& a, const Side& b, const Limits& limits, double impulse);
   // Multiplies the row's target by `share`. Call it only before AddCone().
   void ScaleTarget(int row, double share) { At(row).target *= share; }
-  // A row that no impulse can move (J M⁻¹ Jᵀ = 0) keeps its impulse.
+  // Returns the impulse of a row. A row that no impulse can move (J M⁻¹ Jᵀ = 0) keeps the impulse
+  // that AddRow() has set.
   double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
 
   // Makes a cone of two rows that were added one after the other. The rows are first converted to

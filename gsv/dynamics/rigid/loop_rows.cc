@@ -79,7 +79,8 @@ void LoopJoint::AddRows(const LinkTree& tree, double seconds, JointRows& rows) c
 
 std::vector<LoopJoint> LoopJointsOf(const RigidBody& plan) {
   const auto end_of = [&](int link, const model::Joint& joint) -> LoopJoint::End {
-    // An end at the world (-1) is at the base, which then does not move.
+    // Link -1 is the world. The base does not move in that case, so the end is attached to the
+    // base.
     const int part = link < 0 ? 0 : plan.articulation.part_of_link[static_cast<std::size_t>(link)];
     const Pose& model_from_part =
         plan.articulation.parts[static_cast<std::size_t>(part)].model_from_part;

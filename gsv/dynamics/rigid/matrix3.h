@@ -1,13 +1,13 @@
 // 3x3 matrices in double precision: rotations and inertias.
 //
-// Plain data with a fixed order of operations, as geometry::Vector3.
+// The order of operations is fixed, so that results are bit-identical on every machine.
 #pragma once
 
 #include "gsv/geometry/pose.h"
 
 namespace gsv::dynamics {
 
-// Stored by columns, which are the axes of a rotated frame.
+// A 3x3 matrix, stored by columns. The columns of a rotation are the axes of the rotated frame.
 struct Matrix3 {
   geometry::Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 };

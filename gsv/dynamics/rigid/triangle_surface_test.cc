@@ -274,11 +274,11 @@ void ExpectNearestPoints(const Piece& piece, double largest_lean, double bound) 
   }
 }
 
-TEST(TriangleSurface, NearestPointOfASphereIsThatOfABruteForceSearch) {
+TEST(TriangleSurface, NearestPointOfASphereEqualsABruteForceSearch) {
   ExpectNearestPoints(kBall, 0, 1e-9);
 }
 
-TEST(TriangleSurface, NearestPointOfAWheelIsThatOfABruteForceSearch) {
+TEST(TriangleSurface, NearestPointOfAWheelEqualsABruteForceSearch) {
   ExpectNearestPoints(kWheel, 0.3, 1e-6);
 }
 

@@ -44,7 +44,7 @@ class ShadowMap {
   GlFramebuffer still_frame_, moving_frame_;
   GlProgram solid_, alpha_mask_;
   ShadowRegion region_;
-  Drawn drawn_;                                 // the present content of still_
+  Drawn drawn_;                                 // the content of still_ (static casters)
   std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
   std::vector<InstanceData> staged_;
 };

@@ -67,7 +67,7 @@ inline I8x2 GatherPairs(const void* from, I8 index) {
   const __m256 high = gather(_mm256_extracti128_si256(halves, 1));
   return {(I8)_mm256_shuffle_ps(low, high, 0x88), (I8)_mm256_shuffle_ps(low, high, 0xdd)};
 }
-// Reads up to three bytes beyond each element.
+// Loads the byte from[index] for each lane. Reads up to three bytes beyond each element.
 inline I8 GatherByte(const std::uint8_t* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(reinterpret_cast<const int*>(from), (__m256i)index, 1) &
          SplatInt(0xff);

@@ -17,7 +17,7 @@ inline constexpr int kMaxLights = 8;
 
 using Float4 = std::array<float, 4>;
 
-// One light in the block.
+// One light in a FrameBlock.
 struct LightBlock {
   Float4 position_range;  // position in metres and range; a directional light has range 0
   // unit vector away from the light; cosine of the outer half angle, or -2 if it has no cone

@@ -77,8 +77,8 @@ std::vector<std::size_t> ShadowRegion::StillCasters(const RenderList& render_lis
 
 std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_list,
                                                      const std::vector<CameraView>& views) const {
-  // The distance from a surface at which its shadow is looked up: along its normal, and by the
-  // filter.
+  // The maximum distance between a point and the texels in which its shadow is looked up: the
+  // offset along the normal, plus the filter.
   const double beside = 4 * TexelSize();
   // Shadows have no end; this length is beyond the view of every camera.
   const Vector3 shade = -1e7 * axes_[2];

@@ -6,7 +6,7 @@
 
 namespace gsv::sensing {
 
-// `registry` must not have any of their names.
+// Adds the built-in types. `registry` must not contain types with the same names.
 void AddBuiltInSensors(SensorRegistry& registry);
 
 }  // namespace gsv::sensing

@@ -49,7 +49,7 @@ TEST(CandidateSet, ContainsEverySphereThatARayTouchesAndFewOthers) {
   }
 }
 
-TEST(CandidateSet, ServesOnlyRaysThatEndWithinIt) {
+TEST(CandidateSet, IsValidOnlyForRaysThatEndWithinIt) {
   CandidateSet candidates;
   candidates.Begin({1, 2, 3}, 5);
   EXPECT_TRUE(candidates.Hold({{1, 2, 4}, {1, 0, 0}, 4}));

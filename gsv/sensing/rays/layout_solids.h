@@ -15,7 +15,7 @@ namespace gsv::sensing {
 // bodies of the model share it.
 struct Part {
   int link = -1;   // the solids are in the frame of this link; -1: of the model
-  int number = 0;  // number within its model
+  int number = 0;  // index of the part in its model
   SolidSet solids;
   BoundingSphere ball;  // bounding sphere of the solids, unless they are unbounded
 };

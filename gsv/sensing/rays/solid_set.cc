@@ -22,7 +22,8 @@ using geometry::Vector3;
 // Up to this number of triangles, each is tested.
 constexpr std::size_t kHandful = 6;
 
-// More than the rounding error of a box or a height: a fraction of the length, and metres.
+// Tolerance for the rounding errors of boxes and heights: a fraction of the length, plus this
+// number of metres.
 constexpr double kPadding = 1e-9;
 
 Bounds BoundsOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {

@@ -41,7 +41,7 @@ TEST(BodyNames, FreeNameIsTheModelsNameOrItsFirstFreeNumber) {
   EXPECT_EQ(FreeName(*LayoutWith({"box", "box_2", "box_4"}), "box"), "box_3");
 }
 
-TEST(BodyNames, RobotsWithoutANameGetAUniqueOne) {
+TEST(BodyNames, RobotsWithoutANameGetAUniqueName) {
   std::vector<RobotSpecification> robots{Named("", "disc"), Named("disc_2", "disc"),
                                          Named("", "disc"), Named("", "cart")};
   ASSERT_TRUE(NameRobots(*LayoutWith({"disc"}), robots));

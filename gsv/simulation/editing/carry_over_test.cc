@@ -33,7 +33,7 @@ std::shared_ptr<const world::Layout> LayoutOf(std::vector<world::Body> bodies) {
   return world::MakeLayout(1, std::move(bodies), std::make_shared<model::WorldDescription>());
 }
 
-TEST(CarryOver, KeepsTheStateOfOldBodiesAndStartsNewOnesAtTheirInitialPose) {
+TEST(CarryOver, KeepsTheStateOfOldBodiesAndStartsNewBodiesAtTheirInitialPose) {
   const auto before = LayoutOf({Named("b", 2, 0), Named("gone", 1, 0)});
   world::State state = world::InitialState(*before);
   state.step = 7;

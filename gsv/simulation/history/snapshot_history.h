@@ -37,7 +37,8 @@ class SnapshotHistory {
   class Frame {
    public:
     const SnapshotPtr& latest() const { return latest_; }
-    // Returns the latest snapshot if the cadence was not in use when the frame was made.
+    // Returns the snapshot that a sensor with this cadence reads. This is the latest snapshot if
+    // the cadence was not in use when the frame was made.
     const SnapshotPtr& At(const Cadence& cadence) const {
       for (const auto& [known, snapshot] : at_instant_) {
         if (known == cadence) return snapshot;

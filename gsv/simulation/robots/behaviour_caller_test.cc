@@ -17,7 +17,7 @@ TEST(BehaviourCaller, CallsOfOneKeyKeepTheirOrder) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
-TEST(BehaviourCaller, HangingCallDoesNotDelayOthers) {
+TEST(BehaviourCaller, HangingCallDoesNotDelayOtherCalls) {
   std::promise<void> release, done;
   BehaviourCaller caller(2);
   caller.Post("hangs", [&] { release.get_future().wait(); });

@@ -42,6 +42,7 @@ class Turn {
     sensing::Sampling MakeSampling() const;
 
     // Records that a turn has cast rays, so that Prepare() builds the ray scene at the next instant.
+    // Records that a turn has cast rays. Prepare() then builds the ray scene at the next instant.
     void NoteRays() const;
 
     mutable std::atomic<bool> casts_rays{false};
