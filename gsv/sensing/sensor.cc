@@ -20,7 +20,7 @@ void Sampling::MoveTo(int body) {
 
 double Sampling::Range(const Ray& ray) const {
   const RayScene& scene = Rays();
-  if (has_gathered_ && candidates_->Hold(ray)) return scene.Range(ray, body_, *candidates_);
+  if (has_gathered_ && candidates_->Covers(ray)) return scene.Range(ray, body_, *candidates_);
   if (expected_rays_ < kFewRays) return scene.Range(ray, body_);
   if (candidates_ == nullptr) candidates_ = std::make_unique<CandidateSet>();
   const geometry::Vector3& place = snapshot_->state.bodies[body_].world_from_model.position;

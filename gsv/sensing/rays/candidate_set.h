@@ -58,7 +58,9 @@ class CandidateSet {
   bool Finish();
 
   // Whether the set contains all solids that the ray may meet.
-  bool Hold(const Ray& ray) const { return Norm(ray.origin - place_) + ray.max_distance <= reach_; }
+  bool Covers(const Ray& ray) const {
+    return Norm(ray.origin - place_) + ray.max_distance <= reach_;
+  }
 
   // Calls visit(number) for every solid that the ray may touch within `length`, which `visit` may
   // shorten.

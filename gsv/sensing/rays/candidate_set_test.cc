@@ -35,7 +35,7 @@ TEST(CandidateSet, ContainsEverySphereThatARayTouchesAndFewOthers) {
       candidates.Add(spheres[i], i, i % 3 != 0);
     }
     ASSERT_TRUE(candidates.Finish());
-    ASSERT_TRUE(candidates.Hold(ray));
+    ASSERT_TRUE(candidates.Covers(ray));
     std::set<std::uint32_t> found;
     candidates.Find(ray, ray.max_distance, [&](std::uint32_t i) { found.insert(i); });
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -52,9 +52,9 @@ TEST(CandidateSet, ContainsEverySphereThatARayTouchesAndFewOthers) {
 TEST(CandidateSet, IsValidOnlyForRaysThatEndWithinIt) {
   CandidateSet candidates;
   candidates.Begin({1, 2, 3}, 5);
-  EXPECT_TRUE(candidates.Hold({{1, 2, 4}, {1, 0, 0}, 4}));
-  EXPECT_FALSE(candidates.Hold({{1, 2, 4}, {1, 0, 0}, 4.1}));
-  EXPECT_FALSE(candidates.Hold({{1, 2, std::nan("")}, {1, 0, 0}, 1}));
+  EXPECT_TRUE(candidates.Covers({{1, 2, 4}, {1, 0, 0}, 4}));
+  EXPECT_FALSE(candidates.Covers({{1, 2, 4}, {1, 0, 0}, 4.1}));
+  EXPECT_FALSE(candidates.Covers({{1, 2, std::nan("")}, {1, 0, 0}, 1}));
 }
 
 TEST(CandidateSet, ReportsTooManyCandidates) {

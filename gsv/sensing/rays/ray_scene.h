@@ -55,7 +55,7 @@ class RayScene : public world::RayCaster {
   virtual void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
                       std::span<double> ranges) const = 0;
 
-  // Like Range() above, for a ray within the candidate set (CandidateSet::Hold()). The body that
+  // Like Range() above, for a ray within the candidate set (CandidateSet::Covers()). The body that
   // Gather() ignored is ignored.
   virtual double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const = 0;
 };
