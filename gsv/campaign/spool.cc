@@ -64,10 +64,11 @@ base::Result<Batch> ReadBatch(const fs::path& file) {
     batch.timeout = json.at("timeout_s");
     batch.failures = json.at("failures");
   } catch (const nlohmann::json::exception&) {
-    return base::Fail(base::ErrorCode::kCorrupt,
-                      "it does not contain the jobs of the queue; remove it when the queue has no "
-                      "job of this campaign",
-                      file);
+    return base::Fail(
+        base::ErrorCode::kCorrupt,
+        "this file of a submitted batch is damaged; wait until the queue has no jobs of "
+        "this campaign, then remove the file",
+        file);
   }
   return batch;
 }

@@ -187,7 +187,8 @@ void ShareWeight(std::vector<Support>& supports, const Vector3& centre) {
   }
 }
 
-// Returns the links that stand on several points side by side.
+// Returns the links whose contact points differ in y, such as wide wheels, which touch the ground
+// along a line across the robot.
 std::vector<int> WideLinks(const std::vector<Support>& supports) {
   constexpr double kSame = 1e-4;  // m
   std::vector<int> wide;

@@ -58,8 +58,8 @@ TEST_F(LivenessTest, OfferOfADestroyedObjectIsWithdrawn) {
   EXPECT_TRUE(IsOffered(living.offer_id()));
 }
 
-// Other services are killed while the first one is stopped. The monitor calls each dead service in
-// a separate round.
+// A stopped service does not answer, but its offer must stay. Each killed service is withdrawn before
+// the next one starts, so the monitor calls all services several times in the meantime.
 TEST_F(LivenessTest, OfferOfAStoppedProgramStaysUntilTheMaximumSilence) {
   ServiceProcess still(broker_.reference());
   still.Stop();

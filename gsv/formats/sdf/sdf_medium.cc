@@ -79,7 +79,7 @@ class MediumReader {
     if (factor != nullptr && factor->FirstChildElement() == nullptr) {
       wind.drag = NumberOf(*factor, 1, 0);
     } else if (factor != nullptr) {
-      Warn(*factor, "that differs from place to place is not supported; 1 is used");
+      Warn(*factor, "cannot vary with the position; the factor 1 is used");
     }
     for (const char* varying : {"horizontal", "vertical"}) {
       const XMLElement* element = plugin.FirstChildElement(varying);

@@ -44,7 +44,7 @@ const KEYS: [heading: string, lines: Line[]][] = [
   [
     "Copy and save",
     [
-      [["L"], "Copy a link to this view (recording: at this time)"],
+      [["L"], "Copy a link to this view; in a recording, the link includes the time"],
       [["X"], "Save an image"],
       [["M"], "Start or stop recording a video of the view"],
     ],

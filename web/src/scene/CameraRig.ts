@@ -201,7 +201,7 @@ export class CameraRig {
     for (const point of this.points()) point.applyMatrix4(motion);
   }
 
-  // Shows this robot's view; null ends it.
+  // Shows the scene from a robot's camera. With null, the view returns to where it was before.
   lookFrom(eye: Eye | null): void {
     if (!eye) return this.leaveEye();
     const { worldFromEye, view } = eye;

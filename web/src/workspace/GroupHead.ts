@@ -44,7 +44,7 @@ export function createGroupHead(api: DockviewApi, group: DockviewGroupPanel, par
     else void api.addPopoutGroup(panel);
   });
   const moves = SIDES.map(([side, label]) => item(label, (panel) => panel.api.moveTo(besideView(api, side))));
-  const next = item("Move to the next part as a tab", (panel) => {
+  const next = item("Move to the next group of panels, as a tab", (panel) => {
     const group = nextGroup(api, panel);
     if (group) panel.api.moveTo({ group });
   });

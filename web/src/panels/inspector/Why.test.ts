@@ -28,10 +28,10 @@ test("the selected robot's sentence, command, motion and limit are shown", () =>
   expect(why.querySelector(".why-sentence")!.textContent).toBe("is stuck for 20 s: commanded 0.30 m/s, sonar_00 reads 0.26 m");
   const rows = () =>
     [...why.querySelectorAll<HTMLElement>("dt")].filter(({ hidden }) => !hidden).map((term) => `${term.textContent}: ${term.nextElementSibling!.textContent}`);
-  expect(rows()).toEqual(["Commanded: 0.30 m/s", "Actual: 0", "Nearest: sonar_00 reads 0.260 m", "Since: 0:10.00"]);
+  expect(rows()).toEqual(["Commanded: 0.30 m/s", "Actual: 0", "Nearest obstacle: sonar_00 reads 0.260 m", "Since: 0:10.00"]);
   const close = { ...STUCK, limit: { sensor: "lidar", value: -Infinity, unit: "m" } };
   store.set({ health: { ...HEALTH, robots: new Map([["a", close]]) } });
-  expect(rows()).toContain("Nearest: lidar reads less than its minimum range");
+  expect(rows()).toContain("Nearest obstacle: lidar reads less than its minimum range");
   store.set({ selection: "b" });
   expect(why.querySelector(".why-sentence")!.textContent).toBe("moving");
   expect(rows()).toEqual([]);

@@ -7,7 +7,7 @@ import { element, setAttribute, setText } from "../../ui/element";
 import { formatTime, formatValue } from "../../ui/format";
 import type { PanelPorts } from "../contract/ports";
 
-const ROWS = ["Commanded", "Actual", "Nearest", "Touches", "Since"] as const;
+const ROWS = ["Commanded", "Actual", "Nearest obstacle", "Touches", "Since"] as const;
 type Row = (typeof ROWS)[number];
 
 interface Shown {
@@ -53,13 +53,13 @@ function shownOf({ health, selection, time, status }: State): Shown | null {
   return { state: shown, sentence, rows: known ? rowsOf(known) : NO_ROWS };
 }
 
-const NO_ROWS: Record<Row, string> = { Commanded: "", Actual: "", Nearest: "", Touches: "", Since: "" };
+const NO_ROWS: Record<Row, string> = { Commanded: "", Actual: "", "Nearest obstacle": "", Touches: "", Since: "" };
 
 function rowsOf({ command, actual, limit, contact, since }: RobotHealth): Record<Row, string> {
   return {
     Commanded: motionText(command.linear, command.angular, command.lateral),
     Actual: motionText(actual.linear, actual.angular),
-    Nearest: limit ? `${limit.sensor} reads ${Number.isFinite(limit.value) ? formatValue(limit.value, limit.unit) : "less than its minimum range"}` : "",
+    "Nearest obstacle": limit ? `${limit.sensor} reads ${Number.isFinite(limit.value) ? formatValue(limit.value, limit.unit) : "less than its minimum range"}` : "",
     Touches: contact,
     Since: formatTime(since),
   };
