@@ -11,6 +11,8 @@ using base::ErrorCode;
 using geometry::Vector3;
 using model::DriveKind;
 
+constexpr double kStandardGravity = 9.80665;  // m/s²
+
 base::Status CheckRange(const model::Range& range, const char* what, double must_contain) {
   if (!(range.min <= range.max)) {
     return base::Fail(ErrorCode::kBadModel, fmt::format("the drive's {} has min {} above max {}",
@@ -86,6 +88,31 @@ double ReferenceX(const model::Model& model) {
   return drive.kind == DriveKind::kAckermann ? rearmost : sum / count;
 }
 
+// Returns the mean slip of the drive's wheels, as if each carried an equal share of the weight. The
+// compliance of a wheel that slips by itself (Gazebo's WheelSlip) refers to a constant load and to
+// the wheel's own radius. It is converted to the share of the weight and the radius of the drive.
+model::Slip MeanSlip(const model::Model& model) {
+  const model::Drive& drive = *model.drive;
+  const auto has_own = [](const model::Link& link) { return link.wheel.has_value(); };
+  if (std::none_of(model.links.begin(), model.links.end(), has_own)) return drive.slip;
+  double mass = 0;
+  for (const model::Link& link : model.links) mass += link.inertial.mass;
+  const auto count = static_cast<double>(drive.left_wheels.size() + drive.right_wheels.size());
+  const double load = mass * kStandardGravity / count;  // N
+  model::Slip mean;
+  for (const auto* joints : {&drive.left_wheels, &drive.right_wheels}) {
+    for (const int joint : *joints) {
+      const auto& wheel = model.links[model.joints[joint].child].wheel;
+      const double scale =
+          wheel ? load / wheel->normal_force * wheel->radius / drive.wheel_radius : 1;
+      const model::Slip& slip = wheel ? wheel->slip : drive.slip;
+      mean.longitudinal += slip.longitudinal * scale / count;
+      mean.lateral += slip.lateral * scale / count;
+    }
+  }
+  return mean;
+}
+
 }  // namespace
 
 base::Result<DriveKinematics> DriveKinematics::Create(const model::Model& model) {
@@ -150,6 +177,7 @@ void DriveKinematics::LimitTurn(world::DriveCommand& motion) const {
 void DriveKinematics::SetSlip(const model::Model& model) {
   const bool rolls =
       drive_.kind == DriveKind::kDifferential || drive_.kind == DriveKind::kAckermann;
+  if (rolls && !drive_.left_wheels.empty()) drive_.slip = MeanSlip(model);
   slips_ = rolls && !drive_.slip.is_none() && !drive_.left_wheels.empty();
   // Steered wheels roll without sliding sideways.
   if (!slips_ || drive_.kind == DriveKind::kAckermann || !(drive_.slip.lateral > 0)) return;
@@ -167,7 +195,6 @@ void DriveKinematics::SetSlip(const model::Model& model) {
 }
 
 world::DriveCommand DriveKinematics::TrueMotion(const world::DriveCommand& motion) const {
-  constexpr double kStandardGravity = 9.80665;  // m/s²
   world::DriveCommand moves = wheels_are_as_believed_ ? motion : RolledMotion(motion);
   if (!slips_) return moves;
   moves.angular *= turn_share_;

@@ -96,7 +96,7 @@ class DriveKinematics {
 
   // Adds the wheels of one side. `side` is 1 for the left and -1 for the right.
   void AddWheels(const model::Model& model, const std::vector<int>& joints, double side);
-  // Computes from the drive's slip how much less the base turns than its wheels command.
+  // Computes from the slip of the drive and its wheels how much less the base turns than commanded.
   void SetSlip(const model::Model& model);
   // Limits the rotation to what the steering allows.
   void LimitTurn(world::DriveCommand& motion) const;

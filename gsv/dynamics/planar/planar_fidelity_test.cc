@@ -155,5 +155,25 @@ TEST(PlanarFidelity, SlippingRobotDriftsOutOfItsArc) {
                 2 * kPi / rate * (speed + rate * kSeparation / 2), 1e-6, "m");
 }
 
+// The drift is that of SlippingRobotDriftsOutOfItsArc. The wheels of Gazebo's WheelSlip have a
+// constant load instead of their share of the weight, so the compliances are scaled by this ratio.
+TEST(PlanarFidelity, WheelsOfGazebosWheelSlipDriftByTheirOwnCompliance) {
+  const double speed = 1.5, rate = 0.8, lateral = 2, mass = 12, load_ratio = 1.25;
+  auto robot = TwoWheeled(1, 1);
+  for (model::Link& link : robot->links) link.inertial.mass = mass / 3;
+  for (const std::size_t link : {1U, 2U}) {
+    robot->links[link].wheel =
+        model::SlippingWheel{{0, lateral}, load_ratio * mass * 9.80665 / 2, kRadius};
+  }
+  ASSERT_EQ(robot->links.size(), 3U);
+  TestWorld world(MakeWorldEngine());
+  world.AddRobot("robot", robot, {});
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {speed, 0, rate});
+  world.Run(0.1, 0.01);
+  const double drift = lateral / load_ratio * speed * rate / 9.80665 * speed;
+  EXPECT_WITHIN(Norm(world.body("robot").linear_velocity), std::hypot(speed, drift), 1e-9, "m/s");
+}
+
 }  // namespace
 }  // namespace gsv::dynamics
