@@ -16,8 +16,9 @@ class Device : public Sensor {
  public:
   const Device* device() const final { return this; }
 
-  // Whether the device has a state while it is open, as a radio has. Other devices have a state
-  // from their first command until they are removed from the robot.
+  // Whether opening the device switches it on, and closing it switches it off, as for a radio: the
+  // device has a state in between. Other devices get their state from their first command, and keep
+  // it until they are removed from the robot.
   virtual bool IsOnWhileOpen() const { return false; }
   // Whether each command is a message to send, with the receiving robot in `word` and the message
   // in `content`. For other devices, only the last command of a step applies.

@@ -103,7 +103,8 @@ class DeviceState {
   //
   // Called before the bodies move, after the commands of this step were applied.
   virtual DeviceStatePtr BeforeStep(DeviceStep&) const { return nullptr; }
-  // Called after bodies were added, removed or moved (`placed`). The device's robot still exists.
+  // Called after an edit of the bodies. `placed` has the names of bodies that were moved. The
+  // device's robot still exists.
   virtual DeviceStatePtr CarryOver(const Layout&, const std::vector<std::string>& /*placed*/,
                                    base::SimTime /*now*/) const {
     return nullptr;

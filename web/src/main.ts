@@ -53,8 +53,9 @@ import { chosenDrawer, keepDrawer, startDrawing } from "./app/startDrawing";
 import type { ViewChoice } from "./app/ViewChoice";
 
 // The page's address may contain simulation=NAME (the simulation to join) and recording=NAME (the
-// recording to replay). It may also contain quality=high, which draws all pixels even if that is
-// slow, or quality=best, which also draws the light as with a graphics card.
+// recording to replay). With quality=high, the view keeps its full resolution even if drawing is
+// slow. With quality=best, it also has the reflections, fitted shadows and ambient occlusion that
+// are otherwise used only with a graphics card.
 const storage = browserStorage();
 const store = new Store<State>({
   ...initialState,

@@ -38,8 +38,9 @@ class RequestSlots {
 
 class ClientConnection;
 
-// The open connections of clients. For a connection that has no thread, the table receives the
-// message until it is complete.
+// The open connections of clients. While no thread of the ORB waits on a connection, Readable()
+// collects the bytes of its next message. It gives only a complete message to the ORB, so that a slow
+// client occupies no thread.
 //
 // Threads  any.
 class ConnectionTable {

@@ -68,7 +68,7 @@ ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stri
   // This is above all rounding errors.
   constexpr float kSlack = 1e-6f;
   const float plane = Most(above) + kBesideX * std::abs(by_x) + kBesideY * std::abs(by_y) + kSlack;
-  // The bound with slopes is used if it is lower at the middle of the block.
+  // The sloped plane replaces the flat bound if it is lower at the middle of the block.
   constexpr float kMiddle = 0.5f * kBlock;
   if (plane + kMiddle * (by_x + by_y) < block.max) {
     block.max = plane;

@@ -61,7 +61,8 @@ class RayPairs {
   void Cast();
 
   // The results of Cast() for pair k: the number of the ray, and the distance, which may be beyond
-  // the ray's length. It is infinite if the ray's line passes the shape or if the shape is behind.
+  // the ray's length. It is infinite if the ray's line misses the shape, or if the shape is behind the
+  // ray's origin.
   std::size_t ray(std::size_t k) const { return rays_[k]; }
   double distance(std::size_t k) const { return distances_[k]; }
 

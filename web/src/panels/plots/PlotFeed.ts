@@ -67,7 +67,8 @@ export class PlotFeed {
       () => this.listen(),
       shallowEqual,
     );
-    // A run and its past have separate curves.
+    // When the page changes between live data and a replay (also of the run's own past), the curves
+    // are cleared, so that values of both do not mix.
     this.state.watch(
       ({ replay }) => replay !== null,
       () => this.forgetRecorded(),
