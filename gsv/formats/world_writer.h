@@ -1,12 +1,12 @@
 // Writes a changed world as SDFormat.
 //
-// The result is the text of the world's own file, with the present models and poses. So it keeps parts
-// that GSV does not simulate, such as plugins of Gazebo. An unchanged model keeps its element. A
-// moved model gets an absolute <pose>. A removed model loses its element. An added model becomes an
-// <include> of its file, or an inline <model> if it is a shape (sdf/shape_model.h) or was copied
-// from an inline model. Some files are found only beside the world's file. Their names become
-// model://NAME/REST if the model path has the files, else absolute paths, so that the text may be
-// saved in any folder. A warning names an absolute path.
+// The result is the text of the world's own file, with the present models and poses. So the result
+// keeps parts that GSV does not simulate, such as plugins of Gazebo. An unchanged model keeps its
+// element. A moved model gets an absolute <pose>. A removed model loses its element. An added model
+// becomes an <include> of its file, or an inline <model> if it is a shape (sdf/shape_model.h) or
+// was copied from an inline model. Some files are found only beside the world's file. Their names
+// become model://NAME/REST if the model path has the files, else absolute paths, so that the text
+// may be saved in any folder. A warning names an absolute path.
 //
 // Frames  ModelLibrary::ReadWorld() reads equal poses if roll, pitch and yaw can express them, as
 //         for all poses that users set. Other poses are equal up to rounding.

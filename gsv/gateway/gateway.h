@@ -3,10 +3,11 @@
 // docs/api.yaml.
 //
 // A gateway has one of three sets of routes: the simulations of this program; a recording that is
-// replayed; or another instance whose simulations are relayed. All have the same addresses and
-// messages, so that the same viewer shows them.
+// replayed; or another instance whose simulations are relayed. All three sets have the same
+// addresses and messages, so that the same viewer shows them.
 //
-// Threads  its own; it and the stepping threads never wait for each other.
+// Threads  the gateway has its own threads. They and the stepping threads never wait for each
+//          other.
 #pragma once
 
 #include <filesystem>
@@ -51,13 +52,14 @@ struct GatewayOptions : ServerOptions {
 struct RelayedInstance {
   // the address that the other instance prints, such as "http://192.168.1.7:8080/"
   std::string url;
-  std::string token{};      // for the other instance, used for all clients; empty: none
+  std::string token{};      // token for the other instance, for all clients; empty: none
   std::string authority{};  // a PEM file with the certificates to trust; empty: the system's
 };
 
 class Gateway {
  public:
-  // Serves the simulations of this program. All three functions fail if the port is not available.
+  // Serves the simulations of this program. Start(), StartReplay() and StartRelay() fail if the
+  // port is not available.
   static base::Result<std::unique_ptr<Gateway>> Start(
       const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory);
   // Serves a recording. `player` must outlive the gateway.

@@ -34,7 +34,7 @@ class RelayedImages {
   boost::asio::io_context& io_;
   const upstream::Address address_;
   const std::shared_ptr<WorkerPool> pool_;
-  const std::shared_ptr<int> seats_ = std::make_shared<int>(0);  // each stream holds a copy
+  const std::shared_ptr<int> seats_ = std::make_shared<int>(0);  // each open stream holds a copy
 };
 
 }  // namespace gsv::gateway

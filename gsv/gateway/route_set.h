@@ -21,7 +21,7 @@ class RouteSet {
                                     const std::string& /*simulation*/) {
     return {};
   }
-  // Ends the streams. Handlers may still run meanwhile and request streams.
+  // Ends the streams. During this call, handlers may still run and request streams.
   virtual void Stop() {}
 };
 
@@ -31,7 +31,7 @@ std::unique_ptr<RouteSet> MakeLiveRoutes(const GatewayOptions& options,
                                          std::shared_ptr<SimulationDirectory> directory,
                                          WorkerPool& commanders);
 std::unique_ptr<RouteSet> MakeReplayRoutes(const GatewayOptions& options, ReplayPlayer& player);
-// Fails if no gsv answers.
+// Fails if no gsv answers at the address `there`.
 base::Result<std::unique_ptr<RouteSet>> MakeRelayRoutes(const RelayedInstance& there,
                                                         WorkerPool& commanders);
 

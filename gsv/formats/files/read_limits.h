@@ -23,8 +23,9 @@ struct ReadLimits {
   bool operator==(const ReadLimits&) const = default;
 };
 
-// Sets a limit by its name above: "mesh_triangles=20000000". Returns kInvalidArgument, with the
-// names of all limits, for an unknown name or a number that is not positive.
+// Sets the limit with the name of a member of ReadLimits: "mesh_triangles=20000000". Returns
+// kInvalidArgument, with the names of all limits, for an unknown name or a number that is not
+// positive.
 [[nodiscard]] base::Status SetLimit(const std::string& text, ReadLimits& limits);
 
 }  // namespace gsv::formats

@@ -38,8 +38,8 @@ class ResourceFinder {
   // Finds a file. `naming_file` is the file that contains the name; empty: the current folder.
   base::Result<std::filesystem::path> Find(std::string_view name,
                                            const std::filesystem::path& naming_file = {}) const;
-  // Returns the names of the models on the search path and of built-in ones, to suggest one for a
-  // misspelt name: at most 10,000, those of each folder in alphabetical order.
+  // Returns the names of the built-in models and the models on the search path, at most 10,000.
+  // Callers suggest them for a misspelt name. The names of each folder are in alphabetical order.
   std::vector<std::string> ModelNames() const;
   // The folders in which models are searched, in order: steps 2, 3 and 4 above.
   const std::vector<std::filesystem::path>& search_path() const { return search_path_; }
@@ -64,8 +64,8 @@ base::Result<std::filesystem::path> FindBeside(const std::string& name,
 // Whether the name begins with http:// or https://.
 bool IsWebAddress(std::string_view name);
 
-// Returns the file of `folder` to read: the newest in its model.config whose version SDFormat 1.9
-// includes; without a model.config, model.sdf.
+// Returns the model file in `folder`. If its model.config lists several files, this is the newest
+// one with an SDFormat version up to 1.9. If it lists none, this is model.sdf.
 base::Result<std::filesystem::path> ModelFileIn(const std::filesystem::path& folder);
 
 }  // namespace gsv::formats

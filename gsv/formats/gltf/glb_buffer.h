@@ -17,7 +17,7 @@ class GlbBuffer {
  public:
   // Each of these returns the index by which other parts of the file refer to the added data.
   int AddBytes(std::span<const std::uint8_t> bytes);  // a buffer view
-  int AddPositions(std::span<const float> xyz);       // an accessor with its bounds
+  int AddPositions(std::span<const float> xyz);       // an accessor with min and max
   int AddVectors(std::span<const float> values, int components);
   int AddIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count);
 

@@ -18,7 +18,7 @@ struct ColladaRepair {
 ColladaRepair RepairCollada(std::string& text);
 
 // Leaves out optional parts of a mesh: at level 1 animations, cameras, lights and physics, at level
-// 2 materials as well. False if there were none.
+// 2 materials as well. Returns false if there were no such parts.
 bool SimplifyCollada(std::string& text, int level);
 
 }  // namespace gsv::formats

@@ -21,9 +21,9 @@ bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& in
 bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& problems);
 
 // SDFormat 1.8 and later reserve "::" for references into nested models, and libsdformat rejects a
-// file with such a name. This function writes "." in these names and in the references to them,
-// with a warning. Other references keep their "::". The first function is fast, and may return true
-// for a file without such names.
+// file with such a name. SeparateReservedNames() writes "." in these names and in the references to
+// them, with a warning. Other references keep their "::". MayHaveReservedNames() is fast, and may
+// return true for a file without such names.
 bool MayHaveReservedNames(const SdfText& document, const IncludedFiles& includes);
 void SeparateReservedNames(SdfText& document, IncludedFiles& includes, base::Problems& problems);
 

@@ -44,12 +44,12 @@ class ModelStore {
   base::Result<std::shared_ptr<const StoredFile>> Read(const std::filesystem::path& file,
                                                        const std::string& plugins = {});
 
-  // Reads a model from XML that was parsed already, and caches it. `problems` are those found so
-  // far.
+  // Reads a model from XML that was parsed already, and caches it. `problems` are the problems
+  // found so far.
   base::Result<std::shared_ptr<const StoredFile>> Take(XmlFile xml, base::Problems problems);
 
-  // Returns and clears the problems of the last file that Read() or Take() refused. They have the
-  // reasons.
+  // Returns and clears the problems of the last file that Read() or Take() refused. They contain
+  // the reasons for the refusal.
   base::Problems TakeProblemsOfRefused() { return std::exchange(problems_of_refused_, {}); }
 
   bool checks_rules() const { return check_rules_; }
@@ -80,7 +80,7 @@ class ModelStore {
   MeshReader meshes_;
   base::Problems problems_of_refused_;
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
-  // The same files by the names in <uri> elements, so that each name is searched once.
+  // The files of files_ by the names in <uri> elements, so that each name is searched once.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;
 };
 

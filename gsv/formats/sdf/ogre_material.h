@@ -19,9 +19,9 @@ struct OgreMaterial {
 };
 
 // Returns the materials of a script by name. Reads `material NAME [: PARENT] { technique { pass { …
-// } } }` with the four colours of a pass, and `texture` of the first texture unit. Ignores the
-// rest. A truncated script gives the materials before its end. Materials inherit their parent's
-// values.
+// } } }` with the four colours of a pass, and `texture` of the first texture unit. Ignores all
+// other parts. A truncated script gives the materials before its end. Materials inherit their
+// parent's values.
 std::map<std::string, OgreMaterial> ParseOgreMaterials(std::string_view script);
 
 }  // namespace gsv::formats

@@ -28,9 +28,9 @@ struct ActorParts {
 // added. The element keeps its <pose>, which is the pose of the trajectory.
 ActorParts MakeModelOfActor(tinyxml2::XMLElement& actor, const ReadingContext& context);
 
-// Adds the actor's parts to the model that was read from the changed element. If its links have no
-// collisions, it gets an upright cylinder inside the bounding box of the visuals. Its diameter is
-// the smaller side of the box, because arms protrude.
+// Adds the actor's parts to the model that was read from the changed element. If the actor's links
+// have no collisions, the actor gets an upright cylinder inside the bounding box of the visuals.
+// The cylinder's diameter is the smaller side of the box, because arms protrude.
 std::shared_ptr<const model::Model> ActorOf(const model::Model& model, const ActorParts& parts);
 
 }  // namespace gsv::formats

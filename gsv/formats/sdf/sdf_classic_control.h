@@ -13,8 +13,8 @@
 
 namespace gsv::formats {
 
-// Adds the targets and gains in `plugin` to `model`; ignores other plugins. `scope` is that of the
-// names in it ("inner::").
+// Adds the targets and gains in `plugin` to `model`; ignores other plugins. `scope` is the prefix
+// of the names in the plugin ("inner::").
 void ReadClassicControl(const sdf::ElementPtr& plugin, const std::string& scope,
                         const ReadingContext& context, model::Model& model);
 

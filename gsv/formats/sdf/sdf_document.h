@@ -32,8 +32,8 @@ base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles&
 base::Mutex& SdformatMutex();
 void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 
-// Returns the description of <sdf> and of all elements below it. It is made once, because that
-// takes longer than reading a small file. It must not be changed.
+// Returns the description of <sdf> and of all elements below it. The description is made once,
+// because making it takes longer than reading a small file. It must not be changed.
 sdf::ElementPtr SdfSchema() GSV_REQUIRES(SdformatMutex());
 
 // Return the file that contains an element, and "file:line: element path" for messages about it.

@@ -4,10 +4,11 @@
 //
 // Elements  <joint_name> (several, in newer files), <initial_velocity> or <initial_position>, and
 //           the gains of a PID controller: <p_gain>, <i_gain>, <d_gain>, <i_max>, <i_min>,
-//           <cmd_max>, <cmd_min>, <cmd_offset>. As in Gazebo, a velocity controller uses them with
-//           <use_force_commands>, and a position controller without <use_velocity_commands>, where
-//           <cmd_max> limits the velocity instead. A position controller without any gain keeps
-//           GSV's own servo, see docs/fidelity.md; <cmd_max> limits its effort.
+//           <cmd_max>, <cmd_min>, <cmd_offset>. As in Gazebo, a velocity controller uses the gains
+//           only with <use_force_commands>. A position controller uses the gains unless it has
+//           <use_velocity_commands>; then <cmd_max> limits the velocity instead. A position
+//           controller without any gain keeps GSV's own servo, see docs/fidelity.md; <cmd_max>
+//           limits its effort.
 #pragma once
 
 #include <string>
@@ -20,8 +21,8 @@
 
 namespace gsv::formats {
 
-// Adds the targets in `plugin` to `model`; ignores other plugins. `scope` is that of the names in
-// it ("inner::").
+// Adds the targets in `plugin` to `model`; ignores other plugins. `scope` is the prefix of the
+// names in the plugin ("inner::").
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model);
 

@@ -16,8 +16,8 @@
 
 namespace gsv::formats {
 
-// Sets the slip of the links that a WheelSlip plugin names; ignores other plugins. `scope` is that
-// of the names in it ("inner::").
+// Sets the slip of the links that a WheelSlip plugin names; ignores other plugins. `scope` is the
+// prefix of the names in the plugin ("inner::").
 void ReadWheelSlip(const sdf::ElementPtr& plugin, const std::string& scope,
                    const ReadingContext& context, model::Model& model);
 

@@ -20,7 +20,7 @@ enum class XmlDialect { kSdf, kUrdf };
 struct XmlFile {
   std::filesystem::path path;
   std::filesystem::path named;  // the name as given to ReadXml(), with the arguments for xacro
-  std::vector<ElementSource> sources;  // the origins of its elements, if it is a xacro file
+  std::vector<ElementSource> sources;  // the origins of its elements, if the file is a xacro file
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;

@@ -12,7 +12,7 @@
 
 namespace gsv::formats {
 
-// Whether libsdformat calls these definitions. If not, reading takes longer. Call with
+// Whether libsdformat calls this file's definitions. If not, reading takes longer. Call with
 // SdformatMutex() locked.
 bool SharesDescriptions();
 

@@ -8,8 +8,8 @@
 //   Path      element names, joined by "/"; "@name" is an attribute; "*" at the end: may be
 //             repeated; ":model" at the end: the content is that of the definition [model].
 //   Sign      "+" supported, "~" in part, "-" not, "." without effect on a simulation.
-//   Versions  the first of 1.4 to 1.12 that has it, and the last if a later one dropped it.
-//             URDF has none.
+//   Versions  the first version (1.4 to 1.12) that has the element, and the last version if a later
+//             version dropped the element. URDF has none.
 //   Default   text with the same meaning as a missing element.
 //   Note      what GSV does instead, as a clause.
 //

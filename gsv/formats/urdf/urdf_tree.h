@@ -20,7 +20,7 @@ struct UrdfJoint {
   std::string parent, child;
   geometry::Pose parent_from_child;
   geometry::Vector3 axis{1, 0, 0};  // in the child's frame
-  // the source of limits and dynamics; null for a joint that is added here
+  // the source of limits and dynamics; null for a joint that MakeUrdfTree() adds
   const model::Joint* source = nullptr;
 };
 

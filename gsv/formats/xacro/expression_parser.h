@@ -23,7 +23,7 @@ struct Expression {
     kMember,   // parts[0] . text
     kIndex,    // parts[0] [ parts[1] ]
     kSlice,    // parts[0] [ parts[1] : parts[2] ], absent ends are null
-    kCall,     // parts[0]: function; others: arguments; words: names of the last ones
+    kCall,     // parts[0]: function; other parts: arguments; words: names of the last arguments
     kList,
     kTuple,
     kDictionary,  // key, value, key, value, …

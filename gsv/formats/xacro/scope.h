@@ -1,5 +1,5 @@
-// A Scope holds properties and blocks, a Space macros. Each can access those of the scopes that
-// contain it.
+// A Scope stores properties and blocks, and a Space stores macros. Each can also access the
+// contents of the scopes or spaces that contain it.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// A Value is a value of a xacro expression. Its types are those of Python that robot descriptions
-// use.
+// A Value is a value of a xacro expression. Its types are the types of Python that robot
+// descriptions use.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,8 @@ struct Credentials {
 
 struct Principal {
   Permission permission = Permission::kNone;
-  bool showed_credentials = false;  // whether there were any; a refusal is then 403, not 401
+  // Whether the request had credentials. If so, a refusal has status 403, otherwise 401.
+  bool showed_credentials = false;
   // The time at which the permission ends and a WebSocket is closed. nullopt: never.
   std::optional<std::chrono::steady_clock::time_point> expires{};
 };

@@ -1,8 +1,8 @@
 // A TokenAuthenticator determines the permission of a client by its token.
 //
 // Without tokens, every client on this machine has all permissions. A control token is required for
-// control. Watching needs no token on this machine, unless there is a watch token. Other machines
-// always need one of the two.
+// control. Watching needs no token on this machine, unless there is a watch token. Clients on other
+// machines always need a control token or a watch token.
 //
 // Threads  const members may run concurrently.
 // Secrets  tokens are compared in constant time, and appear in no message.

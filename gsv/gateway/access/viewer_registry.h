@@ -55,7 +55,7 @@ class ViewerRegistry {
   // Adds a viewer. An empty `name` becomes "viewer NUMBER". Fails with kUnavailable if there are
   // too many viewers.
   base::Result<Admission> Enter(const std::string& name, const std::string& simulation, Time now);
-  // The following fail with kNotFound if no viewer has this key.
+  // The following functions fail with kNotFound if no viewer has this key.
   base::Status Rename(const std::string& key, const std::string& name, Time now);
   // Selects a simulation; empty: none.
   base::Status SelectSimulation(const std::string& key, const std::string& simulation, Time now);

@@ -15,7 +15,7 @@
 
 namespace gsv::gateway {
 
-// {"PARAMETER": value, …}. The body of a command without parameters is ignored.
+// Parses {"PARAMETER": value, …}. The body of a command without parameters is ignored.
 base::Result<simulation::Arguments> ParseArguments(const simulation::Command& command,
                                                    std::string_view body);
 

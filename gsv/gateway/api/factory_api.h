@@ -17,7 +17,7 @@ namespace gsv::gateway {
 
 class FactoryApi {
  public:
-  // Both must outlive this object.
+  // `factory` and `models` must outlive this object.
   FactoryApi(SimulationFactory& factory, ModelStore& models) : factory_(factory), models_(models) {}
 
   // Returns the routes. The handlers are valid during the lifetime of this object. `directory`
@@ -25,7 +25,7 @@ class FactoryApi {
   std::vector<Route> Routes(const std::shared_ptr<SimulationDirectory>& directory);
 
  private:
-  // These list the available worlds, models and behaviours.
+  // These functions respond with lists of the available worlds, models and behaviours.
   Response Worlds() const;
   Response Models() const;
   Response Behaviours(const Target& target) const;

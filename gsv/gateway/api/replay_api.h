@@ -1,6 +1,7 @@
-// The HTTP API of a replay. It has the addresses of a simulation, and further ones that control the
-// playback and describe the recording. A status also has the content of GET …/replay. Both `stop`
-// and `reset` return to the start. Requests that would change the run are refused.
+// The HTTP API of a replay. It has the same addresses as the API of a simulation, and further
+// addresses that control the playback and describe the recording. A status also has the content of
+// GET …/replay. Both `stop` and `reset` return to the start. Requests that would change the
+// recorded run are refused.
 //
 // Threads  any.
 #pragma once
@@ -19,7 +20,7 @@ namespace gsv::gateway {
 
 struct Replay {
   std::shared_ptr<ReplayPlayer> player;
-  std::string recording;  // name with which viewers can open it again; empty: none
+  std::string recording;  // name for opening the recording again; empty: none
 };
 
 // Finds the replay to which a request refers, by the parameters of its path except {name}.
@@ -30,7 +31,7 @@ std::vector<Route> ReplayRoutes(const FindReplay& find);
 // Parses {"time_s": T}: a time in simulated seconds, finite and within the range of SimTime.
 base::Result<base::SimTime> ParseSeekTime(std::string_view body);
 
-// A change from {"speed": S, "loop": B}. Absent values are unchanged.
+// The change that the body {"speed": S, "loop": B} requests. Absent values stay unchanged.
 struct ReplayChange {
   std::optional<double> speed;
   std::optional<bool> loop;

@@ -58,14 +58,14 @@ class ViewDrawer {
   explicit ViewDrawer(const DrawingLimits& limits = {});
   ~ViewDrawer();
 
-  // Reserves one of the limited number of viewers' places (DrawingLimits). The Seat frees it when
-  // destroyed. Fails with kUnavailable if all are taken, and with kInvalidArgument if the image is
-  // too large.
+  // Reserves a Seat for one request or stream (see DrawingLimits::viewers). The Seat is free again
+  // when it is destroyed. Fails with kUnavailable if no Seat is free, and with kInvalidArgument if
+  // the image is too large.
   class Seat;
   base::Result<std::shared_ptr<Seat>> Take(const ViewRequest& request);
 
   // Sets the source of the world with that name. `identity` is the simulation or replay itself. If
-  // it differs from the previous one, the source is replaced.
+  // `identity` differs from the previous identity, the source is replaced.
   void SetSource(const std::string& world, const std::weak_ptr<const void>& identity,
                  const MakeSource& make);
 
@@ -87,7 +87,7 @@ class ViewDrawer {
     std::shared_ptr<ViewSource> source;
     std::shared_ptr<const world::Snapshot> snapshot;  // newest state seen by the drawer
     std::uint64_t number = 0;                         // its number
-    std::chrono::system_clock::time_point seen{};     // when it was first seen
+    std::chrono::system_clock::time_point seen{};     // when the drawer first saw it
     Clock::time_point used{};
   };
   struct Pending {
@@ -103,7 +103,7 @@ class ViewDrawer {
 
   void Run();
   void DropUnused();
-  // Answers the requests of one world that are due. Returns whether there were any.
+  // Answers the requests of one world that are due. Returns whether any request was due.
   bool Serve(const std::string& name);
   std::vector<Pending> TakeDue(const std::string& name, std::uint64_t number);
   struct Seen {

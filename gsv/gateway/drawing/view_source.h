@@ -29,7 +29,7 @@ class ViewSource {
   virtual base::Result<ViewInstant> Now() = 0;
 };
 
-// Does not keep the simulation alive.
+// Makes the source for a running simulation. It does not keep the simulation alive.
 std::unique_ptr<ViewSource> MakeLiveSource(
     const std::shared_ptr<simulation::Simulation>& simulation);
 std::unique_ptr<ViewSource> MakeReplaySource(std::shared_ptr<ReplayPlayer> player);

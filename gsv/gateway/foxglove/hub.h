@@ -32,7 +32,8 @@ class Hub {
   Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
       std::shared_ptr<Operations> operations = nullptr);
 
-  // Offers views, which the server draws, to later clients. Only the first call has an effect.
+  // Offers images that the server draws (Views) to clients that connect later. Only the first call
+  // has an effect.
   void Offer(std::shared_ptr<Views> views);
 
   // The name of the simulation in the server info; empty: none.
@@ -75,10 +76,10 @@ class Hub {
   void SendStatus(foxglove::StatusLevel level, std::string_view message);
   // Sets the publishers of a channel in the connection graph (default: "gsv").
   void SetPublishers(foxglove::ChannelId channel, std::set<std::string> publishers);
-  // Publishes changes since the last call: of graph, parameters and playback state.
+  // Publishes the changes since the last call of the graph, the parameters and the playback state.
   void PublishChanges(bool has_jumped = false);
 
-  // Closes all clients, and each later one, with this reason.
+  // Disconnects all clients, and each client that connects later, with this reason.
   void Close(CloseCode code, const std::string& reason);
 
  private:
@@ -125,7 +126,7 @@ class Hub {
   bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
   foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // the graph that was last sent
   ClientRequests requests_;
-  std::shared_ptr<Views> views_ GSV_GUARDED_BY(mutex_);  // null: the server draws none
+  std::shared_ptr<Views> views_ GSV_GUARDED_BY(mutex_);  // null: the server draws no views
   bool closed_ GSV_GUARDED_BY(mutex_) = false;
   CloseCode close_code_ GSV_GUARDED_BY(mutex_){};
   std::string close_reason_ GSV_GUARDED_BY(mutex_);

@@ -13,7 +13,7 @@
 
 namespace gsv::gateway {
 
-// The permission that a request needs. Each one includes those before it.
+// The permission that a request needs. Each permission includes the permissions before it.
 enum class Permission { kNone, kWatch, kControl };
 
 // The threads that a handler runs on. Commands may block (a reset calls behaviours), and must not

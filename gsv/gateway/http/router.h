@@ -25,7 +25,7 @@ class Router {
     // whose paths begin with the same segment.
     Permission permission = Permission::kNone;
     std::string allow;  // the methods of the address, such as "GET, POST"; empty if no route has it
-    std::map<std::string, std::string, std::less<>> parameters;  // by name; no "{path...}"
+    std::map<std::string, std::string, std::less<>> parameters;  // by name, without "{path...}"
   };
 
   // Patterns must be well-formed, and no two routes may have the same method and address

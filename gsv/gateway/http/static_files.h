@@ -15,7 +15,7 @@ namespace gsv::gateway {
 
 class StaticFiles {
  public:
-  // `root` may be empty or missing: then "/" explains how to build it.
+  // `root` may be empty or missing. Then "/" explains how to build the viewer's files.
   explicit StaticFiles(const std::filesystem::path& root);
 
   // Returns a file; "/" is index.html. Returns 404 for missing and hidden files, and for paths that
@@ -41,7 +41,7 @@ class StaticFiles {
 // The documentation site at "/docs/", as tools/make_docs builds it.
 class Documentation {
  public:
-  // `root` may be empty or absent: then "/docs/" explains how to build it.
+  // `root` may be empty or missing. Then "/docs/" explains how to build the documentation.
   explicit Documentation(const std::filesystem::path& root) : files_(root) {}
 
   // "/docs/" is index.html, and "/docs" redirects to it. Returns 404 like StaticFiles.

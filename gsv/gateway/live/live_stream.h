@@ -43,7 +43,7 @@ class LiveStream {
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
-  // See SensorTopics::Want(). Any thread may call it.
+  // Requests the topics of a robot's sensors, see SensorTopics::Want(). Any thread may call this.
   void WantSensorsOf(const std::string& robot) { sensors_->Want(robot); }
 
   // Publishes the messages that are due. Encodes only topics that have subscribers.
@@ -66,7 +66,8 @@ class LiveStream {
   void FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                     WallTime now);
   void PublishTime(const SnapshotPointer& snapshot);
-  static double RateFor(const SnapshotTopic& topic);  // Hz, by its last message's size
+  // Returns the rate of the topic in Hz, which depends on the size of its last message.
+  static double RateFor(const SnapshotTopic& topic);
   void Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now);
 
   SharedBytes EncodeClock(const world::Snapshot& snapshot) const;

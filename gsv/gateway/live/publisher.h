@@ -16,7 +16,7 @@ namespace gsv::gateway {
 class Publisher {
  public:
   // Sensors are read on `watchers`, commands run on `commanders`. `recordings` and `registry` may
-  // be null. All four must outlive the publisher and its streams.
+  // be null. Both pools, `recordings` and `registry` must outlive the publisher and its streams.
   Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
             WorkerPool& commanders, RecordingSwitch* recordings,
             access::ViewerRegistry* registry = nullptr);

@@ -71,8 +71,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
                       const std::shared_ptr<Sensor>& sensor);
   void PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
-  // Runs on a worker.
-  // These run on a worker thread: they read the sensors, and publish the messages.
+  // These functions run on a worker thread. They read sensors, and publish the messages.
   void ReadSensor(simulation::Simulation& simulation, Sensor& sensor);
   void ReadBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                  const SensorList& sensors);

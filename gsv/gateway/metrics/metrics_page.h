@@ -37,7 +37,7 @@ class Monitor {
  public:
   explicit Monitor(MetricsSources sources) : sources_(std::move(sources)) {}
 
-  // The counters, for the server.
+  // Returns the counters, which the server updates.
   const std::shared_ptr<Traffic>& traffic() const { return traffic_; }
   std::vector<Route> Routes() const;
 

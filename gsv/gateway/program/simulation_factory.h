@@ -69,7 +69,7 @@ class SimulationFactory {
     std::string published;  // the simulation that is published now; empty: none
   };
   struct Preview {
-    std::shared_ptr<simulation::Simulation> simulation;  // not listed; never runs
+    std::shared_ptr<simulation::Simulation> simulation;  // is not listed and never runs
     std::vector<std::string> warnings;                   // problems of the files
   };
 
@@ -96,7 +96,7 @@ class SimulationFactory {
   virtual FieldResult<std::shared_ptr<simulation::Simulation>> Create(
       const SimulationRequest& request) = 0;
   virtual base::Status Destroy(const std::string& simulation) = 0;
-  // Returns the name of the body.
+  // Adds a robot and returns the name of its body.
   virtual FieldResult<std::string> AddRobot(
       const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
       bool is_avatar) = 0;

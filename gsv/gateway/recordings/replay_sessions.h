@@ -38,8 +38,8 @@ class ReplaySessions {
   base::Result<std::string> Add(std::unique_ptr<ReplayPlayer> player, const std::string& recording);
 
   // Returns the routes below /replays/{session}/: the API of a replay, and its live stream at ws,
-  // with views that `drawer` draws. All need only the permission to watch. The handlers are valid
-  // during the lifetime of this object and of the drawer.
+  // with views that `drawer` draws. All routes need only the permission to watch. The handlers are
+  // valid during the lifetime of this object and of the drawer.
   std::vector<Route> Routes(drawing::ViewDrawer& drawer);
   // Returns the hub of a session. The session exists at least as long as the hub is used.
   base::Result<std::shared_ptr<Hub>> FindHub(const std::string& name);
@@ -56,7 +56,8 @@ class ReplaySessions {
   };
 
   base::Result<Replay> Find(const std::string& name);
-  // Removes the sessions without viewers and returns them; they end when they are destroyed.
+  // Removes the sessions without viewers and returns them. A session ends when its entry is
+  // destroyed.
   std::map<std::string, Entry> TakeUnwatched();
 
   const SessionLimits limits_;

@@ -44,7 +44,7 @@ class ReplayClock {
   void SetLoop(bool loop) { loop_ = loop; }
 
   // Advances with the wall clock. At the end, restarts with `loop` and returns true. Without
-  // `loop`, stays there in the phase kFinished and returns false.
+  // `loop`, stays at the end in the phase kFinished and returns false.
   bool Advance(WallTime now);
 
  private:

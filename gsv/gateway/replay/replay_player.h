@@ -1,4 +1,5 @@
-// A ReplayPlayer plays a recording for viewers, as a simulation runs for them in the live gateway.
+// A ReplayPlayer plays a recording for viewers. It replaces the running simulation of a live
+// gateway.
 //
 // Threads  any; its own thread reads the file and publishes.
 // Errors   kNotRunning with a sentence if the phase does not allow an action.

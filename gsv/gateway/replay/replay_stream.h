@@ -74,7 +74,8 @@ class ReplayStream {
   const Track* Keep(std::uint16_t id, base::SimTime time, recording::Bytes data);
   void ReadNext();
   void Publish(Track& track);
-  // Publishes a message that is not recorded: to all subscribers if it is due, else to new ones.
+  // Publishes a message that is not recorded: to all subscribers if it is due, else only to new
+  // subscribers.
   void PublishOwn(foxglove::ChannelId channel, bool is_due, base::SimTime time,
                   const std::function<SharedBytes()>& encode);
   void Warn(const std::string& sentence);

@@ -27,7 +27,7 @@ struct ServerContext {
 struct SocketOwner {
   access::Principal principal;
   std::string viewer;       // key of the viewer, or empty
-  bool is_private = false;  // whether its commands affect no other viewer
+  bool is_private = false;  // whether the client's commands affect no other viewer
 };
 
 // Counts one connection during its lifetime.
@@ -70,7 +70,7 @@ class UploadSlot {
 class Connection {
  public:
   virtual ~Connection() = default;
-  // Called on the server's thread: ends the session soon, with the closing handshake.
+  // Ends the session soon, with the closing handshake. Called on the server's thread.
   virtual void Shutdown() = 0;
   // Releases all references to this session. Called after the server's thread has ended.
   virtual void Cut() = 0;

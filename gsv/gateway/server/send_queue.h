@@ -49,14 +49,14 @@ class SendQueue {
 
   explicit SendQueue(const SendLimits& limits) : limits_(limits) {}
 
-  // Returns false if the queue is full; the message was not queued.
+  // Queues a control message. If the queue is full, drops the message and returns false.
   [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
   // Always keeps the newest message. Returns the number of dropped older ones.
   std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload, Delivery delivery,
                        Time now);
   struct Popped {
     std::optional<Outgoing> message;
-    std::size_t left_out = 0;  // older data that were dropped
+    std::size_t left_out = 0;  // number of older data messages that were dropped
   };
   // Removes and returns the next message: control messages first, then data, each in order. If
   // `allows_data` is false, returns only control messages.

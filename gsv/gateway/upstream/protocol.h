@@ -1,5 +1,5 @@
 // The client's side of the Foxglove WebSocket protocol: parses the server's messages and writes the
-// client's (see gsv/gateway/foxglove/foxglove.h).
+// client's messages (see gsv/gateway/foxglove/foxglove.h).
 #pragma once
 
 #include <optional>

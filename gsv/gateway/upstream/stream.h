@@ -18,7 +18,8 @@ namespace gsv::gateway::upstream {
 class Stream {
  public:
   // `simulation`: its name at the other instance; empty: the first one. `socket`: path of the
-  // stream, "/ws" or that of a replay. `operations` may be null. `io` must outlive the stream.
+  // WebSocket: "/ws", or the path of a replay's WebSocket. `operations` may be null. `io` must
+  // outlive the stream.
   static std::shared_ptr<Stream> Make(boost::asio::io_context& io, const Address& address,
                                       const std::string& simulation, const std::string& socket,
                                       std::shared_ptr<Operations> operations);
