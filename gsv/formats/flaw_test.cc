@@ -1,5 +1,5 @@
-// Tests that a single error in a file affects one part only. A warning names this part, and the
-// rest is read.
+// Tests that a single error in a file affects one part only. A warning names this part, and all
+// other parts are read.
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -213,7 +213,7 @@ TEST_F(FlawTest, PrincipalMomentIsAtMostTheSumOfTheOthers) {
   EXPECT_NEAR(Find(flat, "m")->links[0].inertial.izz, 0.2, 1e-12);
   EXPECT_NEAR(Find(flat, "m")->links[0].inertial.ixx, 0.1, 1e-12);
   EXPECT_THAT(Messages(), ElementsAre(HasSubstr("no body has this inertia")));
-  // The same, turned by 45° about the z axis: the moments 0.9, 0.1 and 0.1.
+  // The same inertia, rotated by 45° about the z axis: the moments 0.9, 0.1 and 0.1.
   const auto turned = World(link("<ixx>0.5</ixx><iyy>0.5</iyy><izz>0.1</izz><ixy>-0.4</ixy>"));
   const model::Inertial& inertial = Find(turned, "m")->links[0].inertial;
   EXPECT_NEAR(inertial.ixx, 0.15, 1e-12);

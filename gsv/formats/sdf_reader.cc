@@ -72,7 +72,7 @@ class ModelLibrary::Reader {
 
   base::Result<std::vector<NamedPose>> ReadNamedPosesOf(const WorldDescription& world) {
     const base::MutexLock lock(mutex_);
-    base::Problems known;  // they were reported when the world was read
+    base::Problems known;  // problems that were reported when the world was read
     auto xml = ReadXml(world.source, store_.finder(), store_.limits(), known);
     if (!xml) return Fail(xml.error());
     const auto* const element = xml->root->FirstChildElement("world");

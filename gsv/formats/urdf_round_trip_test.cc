@@ -237,7 +237,7 @@ double MassOf(const model::Model& model) {
 }
 
 // libsdformat merges a link that was added for URDF's tree with the link that is fixed to it. The
-// merged link has the name of the added one.
+// merged link has the name of the added link.
 TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
   if (RealFolder().empty()) GTEST_SKIP() << "GSV_REAL_DIR names no folder of real worlds";
   for (const char* name :
@@ -245,7 +245,7 @@ TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
         "gazebo_models/pioneer2dx", "gazebo_models/pioneer3at"}) {
     const ModelPointer model = Read((RealFolder() / name).string(), problems_);
     const ModelPointer read = WrittenAndRead(*model);
-    // The links inside a ball joint have no mass, and the reader gives them some.
+    // The links inside a ball joint have no mass, and the reader gives them a mass.
     const bool has_balls =
         std::any_of(model->joints.begin(), model->joints.end(),
                     [](const model::Joint& joint) { return joint.kind == JointKind::kBall; });

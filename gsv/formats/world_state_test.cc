@@ -59,7 +59,8 @@ TEST_F(WorldStateTest, PlacesAModelByThePoseOfItsLink) {
   EXPECT_EQ(world.models[0].world_from_model.position, (Vector3{2, 3, 4}));
 }
 
-// The hinge is at the base. Rotated by 0.5, the hand is at (cos 0.5, sin 0.5) relative to it.
+// The hinge is at the base. With the hinge at 0.5 rad, the hand is at (cos 0.5, sin 0.5) relative
+// to the base.
 TEST_F(WorldStateTest, SetsJointsByThePosesOfTheirLinks) {
   const auto world = World(std::string(kSavedArm) +
                            "<state world_name='w'><model name='arm'><pose>5 0 0 0 0 0</pose>"

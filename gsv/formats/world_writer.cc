@@ -31,7 +31,8 @@ constexpr const char* kFileElements[]{"uri",           "filename",        "albed
                                       "normal_map",    "light_map",       "roughness_map",
                                       "metalness_map", "glossiness_map",  "specular_map",
                                       "emissive_map",  "environment_map", "ambient_occlusion_map"};
-// A path in a folder that has no models. A name that is found from it is found from any folder.
+// A path in a folder that has no models. A name that is found from this path is found from any
+// folder.
 constexpr const char* kNowhere = "/gsv-nowhere/world.sdf";
 constexpr int kMaxDepth = 256;
 
@@ -69,8 +70,8 @@ std::vector<double> Neighbours(double number) {
   return numbers;
 }
 
-// Returns roll, pitch and yaw that convert to exactly `q`. Returns nullopt if none of the numbers
-// near the angles of `q` do.
+// Returns roll, pitch and yaw that convert to exactly `q`. Returns nullopt if no numbers near the
+// angles of `q` convert to it.
 std::optional<geometry::RollPitchYaw> AnglesOf(const geometry::Quaternion& q) {
   const geometry::RollPitchYaw angles = geometry::ToRollPitchYaw(q);
   for (const double roll : Neighbours(angles.roll)) {

@@ -124,7 +124,7 @@ TEST_F(WorldWriterTest, NamesFilesOfTheModelPathWithoutTheirAbsolutePaths) {
   const auto again = with_path.ReadWorld(elsewhere_.Write("again.sdf", *text), problems_);
   ASSERT_TRUE(again);
   ExpectSame(*again, models);
-  // Without the model path, the names are absolute, and a warning says so.
+  // Without the model path, the names are absolute, and a warning reports them.
   ExpectSame(Again(world, models), models);
   EXPECT_THAT(text_, HasSubstr("<uri>file://" + arm.string() + "</uri>"));
   ASSERT_EQ(problems_.size(), 1u);

@@ -74,7 +74,7 @@ TEST_F(GatewayTest, ViewersCommandTheSimulationByServices) {
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kStopped);
   EXPECT_TRUE(viewer.CallService("reset").first);
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kCreated);
-  // A page of another origin is refused by this protocol as well.
+  // The server also refuses a page of another origin with the subprotocol foxglove.sdk.v1.
   EXPECT_THROW(Viewer(port(), "/ws", "foxglove.sdk.v1", "http://evil.example"), std::runtime_error);
 }
 

@@ -158,7 +158,7 @@ TEST_F(RelayTest, RelaysAtMostSixtyFourSimulations) {
     EXPECT_NE(refused.body.find("too many simulations are open"), std::string::npos)
         << refused.body;
   }
-  // Other viewers still watch one of them.
+  // A simulation that other viewers still watch accepts a further viewer.
   Viewer another(port(), "/ws?simulation=arena_7");
   another.ReceiveText("serverInfo");
 }

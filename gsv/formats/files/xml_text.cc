@@ -106,7 +106,7 @@ class XmlPreparation {
     return found == std::string_view::npos ? std::string_view::npos : found + end.size();
   }
 
-  // Takes markup, a reference or a character at `at`. Returns the index after it.
+  // Processes markup, a reference or a character at `at`. Returns the index after it.
   std::size_t TakeOne(std::size_t at) {
     const char c = text_[at];
     if (c == '&') return TakeReference(at);
@@ -164,8 +164,8 @@ class XmlPreparation {
     return Remove(at, doctype_.end);
   }
 
-  // XML allows its declaration only at the beginning. If anything comes before it, parsers refuse
-  // the file.
+  // XML allows its declaration <?xml …?> only at the beginning of a file. If anything comes before
+  // it, parsers refuse the file.
   std::size_t TakeInstruction(std::size_t at) {
     const std::size_t end = After(at, "?>");
     if (end == std::string_view::npos) return KeepRest(at);
@@ -269,7 +269,7 @@ class XmlPreparation {
   char quote_ = '\0';  // the quote of the attribute at this place; '\0' outside of attributes
   XmlDoctype doctype_;
   std::vector<std::string_view> open_;  // the entities that are being expanded
-  std::set<std::string> named_;         // the entities in warnings
+  std::set<std::string> named_;         // the entities that have a warning
   std::size_t expansions_ = 0, place_ = 0, error_at_ = 0;
   std::string error_;
 };

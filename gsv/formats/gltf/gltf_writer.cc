@@ -148,7 +148,7 @@ class Writer {
     return Add(std::move(node), nodes_);
   }
 
-  // Returns -1 if nothing is visible.
+  // Returns the index of the visual's node, or -1 if nothing of the visual is visible.
   int AddVisual(const model::Visual& visual) {
     const auto* file_mesh = std::get_if<geometry::Mesh>(&visual.shape);
     const std::shared_ptr<const TriangleMesh> triangles =
@@ -259,7 +259,7 @@ class Writer {
     return AddOnce(std::move(json), materials_, material_index_);
   }
 
-  // Returns -1 if there is no usable image.
+  // Returns the index of the texture, or -1 if there is no usable image.
   int AddTexture(const std::shared_ptr<const Image>& image, bool original_allowed) {
     if (image == nullptr) return -1;
     const auto [it, is_new] = texture_index_.try_emplace({image.get(), original_allowed}, -1);

@@ -139,7 +139,7 @@ Sample SampleOf(TIFF* tiff) {
   return sample;
 }
 
-// Reads the first band. False if a part of it cannot be read.
+// Reads the first band. Returns false if a part of the band cannot be read.
 bool ReadRows(TIFF* tiff, const Sample& sample, HeightGrid& grid) {
   std::vector<unsigned char> row(static_cast<std::size_t>(TIFFScanlineSize(tiff)));
   if (row.size() < static_cast<std::size_t>(grid.width) * sample.Stride()) return false;

@@ -27,8 +27,8 @@ bool IsDegenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
            kSine * kSine * geometry::Dot(ab, ab) * geometry::Dot(ac, ac));
 }
 
-// Joins the meshes of a scene's nodes into one mesh, in the file's root frame. Each of them becomes
-// a part.
+// Joins the meshes of a scene's nodes into one mesh, in the file's root frame. Each of these meshes
+// becomes a part.
 class MeshMerger {
  public:
   MeshMerger(const AssimpScene& opened, const std::string& submesh, const ReadLimits& limits)

@@ -14,7 +14,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// One triangle (0,0,0) (1,0,0) (0,0,2) of material "red" in a node transformed by `matrix`.
+// Returns a file with the triangle (0,0,0) (1,0,0) (0,0,2) of material "red", in a node with the
+// transform `matrix`.
 std::string Collada(const std::string& asset, const std::string& colour,
                     const std::string& matrix = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1") {
   return R"(<?xml version="1.0"?>

@@ -93,8 +93,8 @@ std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   return best;
 }
 
-// Inserts the hole into the ring, with a bridge from the visible corner. Returns false if there is
-// none.
+// Inserts the hole into the ring, with a bridge from a visible corner. Returns false if no corner
+// is visible.
 bool JoinHole(Ring& ring, const Ring& hole) {
   const std::size_t start = Rightmost(hole);
   const std::size_t corner = VisibleCorner(ring, hole[start].point);

@@ -140,7 +140,7 @@ class BoneCutter {
       : scene_(scene), skeleton_(skeleton), limits_(limits), pieces_(skeleton.nodes().size()) {}
 
   // Assigns the triangles to nodes, in the root's frame with the skeleton at its rest poses.
-  // Returns false if there are more than the limit.
+  // Returns false if the skin exceeds the limits on triangles and vertices.
   bool Cut(const std::vector<aiMatrix4x4>& rest) {
     for (std::size_t n = 0; n < skeleton_.nodes().size(); ++n) {
       const aiNode& node = *skeleton_.nodes()[n].node;

@@ -321,7 +321,7 @@ class DocumentRepair {
       at = child;
       if (from == std::string::npos) break;
     }
-    // If several elements match, the error is about the one on its line.
+    // If several elements match, the error is about the element on the error's line.
     for (XMLElement* same = at; same != nullptr && line > 0;
          same = same->NextSiblingElement(at->Name())) {
       if (same->GetLineNum() == line) return same;
@@ -382,7 +382,7 @@ bool IsInPlugin(const XMLElement& element) {
   return false;
 }
 
-// Changes the names in an element: its own, and those to which it refers.
+// Changes the names in an element: its own name, and the names to which it refers.
 void ChangeNames(Tree& tree, XMLElement& element,
                  const std::function<std::string(const std::string&)>& changed) {
   if (IsInPlugin(element)) return;
@@ -456,7 +456,7 @@ void SeparateReservedNames(SdfText& document, IncludedFiles& includes, base::Pro
   std::vector<Tree> trees = TreesOf(document, includes);
   for (Tree& tree : trees) {
     if (!ReservesScope(*tree.root())) continue;
-    std::set<std::string, std::greater<>> names;  // a name comes before those with which it begins
+    std::set<std::string, std::greater<>> names;  // a name comes before its prefixes
     ForEach(tree.root(), [&](XMLElement& element) {
       const char* name = element.Attribute("name");
       if (name == nullptr || std::strstr(name, kScope) == nullptr || IsInPlugin(element)) return;

@@ -228,8 +228,8 @@ class ActorReader {
   }
 
   // Adds a simple figure: a cylinder with a head, 1.75 m tall. Skins such as Gazebo's have their
-  // origin in the hip, and their waypoints are at the hip's height. Then the figure's feet are
-  // below the first waypoint by this height.
+  // origin in the hip, and their waypoints are at the hip's height. If the first waypoint is at
+  // such a height (0.5 m to 1.5 m), the figure's feet are this height below its origin.
   void AddFigure(const Pose& start) {
     const double height = start.position.z;
     const double feet = height > 0.5 && height < 1.5 ? -height : 0;

@@ -71,7 +71,8 @@ struct Reading {
   }
 };
 
-// Below the first include, libsdformat 12 does not use its configuration but the global one.
+// Below the first include, libsdformat 12 uses the global configuration instead of the one that the
+// caller passed.
 void ConfigureBy(IncludedFileServer& server) {
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   config.SetFindCallback([&server](const std::string& uri) { return server.Find(uri); });

@@ -154,7 +154,8 @@ class DriveReader {
     drive_.wheel_radius = diameter && *diameter > 0
                               ? *diameter / 2
                               : Positive({"wheel_radius", "wheelRadius"}, MeasuredRadius());
-    // Two parameters of GSV, for wheels whose radius differs from the one that the drive assumes.
+    // Two parameters of GSV, for wheels whose radius differs from the radius that the drive
+    // assumes.
     drive_.left_wheel_scale =
         Positive({"left_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
     drive_.right_wheel_scale =

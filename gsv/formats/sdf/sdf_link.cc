@@ -104,8 +104,8 @@ bool IsPositiveDefinite(const model::Inertial& i) {
   return i.ixx > 0 && second > 0 && determinant > 0;
 }
 
-// No principal moment of a body exceeds the sum of the other two. Returns false if one does, by
-// more than rounding in files explains, and reduces it to the sum.
+// No principal moment of a body exceeds the sum of the other two. If a moment exceeds the sum by
+// more than rounding in files explains, reduces the moment to the sum and returns false.
 bool LimitGreatestMoment(const ignition::math::MassMatrix3d& source, model::Inertial& inertial) {
   constexpr double kRounding = 1.05;
   ignition::math::Vector3d moments = source.PrincipalMoments();  // in ascending order

@@ -252,7 +252,7 @@ class UrdfRepair {
     return true;
   }
 
-  // Gives a mass to links without one. libsdformat drops a link without mass, with its joint and
+  // Gives a mass to links without mass. libsdformat drops a link without mass, with its joint and
   // all links below it. A group of links that are fixed together needs only one link with mass.
   void GiveMass() {
     // whether the group has mass, by the top link of each group of links that are fixed together
@@ -293,7 +293,7 @@ class UrdfRepair {
     return link;
   }
 
-  // Whether the link has a positive mass. Removes an <inertial> without one.
+  // Whether the link has a positive mass. Removes an <inertial> without a positive mass.
   static bool KeepMass(XMLElement& link) {
     XMLElement* inertial = link.FirstChildElement("inertial");
     if (inertial == nullptr) return false;

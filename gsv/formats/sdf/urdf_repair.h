@@ -12,7 +12,7 @@ namespace gsv::formats {
 
 // Changes the elements below <robot>. Each change gives a warning:
 //   links         without mass that can move get 0.1 kg, unless they are fixed to a link with mass.
-//                 Of several links with equal names, only the first is read
+//                 If several links have equal names, only the first is read
 //   joints        that do not connect two links of the robot, or that close a loop, are left out.
 //                 Joints of unknown type become fixed
 //   floating      and planar joints: if one connects the robot to an empty root link such as

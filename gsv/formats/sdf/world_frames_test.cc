@@ -43,7 +43,7 @@ TEST(WorldFrames, ComposesChainsThroughModelsAndTheirFrames) {
   const std::map<std::string, Pose> inner = {{"tray", {{0, 0, 0.5}, {}}}};
   frames.Add("table", {geometry::PlanarPose(1, 2, 0, quarter), ""}, {}, &inner);
   frames.Add("cup", {{{1, 0, 0}, {}}, "table::tray"});
-  // The table's x points to the world's y.
+  // The table's x axis points along the world's y axis.
   const auto world_from_cup = frames.WorldFrom("cup");
   ASSERT_TRUE(world_from_cup.has_value());
   EXPECT_NEAR(world_from_cup->position.x, 1, 1e-12);

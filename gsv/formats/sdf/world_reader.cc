@@ -141,8 +141,8 @@ class WorldReader {
     }
   }
 
-  // Reads the included files from the store. Includes of built-in models are replaced by their
-  // text.
+  // Reads the included files from the store. Replaces includes of built-in models by the text of
+  // the model.
   base::Status TakeIncludes(XMLElement& world) {
     XMLElement* next = nullptr;
     for (auto* child = world.FirstChildElement("include"); child != nullptr; child = next) {

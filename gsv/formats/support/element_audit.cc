@@ -115,7 +115,7 @@ class ElementAudit {
         ReportUnknown(*child, *file_.root, root);
       } else if (child == taken) {
         Visit(*child, *known);
-      } else if (name != "world" && taken != nullptr) {  // the reader reports worlds
+      } else if (name != "world" && taken != nullptr) {  // the reader reports a second world
         Report(Tag(name) + " beside a " + Tag(taken->Name()) + " is ignored" +
                    (std::string_view(taken->Name()) == "world" ? ". It belongs in <world>."
                                                                : "; a file may contain one model"),

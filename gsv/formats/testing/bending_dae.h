@@ -1,5 +1,6 @@
-// A COLLADA file of two triangles. Bone A has the one at the origin. Bone B has the other, above
-// and beside it; B's joint is at z = 1 and rotates from 0 to 90 degrees about x in 1 s.
+// A COLLADA file of two triangles. Bone A has the triangle at the origin. Bone B has the other
+// triangle, above and beside the first one. B's joint is at z = 1 and rotates from 0 to 90 degrees
+// about x in 1 s.
 #pragma once
 
 namespace gsv::formats {

@@ -122,7 +122,7 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
   struct Known {
     const char* name;
     Handler handler;
-    // Without the prefix "xacro:", only an element with these attributes is one of xacro.
+    // Without the prefix "xacro:", only an element with these attributes is an element of xacro.
     std::vector<const char*> attributes;
   };
   static const std::vector<Known> kKnown{

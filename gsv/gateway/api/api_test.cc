@@ -49,7 +49,7 @@ class ApiTest : public ::testing::Test {
   const std::string path_ = "/api/simulations/first%20light";
 };
 
-// Stores the commands that it gets.
+// A fake RecordingSwitch that stores the commands to it.
 class FakeRecordings final : public RecordingSwitch {
  public:
   Totals totals() override { return {}; }

@@ -34,8 +34,8 @@ void AddFinite(OrderedJson& json, const char* key, double value) {
   if (std::isfinite(value)) json[key] = value;
 }
 
-// Whether the joint is listed: a fixed joint has no position, and that of a ball joint is not a
-// single number.
+// Whether the joint is listed: a fixed joint has no position, and the position of a ball joint is
+// not a single number.
 bool IsListed(const model::Joint& joint) { return model::TakesCommands(joint.kind); }
 
 OrderedJson JointJson(const world::Snapshot& snapshot, const world::Body& body, int number) {

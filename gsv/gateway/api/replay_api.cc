@@ -24,7 +24,8 @@ std::string JsonText(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-// Takes {"poses": N}, steps over recorded poses, or {"count": N}, steps of the simulation.
+// Steps the replay. The body is {"poses": N} for N recorded poses, or {"count": N} for N steps of
+// the simulation.
 base::Status StepBy(ReplayPlayer& player, const std::string& body) {
   const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
   if (json.is_object() && json.contains("poses")) {
@@ -186,8 +187,8 @@ Response RefuseEdit(const Replay&, const Request&) {
 
 using ReplayHandler = std::function<Response(const Replay&, const Request&)>;
 
-// Calls `handler` with the replay. Answers 404 if there is none, or if it is not of the simulation
-// {name}.
+// Calls `handler` with the replay. Answers 404 if there is no replay, or if the recorded simulation
+// is not {name}.
 Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
   return [find, handler = std::move(handler)](const Request& request) {
     const base::Result<Replay> replay = find(request);

@@ -85,8 +85,8 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
   return {};
 }
 
-// Checks that each robot has a model. In a scenario file, a robot without a model is one of the
-// world's own. A request to create a simulation cannot refer to these.
+// Checks that each robot has a model. In a scenario file, a robot without a model is a robot of the
+// world file. A request to create a simulation cannot refer to such a robot.
 FieldResult<void> RequireModels(const scenario::Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     if (!scenario.robots[i].model.empty()) continue;

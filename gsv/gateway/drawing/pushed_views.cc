@@ -15,7 +15,8 @@ using base::ErrorCode;
 
 // The ViewDrawer answers after this time even if nothing has changed.
 constexpr std::chrono::milliseconds kPushTimeout{5000};
-// If a client reports an image as shown within this time, one further image is sent ahead.
+// If a client reports an image as shown within this time, one further image may be sent before the
+// next report.
 constexpr std::chrono::milliseconds kFast{100};
 
 struct Detail {
@@ -24,7 +25,7 @@ struct Detail {
 };
 constexpr std::array<Detail, 5> kDetails{{{1, 100}, {1, 55}, {0.75, 45}, {0.5, 40}, {0.35, 30}}};
 // The time in seconds that the transfer of an image over a slow connection may take. If the
-// transfer takes less than a quarter of it, the next image has a higher resolution.
+// transfer takes less than a quarter of this time, the next image has a higher resolution.
 constexpr double kImageTime = 0.4;
 constexpr std::chrono::seconds kFirstCoarse{5}, kMaxCoarse{300}, kBetweenSteps{1};
 
@@ -176,8 +177,8 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   if (seat == nullptr) {
     auto taken = drawer_.Take(view);
     if (!taken && detail > 0) {
-      // A smaller image counts as a further view, and there are too many. The full size may be
-      // shared with other viewers, so it is tried next.
+      // A smaller image counts as a further view, and there are too many views. The full size may
+      // be shared with other viewers, so it is tried next.
       {
         const base::MutexLock lock(mutex_);
         watched->detail = 0;

@@ -31,7 +31,7 @@ struct PushedImage {
   std::string jpeg;
 };
 
-// Waits for images and failures.
+// A client that waits for images and failures.
 class ViewClient final : public Client {
  public:
   void SendText(SharedBytes text) override {
@@ -174,7 +174,7 @@ TEST_F(PushedViewsTest, AClientThatReportsNoImagesGetsFewImages) {
   const std::shared_ptr<ViewClient> other = std::make_shared<ViewClient>();
   hub_.Add(other);
   Send(Watch("size=32x24&fps=60", 1), other);
-  // The other client receives further images, while this one holds at most two.
+  // The other client receives further images. `client_` reports none, and gets at most two.
   for (int i = 0; i < 5; ++i) {
     Send(Shown(other->NextImage()), other);
     source_->Change();

@@ -178,8 +178,8 @@ bool ViewDrawer::Serve(const std::string& name) {
   return true;
 }
 
-// Removes the requests of a world that are due, and returns them. `number` is that of the world's
-// state; 0: all requests are due, because the world cannot be drawn.
+// Removes the requests of a world that are due, and returns them. `number` is the number of the
+// world's state; 0: all requests are due, because the world cannot be drawn.
 std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
                                                      std::uint64_t number) {
   std::vector<Pending> due;
@@ -233,7 +233,7 @@ void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<
       kept_.push_back({request, *answer});
     }
     for (Pending& each : same) {
-      each.seat.reset();  // the viewer's place must be free before the viewer can send its next
+      each.seat.reset();  // the viewer's Seat must be free before the viewer can send its next
                           // request
       each.answer(answer);
     }

@@ -104,7 +104,7 @@ TEST_F(ViewDrawerTest, LimitsTheNumberOfViewsAndViewers) {
     EXPECT_EQ(fourth.error().code, base::ErrorCode::kUnavailable);
     EXPECT_NE(fourth.error().message.find("3 viewers"), std::string::npos);
   }
-  EXPECT_TRUE(drawer_.Take(Request(33)));  // one place is free again
+  EXPECT_TRUE(drawer_.Take(Request(33)));  // one Seat is free again
   const auto huge = drawer_.Take(Request(4000));
   ASSERT_FALSE(huge);
   EXPECT_EQ(huge.error().code, base::ErrorCode::kInvalidArgument);

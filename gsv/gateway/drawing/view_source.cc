@@ -57,8 +57,8 @@ class LiveSource final : public ViewSource {
   }
 
  private:
-  // Returns the corners that the default view shows. They are those of the first snapshot of a
-  // layout, so that the view does not move with the bodies.
+  // Returns the corners that the default view shows. The first snapshot of a layout determines the
+  // corners, so that the view does not move with the bodies.
   std::vector<geometry::Vector3> Corners(const world::Snapshot& snapshot) {
     if (layout_ != snapshot.layout) {
       corners_ = view::CornersToShow(snapshot);

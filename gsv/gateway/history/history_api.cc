@@ -40,7 +40,7 @@ base::Result<base::SimTime> FromTime(const Request& request) {
 }
 
 // Returns the newest events and notes, and the collisions of the history, ordered by time. Leaves
-// out those that happened, or were noted, before `from`.
+// out events and collisions before `from`, and notes that were made before `from`.
 std::vector<RecordedEvent> EventsOf(const simulation::Simulation& simulation,
                                     const std::vector<recording::Collision>& collisions,
                                     base::SimTime from) {

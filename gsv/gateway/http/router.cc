@@ -28,7 +28,8 @@ std::vector<std::string_view> SegmentsOf(std::string_view pattern) {
 struct Router::Node {
   // Finds or makes the child node.
   Node* Child(std::string_view segment_of_pattern);
-  // Returns the node for the rest of a path, or null. Sets the parameter if the segment is one.
+  // Returns the node for the rest of a path, or null. If the segment is a parameter, stores its
+  // value in `match`.
   const Node* Next(const std::string& segment, Match& match) const;
 
   std::map<std::string, std::unique_ptr<Node>, std::less<>> literals;
@@ -99,8 +100,8 @@ Router::Match Router::Find(std::string_view method, const Target& target) const 
   Match match;
   match.permission = root_->least;
   const Node* node = root_.get();
-  // The deepest "{path...}" on the path, below the first segment, and the parameters up to it. It
-  // matches if no longer pattern does.
+  // The deepest "{path...}" on the path, below the first segment, and the parameters up to it. This
+  // pattern matches if no longer pattern matches.
   const Node* rest = nullptr;
   auto parameters_of_rest = match.parameters;
   for (const std::string& segment : target.segments) {

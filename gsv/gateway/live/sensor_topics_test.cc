@@ -111,7 +111,7 @@ TEST_F(ManySensorsTest, AdvertisesTwoThousandSensorsAndReportsThatThereAreMore) 
   Mount("robot_0", 0, 1000);
   EXPECT_EQ(Topics("robot_0"), 1000u);
   EXPECT_EQ(WarningCount(complaint_), 0u);
-  Mount("robot_0", 1000, 2000);  // adds sensors to the ones that it already has
+  Mount("robot_0", 1000, 2000);  // adds sensors to the robot's existing sensors
   EXPECT_LT(Topics("robot_0"), 2000u);
   EXPECT_GT(Topics("robot_0"), 1980u);
   EXPECT_EQ(WarningCount(complaint_), 1u);
@@ -168,8 +168,8 @@ TEST_F(LiveStreamTest, ImagesAreSentAtMostFiveTimesPerSecond) {
       simulation_->Advance(milliseconds(10));
       Round(milliseconds(10));
     }
-    // If a reading becomes due during the previous reading, a later call of Round() takes it. After
-    // a slow reading it comes even later.
+    // If a reading becomes due during the previous reading, a later call of Round() starts it.
+    // After a slow reading, this call comes even later.
     RoundUntil(1, fifth);
   }
   workers_.Stop();

@@ -164,7 +164,7 @@ TEST_F(RecordingsApiTest, AReplayWithoutViewersEnds) {
   EXPECT_TRUE(sessions.FindHub(watched));
   sessions.Stop();
   EXPECT_FALSE(sessions.Open(file, "run.mcap"));
-  hub->Remove(nullptr);  // a viewer that disconnects late finds its replay still there
+  hub->Remove(nullptr);  // the replay still exists for a viewer that disconnects late
 }
 
 TEST_F(RecordingsApiTest, ReplaySessionsAreLimited) {
@@ -205,7 +205,7 @@ TEST_F(RecordingsApiTest, ComparesTwoRecordings) {
   const json found = json::parse(Get(difference + "?with=slow.mcap").body);
   EXPECT_EQ(found["equal"], false);
   EXPECT_EQ(found["robot"], "robot");
-  // In both, the robot is at rest at 0 s; the first commands differ in the first steps.
+  // In both recordings, the robot is at rest at 0 s; the first commands differ in the first steps.
   EXPECT_LT(found["time_s"], 0.1);
   EXPECT_NE(found["text"], "");
   EXPECT_EQ(Get(difference).status, 400);

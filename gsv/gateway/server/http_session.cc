@@ -115,8 +115,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   beast::tcp_stream& tcp() { return stream_.tcp(); }
   const ServerLimits& limits() const { return context_->options.limits; }
 
-  // Before the body is read: refuses a body that is too long, and a file if the client has no
-  // permission to send it.
+  // Called before the body is read. Refuses a body that is too long, and a file if the client has
+  // no permission to send it.
   void OnHeader(error_code error) {
     if (error) return RespondToError(error);
     const auto& request = parser_->get();

@@ -115,7 +115,7 @@ TEST(SendWindow, BoundsTheDelayOfASlowConnectionAndUsesItsRate) {
   EXPECT_LT(link.Run(milliseconds(2000)).count(), 0.8);  // the first window
   link.TakeReceived();
   EXPECT_LT(link.Run(milliseconds(10'000)).count(), 0.5);
-  EXPECT_GE(link.TakeReceived(), 225);  // the link passes 250
+  EXPECT_GE(link.TakeReceived(), 225);  // the link transfers 250 messages
   EXPECT_TRUE(link.is_slow());
   ASSERT_TRUE(link.window().slow_rate());
   EXPECT_NEAR(*link.window().slow_rate(), 25'000, 8'000);
@@ -162,7 +162,7 @@ TEST(SendWindow, AConnectionOfALowRateStaysSlowWhenTheMinimumDelayIsMeasuredAgai
   for (int i = 0; i < 10; ++i) {
     EXPECT_LT(link.Run(milliseconds(20'000)).count(), 0.6);
     EXPECT_TRUE(link.is_slow());
-    EXPECT_GE(link.TakeReceived(), 440);  // the link passes 500
+    EXPECT_GE(link.TakeReceived(), 440);  // the link transfers 500 messages
   }
 }
 

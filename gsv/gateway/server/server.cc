@@ -191,7 +191,7 @@ class BeastServer final : public Server {
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
-  std::vector<std::weak_ptr<Connection>> connections_;  // may include ended ones
+  std::vector<std::weak_ptr<Connection>> connections_;  // may include ended connections
   std::promise<void> finished_;
   std::thread thread_;
 };

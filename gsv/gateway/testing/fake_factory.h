@@ -12,7 +12,7 @@
 
 namespace gsv::gateway::testing {
 
-// Records requests, and refuses them on demand.
+// A factory that records requests, and refuses them on demand.
 class FakeFactory final : public SimulationFactory {
  public:
   explicit FakeFactory(SimulationList& list) : list_(list) {}

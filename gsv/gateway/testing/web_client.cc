@@ -41,7 +41,7 @@ HttpConnection::HttpConnection(std::uint16_t port) : impl_(std::make_unique<Impl
 HttpConnection::~HttpConnection() = default;
 
 void HttpConnection::Send(const std::string& bytes) {
-  error_code ignored;  // the server may close the connection meanwhile: its answer has the reason
+  error_code ignored;  // the server may close the connection; its answer has the reason
   asio::write(impl_->socket, asio::buffer(bytes), ignored);
 }
 

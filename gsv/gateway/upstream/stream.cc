@@ -59,7 +59,7 @@ struct Attempt {
   WebSocket socket;
   websocket::response_type answer;  // the answer to the handshake
   beast::flat_buffer incoming;
-  std::deque<std::string> outgoing;  // the first one is being written
+  std::deque<std::string> outgoing;  // the first message is being written
 };
 using AttemptPointer = std::shared_ptr<Attempt>;
 
