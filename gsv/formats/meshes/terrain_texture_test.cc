@@ -54,8 +54,8 @@ TEST(TerrainTexture, BlendsLayersByHeight) {
   const model::Image image = TerrainTexture(Ramp(), {10, 10}, {{low, 1, 0, 0}, {high, 1, 4, 4}});
   EXPECT_EQ(At(image, 1, 5), kRed);
   EXPECT_EQ(At(image, 9, 5), kBlue);
-  // At x = 6 m the height is 6 m: the middle of the blue layer's fading distance, which is 4 m to 8
-  // m.
+  // At x = 6 m the height is 6 m, which is the middle of the blue layer's fading distance (4 to
+  // 8 m).
   EXPECT_NEAR(At(image, 6, 5)[0], 100, 3);
   EXPECT_NEAR(At(image, 6, 5)[2], 100, 3);
 }
