@@ -37,6 +37,7 @@ class IncludeScan {
   const IncludedFiles& files() const { return files_; }
 
  private:
+  // Processes the <include>s below `element`, and those in the models below it.
   void Visit(tinyxml2::XMLElement& element, const std::filesystem::path& file);
   // Reads an included file with its own includes. Returns its name in files().
   base::Result<std::string> ReadIncluded(const std::filesystem::path& file);

@@ -70,6 +70,7 @@ class ModelStore {
   // of a robot description.
   static void Complete(const tinyxml2::XMLElement& element, const std::filesystem::path& file,
                        bool is_robot, StoredFile& stored);
+  // Reads the model or light in a text with libsdformat.
   base::Status FromText(const SdfText& text, const IncludedFiles& includes, StoredFile& stored);
 
   ResourceFinder finder_;

@@ -30,6 +30,7 @@ base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles&
 
 // Lock this mutex while you call libsdformat's functions that read.
 base::Mutex& SdformatMutex();
+// Stops libsdformat's and urdfdom's output on the console. The reader stores urdfdom's errors.
 void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 
 // Returns the description of <sdf> and of all elements below it. The description is made once,

@@ -52,6 +52,8 @@ class WorldState {
                  const ReadingContext& context);
   void ReadModel(const tinyxml2::XMLElement& element, const std::string& scope, int levels_left,
                  const ReadingContext& context, ModelState& state);
+  // Returns the joint positions that follow from the saved poses of the links, or else the saved
+  // positions. Returns an empty list if all positions are zero.
   static std::vector<double> PositionsOf(const model::Model& model, const ModelState& state,
                                          const geometry::Pose& world_from_model);
 

@@ -30,7 +30,9 @@ class ViewersApi {
   Response Enter(const Request& request);
   base::Status Change(const Request& request);
   base::Status Leave(const Request& request);
+  // Requests control, or releases it or withdraws the request.
   base::Status SetControlRequest(const Request& request);
+  // Grants or refuses the first request in the queue for control.
   base::Status AnswerFirst(const Request& request);
   Response ViewerList(const std::string& viewer);
 

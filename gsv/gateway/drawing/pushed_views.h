@@ -86,7 +86,7 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   ViewDrawer& drawer_;
   const FindWorldOfHub find_;
   mutable base::Mutex mutex_;
-  std::map<Key, WatchedPtr> watched_ GSV_GUARDED_BY(mutex_);  // and their members
+  std::map<Key, WatchedPtr> watched_ GSV_GUARDED_BY(mutex_);  // mutex_ also guards each Watched
 };
 
 }  // namespace gsv::gateway::drawing

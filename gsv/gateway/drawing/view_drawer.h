@@ -102,9 +102,11 @@ class ViewDrawer {
   };
 
   void Run();
+  // Releases the sources of worlds without requests after a time.
   void DropUnused();
   // Answers the requests of one world that are due. Returns whether any request was due.
   bool Serve(const std::string& name);
+  // Removes and returns the requests of a world that are due.
   std::vector<Pending> TakeDue(const std::string& name, std::uint64_t number);
   struct Seen {
     std::uint64_t number = 0;

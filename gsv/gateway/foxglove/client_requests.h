@@ -60,8 +60,8 @@ class ClientRequests {
   const std::shared_ptr<Operations> operations_;
   mutable base::Mutex mutex_;
   std::map<Client*, ClientState> clients_ GSV_GUARDED_BY(mutex_);
-  std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // as sent last
-  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // the state that was last sent
+  std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // the last sent values
+  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // the last sent state
 };
 
 }  // namespace gsv::gateway

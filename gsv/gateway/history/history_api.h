@@ -32,6 +32,7 @@ class HistoryApi {
  private:
   using SimulationPointer = Histories::SimulationPointer;
 
+  // Responds with the time range and the size of the history.
   Response Extent(const SimulationPointer& simulation);
   Response Open(const SimulationPointer& simulation);
   Response Events(const SimulationPointer& simulation, const Request& request);

@@ -24,6 +24,7 @@ class CommandTopic {
   void Publish(const world::Snapshot& snapshot);
 
  private:
+  // Stores the layout of the snapshot, and forgets the commands that were sent.
   void FollowLayout(const world::Snapshot& snapshot);
 
   const std::shared_ptr<Hub> hub_;

@@ -35,9 +35,11 @@ class EventTopics {
     std::vector<Topic> topics;
     std::uint64_t next = 0;  // number of the next event to publish
   };
+  // Returns the events since the last call.
   static std::vector<simulation::Event> TakeNew(const simulation::Simulation& simulation,
                                                 Source& source);
   void Publish(const simulation::Simulation& simulation, Source& source);
+  // Sends the newest earlier events to new subscribers of the topic.
   void Welcome(const Topic& topic, const std::vector<simulation::Event>& past);
 
   const std::shared_ptr<Hub> hub_;

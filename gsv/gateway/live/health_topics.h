@@ -32,6 +32,7 @@ class HealthTopics {
   bool IsDue(const Topic& topic, WallTime now) const;
   void PublishHealth(simulation::Simulation& simulation, WallTime now);
   void PublishExpectations(const simulation::Simulation& simulation, WallTime now);
+  // Sends to all subscribers if `is_news`, otherwise only to new subscribers.
   void Send(Topic& topic, bool is_news, base::SimTime time, SharedBytes payload, WallTime now);
 
   const std::shared_ptr<Hub> hub_;

@@ -63,6 +63,7 @@ class LiveStream {
     Hub::Message latest;
   };
 
+  // Updates the list of poses after a change of the layout, and the topics of sensors when due.
   void FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                     WallTime now);
   void PublishTime(const SnapshotPointer& snapshot);

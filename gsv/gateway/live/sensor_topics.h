@@ -57,9 +57,12 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   Sensors ListSensors(simulation::Simulation& simulation, const world::Layout& layout);
   // Withdraws the topics of sensors that are not in `found`.
   void Withdraw(const Sensors& found);
+  // Returns the beam sensors of the requested robots.
   RobotBeams::Sources WantedBeams() const;
   void EvictUnsubscribed(Sensors& found);
   std::set<std::string> SubscribedRobots() const;
+  // Advertises the topics of sensors without a channel, up to kMaxSensorTopics; those of
+  // requested robots in any case.
   void Advertise(Sensors& found);
 
   void PublishTransforms(const world::Snapshot& snapshot);

@@ -82,7 +82,7 @@ class SimulationFactory {
 
   virtual ~SimulationFactory() = default;
 
-  virtual std::vector<std::string> Worlds() = 0;  // ours
+  virtual std::vector<std::string> Worlds() = 0;  // names of the built-in worlds
   // Returns the models that can be robots: built-in ones and those on the model path.
   virtual std::vector<ModelLine> Models() = 0;
   virtual std::vector<std::string> Objects() = 0;  // includes models that are not robots

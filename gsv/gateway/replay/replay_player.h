@@ -48,6 +48,7 @@ class ReplayPlayer {
 
   // Returns the recorded status at the replay's position, in the form of a simulation's status.
   simulation::SimulationStatus status() const;
+  // Returns the recorded scene for the current poses.
   base::Result<SharedBytes> SceneNow() const;
   // Returns the recorded poses at the replay's position; empty if there are none yet.
   messages::gsv_msgs::Poses poses() const { return stream_.recorded_poses(); }
@@ -58,6 +59,7 @@ class ReplayPlayer {
   base::Status Resume();
   // Advances by `count` steps of the simulation and pauses.
   base::Status Step(std::int64_t count);
+  // Returns to the start and pauses.
   void Rewind();
   // Moves to the instant, limited to the recording, and continues playing if it played.
   void Seek(base::SimTime time);

@@ -72,6 +72,7 @@ class ReplayStream {
   // Stores the message as the newest of its track, and returns the track. Returns null if the
   // channel is not replayed.
   const Track* Keep(std::uint16_t id, base::SimTime time, recording::Bytes data);
+  // Reads the next message of cursor_ into next_. Skips damaged parts with a warning.
   void ReadNext();
   void Publish(Track& track);
   // Publishes a message that is not recorded: to all subscribers if it is due, else only to new

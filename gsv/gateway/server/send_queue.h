@@ -67,6 +67,7 @@ class SendQueue {
   std::uint64_t dropped() const;  // number of dropped data messages so far
 
  private:
+  // Removes and returns the queue's first message, and subtracts its size from `bytes`.
   static Outgoing Take(std::deque<Outgoing>& queue, std::size_t& bytes);
   // Drops one data message, because `incoming` does not fit.
   void DropFor(const Outgoing& incoming) GSV_REQUIRES(mutex_);

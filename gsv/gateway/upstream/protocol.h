@@ -23,7 +23,7 @@ struct StatusMessage {
   foxglove::StatusLevel level = foxglove::StatusLevel::kInfo;
   std::string message;
 };
-struct Other {};  // ignored
+struct Other {};  // any other message, which is ignored
 using ServerText = std::variant<Advertise, Unadvertise, StatusMessage, Other>;
 
 // Fails with kCorrupt for invalid messages.
