@@ -18,7 +18,8 @@ using geometry::Vector3;
 using model::Image;
 using model::Material;
 
-// Mozilla Hubs' extension, the only one for baked light: {"index": texture, "intensity": factor}.
+// Mozilla Hubs' extension, the only extension for baked light: {"index": texture, "intensity":
+// factor}.
 constexpr const char* kLightMapExtension = "MOZ_lightmap";
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
@@ -132,7 +133,7 @@ class Writer {
   }
 
  private:
-  // Accessors of the vertices that all parts of a mesh share; -1 for those that do not exist.
+  // Accessors of the vertices that all parts of a mesh share; -1 for accessors that do not exist.
   struct Vertices {
     int position = -1, normal = -1, uv = -1;
   };

@@ -215,7 +215,7 @@ class DocumentRepair {
     });
   }
 
-  // Renames all but the first of siblings with the same name.
+  // If siblings have the same name, renames all of them except the first.
   void NameApart(const std::string& kind, const std::string& name) {
     for (Tree& tree : trees_) {
       std::set<const tinyxml2::XMLNode*> parents;

@@ -23,10 +23,10 @@ class IncludeScan {
   IncludeScan(const ResourceFinder& finder, const ReadLimits& limits, base::Problems& problems)
       : finder_(finder), limits_(limits), problems_(problems) {}
 
-  // Visits every <include> below `element` of `file`, and those of the included files. Changes
-  // their <uri> to a name in files(). If no file is found for Ground Plane or Sun, the built-in one
-  // replaces the include. An include is removed with a warning if its file is missing, cannot be
-  // read or has no model, or if includes form a cycle or exceed the depth limit.
+  // Visits every <include> below `element` of `file`, and the <include>s in the included files.
+  // Changes their <uri> to a name in files(). If no file is found for Ground Plane or Sun, the
+  // built-in one replaces the include. An include is removed with a warning if its file is missing,
+  // cannot be read or has no model, or if includes form a cycle or exceed the depth limit.
   void Scan(tinyxml2::XMLElement& element, const std::filesystem::path& file);
 
   // Returns the path of an <include>'s file. Each name is searched once.
@@ -37,7 +37,7 @@ class IncludeScan {
   const IncludedFiles& files() const { return files_; }
 
  private:
-  // Processes the <include>s below `element`, and those in the models below it.
+  // Processes the <include>s below `element`, and the <include>s in the models below it.
   void Visit(tinyxml2::XMLElement& element, const std::filesystem::path& file);
   // Reads an included file with its own includes. Returns its name in files().
   base::Result<std::string> ReadIncluded(const std::filesystem::path& file);
@@ -52,7 +52,7 @@ class IncludeScan {
   IncludedFiles files_;
   std::map<std::pair<std::string, std::string>, base::Result<std::filesystem::path>> found_;
   std::vector<std::filesystem::path> open_;  // the chain of files being visited
-  // For each file: its name in files_, or the reason why it has none.
+  // For each file: its name in files_, or the reason why the file is not in files_.
   std::map<std::filesystem::path, base::Result<std::string>> done_;
 };
 

@@ -27,7 +27,7 @@ TEST(JointForest, LeavesAForestUnchanged) {
   EXPECT_EQ(joints[1].axis, (geometry::Vector3{0, 0, 1}));
 }
 
-// The joints are 0 -> 1 <- 2. The second one is reversed together with its axis, so that its
+// The joints are 0 -> 1 <- 2. The second joint is reversed together with its axis, so that its
 // position stays the same.
 TEST(JointForest, ReversesAJointIfALinkHasTwoParents) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("b", 2, 1)};

@@ -19,8 +19,8 @@ using SensorCheck = std::function<base::Status(const model::SensorDescription&)>
 struct ReadOptions {
   std::vector<std::filesystem::path> model_path;  // see --model-path
   bool allow_absolute_paths = true;               // whether names in files may be absolute paths
-  // Drives that replace those of models. The key is the name with which ModelLibrary::ReadModel()
-  // reads the model. The value has the form of model/drive_choice.h.
+  // Drives that replace the drives of models. The key is the name with which
+  // ModelLibrary::ReadModel() reads the model. The value has the form of model/drive_choice.h.
   std::map<std::string, std::string> drives;
   ReadLimits limits;
   // Whether to add an error for each of SDFormat's rules on names and references that a named file

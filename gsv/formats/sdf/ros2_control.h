@@ -21,7 +21,7 @@ std::vector<model::ControlSystem> ReadControlSystems(const tinyxml2::XMLElement&
                                                      const model::Model& model,
                                                      base::Problems& problems);
 
-// Returns the model with these control systems, or the same model if there are none.
+// Returns the model with these control systems, or the same model if there are no control systems.
 std::shared_ptr<const model::Model> WithControlSystems(const tinyxml2::XMLElement& element,
                                                        const std::filesystem::path& file,
                                                        std::shared_ptr<const model::Model> model,

@@ -182,8 +182,8 @@ class ActorReader {
     mesh->InsertNewChildElement("scale")->SetText((number + " " + number + " " + number).c_str());
   }
 
-  // Returns the animation whose name is the type of the first trajectory, or else the first one.
-  // Null if there is none.
+  // Returns the animation whose name is the type of the first trajectory, or else the first
+  // animation. Returns null if the actor has no animation.
   const XMLElement* AnimationToShow() const {
     const XMLElement* script = actor_.FirstChildElement("script");
     const XMLElement* trajectory =

@@ -20,7 +20,7 @@ namespace gsv::formats {
 
 struct ActorParts {
   std::shared_ptr<const model::Script> script;  // never null; has no animation yet
-  std::shared_ptr<const SkinnedMesh> skin;      // null: the skin keeps its shape, or there is none
+  std::shared_ptr<const SkinnedMesh> skin;      // null: no skin, or a skin without animation
 };
 
 // Changes an <actor> element to a <model> element, and returns the parts that a <model> cannot

@@ -1,6 +1,6 @@
 // Reads <joint type="gearbox">: two joints that are coupled.
 //
-// Angles  are those of the gearbox's two links, about <axis> and <axis2>, relative to
+// Angles  are the angles of the gearbox's two links, about <axis> and <axis2>, relative to
 //         <gearbox_reference_body>: child = -ratio * parent (SDFormat's <gearbox_ratio>). For each
 //         link, the model must have a revolute joint about this axis between the link and the
 //         reference body.

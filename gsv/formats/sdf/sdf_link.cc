@@ -159,7 +159,7 @@ sdf::ElementPtr GeometryElement(const sdf::ElementPtr& element) {
                                                                : nullptr;
 }
 
-// Returns an element's <density> in kg/m³, or `otherwise` if there is no valid one.
+// Returns an element's <density> in kg/m³, or `otherwise` if the element has no valid <density>.
 double DensityOf(const sdf::ElementPtr& element, double otherwise, const ReadingContext& context) {
   if (element == nullptr || !element->HasElement("density")) return otherwise;
   const auto [density, is_number] = element->Get<double>("density", otherwise);
@@ -237,7 +237,7 @@ double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext
   return 0;
 }
 
-// Returns the link's own <enable_wind>, or that of the innermost model around it.
+// Returns the link's own <enable_wind>, or the <enable_wind> of the innermost model around it.
 bool HasWind(const sdf::Link& source) {
   for (auto element = source.Element(); element != nullptr; element = element->GetParent()) {
     if (element->GetName() != "link" && element->GetName() != "model") break;

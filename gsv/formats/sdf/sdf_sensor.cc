@@ -109,7 +109,7 @@ model::SensorDescription ReadSensor(const sdf::ElementPtr& sensor) {
   description.update_rate = sensor->Get<double>("update_rate", 0.0).first;
   description.visualize = sensor->Get<bool>("visualize", false).first;
   // If there is a preset, only the parameters in the file are read, because the preset provides the
-  // others.
+  // other parameters.
   Flatten(sensor, "", sensor->HasElement(kPreset), description.parameters);
   return description;
 }

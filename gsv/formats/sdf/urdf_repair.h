@@ -16,7 +16,7 @@ namespace gsv::formats {
 //   joints        that do not connect two links of the robot, or that close a loop, are left out.
 //                 Joints of unknown type become fixed
 //   floating      and planar joints: if one connects the robot to an empty root link such as
-//                 `world`, the robot can move freely. All others become fixed
+//                 `world`, the robot can move freely. All other such joints become fixed
 //   trees         if joints do not connect all links, only the largest tree of links is read
 //   parts         see urdf_part_repair.h
 void RepairUrdf(tinyxml2::XMLElement& robot, const std::filesystem::path& file,

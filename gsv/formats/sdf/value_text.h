@@ -1,4 +1,4 @@
-// Checks the texts of values in SDFormat and URDF files, and replaces invalid ones.
+// Checks the texts of values in SDFormat and URDF files, and replaces invalid texts.
 #pragma once
 
 #include <string>

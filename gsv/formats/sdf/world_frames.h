@@ -27,8 +27,9 @@ base::Result<WrittenPose> ReadFramePose(const tinyxml2::XMLElement& frame);
 
 class WorldFrames {
  public:
-  // Adds a model or frame. `at` is its pose, or that of the model's placement frame if it has one.
-  // Then `frame_from_origin` is the inverse of the placement frame's pose in the model.
+  // Adds a model or frame. `at` is the element's pose. If the model has a placement frame, `at` is
+  // the pose of that frame. Then `frame_from_origin` is the inverse of the placement frame's pose
+  // in the model.
   void Add(const std::string& name, WrittenPose at, geometry::Pose frame_from_origin = {},
            const std::map<std::string, geometry::Pose>* inner_frames = nullptr);
 

@@ -1,6 +1,6 @@
 // Compares a file's XML with the table of elements, and reports elements that GSV does not support.
 //
-// libsdformat drops unknown elements, and does not give access to many known ones, without a
+// libsdformat drops unknown elements, and does not give access to many known elements, without a
 // warning. Therefore this checks the XML before libsdformat reads it.
 //
 // Reported, as warnings with "file:line: world/model[box]/link[l]/…":
@@ -26,7 +26,7 @@ struct AuditedFile {
   int minor_version = 0;             // 9 for SDFormat 1.9; 0 for URDF
 };
 
-// Adds at most kMaxFindings warnings, and one with the number of further ones.
+// Adds at most kMaxFindings warnings, and one warning with the number of further findings.
 void AuditElements(const AuditedFile& file, base::Problems& problems);
 
 inline constexpr int kMaxFindings = 1000;

@@ -17,7 +17,7 @@ struct ElementSource {
   int line = 0;
 };
 
-// Returns "file:line" of an element: that of its ElementSource, or else its line in `file`.
+// Returns "file:line" of an element: the place in its ElementSource, or else its line in `file`.
 std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);
 
 // Returns a path such as "world/model[box]/link[l]". Names distinguish siblings.

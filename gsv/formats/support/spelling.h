@@ -1,4 +1,4 @@
-// Suggests names for misspelt ones.
+// Suggests correct names for misspelt names.
 #pragma once
 
 #include <string>

@@ -46,7 +46,7 @@ TEST(SupportTable, KnowsPluginsByFileOrClass) {
 }
 
 // The description files of libsdformat. Each element and attribute of each version must be in the
-// table, and each default in the table must equal that of the description.
+// table, and each default in the table must equal the default in the description.
 class InstalledSchemaTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {

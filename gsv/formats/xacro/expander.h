@@ -27,7 +27,7 @@ class Expander {
     Scope& scope;
     Space& space;
     int line = 0;           // line of the call in the main file; 0 for the file's own line
-    int includes_left = 0;  // number of levels to which files may still include others
+    int includes_left = 0;  // number of levels to which files may still include other files
   };
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
 
@@ -39,7 +39,7 @@ class Expander {
   static Handler HandlerOf(const Node& node, bool takes_plain_names);
   bool LooksLikeCall(const Node& node, const Macro& macro) const;
   base::Status UnknownMacro(const std::string& name, const Node& call);
-  // Appends an element that is not one of xacro, with its attributes and content expanded.
+  // Appends an element that is not an element of xacro, with its attributes and content expanded.
   base::Status Plain(const std::string& name, const Node& node, Node& parent, Context& context);
 
   // Each expands one kind of xacro element, such as <xacro:property>.
@@ -80,7 +80,7 @@ class Expander {
   Space main_;
   bool takes_plain_names_ = false;  // whether <macro> means <xacro:macro>
   std::set<const Node*> active_;    // definitions of macros that are being expanded
-  std::string missing_file_;        // the last include that was not found; empty if there was none
+  std::string missing_file_;        // the last include that was not found; empty if all were found
   std::set<std::string> missing_packages_;
   int steps_ = 0, levels_ = 0, max_include_depth_;
 };

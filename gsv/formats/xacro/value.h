@@ -58,7 +58,7 @@ bool IsTrue(const Value& value);
 // Compares like Python's ==. Numbers are compared by value, and values of other types differ.
 bool AreEqual(const Value& a, const Value& b);
 
-// Converts a property's or a parameter's text to a number or truth value if it is one: "2" is 2,
+// Converts a property's or a parameter's text to a number or truth value if possible: "2" is 2,
 // "2.0" a float, "true" a bool. Removes single quotes around a text. A text with "_" stays a text.
 Value FromLiteral(const std::string& text);
 

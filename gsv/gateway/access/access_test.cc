@@ -82,12 +82,12 @@ TEST(Permissions, FollowTheRoute) {
   EXPECT_EQ(taken("DELETE", "/api/simulations/a%20b"), Taken(control, "a b"));
   EXPECT_EQ(taken("POST", "/%61pi/simulations/a/pause"), Taken(control, "a"));
   EXPECT_EQ(taken("POST", "/api/simulations/a/bodies/b/place"), Taken(control, "a"));
-  // Requests without a route need the same permission as the routes nearby.
+  // Requests without a route need the same permission as the routes with similar paths.
   for (const char* method : {"GET", "POST", "PATCH", "NONSENSE"}) {
     EXPECT_EQ(taken(method, "/api/simulations/a/b/c"), Taken(watch, "")) << method;
     EXPECT_EQ(taken(method, "/replays/1"), Taken(watch, "")) << method;
   }
-  // Every request that affects others needs control.
+  // Every request that affects other viewers needs control.
   for (const Route& route : gateway->router().routes()) {
     const bool is_private = route.pattern.starts_with("/replays/") ||
                             route.pattern.starts_with("/api/recordings") ||

@@ -37,7 +37,7 @@ class TokenAuthenticator final : public Authenticator {
   void Authenticate(const Credentials& credentials, Answer answer) override;
   std::string Refusal(const Principal& principal, Permission needed) const override;
 
-  // Returns the permission of a client with `token`, which is empty if it has none.
+  // Returns the permission of a client with `token`, which is empty if the client has no token.
   Permission PermissionOf(std::string_view token) const;
 
  private:

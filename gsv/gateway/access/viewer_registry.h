@@ -35,7 +35,7 @@ class ViewerRegistry {
   struct ViewerState {
     std::uint64_t number = 0;  // the number of the viewer, which is never used again
     std::string name;
-    std::string simulation;  // the selected simulation; empty if there is none
+    std::string simulation;  // the selected simulation; empty: none is selected
     bool holds = false;      // whether the viewer has control of this simulation
     std::size_t asks = 0;    // position in the queue for control, from 1; 0: not waiting
     // For the first viewer in the queue: time until it gets control if the holder does not answer.

@@ -35,7 +35,7 @@ struct TimedDriveCommand {
 // velocity is 0. Without timeout_s there is no timeout.
 base::Result<TimedDriveCommand> ParseDriveCommand(std::string_view body);
 
-// Parses {"position": v}, {"velocity": v} or {"effort": v}: exactly one of them, in SI units.
+// Parses {"position": v}, {"velocity": v} or {"effort": v}: exactly one of these keys, in SI units.
 base::Result<world::JointCommand> ParseJointCommand(std::string_view body);
 
 // Parses {"record": true or false}.

@@ -11,7 +11,8 @@ namespace gsv::gateway {
 // Returns the health of one robot, or of all robots if `robot` is empty. Reads the range sensors of
 // robots that do not move.
 std::string HealthJson(simulation::Simulation& simulation, const std::string& robot);
-// Returns the lines that the programs of behaviours printed, for one robot or for all.
+// Returns the lines that the programs of behaviours printed, for one robot, or for all robots if
+// `robot` is empty.
 std::string OutputJson(const simulation::Simulation& simulation, const std::string& robot);
 
 }  // namespace gsv::gateway

@@ -13,7 +13,7 @@ namespace gsv::gateway {
 using SimulationHandler =
     std::function<Response(const std::shared_ptr<simulation::Simulation>&, const Request&)>;
 
-// Calls `handler` with the simulation {name}; answers 404 if there is none.
+// Calls `handler` with the simulation {name}; answers 404 if there is no such simulation.
 Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
                             SimulationHandler handler);
 

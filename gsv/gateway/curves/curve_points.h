@@ -35,7 +35,7 @@ class CurvePoints {
  private:
   struct TimeBin {
     std::size_t finite = 0, samples = 0;
-    Point min, max;  // both are the first sample until a sample is finite
+    Point min, max;  // both equal the first sample until a sample is finite
   };
 
   void AddToBin(const Point& point);

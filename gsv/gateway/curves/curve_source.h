@@ -29,7 +29,8 @@ struct CurveRequest {
 class CurveSource {
  public:
   virtual ~CurveSource() = default;
-  // Returns the sample in `message`, or nullopt if it has none. Messages come in the order of time.
+  // Returns the sample in `message`, or nullopt if the message has no sample. Messages come in the
+  // order of time.
   virtual std::optional<double> SampleIn(const recording::MessageRecord& message) = 0;
 };
 

@@ -46,7 +46,7 @@ class RecordedCurves {
  private:
   struct Job;
 
-  // Returns the job of the request, or null. Marks it as the most recently used one.
+  // Returns the job of the request, or null. Marks the job as the most recently used job.
   std::shared_ptr<Job> Find(const CurveRequest& request) GSV_REQUIRES(mutex_);
   void Run();
   void Read(Job& job);

@@ -22,7 +22,8 @@ namespace gsv::gateway::foxglove {
 inline constexpr std::array<std::string_view, 2> kSubprotocols{"foxglove.sdk.v1",
                                                                "foxglove.websocket.v1"};
 
-// Chooses a subprotocol from a Sec-WebSocket-Protocol header; empty if there is no common one.
+// Chooses a subprotocol from a Sec-WebSocket-Protocol header; empty if there is no common
+// subprotocol.
 std::string_view ChooseSubprotocol(std::string_view offered);
 
 using ChannelId = std::uint32_t;

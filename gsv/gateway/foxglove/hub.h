@@ -65,7 +65,7 @@ class Hub {
   };
   enum class Audience {
     kAll,
-    kEstablished,  // all subscribers except new ones
+    kEstablished,  // all subscribers except new subscribers
   };
   void Publish(foxglove::ChannelId channel, const Message& message,
                Audience audience = Audience::kAll);

@@ -30,8 +30,8 @@ struct Route {
   std::string pattern;
   Permission permission = Permission::kWatch;
   // Whether the request is refused while another viewer holds control of the simulation {name}. For
-  // a WebSocket: commands of its client are refused likewise and need Permission::kControl;
-  // connecting needs `permission` only.
+  // a WebSocket: commands of its client are refused in the same case, and need
+  // Permission::kControl. Connecting needs only `permission`.
   bool needs_control = false;
   Pool pool = Pool::kReaders;
   Handler handler;
@@ -40,7 +40,7 @@ struct Route {
   // Whether the body is a file: larger and slower bodies are allowed, and a body is read only if
   // the client may send it.
   bool takes_file = false;
-  // Returns the hub of WebSockets at this address; null if there are none.
+  // Returns the hub of WebSockets at this address; null if the address has no WebSockets.
   FindHub find_hub{};
   // Used instead of `handler` for responses that come later. The server's thread calls it, so it
   // must return at once.

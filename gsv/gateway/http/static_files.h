@@ -35,7 +35,7 @@ class StaticFiles {
   Response Explain() const;
 
   std::filesystem::path given_;  // the root as the user gave it
-  std::filesystem::path root_;   // canonical; empty if there is no such directory
+  std::filesystem::path root_;   // canonical path; empty if the directory does not exist
 };
 
 // The documentation site at "/docs/", as tools/make_docs builds it.

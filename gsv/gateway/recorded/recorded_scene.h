@@ -22,8 +22,8 @@ using ModelSource = std::function<base::Result<SharedBytes>(const std::string& i
 
 class RecordedScene {
  public:
-  // Reads the scenes. problems() lists the invalid ones. `reader` must outlive this. `models`
-  // provides the models that are not attached; null: there are none.
+  // Reads the scenes. problems() lists the invalid scenes. `reader` must outlive this. `models`
+  // provides the models that are not attached; null: no such models are available.
   explicit RecordedScene(const recording::McapReader& reader, ModelSource models = nullptr);
 
   const base::Problems& problems() const { return problems_; }

@@ -33,7 +33,7 @@ class NoteFile {
   // Adds a note and returns its identifier. kInvalidArgument: there are kMaxNotes already.
   base::Result<std::int64_t> Add(double time_s, const std::string& text,
                                  const std::string& created) const;
-  // Removes a note. kNotFound: there is none with this identifier.
+  // Removes a note. kNotFound: there is no note with this identifier.
   base::Status Remove(std::int64_t id) const;
 
  private:

@@ -1,5 +1,5 @@
-// A RecordingFolder lists the recordings that viewers may replay: those in one folder, or a single
-// file.
+// A RecordingFolder lists the recordings that viewers may replay: the recordings in one folder, or
+// a single file.
 //
 // A recording is a file NAME.mcap, a folder that rosbag2 opens, or a folder with run.mcap that
 // `gsv test` keeps of a failure. The failures in the folder gsv-failures count as well, under the

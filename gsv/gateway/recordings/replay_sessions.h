@@ -46,7 +46,7 @@ class ReplaySessions {
   // Returns the world that the images of a session show.
   base::Result<drawing::ViewedWorld> FindViewed(const std::string& name);
 
-  // Ends all sessions and refuses further ones.
+  // Ends all sessions and refuses to open further sessions.
   void Stop();
 
  private:

@@ -2,11 +2,11 @@
 // here.
 //
 // Newest   state that has waited for kMaxWait is dropped if a newer message of its subscription is
-//          queued. So a slow connection gets fewer messages, and no old ones.
+//          queued. So a slow connection gets fewer messages, and no outdated messages.
 // Bounded  control messages (advertisements, answers) are never dropped. If they exceed their
 //          limit, the client is disconnected. If data exceed their limit, state with a newer
-//          message of its subscription is dropped first. If there is none, the oldest data are
-//          dropped.
+//          message of its subscription is dropped first. If there is no such state, the oldest data
+//          are dropped.
 // Threads  any.
 #pragma once
 
@@ -51,7 +51,7 @@ class SendQueue {
 
   // Queues a control message. If the queue is full, drops the message and returns false.
   [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
-  // Always keeps the newest message. Returns the number of dropped older ones.
+  // Always keeps the newest message. Returns the number of older messages that were dropped.
   std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload, Delivery delivery,
                        Time now);
   struct Popped {
@@ -71,7 +71,7 @@ class SendQueue {
   static Outgoing Take(std::deque<Outgoing>& queue, std::size_t& bytes);
   // Drops one data message, because `incoming` does not fit.
   void DropFor(const Outgoing& incoming) GSV_REQUIRES(mutex_);
-  // Whether the message is state, and a newer one of its subscription is queued.
+  // Whether the message is state, and a newer message of its subscription is queued.
   bool IsReplaced(std::deque<Outgoing>::const_iterator message) const GSV_REQUIRES(mutex_);
   // Whether the oldest data message has waited for kMaxWait, and a newer message replaces it.
   bool IsOutdated(Time now) const GSV_REQUIRES(mutex_);

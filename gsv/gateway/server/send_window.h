@@ -41,7 +41,7 @@ class SendWindow {
   static constexpr std::chrono::seconds kMinDelayAge{30};
   static constexpr std::chrono::milliseconds kPingPeriod{100};
   // A connection counts as slow after its pongs were late for kSlowAfter, and as fast again after
-  // none was late for kInTimeAfter.
+  // no pong was late for kInTimeAfter.
   static constexpr std::chrono::seconds kSlowAfter{2}, kInTimeAfter{5};
 
   // Whether a data message may be sent now. If all data are confirmed, a message of any size may be

@@ -34,9 +34,9 @@ struct ServerLimits {
   SendLimits send;
 };
 
-// Names of PEM files; either both are set, or none.
+// Names of PEM files; either both names are set, or neither.
 struct TlsFiles {
-  std::string certificate, key;  // the certificate with intermediate ones, and the key
+  std::string certificate, key;  // certificate with its chain, and private key
 
   bool empty() const { return certificate.empty() && key.empty(); }
 };

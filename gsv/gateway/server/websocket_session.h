@@ -1,7 +1,7 @@
 // Serves a WebSocket connection with the Foxglove protocol, which is a client of a hub.
 //
-// A slow client gets fewer data messages, and no old ones (SendQueue, SendWindow). A status message
-// reports this to the client, and is removed when its connection is fast again.
+// A slow client gets fewer data messages, and no outdated messages (SendQueue, SendWindow). A
+// status message reports this to the client, and is removed when its connection is fast again.
 #pragma once
 
 #include <memory>

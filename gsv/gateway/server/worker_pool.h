@@ -27,7 +27,7 @@ class WorkerPool {
   // and returns false.
   [[nodiscard]] bool Submit(std::function<void()> job);
 
-  // Waits for running jobs and drops pending ones. Must not be called from a job.
+  // Waits for running jobs and drops pending jobs. Must not be called from a job.
   void Stop();
 
  private:

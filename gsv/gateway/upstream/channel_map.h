@@ -27,7 +27,8 @@ class ChannelMap {
   void Handle(const Unadvertise& message);
   void Handle(const MessageData& message);
 
-  // Makes the remote subscriptions equal to those of local viewers. Returns the texts to send.
+  // Makes the remote subscriptions equal to the subscriptions of local viewers. Returns the texts
+  // to send.
   std::vector<std::string> FollowDemand();
   // Sends kept messages to new subscribers.
   void ServeNewSubscribers();

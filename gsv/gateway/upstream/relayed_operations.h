@@ -15,7 +15,7 @@ namespace gsv::gateway::upstream {
 
 class RelayedOperations final : public Operations {
  public:
-  // `simulation` is its name at the other instance; empty: the first one. Requests run on
+  // `simulation` is its name at the other instance; empty: the first simulation. Requests run on
   // `workers`, which must outlive the last call.
   RelayedOperations(const Address& address, const std::string& simulation, WorkerPool& workers);
 

@@ -17,8 +17,8 @@ namespace gsv::gateway::upstream {
 
 class Stream {
  public:
-  // `simulation`: its name at the other instance; empty: the first one. `socket`: path of the
-  // WebSocket: "/ws", or the path of a replay's WebSocket. `operations` may be null. `io` must
+  // `simulation`: its name at the other instance; empty: the first simulation. `socket`: path of
+  // the WebSocket: "/ws", or the path of a replay's WebSocket. `operations` may be null. `io` must
   // outlive the stream.
   static std::shared_ptr<Stream> Make(boost::asio::io_context& io, const Address& address,
                                       const std::string& simulation, const std::string& socket,
