@@ -85,8 +85,8 @@ std::optional<geometry::RollPitchYaw> AnglesOf(const geometry::Quaternion& q) {
   return std::nullopt;
 }
 
-// Whether the world has a ground plane. ReadWorld() adds one to the world that it makes for a
-// single model.
+// Whether the world has a ground plane. ReadWorld() adds a ground plane to the world that it makes
+// for a single model.
 bool HasGroundPlane(const model::WorldDescription& world) {
   return std::any_of(world.models.begin(), world.models.end(),
                      [](const PlacedModel& placed) { return placed.name == "ground_plane"; });

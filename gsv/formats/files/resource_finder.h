@@ -5,11 +5,9 @@
 // searched in this order:
 //   1. beside the naming file, in each of its parent folders (five up), and in the `models` folder
 //      of each of these;
-//   2. on the search path of the caller;
-//   3. on GZ_SIM_RESOURCE_PATH, SDF_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH;
-//   4. among the built-in models;
-//   5. in the ROS package of that name (package.xml) that contains the naming file, or in one near
-//      it.
+//   2. on the search path of the caller; 3. on GZ_SIM_RESOURCE_PATH, SDF_PATH,
+//   IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH; 4. among the built-in models; 5. in the ROS
+//   package of that name (package.xml) that contains the naming file, or in a ROS package near it.
 // If no name matches unchanged, "%20" and the like are decoded. For an address on the web, the
 // model's name is searched as model://NAME. Backslashes count as slashes. Case is ignored if no
 // name matches.
@@ -53,7 +51,7 @@ class ResourceFinder {
                                                  const std::filesystem::path& naming_file) const;
 
   std::vector<std::filesystem::path>
-      search_path_;  // folders of the caller, of the environment, and built-in ones
+      search_path_;  // folders of the caller, the environment, and GSV
   bool allow_absolute_paths_;
 };
 

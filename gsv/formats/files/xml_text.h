@@ -18,8 +18,8 @@ namespace gsv::formats {
 //   - comments and processing instructions are removed, so that a value is one text;
 //   - text that is not UTF-8 is read as ISO-8859-1.
 // An entity that is not declared stays as written. An entity whose text is in another file is left
-// out. Adds warnings for both, for text before <?xml …?>, and for text that is neither UTF-8 nor
-// declared as ISO-8859-1.
+// out. Adds warnings for both kinds of entities, for text before <?xml …?>, and for text that is
+// neither UTF-8 nor declared as ISO-8859-1.
 //
 // Errors: kBadModel if an entity contains itself, or if the expanded text has more than `max_bytes`
 // bytes. Text with malformed tags is returned as far as it can be read; a parser then finds the

@@ -31,7 +31,7 @@ class TextureReader {
   base::Result<std::shared_ptr<const model::Image>> Read(const std::filesystem::path& path);
 
   // Combines two grey images into a metallic-roughness map of glTF: `roughness` becomes the green
-  // channel and `metalness` the blue one. Either may be null.
+  // channel and `metalness` becomes the blue channel. Either image may be null.
   std::shared_ptr<const model::Image> Combine(const std::shared_ptr<const model::Image>& roughness,
                                               const std::shared_ptr<const model::Image>& metalness);
 

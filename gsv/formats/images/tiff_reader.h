@@ -19,7 +19,7 @@
 namespace gsv::formats {
 
 // A grid of heights in the file's unit (metres for a digital elevation model), rows from the north.
-// All heights are finite: those that the file marks as unknown get the lowest height.
+// All heights are finite: samples that the file marks as unknown get the lowest height.
 struct HeightGrid {
   int width = 0, height = 0;
   std::vector<double> heights;  // width * height

@@ -14,7 +14,7 @@ struct ColladaRepair {
 
 // Changes `text` where necessary. Comments and the holes of polygons are removed. Images without a
 // file get a placeholder name. A geometry that would harm assimp (collada_check.h) is left out if
-// there are others. Text that is not COLLADA is not changed.
+// the file has other geometries. Text that is not COLLADA is not changed.
 ColladaRepair RepairCollada(std::string& text);
 
 // Leaves out optional parts of a mesh: at level 1 animations, cameras, lights and physics, at level

@@ -40,7 +40,7 @@ std::size_t Rightmost(const Ring& ring) {
 }
 
 // Whether the segment from the ring's corner i to `p` starts inside the ring. If bridges have made
-// coincident corners, this finds the one that faces p.
+// coincident corners, this finds the corner that faces p.
 bool Faces(const Ring& ring, std::size_t i, const Vector2& p) {
   const std::size_t n = ring.size();
   const Vector2 &before = ring[(i + n - 1) % n].point, &here = ring[i].point;

@@ -1,4 +1,4 @@
-// Reads joints that follow others: <mimic> of URDF, and of SDFormat since 1.11.
+// Reads joints that follow other joints: <mimic> of URDF, and of SDFormat since 1.11.
 #pragma once
 
 #include <filesystem>

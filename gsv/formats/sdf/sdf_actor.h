@@ -24,7 +24,7 @@ struct ActorParts {
 };
 
 // Changes an <actor> element to a <model> element, and returns the parts that a <model> cannot
-// have. A skin without animation becomes a visual of the first link. If there is no link, one is
+// have. A skin without animation becomes a visual of the first link. If there is no link, a link is
 // added. The element keeps its <pose>, which is the pose of the trajectory.
 ActorParts MakeModelOfActor(tinyxml2::XMLElement& actor, const ReadingContext& context);
 

@@ -17,7 +17,7 @@ namespace gsv::formats {
 
 // Couples two joints of `model` by a gearbox: the joint of the child link then follows the joint of
 // the parent link. `gearbox` already has its name, links and frame. `reference` is a link, or -1.
-// If the joints cannot be coupled, adds a warning, and both move freely.
+// If the joints cannot be coupled, adds a warning, and both joints move freely.
 void CoupleGearbox(const sdf::Joint& source, const model::Joint& gearbox, int reference,
                    const std::string& place, const ReadingContext& context, model::Model& model);
 

@@ -1,7 +1,7 @@
 // Reads the slip of wheels: Gazebo's WheelSlip plugin, and GSV's own element <gsv:slip>.
 //
 // WheelSlip   <wheel link_name="…"> with <slip_compliance_lateral>, <slip_compliance_longitudinal>,
-//             <wheel_normal_force> (N) and <wheel_radius> (m; default: that of the wheel's
+//             <wheel_normal_force> (N) and <wheel_radius> (m; default: the radius of the wheel's
 //             collision).
 // <gsv:slip>  <gsv:longitudinal> and <gsv:lateral>, the compliances, both 0 by default. In a
 //             <model> they apply to its drive's wheels, in a <surface> to wheels on it.

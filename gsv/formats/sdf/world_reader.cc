@@ -302,7 +302,7 @@ class WorldReader {
   }
 
   // If one model has an error, each model is parsed separately, so that the error does not affect
-  // the others.
+  // the other models.
   void ParseModels(std::size_t first, std::size_t end) {
     base::Problems problems;
     const auto document =

@@ -1,9 +1,9 @@
 // A WorldState reads the <state> of a world: the poses of models and lights at the time when Gazebo
 // Classic saved the world.
 //
-// The rules are those of Gazebo Classic. Poses of models, links and lights are in the world frame.
-// The poses of links take precedence: joints start at the positions that follow from them. Saved
-// joint positions are used only if the poses of links are missing. Velocities are not read.
+// This follows the rules of Gazebo Classic. Poses of models, links and lights are in the world
+// frame. The poses of links take precedence: joints start at the positions that follow from them.
+// Saved joint positions are used only if the poses of links are missing. Velocities are not read.
 #pragma once
 
 #include <map>

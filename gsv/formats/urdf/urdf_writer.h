@@ -3,8 +3,8 @@
 //
 // Frames    every link of the model keeps its name and its frame. Links are added where URDF's tree
 //           needs them, see urdf_tree.h.
-// Shapes    URDF has boxes, cylinders, spheres and meshes. All others become meshes. A mesh becomes
-//           one STL file for each of its materials, because STL has no materials.
+// Shapes    URDF has boxes, cylinders, spheres and meshes. All other shapes become meshes. A mesh
+//           becomes one STL file for each of its materials, because STL has no materials.
 // Gazebo    <gazebo> elements have Gazebo's additions to URDF: friction, gravity, static models,
 //           and the setting that keeps fixed joints. Other readers ignore them.
 // Left out  sensors, drives and textures (with a warning), restitution and shadows.

@@ -233,7 +233,8 @@ TEST_F(AccessTest, TwoViewersHoldControlOfTwoSimulations) {
   EXPECT_EQ(reset(bob, "other"), 200);
   EXPECT_EQ(reset(ada, "other"), 409);
   EXPECT_EQ(reset(bob, "arena"), 409);
-  // Commands apply to the simulation of the WebSocket's address, not to the viewer's selected one.
+  // Commands apply to the simulation of the WebSocket's address, not to the simulation that the
+  // viewer has selected.
   Viewer stranger(gateway_->port(), "/ws?simulation=other&viewer=" + ada);
   EXPECT_NE(stranger.CallRefusedService("start").find("Bob has control"), std::string::npos);
   Viewer holder(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);

@@ -190,8 +190,8 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
     if (!taken) return base::Fail(taken.error());
     seat = *std::move(taken);
     const base::MutexLock lock(mutex_);
-    // If the client has chosen another camera meanwhile, this image is still drawn, and the next
-    // one uses the new camera.
+    // If the client has chosen another camera since then, this image is still drawn. The next image
+    // uses the new camera.
     if (watched->sequence == sequence && !watched->client.expired()) watched->seat = seat;
   }
   drawer_.SetSource(world->name, world->identity, world->make);

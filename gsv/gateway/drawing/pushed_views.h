@@ -4,10 +4,10 @@
 // An image is drawn when the world or the camera has changed, at most as often as the client wants.
 // The client reports each image that it has shown. The next image is drawn only after this report.
 // If the last report came fast, one more image is drawn before the report. So a slow client gets
-// fewer images, and never old ones. If the connection is too slow for an image (Client::slow_rate),
-// the next images are coarser: first a JPEG of lower quality, then fewer pixels than the client
-// requested. When the connection has been fast enough for some time, the images become finer again.
-// This time doubles each time the images become coarser.
+// fewer images, and never outdated images. If the connection is too slow for an image
+// (Client::slow_rate), the next images are coarser: first a JPEG of lower quality, then fewer
+// pixels than the client requested. When the connection has been fast enough for some time, the
+// images become finer again. This time doubles each time the images become coarser.
 //
 // Format   docs/formats/live.md: a message on the client's subscription with the header
 //          `kImageHeaderSize`, then a JPEG.
@@ -71,7 +71,7 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
 
   WatchedPtr Find(const Key& key) const;
   void Remove(const Key& key);
-  // Asks for the next image, if the client can take one.
+  // Asks for the next image, if the client may get another image now.
   void Continue(const WatchedPtr& watched);
   base::Status Ask(const WatchedPtr& watched);
   // Sends an image. `earliest`: the value with which it was requested (ViewDrawer::Ask()).

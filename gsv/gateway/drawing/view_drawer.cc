@@ -158,7 +158,7 @@ bool ViewDrawer::Serve(const std::string& name) {
   if (instant) {
     const base::MutexLock lock(mutex_);
     World& world = worlds_[name];
-    // If the source was replaced meanwhile, the next call checks the new source.
+    // If the source was replaced in the meantime, the next call checks the new source.
     if (world.source != source) return true;
     if (world.snapshot != instant->snapshot) {
       world.snapshot = instant->snapshot;

@@ -1,9 +1,9 @@
 // A ViewDrawer renders the images that viewers request. It has its own thread, so stepping threads
 // do not wait for it.
 //
-// A viewer asks for the next image with the number of the last one that it got. So images are drawn
-// only if something has changed, and only as fast as the viewer takes them. Requests with the same
-// camera share one image.
+// A viewer asks for the next image with the number of the last image that it got. So images are
+// drawn only if something has changed, and only as fast as the viewer takes them. Requests with the
+// same camera share one image.
 //
 // Threads  any; answers come from its thread, or from the caller's if a request is refused.
 // Bounded  views: see DrawingLimits.
@@ -78,7 +78,7 @@ class ViewDrawer {
   // image is being drawn or the request was answered already.
   bool Withdraw(const Seat& seat);
 
-  // Answers all pending requests with kEnded, and refuses further ones.
+  // Answers all pending requests with kEnded, and refuses further requests.
   void Stop();
 
  private:

@@ -25,7 +25,7 @@ class Histories {
             IsWatched is_watched);
   ~Histories() { Stop(); }
 
-  // Returns the history of a simulation. Starts the history at the first call for a simulation.
+  // Returns the history of a simulation. Starts a history if the simulation has none.
   std::shared_ptr<recording::RunHistory> Of(const SimulationPointer& simulation);
 
   // Ends the thread.

@@ -1,6 +1,6 @@
 // A LiveStream polls one simulation and publishes its changes to a hub.
 //
-// Threads  Round() from the publisher's thread; the others from any.
+// Threads  Round() from the publisher's thread; the other functions from any.
 #pragma once
 
 #include <memory>

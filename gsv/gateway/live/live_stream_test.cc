@@ -43,7 +43,7 @@ TEST_F(LiveStreamTest, SendsPosesInTheOrderOfTheSnapshotsBodies) {
   const auto poses = Decoded<Poses>(data[0]);
   EXPECT_EQ(poses.step, 300u);
   EXPECT_EQ(poses.layout_version, 1u);
-  // The six poses are those of the avatar, robot_0, and the two wheels of each.
+  // The six poses belong to the avatar, robot_0, and the two wheels of each of them.
   ASSERT_EQ(poses.poses.size(), 7u * 6);
   const double* robot = &poses.poses[7 * 3];
   EXPECT_NEAR(robot[0], std::cos(0.6), 1e-12);
@@ -211,8 +211,7 @@ TEST_F(LiveStreamTest, DiagnosticsAreSentOncePerSecondAndWithAChangeOfPhase) {
   ASSERT_EQ(client_->data(1).size(), before + 1);
   const auto diagnostics =
       Decoded<messages::diagnostic_msgs::DiagnosticArray>(client_->data(1).back());
-  ASSERT_EQ(diagnostics.status.size(), 3u);  // the status is that of the simulation and of two
-                                             // robots
+  ASSERT_EQ(diagnostics.status.size(), 3u);  // of the simulation and two robots
   EXPECT_EQ(diagnostics.status[0].message, "running");
 }
 

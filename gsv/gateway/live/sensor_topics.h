@@ -28,8 +28,8 @@
 namespace gsv::gateway {
 
 // A thousand robots have more topics than a viewer can list. The stream advertises the topics of
-// this many sensors, and of requested robots (WantedRobots). A status message reports that others
-// are missing.
+// this many sensors, and of requested robots (WantedRobots). A status message reports that other
+// sensors have no topic.
 inline constexpr std::size_t kMaxSensorTopics = 2000;
 
 class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
@@ -61,8 +61,8 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   RobotBeams::Sources WantedBeams() const;
   void EvictUnsubscribed(Sensors& found);
   std::set<std::string> SubscribedRobots() const;
-  // Advertises the topics of sensors without a channel, up to kMaxSensorTopics; those of
-  // requested robots in any case.
+  // Advertises the topics of sensors without a channel, up to kMaxSensorTopics. Sensors of
+  // requested robots are advertised in any case.
   void Advertise(Sensors& found);
 
   void PublishTransforms(const world::Snapshot& snapshot);

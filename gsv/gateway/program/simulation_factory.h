@@ -41,7 +41,7 @@ struct Placement {
 // A new object: from a model, or a copy of an existing, removed or initial body.
 struct ObjectRequest {
   std::string name;                // the name; empty: derived from the model
-  std::string model, copy_of;      // exactly one of the two is set
+  std::string model, copy_of;      // exactly one of both names is set
   std::optional<Placement> place;  // default: the first free place
 };
 
@@ -83,7 +83,7 @@ class SimulationFactory {
   virtual ~SimulationFactory() = default;
 
   virtual std::vector<std::string> Worlds() = 0;  // names of the built-in worlds
-  // Returns the models that can be robots: built-in ones and those on the model path.
+  // Returns the models that can be robots: built-in models, and models on the model path.
   virtual std::vector<ModelLine> Models() = 0;
   virtual std::vector<std::string> Objects() = 0;  // includes models that are not robots
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;

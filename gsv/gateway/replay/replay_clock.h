@@ -1,5 +1,6 @@
 // A ReplayClock is the position of a replay in simulated time. It advances with the wall clock
-// while the replay plays. Its phases are those of a simulation, so viewers show both alike.
+// while the replay plays. It has the same phases as a simulation, so viewers show replays and
+// simulations alike.
 //
 // Threads  one thread at a time.
 #pragma once
@@ -54,7 +55,7 @@ class ReplayClock {
   bool loop_;
   base::SimTime position_;
   simulation::Phase phase_ = simulation::Phase::kCreated;
-  WallTime last_{};  // time of the last Advance(); {} before the first one
+  WallTime last_{};  // time of the last Advance(); {} before the first call
 };
 
 }  // namespace gsv::gateway

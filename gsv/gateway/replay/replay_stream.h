@@ -62,7 +62,7 @@ class ReplayStream {
   };
 
   static Kind KindOf(const std::string& topic);
-  // Advertises the topics up to the limit, those of the whole simulation first.
+  // Advertises the topics up to the limit, beginning with the topics of the whole simulation.
   void AdvertiseFirst();
   void AdvertiseWanted();
   void EvictUnsubscribed();

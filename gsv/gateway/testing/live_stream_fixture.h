@@ -36,7 +36,7 @@ class LiveStreamTest : public ::testing::Test {
   }
 
   // Calls Round() until `count` messages of the subscription have come from worker threads. Returns
-  // the last one.
+  // the last of these messages.
   ReceivedData RoundUntil(foxglove::SubscriptionId id, std::size_t count) {
     while (client_->data(id).size() < count) {
       Round(std::chrono::milliseconds(1));

@@ -27,7 +27,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   void SetDriveState(const std::string& robot, const world::DriveCommand& command,
                      base::SimTime time);
   // Advances by one step, in which a contact of the two bodies begins at the origin of the first
-  // one.
+  // body.
   void Meet(const std::string& first, const std::string& second);
   // Passes the times of a step to the observers that request them.
   void Time(const simulation::StepTimes& times);

@@ -129,7 +129,7 @@ void Viewer::SendBinary(const std::string& bytes) {
 }
 
 void Viewer::SendRaw(const std::string& bytes) {
-  error_code ignored;  // the server may close the connection meanwhile
+  error_code ignored;  // the server may close the connection during the call
   asio::write(impl_->stream.next_layer(), asio::buffer(bytes), ignored);
 }
 

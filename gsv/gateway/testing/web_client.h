@@ -64,11 +64,12 @@ class Viewer {
   void SendRaw(const std::string& bytes);  // sends bytes without framing
   // Receives the next message; nullopt when the connection has ended.
   std::optional<Frame> Receive();
-  // Receives the next text with that operation; skips others.
+  // Receives the next text with that operation; skips other texts.
   nlohmann::json ReceiveText(const std::string& op);
   // Receives the next message of a subscription; keeps messages of other subscriptions for later.
   ReceivedData ReceiveData(foxglove::SubscriptionId subscription);
-  // Receives the next binary message with that opcode; keeps data for later and skips others.
+  // Receives the next binary message with that opcode; keeps data for later and skips other
+  // messages.
   std::string ReceiveBytes(char opcode);
   // Waits for the advertisement of a service (/gsv/NAME) and calls it with a request in CDR.
   // Returns `success` and `message` of the response.

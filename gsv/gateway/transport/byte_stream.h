@@ -25,8 +25,8 @@
 
 namespace gsv::gateway::transport {
 
-// The buffers of one write. If a sequence has more than 16, only the first 16 are written. An HTTP
-// response has about 12.
+// The buffers of one write. If a sequence has more than 16 buffers, only the first 16 are written.
+// An HTTP response has about 12.
 using Parts = boost::container::static_vector<boost::asio::const_buffer, 16>;
 
 class ByteStream {
