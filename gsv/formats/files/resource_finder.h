@@ -5,9 +5,11 @@
 // searched in this order:
 //   1. beside the naming file, in each of its parent folders (five up), and in the `models` folder
 //      of each of these;
-//   2. on the search path of the caller; 3. on GZ_SIM_RESOURCE_PATH, SDF_PATH,
-//   IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH; 4. among the built-in models; 5. in the ROS
-//   package of that name (package.xml) that contains the naming file, or in a ROS package near it.
+//   2. on the search path of the caller;
+//   3. on GZ_SIM_RESOURCE_PATH, SDF_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH;
+//   4. among the built-in models;
+//   5. in the ROS package of that name (package.xml) that contains the naming file, or in a ROS
+//      package near it.
 // If no name matches unchanged, "%20" and the like are decoded. For an address on the web, the
 // model's name is searched as model://NAME. Backslashes count as slashes. Case is ignored if no
 // name matches.

@@ -15,8 +15,9 @@ namespace gsv::formats {
 //   shapes        without a size or file, or of an unknown kind: their visual or collision is left
 //                 out
 //   inertias      without a mass are left out, as if the link had none. Missing moments become the
-//   moments of a ball limits        that are missing: a revolute joint turns freely, other joints
-//   have no limit materials     that nothing defines, or that are defined twice, are left out
+//                 moments of a ball
+//   limits        that are missing: a revolute joint turns freely, other joints have no limit
+//   materials     that nothing defines, or that are defined twice, are left out
 void RepairUrdfParts(tinyxml2::XMLElement& robot, const std::filesystem::path& file,
                      base::Problems& problems);
 

@@ -16,10 +16,10 @@ namespace gsv::formats {
 //   numbers          the readable part is used, otherwise the default
 //   <pose>           of fewer than six numbers: the position, without rotation (as Gazebo Classic)
 //   colours          components above 1 are taken as parts of 255 (as Gazebo Classic), or as 1
-//   flags            the default, unless they are true, false, 1 or 0 attributes       missing
-//   names are made up, other attributes get their default joints           without a parent or
-//   child are left out; joints of unknown type become fixed sensors          without a type are
-//   left out
+//   flags            the default, unless they are true, false, 1 or 0
+//   attributes       missing names are made up, other attributes get their default
+//   joints           without a parent or child are left out; joints of unknown type become fixed
+//   sensors          without a type are left out
 void RepairValues(tinyxml2::XMLElement& element, const std::filesystem::path& file,
                   base::Problems& problems);
 
