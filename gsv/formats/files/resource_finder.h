@@ -65,7 +65,7 @@ base::Result<std::filesystem::path> FindBeside(const std::string& name,
 bool IsWebAddress(std::string_view name);
 
 // Returns the model file in `folder`. If its model.config lists several files, this is the newest
-// one with an SDFormat version up to 1.9. If it lists none, this is model.sdf.
+// file with an SDFormat version up to 1.9. If it lists no files, this is model.sdf.
 base::Result<std::filesystem::path> ModelFileIn(const std::filesystem::path& folder);
 
 }  // namespace gsv::formats

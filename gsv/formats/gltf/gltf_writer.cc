@@ -18,8 +18,8 @@ using geometry::Vector3;
 using model::Image;
 using model::Material;
 
-// Mozilla Hubs' extension, the only extension for baked light: {"index": texture, "intensity":
-// factor}.
+// Mozilla Hubs' extension, the only extension for baked light:
+// {"index": texture, "intensity": factor}.
 constexpr const char* kLightMapExtension = "MOZ_lightmap";
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;

@@ -4,8 +4,9 @@
 //          positions; its children are its visuals. Coordinates stay as they are: metres, z up,
 //          although glTF has y up; asset.extras contains {"up_axis": "z"}.
 // Names    scene.nodes[i] is links[i] and has its name. Loaders change names ("::" is dropped by
-//          three.js), so the node's extras contain the name as well: {"link": i, "name":
-//          "inner::link"}. A visual's node has {"visual": name, "cast_shadows": bool}.
+//          three.js), so the node's extras contain the name as well:
+//          {"link": i, "name": "inner::link"}.
+//          A visual's node has {"visual": name, "cast_shadows": bool}.
 // Sharing  equal meshes, materials and textures are written once. A texture is its original file if
 //          that is a PNG or JPEG with no side above 1024 pixels. Otherwise it is encoded again and
 //          scaled down to 1024.

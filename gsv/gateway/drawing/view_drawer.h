@@ -58,9 +58,9 @@ class ViewDrawer {
   explicit ViewDrawer(const DrawingLimits& limits = {});
   ~ViewDrawer();
 
-  // Reserves a Seat for one request or stream (see DrawingLimits::viewers). The Seat is free again
-  // when it is destroyed. Fails with kUnavailable if no Seat is free, and with kInvalidArgument if
-  // the image is too large.
+  // Reserves a Seat for one request or stream (see DrawingLimits::viewers). Destroying the Seat
+  // releases it. Fails with kUnavailable if no Seat is free, and with kInvalidArgument if the image
+  // is too large.
   class Seat;
   base::Result<std::shared_ptr<Seat>> Take(const ViewRequest& request);
 

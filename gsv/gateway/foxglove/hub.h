@@ -76,7 +76,7 @@ class Hub {
   void SendStatus(foxglove::StatusLevel level, std::string_view message);
   // Sets the publishers of a channel in the connection graph (default: "gsv").
   void SetPublishers(foxglove::ChannelId channel, std::set<std::string> publishers);
-  // Publishes the changes since the last call of the graph, the parameters and the playback state.
+  // Publishes what has changed since the last call: the graph, the parameters, the playback state.
   void PublishChanges(bool has_jumped = false);
 
   // Disconnects all clients, and each client that connects later, with this reason.

@@ -211,7 +211,7 @@ TEST_F(LiveStreamTest, DiagnosticsAreSentOncePerSecondAndWithAChangeOfPhase) {
   ASSERT_EQ(client_->data(1).size(), before + 1);
   const auto diagnostics =
       Decoded<messages::diagnostic_msgs::DiagnosticArray>(client_->data(1).back());
-  ASSERT_EQ(diagnostics.status.size(), 3u);  // of the simulation and two robots
+  ASSERT_EQ(diagnostics.status.size(), 3u);  // the simulation and two robots
   EXPECT_EQ(diagnostics.status[0].message, "running");
 }
 

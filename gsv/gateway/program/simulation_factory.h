@@ -41,7 +41,7 @@ struct Placement {
 // A new object: from a model, or a copy of an existing, removed or initial body.
 struct ObjectRequest {
   std::string name;                // the name; empty: derived from the model
-  std::string model, copy_of;      // exactly one of both names is set
+  std::string model, copy_of;      // exactly one of the two names is set
   std::optional<Placement> place;  // default: the first free place
 };
 

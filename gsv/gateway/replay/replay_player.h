@@ -1,5 +1,5 @@
-// A ReplayPlayer plays a recording for viewers. It replaces the running simulation of a live
-// gateway.
+// A ReplayPlayer plays a recording for viewers. In a gateway for replays, it has the role of the
+// simulation.
 //
 // Threads  any; its own thread reads the file and publishes.
 // Errors   kNotRunning with a sentence if the phase does not allow an action.
