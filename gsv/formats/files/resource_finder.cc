@@ -17,8 +17,8 @@ using base::ErrorCode;
 
 constexpr int kParentsSearched = 5;
 constexpr std::size_t kMaxNameLength = 4096;
-// Number of folders above a file in which its ROS package is searched, and the maximum number of
-// subfolders that are searched in each of them.
+// The ROS package of a file is searched in kPackageParents folders above the file. In each of these
+// folders, at most kMaxGroups subfolders are searched.
 constexpr int kPackageParents = 4;
 constexpr std::size_t kMaxGroups = 200;
 constexpr std::uintmax_t kMaxPackageFileBytes = 1u << 20;

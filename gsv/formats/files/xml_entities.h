@@ -9,7 +9,7 @@
 namespace gsv::formats {
 
 struct XmlEntity {
-  std::string value;         // its text, which may refer to other entities
+  std::string value;         // text of the entity, which may refer to other entities
   bool is_external = false;  // declared with SYSTEM or PUBLIC: its text is in another file
 };
 

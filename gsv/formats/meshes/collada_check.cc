@@ -40,13 +40,14 @@ bool IsListOfIndices(const XMLElement& element) {
 
 // An accessor reads values of an array: COLLADA 1.4.1, 5-16 (accessor) and 5-56 (float_array).
 struct Accessor {
-  std::string array;  // its id
+  std::string array;  // id of the array
   double values = 0;  // number of values that the array must have; infinite if there is no count
   int line = 0;
 };
 
 // Returns the count in an attribute. Returns `absent` if there is no such attribute, and `odd` if
-// its text has anything but digits: assimp reads such a text differently from other programs.
+// its text has characters other than digits. assimp reads such a text differently from other
+// programs.
 double CountIn(const XMLElement& element, const char* attribute, double absent, double odd) {
   const char* text = element.Attribute(attribute);
   if (text == nullptr) return absent;

@@ -66,8 +66,8 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
                    PlaceOf(*collision, context.source));
     }
   };
-  // If the file has only one friction coefficient, it applies in all directions, as in gz-sim,
-  // whose own test of boxes on a slope sets only <mu>.
+  // If the file has only one friction coefficient, it applies in all directions, as in gz-sim.
+  // gz-sim's own test of boxes on a slope sets only <mu>.
   const auto take_both = [&](const char* engine, const char* first, const char* second) {
     take(surface.friction, {"surface", "friction", engine, first});
     if (ValueAt<double>(collision, {"surface", "friction", engine, first})) {

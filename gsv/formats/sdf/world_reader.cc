@@ -78,7 +78,7 @@ class WorldReader {
     std::string placement_frame;
     std::optional<bool> is_static;
     bool uses_own_pose = false;                // whether the <include> has no <pose>
-    std::size_t distinct = 0;                  // for an inline model: index into distinct_
+    std::size_t distinct = 0;                  // index of an inline model in distinct_
     std::shared_ptr<const StoredFile> stored;  // included
   };
 

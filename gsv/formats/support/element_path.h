@@ -10,8 +10,8 @@
 namespace gsv::formats {
 
 // The origin of an element. An element from the expansion of a xacro file may come from a macro or
-// an included file; then its user data (XMLNode::GetUserData) points to its ElementSource. Nothing
-// else sets the user data of elements.
+// an included file. The user data (XMLNode::GetUserData) of such an element points to its
+// ElementSource. Nothing else sets the user data of elements.
 struct ElementSource {
   std::shared_ptr<const std::filesystem::path> file;
   int line = 0;

@@ -22,7 +22,7 @@ namespace gsv::formats {
 
 struct UrdfMesh {
   std::string file;  // "mesh_0.stl"
-  std::string stl;   // its bytes
+  std::string stl;   // content of the STL file
 };
 
 struct Urdf {

@@ -17,8 +17,8 @@ namespace gsv::formats::xacro {
 struct EvaluationContext {
   // Returns a property's value, or nullopt if there is no such property.
   std::function<base::Result<std::optional<Value>>(const std::string& name)> property;
-  // These return the content of a YAML file, and the value of an argument. Each function may be
-  // empty.
+  // These functions return the content of a YAML file, and the value of an argument. Each function
+  // may be empty.
   std::function<base::Result<Value>(const std::string& file)> load_yaml;
   std::function<base::Result<Value>(const std::string& name)> argument;
   // Receives the texts of xacro.message(), xacro.warning() and xacro.error(); may be empty.

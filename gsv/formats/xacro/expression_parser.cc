@@ -17,7 +17,7 @@ constexpr std::size_t kMaxTokens = 4096;
 struct Token {
   enum class Kind { kEnd, kName, kNumber, kString, kSymbol };
   Kind kind = Kind::kEnd;
-  std::string text;  // for a string, its content
+  std::string text;  // content of a string
 };
 
 bool IsNameStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }

@@ -22,8 +22,9 @@ base::Result<Value> Member(const Value& of, const std::string& name);
 
 // Returns one of pi, e, tau, inf, nan.
 std::optional<Value> Constant(const std::string& name);
-// These find and call a function by its name. Supported are Python's math functions, those of
-// sequences.h, and abs, min, max, round, sum, len, int, float, str, bool, list, tuple.
+// IsFunction() and CallFunction() find and call a function by its name. Supported are Python's math
+// functions, those of sequences.h, and abs, min, max, round, sum, len, int, float, str, bool, list,
+// tuple.
 bool IsFunction(const std::string& name);
 base::Result<Value> CallFunction(const std::string& name, const std::vector<Value>& arguments);
 // Calls a method of a text, list or dictionary: lower, upper, capitalize, strip, startswith,

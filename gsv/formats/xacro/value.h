@@ -62,8 +62,8 @@ bool AreEqual(const Value& a, const Value& b);
 // "2.0" a float, "true" a bool. Removes single quotes around a text. A text with "_" stays a text.
 Value FromLiteral(const std::string& text);
 
-// These convert a text like Python's int() and float(). They return nullopt where Python raises an
-// exception.
+// These functions convert a text like Python's int() and float(). They return nullopt where Python
+// raises an exception.
 std::optional<std::int64_t> ParseInteger(const std::string& text);
 std::optional<double> ParseFloat(const std::string& text);
 

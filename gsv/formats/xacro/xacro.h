@@ -36,8 +36,8 @@ struct ExpandOptions {
 };
 
 struct Expansion {
-  // An element is on the line of the main file from which it came; an element of a macro or of an
-  // included file is on the line of the call.
+  // The expanded XML. An element is on the line of the main file from which it came. An element of
+  // a macro or of an included file is on the line of the call.
   std::string xml;
   // The origin of each element, in the order of the document.
   std::vector<ElementSource> sources;

@@ -5,9 +5,9 @@
 // The client reports each image that it has shown. The next image is drawn only after this report.
 // If the last report came fast, one more image is drawn before the report. So a slow client gets
 // fewer images, and never outdated images. If the connection is too slow for an image
-// (Client::slow_rate), the next images are coarser: first a JPEG of lower quality, then fewer
-// pixels than the client requested. When the connection has been fast enough for some time, the
-// images become finer again. This time doubles each time the images become coarser.
+// (Client::slow_rate), the next images are coarser. First the JPEG quality is lower, then the
+// images have fewer pixels than the client requested. When the connection has been fast enough for
+// some time, the images become finer again. This time doubles each time the images become coarser.
 //
 // Format   docs/formats/live.md: a message on the client's subscription with the header
 //          `kImageHeaderSize`, then a JPEG.

@@ -86,7 +86,7 @@ class ViewDrawer {
     std::weak_ptr<const void> identity;
     std::shared_ptr<ViewSource> source;
     std::shared_ptr<const world::Snapshot> snapshot;  // newest state seen by the drawer
-    std::uint64_t number = 0;                         // its number
+    std::uint64_t number = 0;                         // number of this state
     std::chrono::system_clock::time_point seen{};     // when the drawer first saw it
     Clock::time_point used{};
   };

@@ -76,7 +76,8 @@ using ClientMessage =
     std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, WatchGraph,
                  ServiceCall, PlaybackControl, WatchView, UnwatchView, ViewShown, Unsupported>;
 
-// These parse a text message and a binary message. They fail with kCorrupt for invalid messages.
+// These functions parse a text message and a binary message. They fail with kCorrupt for invalid
+// messages.
 base::Result<ClientMessage> ParseClientMessage(std::string_view text);
 base::Result<ClientMessage> ParseClientBytes(std::string_view bytes);
 

@@ -1,5 +1,5 @@
-// HistoryApi is the part of the HTTP API about the past of running simulations: the time range that
-// is kept, its replay, the events so far, and the notes of viewers.
+// HistoryApi is the part of the HTTP API about the past of running simulations. It serves the time
+// range of the history, its replay, the events so far, and the notes of viewers.
 //
 // Threads  any.
 #pragma once

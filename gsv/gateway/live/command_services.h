@@ -29,8 +29,8 @@ class CommandServices {
   std::vector<foxglove::Service> list() const;
 
   // Returns a function that carries out the call. Run it once; it may block. Fails for an unknown
-  // service or an invalid request. Fields cannot be left out, so a value outside of its parameter's
-  // range means the default: for example 0 for a count, NaN, or an empty text.
+  // service or an invalid request. Fields cannot be left out. So a value outside of its parameter's
+  // range means the default, for example 0 for a count, NaN, or an empty text.
   base::Result<std::function<Response()>> Prepare(const foxglove::ServiceCall& call) const;
 
  private:

@@ -2,7 +2,7 @@
 // a state and a few times per second, and /diagnostics for ROS tools once per second.
 //
 // A large status that differs only in times and counters is sent less often, so that these messages
-// need at most kMaxStatusBytesPerSecond, but not less often than at kMinStatusRate.
+// need at most kMaxStatusBytesPerSecond. The rate is at least kMinStatusRate.
 //
 // Threads  Publish() from one thread.
 #pragma once

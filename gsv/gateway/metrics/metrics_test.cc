@@ -27,8 +27,9 @@ struct Family {
   std::map<std::string, double> samples;  // values by the text of their labels: {phase="running"}
 };
 
-// Reads the text format 0.0.4 strictly, and independently of the writer: each family has its HELP,
-// its TYPE and its samples in this order and in one place, and no sample occurs twice.
+// Reads the text format 0.0.4 strictly, and independently of the writer. Checks that each family
+// has its HELP, its TYPE and its samples in this order and in one place, and that no sample occurs
+// twice.
 std::map<std::string, Family> ParseStrictly(const std::string& text) {
   static const std::regex kHelp(R"(# HELP ([a-zA-Z_:][a-zA-Z0-9_:]*) (\S.*))");
   static const std::regex kType(R"(# TYPE ([a-zA-Z_:][a-zA-Z0-9_:]*) (counter|gauge))");

@@ -58,7 +58,7 @@ class SimulationFactory {
   };
   struct Behaviours {
     std::vector<BehaviourLine> offers;
-    std::string broker;         // its address
+    std::string broker;         // address of the broker
     std::string start_command;  // command that starts a program with this behaviour
   };
   // Whether simulations can be published to ROS 2 nodes, by the key `ros2` of their scenario.

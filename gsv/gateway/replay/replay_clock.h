@@ -29,7 +29,7 @@ class ReplayClock {
   simulation::Phase phase() const { return phase_; }
   bool is_playing() const { return phase_ == simulation::Phase::kRunning; }
 
-  // These fail with kNotRunning and a sentence if the phase does not allow them.
+  // These functions fail with kNotRunning and a sentence if the current phase does not allow them.
   base::Status Start();
   base::Status Pause();
   base::Status Resume();

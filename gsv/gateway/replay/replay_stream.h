@@ -47,7 +47,7 @@ class ReplayStream {
   void Publish(base::SimTime time, simulation::Phase phase, WallTime now,
                const std::function<simulation::SimulationStatus()>& status);
 
-  // These return the last recorded status and poses; empty before the first message.
+  // These functions return the last recorded status and poses; empty before the first message.
   messages::gsv_msgs::SimulationStatus recorded_status() const;
   messages::gsv_msgs::Poses recorded_poses() const;
 

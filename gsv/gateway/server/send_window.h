@@ -1,15 +1,15 @@
-// A SendWindow limits the data that were sent to one client and are not yet confirmed: to the
-// number of bytes that its connection transfers in a fraction of a second. Without this limit,
+// A SendWindow limits the data that were sent to one client and are not yet confirmed. The limit is
+// the number of bytes that the connection transfers in a fraction of a second. Without this limit,
 // operating systems and proxies buffer megabytes, which a slow connection delivers seconds late.
 // Confirmations are the pongs to WebSocket pings (RFC 6455, section 5.5.3). Every client answers
 // pings, and a ping arrives after the messages before it.
 //
 // If the delay of a pong exceeds the minimum delay, the messages before its ping have waited in
 // buffers for the excess. Then the connection was busy. Its rate is the number of bytes that this
-// pong confirms, divided by the time since the last pong. If a full window takes longer than the
-// minimum delay plus kMaxDelay at this rate, it shrinks to a size that takes the minimum delay plus
-// kAimedDelay. If messages had to wait for the window and the excess is below half of kAimedDelay,
-// the window doubles.
+// pong confirms, divided by the time since the last pong. At this rate, a full window should not
+// take longer than the minimum delay plus kMaxDelay. If it does, the window shrinks to a size that
+// takes the minimum delay plus kAimedDelay. If messages had to wait for the window and the excess
+// is below half of kAimedDelay, the window doubles.
 //
 // The minimum delay may increase, for example with another route. If it was measured longer than
 // kMinDelayAge ago and pongs exceed it, the window closes until all data are confirmed. Then a ping

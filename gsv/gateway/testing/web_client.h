@@ -80,7 +80,7 @@ class Viewer {
   // Waits for the advertisement of a topic, then subscribes.
   void Subscribe(foxglove::SubscriptionId id, const std::string& topic);
 
-  // These return the close code and reason of the server.
+  // These functions return the close code and reason of the server.
   std::uint16_t close_code() const;
   std::string close_reason() const;
   void Close();
