@@ -173,7 +173,7 @@ class BoneCutter {
   struct Piece {
     const aiMesh* mesh;
     aiMatrix4x4 offset;
-    int node;  // the node of the offset
+    int node;  // index of the node of `offset`
     std::vector<unsigned> faces;
   };
 
@@ -283,7 +283,7 @@ class BoneCutter {
   const ReadLimits& limits_;
   std::vector<std::vector<Piece>> pieces_;  // by node
   std::vector<TriangleMesh> meshes_;        // by node
-  std::size_t count_ = 0;                   // triangles
+  std::size_t count_ = 0;                   // triangles so far
   bool has_bones_ = false;
 };
 

@@ -305,8 +305,8 @@ double LowestOf(const SkinnedMesh& skin) {
 }
 
 // Returns the animation of the joints. Along a trajectory, the root bone stays at the actor's
-// frame. The height of the root bone is kept only if this moves the feet nearer to the ground (z =
-// 0 in the world). The reason: some skins and their waypoints have the origin at the feet.
+// frame. The height of the root bone is kept only if this moves the feet nearer to the ground (the
+// world's z = 0). The reason: some skins and their waypoints have the origin at the feet.
 std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
                                                     const model::Script& script, int first_joint) {
   const bool follows = !script.trajectories.empty();

@@ -18,7 +18,7 @@
 namespace gsv::gateway::access {
 
 struct Tokens {
-  std::string control, watch;  // empty: none
+  std::string control, watch;  // empty: there is no such token
 
   bool empty() const { return control.empty() && watch.empty(); }
 };

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kFast{100};
 
 struct Detail {
   double scale = 1;   // factor for the width and the height of the image
-  int quality = 100;  // at most
+  int quality = 100;  // maximum quality of the JPEG
 };
 constexpr std::array<Detail, 5> kDetails{{{1, 100}, {1, 55}, {0.75, 45}, {0.5, 40}, {0.35, 30}}};
 // The time in seconds that the transfer of an image over a slow connection may take. If the

@@ -27,7 +27,7 @@ using FindWorld = std::function<base::Result<ViewedWorld>(const Request&)>;
 struct ViewQuery {
   ViewRequest view;
   std::optional<std::uint64_t> after;  // number of the newest image that the client has
-  double frames_a_second = 15;         // at most
+  double frames_a_second = 15;         // maximum rate of images, Hz
 };
 base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream);
 

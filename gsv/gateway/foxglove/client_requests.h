@@ -47,7 +47,7 @@ class ClientRequests {
   struct ClientState {
     std::weak_ptr<Client> client;
     bool knows_playback = false;
-    std::set<std::string> watched;  // parameters
+    std::set<std::string> watched;  // names of the watched parameters
     // The number of pending calls. Answers may come after the client or this object was destroyed.
     std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
   };

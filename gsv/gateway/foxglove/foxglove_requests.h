@@ -27,7 +27,7 @@ struct Unsubscribe {
   std::vector<SubscriptionId> subscriptions;
 };
 struct GetParameters {
-  std::vector<std::string> names;  // empty: all
+  std::vector<std::string> names;  // empty: all parameters
   std::string request;             // id of the request, which is returned with the answer
 };
 struct SetParameters {
@@ -35,7 +35,7 @@ struct SetParameters {
   std::string request;
 };
 struct WatchParameters {
-  std::vector<std::string> names;  // empty: all
+  std::vector<std::string> names;  // empty: all parameters
   bool is_end = false;             // whether the client stops watching
 };
 struct WatchGraph {

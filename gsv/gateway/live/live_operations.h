@@ -33,7 +33,7 @@ class LiveOperations final : public Operations {
   WorkerPool& workers_;
   RecordingSwitch* const recordings_;
   const CommandServices services_;
-  const std::vector<foxglove::Parameter> fixed_;  // parameters
+  const std::vector<foxglove::Parameter> fixed_;  // parameters that cannot be set
 };
 
 }  // namespace gsv::gateway

@@ -55,7 +55,7 @@ struct SensorTopics::Sensor {
   Pacing pacing;
   std::optional<std::int64_t> asked_at_step;  // step of the latest snapshot at the last reading
   WallTime asked_at{};
-  std::atomic<std::chrono::nanoseconds> took{};  // the last reading
+  std::atomic<std::chrono::nanoseconds> took{};  // duration of the last reading
   std::atomic<bool> is_busy{false};
   std::atomic<std::int64_t> published_step{-1};  // step of the last published reading
   std::atomic<bool> has_complained{false};

@@ -93,7 +93,7 @@ class StepCostTopic::Watch final : public simulation::Observer {
     std::uint64_t steps = 0;
     StepTimes sum;
     std::map<std::string, HoldUp> hold_ups;  // by robot
-    std::vector<StepTimes> longest;          // a heap
+    std::vector<StepTimes> longest;          // a heap of the longest steps
   };
 
   void AddHoldUp(const StepTimes& times) GSV_REQUIRES(mutex_) {

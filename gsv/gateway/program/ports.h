@@ -32,9 +32,9 @@ class RecordingSwitch {
   struct State {
     bool is_recording = false;
     std::string path;            // path of the current or the last recording
-    std::uint64_t messages = 0;  // so far
+    std::uint64_t messages = 0;  // recorded messages so far
     std::uint64_t dropped = 0;   // messages dropped because the disk was too slow
-    std::uint64_t bytes = 0;     // written
+    std::uint64_t bytes = 0;     // bytes written so far
   };
 
   virtual ~RecordingSwitch() = default;

@@ -64,7 +64,7 @@ class SimulationFactory {
   // Whether simulations can be published to ROS 2 nodes, by the key `ros2` of their scenario.
   struct Ros2Support {
     bool is_available = false;
-    std::string reason;     // why not
+    std::string reason;     // the reason if ROS 2 is not available
     std::string reach;      // the ROS domain, and which machines can be reached in it
     std::string published;  // the simulation that is published now; empty: none
   };

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxNotes = 1000;
 
 struct Note {
   std::int64_t id = 0;  // positive, unique in the file
-  double time_s = 0;    // simulated
+  double time_s = 0;    // simulated time
   std::string text;
   std::string created;  // time of creation by RFC 3339, in UTC
 };

@@ -16,7 +16,7 @@ inline constexpr std::size_t kMaxNoteLength = 1000;
 // A request for a note, from the body {"text": TEXT, "time_s": T, "author": NAME}.
 struct NoteRequest {
   std::string text;              // the text; with an author, it is "NAME: TEXT"
-  std::optional<double> time_s;  // nothing: now
+  std::optional<double> time_s;  // nullopt: the present time
 };
 base::Result<NoteRequest> ParseNoteRequest(const std::string& body);
 

@@ -33,11 +33,11 @@ struct Outgoing {
   using Time = std::chrono::steady_clock::time_point;
 
   bool is_text = false;
-  bool is_data = false;           // false: control
+  bool is_data = false;           // false: a control message
   foxglove::BinaryHeader header;  // empty for control messages
   SharedBytes payload;
   Delivery delivery = Delivery::kEach;
-  Time queued{};  // set for data
+  Time queued{};  // set only for data
 
   std::size_t size() const { return header.size + payload.size(); }
 };

@@ -100,7 +100,7 @@ class SendWindow {
   void TakeMinDelay(const Mark& mark, Time now);
 
   std::size_t bytes_ = kFirstBytes;
-  std::size_t sent_ = 0;  // all bytes
+  std::size_t sent_ = 0;  // all bytes that were sent
   std::size_t data_sent_ = 0, data_confirmed_ = 0;
   std::optional<Mark> mark_;  // the ping without a pong
   std::uint64_t pings_ = 0;

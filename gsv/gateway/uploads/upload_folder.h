@@ -19,8 +19,8 @@
 namespace gsv::gateway::uploads {
 
 struct UploadLimits {
-  std::size_t files = 5'000;                     // in all
-  std::uint64_t bytes = std::uint64_t{1} << 30;  // in all
+  std::size_t files = 5'000;                     // maximum number of files of all sets
+  std::uint64_t bytes = std::uint64_t{1} << 30;  // maximum size of all sets
   std::size_t depth = 12;                        // maximum depth of folders
 };
 
