@@ -16,9 +16,10 @@ struct BrokerCommand {
   pid_t parent = 0;
 };
 
-// Prints the reference as one line on stdout. Then it serves until SIGINT, SIGTERM or SIGHUP, or
-// until `parent` ends. The process must have no other thread. Returns the exit code: 0; 130 after
-// SIGINT. After an error, which is printed on stderr, it is 2 if an argument is invalid, else 5.
+// Prints the reference as one line on stdout. Then serves requests until SIGINT, SIGTERM or SIGHUP,
+// or until `parent` ends. The process must have no other thread. Returns the exit code: 0 normally;
+// 130 after SIGINT; 2 for an invalid argument; 5 after any other error. Errors are printed on
+// stderr.
 int BrokerMain(const BrokerCommand& command);
 
 }  // namespace gsv::broker

@@ -1,5 +1,5 @@
-// The benchmarks of `gsv bench`, each with its own subcommand. All except the broker's run the step
-// loop of `gsv run`.
+// The benchmarks of `gsv bench`, each with its own subcommand. All benchmarks except that of the
+// broker run the step loop of `gsv run`.
 #pragma once
 
 #include <algorithm>

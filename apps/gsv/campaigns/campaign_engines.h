@@ -19,7 +19,7 @@ struct EngineOptions {
   double timeout = 300;  // wall-clock time limit of a run, s
   double poll = 0;       // time between queries of the queue, s; 0 for the engine's default
   bool waits = true;     // whether to wait for the submitted runs
-  std::string failures;  // a folder; empty if failed runs are not recorded
+  std::string failures;  // folder for recordings of failed runs; empty: none
   std::string broker;    // the broker of the servers for the runs; empty for this machine
   std::string servers;   // a constraint on the servers; empty for any server
 };
@@ -28,8 +28,8 @@ struct EngineOptions {
 // It is NAME.runs for NAME.sqlite.
 std::filesystem::path SpoolOf(const std::string& results_file);
 
-// Adds the results in the spool, if there is one. Creates the results file if necessary. Does
-// nothing if another process is collecting the results.
+// Adds the results in the spool to the results file, which is created if necessary. Does nothing if
+// there is no spool, or if another process is collecting the results.
 int GatherSpool(const std::string& results_file);
 
 // Executes the runs on this machine or on servers. Returns when all runs are done, after a signal,
@@ -39,8 +39,8 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
 int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals);
 
-// Executes the runs of the share and stores their results in the spool. Skips the runs that an
-// earlier attempt has done.
+// Executes the runs of a shard (a share of the campaign's runs) and stores their results in the
+// spool. Skips the runs that an earlier attempt has finished.
 int RunShard(const campaign::Campaign& campaign, const std::string& results_file,
              const Shard& shard, const EngineOptions& options, Signals& signals);
 
@@ -48,8 +48,9 @@ int RunShard(const campaign::Campaign& campaign, const std::string& results_file
 struct TaskArguments {
   std::string batch_file;
   std::size_t task = 0;
-  std::string job = "none", node;  // for the journal; `node` is empty for this machine's name
-  int jobs = 1;                    // number of concurrent runs
+  std::string job = "none",
+              node;  // stored in the journal; an empty `node` means this machine's name
+  int jobs = 1;      // number of concurrent runs
   // whether the task ends when its stdin is closed, in the same way as after a signal
   bool until_stdin_closes = false;
 };

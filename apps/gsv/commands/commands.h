@@ -30,7 +30,7 @@ void AddRecordCommands(const CommandLine& line);  // rec start, stop; after AddR
 void AddSnapshotCommand(const CommandLine& line);
 void AddFilmCommand(const CommandLine& line);
 void AddCompareCommands(const CommandLine& line);  // compare, fit
-void AddControlCommands(const CommandLine& line);  // ps, and those on a simulation
+void AddControlCommands(const CommandLine& line);  // ps, and the commands that control a simulation
 void AddBenchCommands(const CommandLine& line);    // bench
 void AddTestCommand(const CommandLine& line);
 void AddListCommand(const CommandLine& line);

@@ -8,13 +8,14 @@
 
 namespace gsv::app {
 
-// Up to this number of robots, all are listed, ordered by name. Of more robots, only this number is
-// listed: those with the most serious states.
+// The maximum number of listed robots. If there are more robots, only those with the most serious
+// states are listed. Otherwise, all robots are listed, ordered by name.
 inline constexpr std::size_t kMaxListed = 20;
 
-// Returns one line per robot, with its health if the server reports it, else the detail of its
-// state. If robots are left out, the last line counts them by state. With `lists_all`, all robots
-// are listed. If they are many, those with the most serious states come first.
+// Returns one line per robot, with the robot's health if the server reports it, else with the
+// detail of the robot's state. If robots are left out, the last line counts these robots by state.
+// With `lists_all`, all robots are listed. If there are more than kMaxListed, those with the most
+// serious states come first.
 std::string RobotListing(const simulation::SimulationStatus& status,
                          const std::map<std::string, RemoteHealth>& healths, bool lists_all);
 

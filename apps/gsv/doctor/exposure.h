@@ -25,8 +25,8 @@ struct Exposure {
 
 // Tests a socket.
 Exposure Probe(const Listener& listener);
-// Returns the reason why the exposure should be changed, and the remedy. Empty if no change is
-// needed.
+// Returns the reason why the exposure should be changed, and the remedy. Returns an empty text if
+// no change is needed.
 std::string ExposureWarning(const Listener& listener, const Exposure& exposure);
 
 // Prints one line per socket. Returns kOk if there is no warning.

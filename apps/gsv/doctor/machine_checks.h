@@ -10,8 +10,8 @@ namespace gsv::app {
 
 // Returns false if a part that simulations need is missing.
 bool CheckMachine();
-// Checks a broker. If `broker` is empty, it checks the broker of this user's newest instance, if
-// there is one. Returns false if the broker `broker` does not respond.
+// Checks the broker with the reference `broker`. If `broker` is empty, checks the broker of this
+// user's newest instance, if there is one. Returns false if the broker `broker` does not respond.
 bool CheckBroker(const std::string& broker);
 
 }  // namespace gsv::app

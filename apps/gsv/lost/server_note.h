@@ -75,7 +75,7 @@ struct NoteFound {
 struct NotesFound {
   std::vector<NoteFound> notes;               // at most a thousand notes
   base::Problems problems;                    // for example about a file that is not a note
-  std::vector<std::filesystem::path> broken;  // the paths of those files
+  std::vector<std::filesystem::path> broken;  // the paths of files that are not notes
 };
 // Reads all notes in the folder.
 NotesFound ReadNotes(const std::filesystem::path& folder);

@@ -23,8 +23,8 @@ class ChildProcess {
   // The child's stdin is empty, or stays open until this object is destroyed.
   enum class Input { kEmpty, kOpen };
 
-  // Starts a program. `arguments[0]` is its path. Its stdout can be read here. It has this
-  // process's stderr, or none if `quiet` is true.
+  // Starts a program. `arguments[0]` is its path. The child's stdout can be read here. The child
+  // writes to this process's stderr. If `quiet` is true, the child's stderr is discarded.
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
                                                            bool quiet, Input input = Input::kEmpty);
   // Starts a program as Start() does, but its stderr can be read here too. `environment` has

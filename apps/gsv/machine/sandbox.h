@@ -16,10 +16,10 @@ struct Sandbox {
 // The exit code of a sandboxed process that exceeds its memory limit.
 inline constexpr int kWantsMoreMemory = 70;
 
-// Puts this process into a sandbox for the rest of its life. It ends if it exceeds its memory, and
-// is killed if it exceeds its time. It cannot write files, open sockets or start programs
-// (seccomp(2), setrlimit(2)). It can read files. Call it before threads start. Fails if the kernel
-// does not support such filters.
+// Puts this process into a sandbox permanently. The process exits with kWantsMoreMemory if it
+// exceeds its memory limit, and is killed if it exceeds its time limit. It can read files, but
+// cannot write files, open sockets or start programs (seccomp(2), setrlimit(2)). Call this function
+// before threads start. Fails if the kernel does not support seccomp filters.
 base::Status EnterSandbox(const Sandbox& bounds);
 
 }  // namespace gsv::app

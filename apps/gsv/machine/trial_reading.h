@@ -1,8 +1,8 @@
-// Reads an untrusted world in a process with a sandbox first. If that process crashes, hangs or
-// exceeds its limits, this process gets an error and is not harmed.
+// Reads an untrusted world first as a trial, in a child process with a sandbox. If the child
+// crashes, hangs or exceeds its limits, this process gets an error and is not harmed.
 //
-// This process uses only the exit status of that process. If it is 0, this process reads the file
-// itself. docs/security.md describes what this protects against, and what it does not.
+// This process uses only the exit status of the child. If the status is 0, this process reads the
+// file itself. docs/security.md describes what this protects against, and what it does not.
 #pragma once
 
 #include <chrono>

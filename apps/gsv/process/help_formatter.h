@@ -4,7 +4,7 @@
 //
 // An option's description is a short line. If there is more to say, sentences for its manual page
 // follow after a newline. `--help-all` prints these as well, with ranges and with the options that
-// an option needs or excludes. tools/make_man_pages and tools/make_completion read it.
+// an option needs or excludes. tools/make_man_pages and tools/make_completion read this output.
 #pragma once
 
 #include <string>

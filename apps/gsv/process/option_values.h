@@ -13,7 +13,7 @@ namespace gsv::app {
 // as values of an option that may be repeated.
 void TakeOneValuePerOption(CLI::App& command);
 
-// Accepts only numbers from `low` to `high`. The error says so, with the value.
+// Accepts only numbers from `low` to `high`. The error names the range and the value.
 CLI::Validator Between(double low, double high);
 CLI::Validator Between(int low, int high);
 CLI::Validator Between(std::uint64_t low, std::uint64_t high);

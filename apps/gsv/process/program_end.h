@@ -3,8 +3,9 @@
 
 namespace gsv::app {
 
-// Flushes the output and returns the exit code, see EndOutput(). If a behaviour still works on
-// objects that static destructors would destroy, it does not return: it exits without running them.
+// Flushes the output and returns the exit code, see EndOutput(). If a behaviour still uses objects
+// that static destructors would destroy, this function does not return: it ends the process without
+// running static destructors.
 int EndProgram(int exit_code);
 
 }  // namespace gsv::app

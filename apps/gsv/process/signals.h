@@ -9,7 +9,7 @@ namespace gsv::app {
 class Signals {
  public:
   // Blocks these signals for this thread and all threads that it starts later. Call it first in
-  // main(). SIGHUP stays ignored if it is ignored, as by nohup.
+  // main(). If SIGHUP is already ignored, for example by nohup, it stays ignored.
   Signals();
   // Returns the received signal, or 0 if there was none within `milliseconds`.
   int WaitFor(int milliseconds);

@@ -10,7 +10,7 @@ namespace gsv::app {
 
 struct ResimulationOptions {
   std::string file;
-  std::string broker;     // empty if it starts its own broker
+  std::string broker;     // empty if the repeated run starts its own broker
   bool commands = false;  // whether recorded commands are used instead of live behaviours
   bool json = false;
 };

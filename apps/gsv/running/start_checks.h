@@ -9,11 +9,11 @@
 
 namespace gsv::app {
 
-// Warns of a heading beyond a full turn (degrees given as radians) and of a start far from
-// everything in the world. It also warns of a start outside the walls that enclose the world, and
-// of a rigid robot without ground below it. `snapshot` is the world with the robots. Ignores
-// entries without a start, and entries whose name is not in the world. Each sentence is about one
-// entry.
+// Warns of a heading of more than 2 pi, which was probably given in degrees, and of a start far
+// from all bodies of the world. Also warns of a start outside the walls that enclose the world, and
+// of a robot under rigid-body dynamics without ground below it. `snapshot` is the world with the
+// robots. Ignores entries without a start, and entries whose name is not in the world. Each
+// sentence is about one entry.
 base::Problems CheckStarts(const std::shared_ptr<const world::Snapshot>& snapshot,
                            const scenario::Scenario& scenario);
 

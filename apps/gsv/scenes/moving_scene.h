@@ -12,7 +12,8 @@
 namespace gsv::app {
 
 struct MovingSceneOptions {
-  std::string world = "office";  // as for `gsv run`, or the crowd's "square" with floor
+  std::string world =
+      "office";  // a world of `gsv run`, or "square": that of the crowd, with a floor
   std::string model = "b21r";
   int robots = 50;
   simulation::Mode mode = simulation::Mode::kRealTime;

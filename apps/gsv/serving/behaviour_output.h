@@ -1,5 +1,5 @@
-// Handles the output of the behaviour programs that this process starts. Each line is printed on
-// stderr. It is also an event (IsOutput()) of the simulations whose robots the program serves.
+// Handles the output of the behaviour programs that this process starts. Prints each line on
+// stderr, and emits it as an event (IsOutput()) in the simulations whose robots the program serves.
 //
 // A line belongs to the robot that the program serves, or, if it serves several robots, to its
 // behaviour. Lines are kept until a robot has the behaviour.

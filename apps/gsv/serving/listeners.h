@@ -30,8 +30,8 @@ struct ListeningProcess {
   std::vector<Listener> listeners;
 };
 
-// Returns the processes by pid. It does not find processes of other users, and those that end
-// during the search.
+// Returns the processes by pid. Processes of other users, and processes that end during the search,
+// are not found.
 std::vector<ListeningProcess> FindListeningProcesses();
 
 // Returns the listening sockets in a table of the form of /proc/net/tcp and tcp6, by inode.

@@ -44,7 +44,8 @@ struct Selection {
 base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& selection,
                                                            std::vector<std::string>& silent);
 
-// Returns the selected simulation. If nothing is selected, it is that of the newest instance.
+// Returns the selected simulation. If nothing is selected, returns the simulation of this user's
+// newest instance.
 base::Result<FoundSimulation> FindOneSimulation(const Selection& selection);
 
 // Returns the selected instance, even if it runs no simulation. If nothing is selected, it is this
@@ -58,8 +59,8 @@ struct RemoteInstance {
   std::string problem;  // the reason why the simulations are not known; empty if they are
 };
 
-// Queries at the same time all servers that a broker offers, at most 64. Takes a few seconds if
-// some do not answer. Any thread may call it.
+// Queries all servers that a broker offers (at most 64) at the same time. Takes a few seconds if
+// some servers do not answer. Any thread may call it.
 base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker);
 

@@ -93,8 +93,8 @@ class Ros2Access final : public Ros2Publisher {
   std::string Exposure() const;
   // Publishes the simulation of `gsv run`.
   void Publish(const SimulationPointer& simulation);
-  // Publishes the first simulation in the list, and the next one when that has ended. ROS 2 nodes
-  // may load another world.
+  // Publishes the first simulation in the list. When that simulation has ended, publishes the next
+  // one. ROS 2 nodes may load another world.
   void Follow();
 
   gateway::SimulationFactory::Ros2Support Support() override;
@@ -110,7 +110,7 @@ class Ros2Access final : public Ros2Publisher {
         list_(std::move(list)) {}
   // Creates the DDS participant, if there is none.
   base::Status Join() GSV_REQUIRES(publishing_);
-  // Publishes the simulation instead of the previous one, or none if it is null.
+  // Replaces the published simulation by `simulation`, or removes it if `simulation` is null.
   void Show(const SimulationPointer& simulation, ros2::Options options) GSV_REQUIRES(publishing_);
   // Removes a published simulation that has ended. If follows_, publishes the first one in the
   // list.
@@ -131,12 +131,12 @@ class Ros2Access final : public Ros2Publisher {
   std::unique_ptr<ros2::dds::Participant> participant_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<Ros2Spawner> spawner_ GSV_GUARDED_BY(publishing_);
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(publishing_);
-  // With --ros2, these two exist until this object ends. Without it, they end with the published
-  // simulation.
+  // With --ros2, services_ and bridge_ exist until this object ends. Without --ros2, they end with
+  // the published simulation.
   std::unique_ptr<ros2::SimulationServices> services_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<ros2::Bridge> bridge_ GSV_GUARDED_BY(publishing_);
   bool follows_ GSV_GUARDED_BY(publishing_) = false;
-  bool has_world_ GSV_GUARDED_BY(publishing_) = false;  // whether bridge_ is of a simulation
+  bool has_world_ GSV_GUARDED_BY(publishing_) = false;  // whether bridge_ publishes a simulation
   std::thread watcher_ GSV_GUARDED_BY(publishing_);
 
   base::Mutex mutex_;

@@ -33,7 +33,8 @@ class Recordings;
 class SimulationBuilder;
 
 struct RuntimeOptions {
-  std::string broker;  // the reference of a broker; if empty, it starts its own one, on loopback
+  std::string
+      broker;  // the reference of a broker; if empty, the runtime starts a broker on loopback
   // if false, there are no behaviours over CORBA, no services and no viewer
   bool has_broker = true;
   std::vector<std::filesystem::path> model_path;

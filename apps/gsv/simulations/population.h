@@ -39,10 +39,10 @@ struct Population {
 };
 
 // Adds the robots and the avatars, without behaviours. A robot without a model must exist in the
-// world. A robot without a place gets a free one. By default it is the first on a spiral about the
-// origin. On a grid, robots get one cell of 1 m after the other, from the origin outwards. Random
-// places are in a disc whose size grows with the number of robots. Adds the problems of model files
-// to `problems`.
+// world. A robot without a place gets a free one. By default, this is the first free place on a
+// spiral about the origin. `placing` can instead select the cells of a grid of 1 m, from the origin
+// outwards, or random places in a disc whose size grows with the number of robots. Adds the
+// problems of model files to `problems`.
 FieldResult<Population> Populate(simulation::Simulation& simulation, formats::ModelLibrary& library,
                                  const scenario::Scenario& scenario, base::Problems& problems,
                                  const Placing& placing = {});
@@ -60,14 +60,14 @@ tl::expected<void, FieldError> GiveBehaviours(simulation::Simulation& simulation
 std::shared_ptr<const model::Model> ModelInWorld(const simulation::Simulation& simulation,
                                                  const std::string& name);
 
-// Adds one robot or avatar, with its behaviour. If it has no model, the one with its name in the
-// world is used. Returns its actual name.
+// Adds one robot or avatar, with its behaviour. If the entry has no model, the model of that name
+// in the world is used. Returns the actual name of the robot or avatar.
 FieldResult<std::string> AddOne(simulation::Simulation& simulation, formats::ModelLibrary& library,
                                 const scenario::RobotEntry& robot, bool is_avatar,
                                 const BehaviourMaker& make, base::Problems& problems);
 
-// Adds an object that is not a robot. If it has no place, it gets the first free one, like a robot.
-// Returns its actual name.
+// Adds an object that is not a robot. An object without a place gets the first free place, like a
+// robot. Returns the object's actual name.
 FieldResult<std::string> AddOneObject(simulation::Simulation& simulation,
                                       formats::ModelLibrary& library,
                                       const gateway::ObjectRequest& object,

@@ -56,7 +56,7 @@ base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path
 // Starts and stops recordings.
 class Recordings final : public gateway::RecordingSwitch {
  public:
-  // `folder` is for recordings that are started in the viewer.
+  // Recordings that are started in the viewer are written to `folder`.
   explicit Recordings(std::filesystem::path folder);
   ~Recordings() override;
 

@@ -63,7 +63,8 @@ class SimulationBuilder final : public gateway::SimulationFactory {
 
  private:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
-  // A recently read world. A user who fills a world with robots requests it repeatedly.
+  // A recently read world, which is cached because a user who adds robots in the viewer requests
+  // the same world repeatedly.
   struct KnownWorld {
     std::string file;
     std::filesystem::file_time_type changed;

@@ -13,8 +13,8 @@
 
 namespace gsv::app {
 
-// `file` is the name of the world's file in the scenario. Velocities and the positions of joints
-// are not saved.
+// `file` is the name of the world's file in the scenario. Velocities and joint positions are not
+// saved.
 base::Result<gateway::SimulationFactory::SavedWorld> SaveWorld(
     const simulation::Simulation& simulation, const std::string& file,
     const formats::ReadOptions& options);

@@ -20,8 +20,8 @@ namespace gsv::broker {
 bool Matches(const Expression& constraint, const PropertySource& offer);
 
 // Returns the number by which `min` and `max` order offers, or nullopt if there is no value or the
-// value is not a number. A long double holds every int64 and double exactly, so mixed numbers have
-// one order.
+// value is not a number. A long double represents every int64 and every double exactly, so integers
+// and real numbers can be ordered together.
 std::optional<long double> EvaluateNumber(const Expression& expression,
                                           const PropertySource& offer);
 

@@ -27,7 +27,7 @@ struct DynamicLimits {
 // Limits on queries to other traders.
 struct FederationLimits {
   // Time limit of one hop. With H hops left, a trader waits H times as long. So each trader on the
-  // way still has time to answer if those behind it do not.
+  // way still has time to answer if the traders after it do not answer.
   std::chrono::milliseconds per_hop{500};
   std::size_t links = 100;
   std::size_t proxies = 16;      // maximum number of proxies that one query uses

@@ -1,5 +1,6 @@
 // The offers that a query found, in order. The list points to offers in views and has no shared
-// pointer to each of them. So a query that finds many offers does not access their memory.
+// pointer to each of them. So a query that finds many offers does not access the memory of each
+// offer to count a reference.
 //
 // Threads  not safe. The memory of KeptOffers may be released by any thread.
 #pragma once
@@ -37,7 +38,7 @@ class FoundOffers {
     const OfferPtr* const* place_;
   };
 
-  // The list is empty; `views` are those of the offers that will be added.
+  // Makes an empty list. `views` must contain the offers that will be added.
   explicit FoundOffers(std::vector<OfferView> views = {});
 
   std::size_t size() const { return places_.size(); }
@@ -49,18 +50,18 @@ class FoundOffers {
   Iterator end() const { return Iterator(places_.data() + places_.size()); }
 
   const std::vector<OfferView>& views() const { return kept_->views; }
-  // The places of the offers, which are valid as long as kept().
+  // Pointers to the offers in the views, valid as long as kept().
   const std::vector<const OfferPtr*>& places() const { return places_; }
   std::shared_ptr<const KeptOffers> kept() const { return kept_; }
 
   // `offer` is an element of one of the views.
   void Add(const OfferPtr& offer) { places_.push_back(&offer); }
   void AddOther(OfferPtr offer);
-  // Replaces the list by the offers at these places.
+  // Replaces the list by these offers, which are elements of the views.
   void SetPlaces(std::vector<const OfferPtr*> places) { places_ = std::move(places); }
   void Truncate(std::size_t size);
-  // Returns the offers from `first` on. If they are few among many offers of the views, the result
-  // keeps only them alive.
+  // Returns the offers from index `first` on. If these are only a small part of the views' offers,
+  // the result keeps only these offers alive, and not the views.
   FoundOffers From(std::size_t first) const;
 
  private:

@@ -21,7 +21,7 @@ enum class PropertyMode : std::uint8_t {
 
 inline bool IsReadonly(PropertyMode mode) { return (static_cast<int>(mode) & 1) != 0; }
 inline bool IsMandatory(PropertyMode mode) { return (static_cast<int>(mode) & 2) != 0; }
-// Returns the mode with the requirements of both.
+// Returns the mode with the requirements of both modes.
 inline PropertyMode Stronger(PropertyMode a, PropertyMode b) {
   return static_cast<PropertyMode>(static_cast<int>(a) | static_cast<int>(b));
 }

@@ -21,7 +21,7 @@ class ComponentsServant : public virtual POA_CosTrading::TraderComponents {
   TradingObjects& objects_;
 };
 
-// Implements the attributes for what the trader supports.
+// Implements the attributes for the trader's optional features and its type repository.
 class SupportServant : public virtual POA_CosTrading::SupportAttributes {
  public:
   CORBA::Boolean supports_modifiable_properties() override;

@@ -1,7 +1,6 @@
 // Gets the values of dynamic properties from services (CosTradingDynamic::DynamicPropEval).
 //
-// Values, and failures to get one, are cached for a short time, so that many queries need few
-// calls.
+// Values and failed calls are cached for a short time, so that many queries need few calls.
 //
 // Threads  any; no lock is held during a call.
 #pragma once

@@ -1,5 +1,5 @@
-// Forwards a query to other traders, to all at the same time, within the query's time limit. If a
-// trader did not answer before, only one query at a time calls it.
+// Forwards a query to other traders, to all at the same time, within the query's time limit. A
+// trader that did not answer the last call is called by only one query at a time.
 //
 // Errors   a trader that does not answer, or refuses, contributes no offers. When a trader becomes
 //          silent, and when it answers again, this is logged on stderr.
@@ -35,7 +35,8 @@ struct ForwardedQuery {
   std::chrono::steady_clock::time_point deadline;
 };
 
-// A trader to which a query is forwarded, and the parts of the query that are different for each.
+// A trader to which a query is forwarded, and the parts of the query that are specific to this
+// trader.
 struct QueryDestination {
   std::string name;    // the name in messages, such as "link north"
   std::string target;  // the trader's Lookup: "IOR:…"

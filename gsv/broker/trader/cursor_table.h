@@ -25,8 +25,9 @@ struct CursorLimits {
   std::chrono::nanoseconds lifetime = std::chrono::seconds(60);
 };
 
-// Returns the number of entries from `next` on that fit into one answer: at most `count`, and at
-// most `bytes` by `size_of`. It is at least one if any entries remain and `count` is not 0.
+// Returns the number of entries from `next` on that fit into one answer: at most `count` entries,
+// with a total size (by `size_of`) of at most `bytes`. Returns at least 1 if entries remain and
+// `count` is not 0.
 template <typename Entry, typename SizeOf>
 std::size_t CountFitting(const std::vector<Entry>& entries, std::size_t next, std::size_t count,
                          std::size_t bytes, const SizeOf& size_of) {

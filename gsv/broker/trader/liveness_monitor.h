@@ -9,7 +9,7 @@
 // The offer of a dead service is visible for at most two periods plus the time for silent
 // addresses. This time is the number of these addresses times `timeout` / `concurrent`.
 //
-// Threads  it has threads of its own.
+// Threads  the monitor starts its own threads.
 #pragma once
 
 #include <chrono>

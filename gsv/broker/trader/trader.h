@@ -89,8 +89,7 @@ class Trader {
   TradingResult<void> MaskType(const std::string& name);
   TradingResult<void> UnmaskType(const std::string& name);
 
-  // ---- Offers
-  // The type for an export: it must be known and not masked.
+  // ---- Offers Returns the service type for an export. Fails if the type is unknown or masked.
   TradingResult<ServiceType> TypeForExport(const std::string& type) const;
   // Exports an offer without checking `reference`. Returns the offer's id.
   TradingResult<std::string> Export(const std::string& type, std::string reference,
@@ -105,15 +104,17 @@ class Trader {
   TradingResult<std::size_t> WithdrawMatching(const std::string& type,
                                               const std::string& constraint,
                                               DynamicEvaluator* evaluator = nullptr);
-  // Withdraws those offers with these numbers that still exist. Returns how many it has withdrawn.
+  // Withdraws the offers with these numbers, and ignores numbers of offers that no longer exist.
+  // Returns the number of withdrawn offers.
   std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
   // Returns the ids of the offers in the order of export, without proxies.
   std::vector<std::string> OfferIds() const;
   Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
-  // ---- Proxy offers: the members for offers above do not affect them
-  // Does not check `target`, another trader's Lookup. Returns the proxy's id.
+  // ---- Proxy offers, which the members for offers above do not affect
+  // Exports a proxy offer without checking `target`, the Lookup of another trader. Returns the
+  // proxy's id.
   TradingResult<std::string> ExportProxy(const std::string& type, std::string target,
                                          std::vector<Property> properties, ProxyPart part);
   TradingResult<void> WithdrawProxy(const std::string& id);
@@ -135,9 +136,10 @@ class Trader {
     if (journal_ != nullptr) journal_->Close();
   }
 
-  // ---- Queries Queries search the offers of this trader only. FindMatching() finds the offers,
-  // and Rank() orders and limits them. Find() calls both. A caller may call them separately and add
-  // offers of other traders in between.
+  // ---- Queries
+  // Queries search the offers of this trader only. FindMatching() finds the offers, and Rank()
+  // orders and limits them. Find() calls both functions. A caller may call FindMatching() and Rank()
+  // separately, and add offers of other traders in between.
   TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
   QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
   TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;

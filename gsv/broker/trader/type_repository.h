@@ -31,8 +31,8 @@ class TypeRepository {
   [[nodiscard]] base::Status Restore(std::vector<ServiceType> types,
                                      std::uint64_t next_incarnation);
 
-  // Adds a type by the name, interface, properties and super types of `type`, and ignores the rest.
-  // Returns the incarnation.
+  // Adds a type with the name, interface, properties and super types of `type`. Ignores the other
+  // members of `type`. Returns the incarnation of the new type.
   TradingResult<std::uint64_t> Add(ServiceType type);
   TradingResult<void> Remove(const std::string& name);
   // Returns the names of all types, or of those with an incarnation not below `since`, sorted.

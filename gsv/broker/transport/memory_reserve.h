@@ -1,6 +1,6 @@
 // A memory reserve for a broker with limited address space (process_limits.h). It is freed when an
-// allocation fails. Operations that would keep more memory are then refused until as much is free
-// again. So a full broker still answers queries, also over new connections, and clients can
+// allocation fails. Operations that would store more data are then refused until as much memory is
+// free again. So a full broker still answers queries, also over new connections, and clients can
 // withdraw offers. The ORB's threads, which do not catch bad_alloc, do not run out of memory.
 //
 // Threads  any; call HoldMemoryReserve() before other threads start.
