@@ -1,5 +1,5 @@
-// Wanders like wander, without images, and with one round trip per control cycle: sonars in,
-// command out.
+// Wanders like the behaviour `wander`, but takes no images. One round trip per control cycle
+// transfers the readings of the sonars and the command.
 #include "behaviours/wander_rule.h"
 #include "sdk/behaviour/module.h"
 

@@ -18,7 +18,8 @@ class WanderRule {
     const double ahead = Nearest(echoes, 0.0, 0.9);
     const double left = Nearest(echoes, 0.9, 0.9);
     const double right = Nearest(echoes, -0.9, 0.9);
-    // The robot starts to turn early before an obstacle, and turns until there is more space.
+    // The robot starts to turn when an obstacle ahead is nearer than radius + 0.4 m. It turns until
+    // no obstacle ahead is nearer than radius + 0.7 m.
     const double enough = radius + (turn_ != 0 ? 0.7 : 0.4);
     if (ahead < enough) {
       if (turn_ == 0) turn_ = left >= right ? 1 : -1;

@@ -187,7 +187,7 @@ void RemoteRobot::CloseClock() {
 void RemoteRobot::GiveUp(const std::string& reason) {
   if (CORBA::is_nil(clock_)) return;
   const auto told = orb::Call(name_, [&] { clock_->give_up(reason.c_str()); });
-  if (!told) CloseClock();  // a simulation of an older version reports a normal end
+  if (!told) CloseClock();  // older simulations have no give_up() and report a normal end
 }
 
 std::vector<SensorTraits> RemoteRobot::Sensors() {

@@ -89,7 +89,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   sba::SensorFactory_var factory_;
   sba::ActuatorProxy_var base_;
   sba::Clock_var clock_;
-  sba::BatchClock_var batch_clock_;  // nil if the clock is none, or if it does not hold the time
+  sba::BatchClock_var batch_clock_;  // nil if the clock is no BatchClock, or does not hold the time
   HeldInstant held_;
   double footprint_radius_ = 0;
   std::uint64_t cycle_ = 0;

@@ -387,7 +387,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   EXPECT_NEAR(values.at("ranging")[0], std::hypot(5.02, 0.25), 1e-3);
   EXPECT_NEAR(values.at("altimeter")[2], 0.25, 1e-9);
   EXPECT_GT(values.at("navsat")[0], 45);
-  EXPECT_NEAR(values.at("force_torque")[2], -9.8, 1e-9);  // the lever of 1 kg
+  EXPECT_NEAR(values.at("force_torque")[2], -9.8, 1e-9);  // weight of the 1 kg lever
   EXPECT_EQ(local.names.at("contact"), std::vector<std::string>{"wall"});
   EXPECT_EQ(values.at("radio")[0], 0.02);
   EXPECT_EQ(values.at("radio missed"), (std::vector<double>{4, 0}));

@@ -146,7 +146,8 @@ std::string Drawn(std::uint64_t seed, const Parameter& parameter, std::size_t ru
   return fmt::format("{}", value);
 }
 
-// Checks each value of a parameter alone, so that errors are reported before any run begins.
+// Checks the scenario with each value of a parameter separately, so that errors are reported before
+// any run begins.
 void TryValues(const Campaign& campaign, const std::string& file, base::Problems& problems) {
   Campaign alone = campaign;
   for (const Parameter& parameter : campaign.parameters) {

@@ -48,7 +48,8 @@ struct Campaign {
   std::string Identity() const;  // a hash of the definition, 16 hexadecimal digits
 };
 
-// Reads a campaign. Checks each value alone in the scenario and adds the errors to `problems`.
+// Reads a campaign. Inserts each value separately into the scenario, checks the result, and adds
+// the errors to `problems`.
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
 // Reads a campaign. Sets `engine` to the one that `request` names, or else to the one in the file
 // (engine.h).

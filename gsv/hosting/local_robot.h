@@ -33,7 +33,7 @@ class alignas(64) LocalRobot final : public Robot {
   void End() { is_running_ = false; }
   void Note(const base::Error& error);
 
-  // Whether no open sensor takes long to read, as a camera does.
+  // Whether all open sensors can be read quickly. A camera, for example, takes long.
   bool HasOnlyFastSensors() const;
   // Reads all open sensors, ordered by name. The readings are valid until the next call on this
   // thread.

@@ -39,7 +39,8 @@ struct Fault {
     kBodyMoves,      // body: the body is moved to `place`
     kJointMoves,     // body/joint: the joint moves to `target` in the unit of `unit`
   };
-  // The quantity that `target` is: in rad or m, in rad/s or m/s, in N m or N.
+  // The quantity that `target` sets: a position (rad or m), a velocity (rad/s or m/s), or an effort
+  // (N m or N).
   enum class Unit { kPosition, kVelocity, kEffort };
 
   Kind kind = Kind::kSensorSilent;

@@ -32,8 +32,8 @@ class SimulationHost {
   // files to `problems`.
   base::Result<std::shared_ptr<simulation::Simulation>> Create(
       simulation::Specification specification, const std::string& world, base::Problems& problems);
-  // Creates a simulation for a preview. It is not in the list and takes no name.
-  // `specification.world` must be set.
+  // Creates a simulation for a preview. The simulation is not in the list, and another simulation
+  // may have the same name. `specification.world` must be set.
   base::Result<std::shared_ptr<simulation::Simulation>> CreateUnlisted(
       simulation::Specification specification) const {
     return simulation::Simulation::Create(std::move(specification), sensors_);

@@ -25,7 +25,7 @@ class Margin {
   friend std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
   scenario::Formula condition_;
-  bool must_come_ = false;  // for "eventually" the largest distance counts; else the smallest
+  bool must_come_ = false;  // true for "eventually", whose margin is the largest distance
   base::SimTime from_{0};
   std::optional<base::SimTime> by_;
   std::string unit_;

@@ -12,7 +12,8 @@ namespace gsv {
 
 class SonarRing {
  public:
-  // Opens the `count` sonars whose bearings are nearest to 0, 1, … count-1 times 2 pi / count.
+  // Opens `count` sonars. Their bearings are those nearest to i * 2 pi / count, for i from 0 to
+  // count - 1.
   static base::Result<SonarRing> Open(Robot& robot, int count);
 
   struct Echo {

@@ -112,7 +112,7 @@ struct Figures {
   std::uint64_t triangles = 0;
   int images = 0;
   double wall = 0, processor = 0;  // in s
-  double least_processor = 1e9;    // the smallest of all batches, s
+  double least_processor = 1e9;    // smallest processor time of a batch, s
   std::vector<double> latencies;   // from the request to the images, ms
   std::vector<double> intervals;   // from one step to the next, ms
 };

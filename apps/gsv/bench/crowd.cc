@@ -47,7 +47,8 @@ struct CrowdRow {
   std::uint64_t health_reports = 0;
 };
 
-// The current resident size, and not its maximum, because one process measures all rows.
+// Returns the current resident memory of this process, in MiB. The maximum would include earlier
+// rows of the table, which the same process has measured.
 double ResidentMebibytes() {
   std::ifstream statm("/proc/self/statm");
   double pages = 0, resident = 0;

@@ -72,7 +72,7 @@ struct ScanFigures {
   Solids solids;
   std::int64_t scans = 0, rays = 0;
   double wall = 0, processor = 0;  // time of all readings and of building the ray scenes, s
-  double least_processor = 1e9;    // the smallest of all instants, s
+  double least_processor = 1e9;    // smallest processor time of an instant, s
   std::vector<double> instants;    // time of the readings of one instant, ms
 };
 

@@ -163,8 +163,8 @@ int PrintOutput(const Arguments& arguments) {
 
 using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
 
-// Waits until the steps are done. Behaviours may make this arbitrarily long. Returns false if the
-// user interrupts.
+// Waits until the requested steps are done. Slow behaviours can make this wait arbitrarily long.
+// Returns false if the user interrupts.
 base::Result<bool> AwaitRest(const FoundSimulation& simulation, Signals& signals) {
   auto phase = sba::PHASE_STARTING;
   while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {

@@ -241,8 +241,8 @@ struct ReplayArguments {
   bool open = false;
   bool json = false;
   bool resimulate = false;
-  std::string broker;     // for a repeated simulation
-  bool commands = false;  // for a repeated simulation
+  std::string broker;     // the broker's reference, for --resimulate
+  bool commands = false;  // whether --resimulate repeats recorded commands
 };
 
 // Reads the whole file, message by message, and reports what a replay would show.

@@ -32,7 +32,7 @@ struct TestArguments {
   bool json = false, no_record = false, open = false;
 };
 
-// Runs all cases, a limited number at a time. Each has its own thread, which waits for a child
+// Runs all cases, a limited number at a time. Each case has its own thread, which waits for a child
 // process.
 class TestSession {
  public:

@@ -72,7 +72,7 @@ TEST_F(ServerNoteTest, ReadsBackWhatWasWritten) {
 TEST_F(ServerNoteTest, ProcessRunsUnlessPidOrBootWasReused) {
   ServerNote note = NewNote();
   EXPECT_TRUE(IsProcessRunning(note));
-  ++note.started;  // another process had this number
+  ++note.started;  // as if another process with this pid had written the note
   EXPECT_FALSE(IsProcessRunning(note));
   note = NewNote();
   note.boot = "before";

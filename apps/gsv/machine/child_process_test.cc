@@ -10,7 +10,7 @@
 namespace gsv::app {
 namespace {
 
-// Libraries open sockets that a program started meanwhile would inherit.
+// A library may open a socket that a child process would inherit. ChildProcess must close it.
 TEST(ChildProcess, InheritsNoOpenFile) {
   const int file = open("/dev/null", O_RDONLY);
   ASSERT_GE(file, 0);

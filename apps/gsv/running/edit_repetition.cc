@@ -84,7 +84,8 @@ class EditMaker {
                                                simulation_.specification().world->source);
   }
 
-  // A robot of the world that was added again was read from the world's file, or from its own file.
+  // Returns the model of an added robot. If the recorded edit added a robot of the world again,
+  // this is the model from the world. Otherwise, the model is read from its file.
   base::Result<std::shared_ptr<const model::Model>> ReadRobot(const Edit& edit) {
     const auto own = ModelInWorld(simulation_, edit.body);
     const bool is_own =

@@ -19,7 +19,7 @@ using geometry::Vector3;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kFullTurn = 2 * std::numbers::pi + 1e-6;  // in rad
-constexpr double kFar = 20;         // distance from the bodies of the world, m
+constexpr double kFar = 20;         // minimum distance from the bodies for a warning, m
 constexpr double kFloorTop = 0.1;   // a body whose top is below this is a floor and not a wall, m
 constexpr double kRayHeight = 0.3;  // height above the floor of the rays that detect walls, m
 constexpr int kDirections = 64;

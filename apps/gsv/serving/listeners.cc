@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using SocketsByInode = std::map<std::uint64_t, Listener>;
 
-// The ports of a domain (RTPS 2.3, 9.6.1.1).
+// The first port of DDS, and the number of ports per domain (RTPS 2.3, 9.6.1.1).
 constexpr std::uint32_t kFirstDdsPort = 7400, kPortsOfDomain = 250;
 
 std::string ReadWhole(const fs::path& path) {

@@ -23,12 +23,12 @@ struct TestCase {
 base::Result<std::vector<TestCase>> FindTestCases(const std::vector<std::string>& names,
                                                   base::Problems& problems);
 
-// A part of the cases. "2/3" is the second of three shares.
+// A part of the cases. "2/3" is the second of three parts.
 struct Shard {
   std::size_t index = 1, count = 1;
 };
 base::Result<Shard> ParseShard(const std::string& text);
-// Returns every n-th case, so that shares have about equal sizes.
+// Returns the cases of a shard: every n-th case, so that the shards have about equal sizes.
 std::vector<TestCase> ShareOf(std::vector<TestCase> cases, const Shard& shard);
 
 // The options of `gsv test` for each scenario.
@@ -54,7 +54,7 @@ struct TestResult {
   std::string folder;         // the folder with the files of the failure; may be empty
   double failed_at = 0;       // simulated time of the first violation, else of the end, s
   std::string about;          // the robot that the failure is about; may be empty
-  std::string command;        // the command that repeats it
+  std::string command;        // the command that repeats the failed run
   double wall_seconds = 0;
   std::vector<std::string> hashes;  // state hashes of the repetitions
   nlohmann::ordered_json report;    // the report of `gsv run` for the last repetition; may be empty

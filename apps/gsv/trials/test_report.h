@@ -8,7 +8,7 @@
 
 namespace gsv::app {
 
-// Returns one line, and for a failure also the reason and the place of its files.
+// Returns one line, and for a failure also the reason and the folder with the files of the failure.
 std::string ToText(const TestResult& result);
 
 // Returns JUnit's XML for Jenkins and GitLab. It has one <testcase> per scenario, <failure> for

@@ -42,8 +42,8 @@ class OfferStore {
   Offers All() const;
 
   // Returns the offers that the index of one of `terms` finds, in the order of OfTypes(). They
-  // include all offers for which this term is TRUE. Of several indexed terms, the one that finds
-  // the fewest offers is used. Returns nullopt if no term has an index in every type.
+  // include all offers for which this term is TRUE. If several terms have indices, the store uses
+  // the term that finds the fewest offers. Returns nullopt if no term has an index in every type.
   std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
                                                     const std::vector<EqualityTerm>& terms) const;
   // Makes indices for the first few of `terms`. Each type keeps a few indices, and the oldest one

@@ -64,8 +64,8 @@ struct Modification {
 
 class Trader {
  public:
-  // `stem` is part of every offer's id, so that an id of another trader is unknown to this one.
-  // `seed` is that of the preference "random".
+  // `stem` is part of every offer's id, so that this trader recognises ids of other traders as
+  // unknown. `seed` is that of the preference "random".
   Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
   // Restores the state of an earlier trader, including its stem, and stores every later change in

@@ -2,8 +2,8 @@
 // prevents clients from delaying other clients:
 //
 // - A message has at most 64 KiB, and must arrive within 3 s.
-// - At most `connections` of clients stay open. A further one closes the connection that has been
-//   idle longest.
+// - At most `connections` connections of clients stay open. A further connection closes the
+//   connection that has been idle longest.
 // - A client that sends slowly occupies no thread: the accepting thread collects its messages.
 // - About as many requests are processed at a time as there are processors.
 // - Arguments of requests, and replies of services and other traders, are checked

@@ -24,8 +24,8 @@ class Channel {
   // after `deadline`, or -1 if the connection has ended. A deadline of zero means no deadline.
   virtual int Receive(void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
   virtual int Send(const void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
-  // Whether bytes were received that are already read from the socket, so that poll() does not
-  // report them.
+  // Whether there are received bytes that the channel has already read from the socket. For such
+  // bytes, poll() does not report the socket as readable.
   virtual bool HasBytes() { return false; }
   // Notifies the peer that no more bytes follow, if the protocol supports that.
   virtual void Close() {}

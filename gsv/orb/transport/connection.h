@@ -3,7 +3,7 @@
 //
 // The connection joins fragments, applies the limits to messages and calls its hooks
 // (connection_policy.h). The ORB gets only complete messages. A connection that this process has
-// opened does this only if it has hooks.
+// opened does these things only if it has hooks.
 //
 // Threads  as for omniORB's connections: one thread reads at a time, and one thread sends at a
 //          time.
