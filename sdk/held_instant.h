@@ -40,7 +40,7 @@ class HeldInstant {
  private:
   struct Use {
     bool is_used = false;
-    std::optional<Reading> reading;  // empty if the wait returned none
+    std::optional<Reading> reading;  // nullopt if the wait returned no reading of the sensor
   };
 
   mutable base::Mutex mutex_;

@@ -48,8 +48,8 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
       {"threadPerConnectionLowerLimit", "200"},
       {"maxServerThreadPerConnection", "2"},
       {"maxServerThreadPoolSize", "32"},
-      // A pool thread that waits for the next request of one connection would delay other
-      // connections.
+      // The threads of the pool do not wait for the next request of one connection, because this
+      // would delay other connections.
       {"threadPoolWatchConnection", "0"},
       {"inConScanPeriod", "180"},
       {"outConScanPeriod", "60"},

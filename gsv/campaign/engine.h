@@ -37,7 +37,7 @@ struct EngineOption {
 
 // A kind of engine, such as Slurm.
 struct EngineType {
-  // the name in `engine: NAME` and --engine NAME; also the key of the engine's mapping
+  // the engine's name in `engine: NAME` and --engine NAME; also the key of the engine's mapping
   std::string name;
   std::string title;  // the name in sentences, such as "Slurm"
   std::string help;

@@ -138,8 +138,8 @@ class Drive {
   }
 
   // Drops the batches that left the queue before any of their runs began. An earlier driver may
-  // have cancelled such a batch, or not have submitted it. If this driver submitted the batch, it
-  // fails.
+  // have cancelled such a batch, or not have submitted it. If this driver submitted such a batch,
+  // this function fails.
   base::Status DropBatchesWithoutRuns() {
     for (const Batch& batch : OpenBatches()) {
       bool has_no_run = true;

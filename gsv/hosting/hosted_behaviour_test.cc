@@ -250,8 +250,8 @@ class Slow final : public sensing::Sensor {
   bool TakesLong() const override { return true; }
 };
 
-// A behaviour that turns in place and opens five sonars, which are read together. It calls `look`
-// in each cycle.
+// A behaviour that turns in place and opens five sonars, which are read together. The behaviour
+// calls `look` in each cycle.
 class Sweeper final : public Controller {
  public:
   static constexpr int kSonars = 5;

@@ -18,7 +18,7 @@ class Obligation {
   Kind kind = Kind::kTrue;
   int atom = 0;
   bool is_negated = false;  // for kAtom only
-  bool is_judged = false;   // whether `from` and `by` are instants
+  bool is_judged = false;   // whether `from` and `by` are instants of simulated time
   SimTime from{0}, by{0};
   std::vector<ObligationPtr> parts;
 };

@@ -30,7 +30,7 @@ class PythonBehaviour final : public Behaviour {
       if (py::hasattr(*object_, event)) object_->attr(event)();
     });
   }
-  // Returns the robot for Python, which may keep it for any time.
+  // Returns the robot as a Python object, which Python may keep for any time.
   static py::object ForPython(Robot& robot) {
     return py::cast(dynamic_cast<sdk::RemoteRobot&>(robot).shared_from_this());
   }

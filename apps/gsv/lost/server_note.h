@@ -47,9 +47,9 @@ struct ServerNote {
   std::uint64_t started = 0;
   std::string boot, host;
   std::string server;                       // the name of the server
-  std::string broker;                       // the reference of its broker
-  std::string recordings;                   // its folder of recordings
-  std::vector<LostSimulation> simulations;  // the simulations that it runs
+  std::string broker;                       // the reference of the server's broker
+  std::string recordings;                   // the server's folder of recordings
+  std::vector<LostSimulation> simulations;  // the simulations that the server runs
   std::vector<LostSimulation> lost;         // lost simulations of earlier servers
 };
 

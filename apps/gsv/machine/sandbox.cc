@@ -33,7 +33,7 @@ extern "C" int __lsan_is_turned_off() { return is_in_sandbox; }
 namespace gsv::app {
 namespace {
 
-// These system calls are never needed to read a file.
+// The system calls that fail in the sandbox. Reading a file needs none of them.
 constexpr int kRefused[] = {
     SYS_socket,           SYS_socketpair, SYS_connect,  SYS_bind,   SYS_listen,
     SYS_accept4,          SYS_execve,     SYS_execveat, SYS_fork,   SYS_vfork,

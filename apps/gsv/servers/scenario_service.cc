@@ -24,7 +24,7 @@ using RunSeconds = std::chrono::duration<double>;
 
 constexpr std::chrono::milliseconds kRunLease{2000};
 constexpr double kDefaultTimeout = 300, kDefaultAbandoned = 60;  // wall-clock time, s
-// number of runs, including those whose outcome no client has fetched
+// maximum number of stored runs, including those whose outcome no client has fetched
 constexpr std::size_t kMaxKept = 1000;
 
 // Checks that a server can run the scenario. Otherwise throws Refused with the reason.

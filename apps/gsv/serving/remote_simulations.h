@@ -40,7 +40,7 @@ struct Selection {
 };
 
 // Finds the selected simulations. Adds a sentence to `silent` for each server that does not answer.
-// If a broker was named and does not answer, this is an error.
+// Returns an error if a broker was named and does not answer.
 base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& selection,
                                                            std::vector<std::string>& silent);
 

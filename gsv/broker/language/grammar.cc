@@ -208,7 +208,8 @@ struct Building {
   }
 };
 
-// A literal is an integer if it is written as one and fits, else a double.
+// Converts a literal to an integer if its text is an integer that fits into 64 bits, else to a
+// double.
 template <typename Input>
 ScalarValue ToNumber(const Input& in) {
   const std::string text = in.string();

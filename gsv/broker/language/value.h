@@ -55,7 +55,7 @@ struct PropertyType {
 struct OtherValue {
   std::string type_name;
   std::string encoded;
-  // The type of the value of a dynamic property. Null if the property is not dynamic.
+  // The declared type of a dynamic property's value. Null if the property is not dynamic.
   std::shared_ptr<const PropertyType> promised_type{};
 };
 

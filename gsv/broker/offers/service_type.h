@@ -14,9 +14,9 @@ namespace gsv::broker {
 // As CosTradingRepos::ServiceTypeRepository::PropertyMode: bit 0 is read-only, bit 1 is mandatory.
 enum class PropertyMode : std::uint8_t {
   kNormal = 0,             // the property may be absent, changed, and removed
-  kReadonly = 1,           // it may be absent, and cannot be changed after the export
-  kMandatory = 2,          // it is always present
-  kMandatoryReadonly = 3,  // it is always present and cannot be changed
+  kReadonly = 1,           // the property may be absent, and cannot be changed after the export
+  kMandatory = 2,          // the property is always present
+  kMandatoryReadonly = 3,  // the property is always present and cannot be changed
 };
 
 inline bool IsReadonly(PropertyMode mode) { return (static_cast<int>(mode) & 1) != 0; }

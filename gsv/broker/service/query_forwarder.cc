@@ -19,7 +19,7 @@ using Deadline = std::chrono::steady_clock::time_point;
 
 constexpr CORBA::ULong kForwardedBatch = 500;
 
-// Offers of other traders have numbers from here on. Those of this trader count from 1.
+// The first number for offers of other traders. The numbers of this trader's own offers begin at 1.
 constexpr std::uint64_t kFirstForeignNumber = std::uint64_t{1} << 63;
 
 // Limits the next call on `reference`, which no other thread uses, to the remaining time.

@@ -138,8 +138,8 @@ class Trader {
 
   // ---- Queries
   // Queries search the offers of this trader only. FindMatching() finds the offers, and Rank()
-  // orders and limits them. Find() calls both functions. A caller may call FindMatching() and Rank()
-  // separately, and add offers of other traders in between.
+  // orders and limits them. Find() calls both functions. A caller may call FindMatching() and
+  // Rank() separately, and add offers of other traders in between.
   TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
   QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
   TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;

@@ -12,7 +12,7 @@ namespace gsv::broker {
 // Generated from trading.idl.
 const orb::Signatures& TradingSignatures();
 
-// Calls orb::CheckRequest() with these signatures.
+// Calls orb::CheckRequest() with the signatures of the operations in trading.idl.
 void CheckRequest(std::string& message);
 
 // Whether `encapsulation` has a sequence of properties, or of policies.

@@ -45,9 +45,10 @@ class MessageAssembly {
   State state_ = State::kIncomplete;
   std::string frame_;  // the message or fragment that is being received
   std::size_t received_ = 0;
-  std::size_t wanted_ = kGiopHeaderBytes;  // size of the frame, as far as it is known
-  std::string message_;                    // the fragments that were joined so far
-  std::uint32_t request_ = 0;              // id of the request whose fragments are joined
+  std::size_t wanted_ =
+      kGiopHeaderBytes;        // size of the frame, or of its header until that has arrived
+  std::string message_;        // the fragments that were joined so far
+  std::uint32_t request_ = 0;  // id of the request whose fragments are joined
 };
 
 }  // namespace gsv::orb

@@ -23,7 +23,7 @@ struct TypeCodeLimits {
   std::size_t depth = 64;  // maximum nesting of types and values together
   // maximum number of types in one message; each reference to a type counts again
   std::size_t types = 4096;
-  // maximum number of values in one message, without elements of a fixed size
+  // maximum number of values in one message; elements of a fixed size do not count
   std::size_t values = 65536;
 };
 
