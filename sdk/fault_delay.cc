@@ -29,7 +29,8 @@ CORBA::Boolean Delay(Info&) {
   return true;  // lets further interceptors run
 }
 
-// Reads the number after `key` and "=" at the start of `text`, and removes both from `text`.
+// Reads the number after `key` and "=" at the start of `text`, and removes the key, "=" and the
+// number from `text`.
 bool TakeNumber(std::string_view key, std::string_view& text, std::uint64_t& number) {
   if (!text.starts_with(key) || text.substr(key.size(), 1) != "=") return false;
   text.remove_prefix(key.size() + 1);

@@ -12,8 +12,8 @@
 
 namespace gsv::sdk {
 
-// Both functions pass on exceptions of the hardware. They throw sba::Refused if the hardware has no
-// joints that take commands.
+// ListRemoteJoints() and OpenRemoteJoint() pass on exceptions of the hardware. They throw
+// sba::Refused if the hardware has no joints that take commands.
 std::vector<JointTraits> ListRemoteJoints(sba::Hardware_ptr hardware);
 // `robot` must outlive the joint.
 std::unique_ptr<Joint> OpenRemoteJoint(RemoteRobot& robot, sba::Hardware_ptr hardware,

@@ -188,7 +188,7 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   return robot;
 }
 
-// A robot behind the other one that sends 20 messages at 20 ms. A radio keeps 16 of them.
+// A robot behind the robot under test. It sends 20 messages at 20 ms, of which a radio stores 16.
 simulation::RobotSpecification Speaker() {
   auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model::SensorDescription radio;

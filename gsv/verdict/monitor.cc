@@ -36,7 +36,7 @@ ObligationPtr Constant(bool value) {
   return value ? always_true : always_false;
 }
 
-// Orders obligations such that equal ones are adjacent.
+// Compares two obligations for sorting, so that equal obligations become adjacent.
 int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   if (a == b) return 0;
   const auto key = [](const Obligation& o) {
@@ -49,7 +49,7 @@ int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   return 0;
 }
 
-// Whether both obligations are windows over the same formula that are open now. If so, one of them
+// Whether `a` and `b` are windows over the same formula that are open now. One of two such windows
 // implies the other.
 bool OpenOverTheSame(const ObligationPtr& a, const ObligationPtr& b, Kind kind, SimTime now) {
   return a->kind == kind && b->kind == kind && a->is_judged && b->is_judged && a->from <= now &&

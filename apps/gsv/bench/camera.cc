@@ -72,7 +72,7 @@ class SnapshotWatch final : public simulation::Observer {
   std::vector<double> intervals_ GSV_GUARDED_BY(mutex_);
 };
 
-// Fails for blank images, and for images that repeat earlier ones.
+// Fails for blank images, and for images that are equal to earlier images.
 class ImageCheck {
  public:
   base::Status Check(const Images& images) {

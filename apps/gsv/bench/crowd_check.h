@@ -1,6 +1,6 @@
-// Checks a run of a crowd by brute force. It checks the overlaps of all bodies after each step, and
-// one sonar reading in a hundred. The computation follows the definitions of the shapes and does
-// not use the code of the simulation.
+// Checks a run of a crowd by brute force: the overlaps of all bodies after each step, and one sonar
+// reading in a hundred. The computation follows the definitions of the shapes and does not use the
+// code of the simulation.
 //
 // Threads  any thread may check readings; the stepping thread checks overlaps.
 #pragma once

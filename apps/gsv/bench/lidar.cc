@@ -31,7 +31,8 @@ struct LidarArguments {
   bool json = false;
 };
 
-// Fails for empty scans, for scans that repeat earlier ones, and for robots that do not move.
+// Fails for empty scans, for scans that are equal to earlier scans, and for robots that do not
+// move.
 class ScanCheck {
  public:
   base::Status Check(const world::Snapshot& snapshot, const std::vector<std::string>& robots,

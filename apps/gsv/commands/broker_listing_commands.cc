@@ -37,7 +37,7 @@ struct Actions {
   std::function<base::Status()> remove;
 };
 
-// Sets the broker of this user's newest instance, unless one was named.
+// Sets `broker` to the broker of this user's newest instance, unless `broker` is set already.
 base::Status FindBroker(std::string& broker) {
   if (!broker.empty()) return {};
   const std::vector<Instance> instances = RunningInstances();

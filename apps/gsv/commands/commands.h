@@ -1,4 +1,4 @@
-// The subcommands of gsv. Each function adds one; its callback sets the exit code.
+// The subcommands of gsv. Each function adds one subcommand, whose callback sets the exit code.
 #pragma once
 
 #include "apps/gsv/process/signals.h"

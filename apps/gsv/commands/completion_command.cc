@@ -129,7 +129,7 @@ std::string Cases(const std::vector<CompletedCommand>& commands) {
   return text;
 }
 
-// Sets $so_far from the words before the one that is completed.
+// Sets $so_far from the words before the word that is being completed.
 std::string PathCases(const std::vector<CompletedCommand>& commands) {
   std::string text = "    case \"$so_far/$word\" in\n";
   for (const CompletedCommand& command : commands) {

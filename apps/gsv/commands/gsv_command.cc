@@ -102,7 +102,7 @@ void StartLog(const LogArguments& log, bool verbose) {
 }
 
 // Returns the first unknown option, or else the first unknown word. `words` are the words that the
-// command does not know; there is at least one.
+// command does not know, at least one word.
 std::string UnknownWord(const CLI::App& command, const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const auto& word) { return word.starts_with('-'); });
@@ -146,7 +146,7 @@ std::string MissingSentence(const CLI::App& command, const std::string& what) {
   return what;
 }
 
-// Returns one sentence, as for every error. CLI11 reports an unknown command as a missing one.
+// Returns the error message as one sentence. CLI11 reports an unknown command as a missing command.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   const CLI::App* typed = app;  // the command that the user typed
   std::string words = app->get_name();

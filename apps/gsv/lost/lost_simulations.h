@@ -2,9 +2,9 @@
 // a note of its simulations (server_note.h), which remains after a kill. The next server with the
 // same folder of recordings takes over the note. This class also writes the note of this server.
 //
-// Threads  any. One thread writes the note after changes, at most twice a second. Another one reads
-//          the recordings, which may take long.
-// Bounded  it keeps the newest kMaxKept reports.
+// Threads  any. One thread writes the note after changes, at most twice a second. Another thread
+//          reads the recordings, which may take long.
+// Bounded  to the newest kMaxKept reports.
 #pragma once
 
 #include <filesystem>

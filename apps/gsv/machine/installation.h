@@ -17,9 +17,10 @@ std::filesystem::path ShareFolder();  // Returns the folder with worlds, models 
 // Returns the names of the built-in worlds, such as "maze" and "office".
 std::vector<std::string> BuiltInWorlds();
 
-// Returns the file of a world, which is given by path or by the name of a built-in world. Fails
-// with kNotFound and the known names if a bare name is neither. It does not check whether a path
-// exists; the reader reports that.
+// Returns the file of a world. `world` is a path or the name of a built-in world. Fails with
+// kNotFound and the names of the built-in worlds if `world` is a bare name, but neither a file nor
+// a built-in world. Does not check whether a path exists, because the reader of the file reports
+// this error.
 base::Result<std::string> FindWorld(const std::string& world);
 
 // Returns a warning for each entry of a model path that is not an existing folder.

@@ -14,8 +14,8 @@ namespace gsv::app {
 std::vector<std::string> GroupedSentences(const base::Problems& problems,
                                           base::Problem::Severity severity);
 
-// Returns the first `count` sentences, and one more that counts the others and names the command
-// which shows them.
+// Returns the first `count` sentences. A further sentence has the number of the omitted sentences
+// and the command that shows them.
 std::vector<std::string> Shortened(std::vector<std::string> sentences, std::size_t count,
                                    const std::string& how_to_see_all);
 

@@ -1,5 +1,5 @@
 // Worlds and models that a process has read before it forks for a run. Each file is read once, so
-// later changes of it have no effect.
+// later changes of the file have no effect.
 //
 // Threads  one at a time. It starts no thread.
 #pragma once

@@ -307,7 +307,7 @@ base::Status ParseRobots(const std::vector<std::string>& texts,
   return {};
 }
 
-// Returns the scenario of the file, or the default one.
+// Returns the scenario of the file, or the default scenario if there is no file.
 base::Result<scenario::Scenario> ScenarioToStartFrom(const RunArguments& a,
                                                      base::Problems& problems) {
   scenario::Scenario scenario;
@@ -348,8 +348,8 @@ void Override(scenario::Scenario& scenario, const RunArguments& a) {
   if (!a.record_images.empty()) scenario.record_png = a.record_images == "png";
 }
 
-// Returns warnings about options that have no effect together with the others or with the scenario
-// file.
+// Returns warnings about options that have no effect in combination with other options or with the
+// scenario file.
 base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& scenario) {
   base::Problems problems = CheckModelPath(scenario.model_path);
   const auto warn = [&](bool is_given, const char* option, const char* why) {

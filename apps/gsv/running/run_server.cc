@@ -102,8 +102,8 @@ bool Redirect(const std::string& file, int descriptor) {
 }
 
 // Makes `ps` show this process with these arguments. The kernel shows the memory in which the
-// program's arguments are, and zeros fill the rest of it. trials/prepared_runs.cc makes this memory
-// long enough for most command lines.
+// program's arguments are, and zeros fill the unused part of this memory. trials/prepared_runs.cc
+// makes this memory long enough for most command lines.
 void ShowAs(const std::vector<std::string>& arguments) {
   std::ifstream file("/proc/self/stat");
   std::string stat((std::istreambuf_iterator<char>(file)), {});
@@ -127,8 +127,9 @@ std::vector<std::string> CommandLineOf(const RunRequest& request) {
   return arguments;
 }
 
-// Executes the run after a fork. If a process has several threads, only one survives fork(), and
-// locks that others hold stay locked. GSV itself starts no threads before a run, but a plug-in may.
+// Executes the run after a fork. If a process has several threads, only the calling thread survives
+// fork(), and locks that other threads hold stay locked. GSV itself starts no threads before a run,
+// but a plug-in may.
 [[noreturn]] void ExecuteRun(const RunRequest& request) {
   std::vector<std::string> arguments = CommandLineOf(request);
   std::vector<char*> argv;

@@ -49,7 +49,8 @@ model::Joint MotorJoint(std::string name, int parent, int child, const Vector3& 
   return joint;
 }
 
-// The rover's left wheels are faster than its right ones, so that they slip while it turns.
+// The rover's left wheels are faster than its right wheels. So the rover turns, and its wheels
+// slip.
 std::shared_ptr<const model::Model> Rover() {
   using Target = model::JointTarget;
   auto rover = std::make_shared<model::Model>();

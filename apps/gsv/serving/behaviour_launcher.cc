@@ -50,8 +50,8 @@ FoundProgram FindProgram(const std::string& name) {
   return found;
 }
 
-// Returns variables that tell sdk/serve.cc that stdout is captured, so that it writes both streams
-// line by line.
+// Returns environment variables from which sdk/serve.cc detects that stdout is captured. It then
+// writes stdout and stderr line by line.
 std::vector<std::string> CapturedEnvironment() {
   std::vector<std::string> variables{"GSV_OUTPUT_CAPTURED=1"};
   if (std::getenv("PYTHONUNBUFFERED") == nullptr) variables.emplace_back("PYTHONUNBUFFERED=1");

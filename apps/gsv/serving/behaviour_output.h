@@ -2,7 +2,7 @@
 // stderr, and emits it as an event (IsOutput()) in the simulations whose robots the program serves.
 //
 // A line belongs to the robot that the program serves, or, if it serves several robots, to its
-// behaviour. Lines are kept until a robot has the behaviour.
+// behaviour. Lines are stored until a robot has the behaviour.
 //
 // Bounded  200 lines per second and program, of 2000 bytes each; further lines are only counted.
 // Threads  created, used and destroyed on the main thread.

@@ -112,8 +112,8 @@ class Ros2Access final : public Ros2Publisher {
   base::Status Join() GSV_REQUIRES(publishing_);
   // Replaces the published simulation by `simulation`, or removes it if `simulation` is null.
   void Show(const SimulationPointer& simulation, ros2::Options options) GSV_REQUIRES(publishing_);
-  // Removes a published simulation that has ended. If follows_, publishes the first one in the
-  // list.
+  // Removes a published simulation that has ended. If follows_ is true, publishes the first
+  // simulation in the list.
   void Update() GSV_REQUIRES(publishing_);
   // Publishes `next`, if it is not null, and removes the published simulation.
   base::Status Replace(const SimulationPointer& next);

@@ -1,6 +1,5 @@
-// Owns the parts of a gsv process that runs simulations: the ORB, the connection to a broker (its
-// own or an existing one), sensor types, simulations, behaviour programs, services, and the
-// gateway.
+// Owns the parts of a gsv process that runs simulations: the ORB, the connection to a broker (a new
+// or an existing broker), sensor types, simulations, behaviour programs, services, and the gateway.
 //
 // Threads  created and destroyed on the main thread.
 #pragma once
@@ -39,7 +38,7 @@ struct RuntimeOptions {
   bool has_broker = true;
   std::vector<std::filesystem::path> model_path;
   std::map<std::string, std::string> drives;  // drives by model, see ReadOptions::drives
-  // A library that has already read files with these options; null for a new one.
+  // A library that has already read files with these options; null for a new library.
   std::shared_ptr<formats::ModelLibrary> library;
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
@@ -71,7 +70,7 @@ class Runtime {
   // registers sba::ScenarioService for that number of concurrent scenarios.
   base::Status OfferService(const std::string& name, int scenarios = 0);
 
-  // Call this when the process must end. Behaviours that do not return get one more second.
+  // Call this when the process must end. Behaviours that have not returned get one more second.
   void EndSoon();
 
  private:

@@ -9,8 +9,8 @@
 
 namespace gsv::app {
 
-// Returns the sorted names of the models in these folders that have a drive. It reads models that
-// may have one, so the first call takes some time. The library keeps what it has read.
+// Returns the sorted names of the models in these folders that have a drive. The function reads all
+// models that may have a drive, so the first call takes some time. The library caches these models.
 std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
                                          const std::vector<std::filesystem::path>& folders);
 

@@ -116,8 +116,8 @@ base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
   return base::Fail(refusal);
 }
 
-// Adds all robots that have a place at once, because adding a crowd robot by robot is slow. Then it
-// adds the others.
+// First adds all robots with a given place in one call, because adding a crowd robot by robot is
+// slow. Then adds the robots without a place.
 class ListPlacing {
  public:
   ListPlacing(Simulation& simulation, formats::ModelLibrary& library, const char* list,

@@ -31,8 +31,8 @@ std::vector<std::string> ArgumentsOfThisProcess() {
   for (std::string argument; std::getline(file, argument, '\0');) {
     arguments.push_back(std::move(argument));
   }
-  // A forked run has its arguments in a longer block of memory, which ends in empty ones; see
-  // running/run_server.cc.
+  // A forked run has its arguments in a longer block of memory, which ends with empty arguments;
+  // see running/run_server.cc.
   while (!arguments.empty() && arguments.back().empty()) arguments.pop_back();
   return arguments;
 }

@@ -1,4 +1,4 @@
-// The current recordings of this process. A simulation has at most one.
+// The current recordings of this process. A simulation has at most one current recording.
 //
 // Threads  any. Starting writes the models, and stopping waits for the disk. Queries of the state
 //          wait for neither.
@@ -81,10 +81,10 @@ class Recordings final : public gateway::RecordingSwitch {
   base::Status StopRecording(const std::string& simulation) override { return Stop(simulation); }
   State RecordingOf(const std::string& simulation) override;
   Totals totals() override;
-  // Stops a recording. Returns kNotFound if the simulation is not being recorded. Any other error
-  // is the one that ended the recording.
+  // Stops a recording. Returns kNotFound if the simulation is not being recorded. Any other
+  // returned error is the error that ended the recording.
   base::Status Stop(const std::string& simulation);
-  // Stops all recordings. Returns the first error, if there is one, and logs the others.
+  // Stops all recordings. Returns the first error, if there is one, and logs further errors.
   base::Status StopAll();
 
  private:

@@ -14,7 +14,8 @@
 namespace gsv::app {
 
 // Returns the world with drives for those of its models that the scenario lists as robots. The
-// drive is that of the entry, or else a guessed one. Returns the same world if nothing changes.
+// drive is given by the scenario's entry, or else guessed from the model. Returns the same world if
+// nothing changes.
 base::Result<std::shared_ptr<const model::WorldDescription>> WithDrives(
     std::shared_ptr<const model::WorldDescription> world, const scenario::Scenario& scenario);
 

@@ -20,7 +20,7 @@ class Ros2Publisher {
   virtual gateway::SimulationFactory::Ros2Support Support() = 0;
   // Returns the options of a scenario with the key `ros2`. Fails if they cannot be used.
   virtual base::Result<ros2::Options> OptionsOf(const scenario::Scenario& scenario) = 0;
-  // Publishes the simulation until it is removed. Fails if another one is published.
+  // Publishes the simulation until it is removed. Fails if another simulation is published.
   virtual base::Status Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                                ros2::Options options) = 0;
 };

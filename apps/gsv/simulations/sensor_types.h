@@ -20,7 +20,7 @@ namespace gsv::app {
 
 struct SensorTypeOptions {
   std::vector<std::filesystem::path> plugins;  // in addition to those in GSV_SENSOR_PLUGIN_PATH
-  // Changes the camera type before it is registered. It may be empty.
+  // Changes the camera type before it is registered. May be empty.
   std::function<void(sensing::SensorType&)> adapt_camera;
 };
 

@@ -33,7 +33,7 @@ std::vector<TestCase> ShareOf(std::vector<TestCase> cases, const Shard& shard);
 
 // The options of `gsv test` for each scenario.
 struct TestOptions {
-  std::filesystem::path failures;   // folder for the files of failures; empty if none are kept
+  std::filesystem::path failures;   // folder for the files of failures; empty: none
   int threads = 0;                  // number of threads per run; 0 if `gsv run` chooses it
   double timeout = 300;             // wall-clock time limit per run, s
   double kept_seconds = 10;         // how many seconds of the recording before a violation are kept

@@ -166,8 +166,8 @@ std::string KeepClips(const fs::path& recording, const fs::path& kept, const Tes
   return text;
 }
 
-// Keeps the files of a failed run in options.failures. They are the parts of the recording around
-// the violations, the image, the output, and the command that repeats the run.
+// Keeps the files of a failed run in options.failures. These files are the parts of the recording
+// around the violations, the image, the output, and the command that repeats the run.
 void KeepFailure(const fs::path& folder, const TestOptions& options, const ChildOutcome& outcome,
                  TestResult& result) {
   std::string name = result.test.name;

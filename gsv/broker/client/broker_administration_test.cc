@@ -58,7 +58,7 @@ class ConcurrentEvaluator : public POA_CosTradingDynamic::DynamicPropEval {
   std::latch& others_;
 };
 
-// Several silent traders together must take no longer than one.
+// Several silent traders together must take no longer than one silent trader.
 TEST(BrokerAdministration, CallsTheTargetsOfLinksConcurrently) {
   constexpr int kLinks = 4;
   const BrokerNode node;

@@ -17,7 +17,7 @@ struct ExpressionLimits {
 // Limits on dynamic properties.
 struct DynamicLimits {
   std::chrono::milliseconds call_timeout{500};   // time limit of one evaluation
-  std::chrono::milliseconds query_budget{2000};  // limit of the sum of all waits of one query
+  std::chrono::milliseconds query_budget{2000};  // time limit of all evaluations of a query
   std::chrono::milliseconds lifetime{1000};  // how long a value or a failed evaluation is cached
   std::size_t value_bytes = 2048;  // maximum encoded size; a larger value counts as unavailable
   std::size_t per_offer = 8;

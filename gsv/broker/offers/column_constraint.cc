@@ -224,8 +224,8 @@ class Evaluation {
     return ForEach([&](std::size_t i) { return Compare(op, left.At(i), right.At(i)); });
   }
 
-  // Computes the result once for each different text, if one side is a literal, and the other side
-  // is a column of texts. Returns nullopt otherwise.
+  // Computes the result once for each different text, if one operand is a literal and the other
+  // operand is a column of texts. Returns nullopt otherwise.
   template <typename Compute>
   std::optional<Truths> ByDistinctTexts(const Operands& left, const Operands& right,
                                         const Compute& compute) const {

@@ -53,7 +53,7 @@ class AdminServant : public POA_CosTrading::Admin,
   // Sets an attribute and returns its previous value.
   template <typename T>
   T Exchange(T TraderAttributes::*attribute, T value);
-  // Returns the first `how_many` ids, and an iterator for the others.
+  // Returns the first `how_many` ids, and an iterator for the other ids.
   void HandOut(std::vector<std::string> all, CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,
                CosTrading::OfferIdIterator_out id_itr);
 };

@@ -115,8 +115,8 @@ TEST_F(LivenessMonitorTest, ServiceIsDeadOnlyAfterTheMaximumSilence) {
   AwaitOffers(0);
 }
 
-// Both references have the same address, so the monitor must call only one of them per round. If it
-// called both, it would call them equally often.
+// The two references have the same address, so the monitor must call only one of them per period. A
+// monitor that called both services would call them equally often.
 TEST_F(LivenessMonitorTest, CallsASilentAddressOncePerRound) {
   const std::string first = Reference(4321, 'a');
   const std::string second = Reference(4321, 'b');

@@ -150,8 +150,8 @@ TEST_F(HostileFloodTest, SurvivesUnterminatedStrings) {
   Judge(bystander, "texts");
 }
 
-// omniORB 4.2.5 alone would close the connection and keep 9 kB each time. The broker skips the rest
-// of the message.
+// omniORB 4.2.5 alone would close the connection and keep 9 kB each time. The broker skips the
+// excess bytes.
 TEST_F(HostileFloodTest, SurvivesRequestsWithExcessBytes) {
   Bystander bystander(lookup_);
   const std::string body =

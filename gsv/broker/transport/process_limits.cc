@@ -31,7 +31,7 @@ base::Status ApplyProcessLimits(const ProcessLimits& limits) {
   if (base::kReservesAddressSpace) return {};
   rlimit address_space{};
   getrlimit(RLIMIT_AS, &address_space);
-  // A lower limit that is already set is kept.
+  // If a lower limit is already set, it remains.
   if (address_space.rlim_cur <= limits.address_space_bytes) return {};
   address_space.rlim_cur = limits.address_space_bytes;
   if (setrlimit(RLIMIT_AS, &address_space) == 0) {

@@ -101,7 +101,7 @@ TEST(RequestCheckTest, IgnoresUnlistedOperations) {
 std::string CheckedReply(const std::string& operation, const std::string& body) {
   ReplyCheck check(kSignatures);
   const std::string request = RawRequest("key", operation, "", 7);
-  // The header is sent in one piece. The rest may be sent in several.
+  // The header is sent in one piece. The body may be sent in several pieces.
   check.Sending(request);
   check.Sent(request.size() - 1);
   check.Sending(request.substr(request.size() - 1));
