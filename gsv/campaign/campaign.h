@@ -51,8 +51,8 @@ struct Campaign {
 // Reads a campaign. Inserts each value separately into the scenario, checks the result, and adds
 // the errors to `problems`.
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
-// Reads a campaign. Sets `engine` to the one that `request` names, or else to the one in the file
-// (engine.h).
+// Reads a campaign. Sets `engine` to the engine that `request` names, or else to the engine in the
+// file (engine.h).
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
                                     const EngineRequest& request, Engine& engine);
 

@@ -107,7 +107,8 @@ base::Status JournalWriter::Write(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::string line = HashOf(text) + " " + text + "\n";
   const base::MutexLock lock(mutex_);
-  // One write() appends the whole line. If a full disk cuts the line off, the next append ends it.
+  // One write() appends the whole line. If a full disk cuts the line off, the next append ends the
+  // incomplete line.
   const ssize_t written = write(descriptor_, line.data(), line.size());
   std::string why;
   if (written != static_cast<ssize_t>(line.size())) {

@@ -34,7 +34,7 @@ class JournalWriter {
   JournalWriter& operator=(const JournalWriter&) = delete;
 
   base::Status Begin(std::int64_t run);
-  // Appends a result. It is durable when this returns.
+  // Appends a result, which is durable when this function returns.
   base::Status Add(const RunResult& result);
   base::Status End();
 

@@ -20,7 +20,7 @@ class Work {
   }
   ~Work() { is_cancelled_ = true; }
 
-  // Returns the results since the last call. If there are none, waits briefly for one.
+  // Returns the results since the last call. If there are none, waits briefly for a result.
   std::vector<RunResult> Collect() {
     base::MutexLock lock(mutex_);
     changed_.wait_for(lock, kWritePeriod,

@@ -63,8 +63,8 @@ class Results {
   static base::Result<std::unique_ptr<Results>> Open(const std::string& file);
   ~Results();
 
-  // Adds all results or, in case of an error, none. A run that already has a result keeps it. An
-  // attempt replaces an earlier one with the same journal.
+  // Adds all results or, in case of an error, none. A run that already has a result keeps this
+  // first result. An attempt replaces an earlier attempt with the same journal.
   base::Status Add(const std::vector<RunResult>& results,
                    const std::vector<Attempt>& attempts = {});
 

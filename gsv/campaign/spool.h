@@ -63,8 +63,8 @@ class Spool {
   base::Status Put(const Batch& batch) const;
   void Remove(const Batch& batch) const;
 
-  // Reads the journals and returns the results since the last call: those of all attempts, or only
-  // those of one share.
+  // Reads the journals and returns the results since the last call: the results of all attempts, or
+  // of the attempts that executed the share `share`.
   base::Result<std::vector<RunResult>> Collect(const std::string& share = "");
   // Returns the readers of all journals, by file name.
   const std::map<std::string, JournalReader>& read() const { return readers_; }

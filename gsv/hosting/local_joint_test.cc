@@ -105,8 +105,8 @@ TEST(LocalJoint, MovesToItsTarget) {
   EXPECT_NEAR(positions[0], 0.3, 1e-3);
   EXPECT_NEAR(positions[1], 0.4, 2e-3);
   EXPECT_NEAR(velocities[1], 0.1, 1e-6);
-  // The velocity changes from 0.1 m/s upwards to 0.4 m/s downwards at 9.8 m/s². The rest of the
-  // half second is at this limit.
+  // The velocity changes from 0.1 m/s upwards to 0.4 m/s downwards at 9.8 m/s². Until the end of
+  // the half second, the lift falls at this limit.
   const double free_fall = 0.5 / 9.8;
   const double way = (0.16 - 0.01) / (2 * 9.8) + 0.4 * (0.5 - free_fall);
   EXPECT_NEAR(positions[2], positions[1] - way, 2e-3);
@@ -120,7 +120,7 @@ TEST(LocalJoint, EffortLiftsAWeightAgainstGravity) {
     if (robot.SleepFor(500ms)) velocity = joint.Read().velocity;
   }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The commanded force is one newton above the weight of the 2 kg.
+  // The commanded force is 1 N more than the weight of the lift, whose mass is 2 kg.
   EXPECT_NEAR(velocity, 0.25, 0.005);
 }
 

@@ -1,5 +1,5 @@
 // Loads behaviours from shared libraries, gsv-NAME.so, which can run as programs or inside gsv. A
-// library stays loaded. Plug-ins are trusted: a crash in one ends this process.
+// library stays loaded. Plug-ins are trusted: a crash in a plug-in ends this process.
 //
 // Threads  any.
 #pragma once
@@ -13,7 +13,8 @@
 
 namespace gsv::hosting {
 
-// Returns the file of the behaviour, from the first folder that has one, or an empty text.
+// Returns the file of the behaviour, from the first folder that contains this file. Returns an
+// empty text if no folder contains it.
 std::string FindPlugin(const std::string& behaviour, const std::vector<std::string>& folders);
 
 // Fails if the file is not a library, if it is not a behaviour, or if it was built for another

@@ -49,7 +49,7 @@ void RecordedCommands::TakeTurn(simulation::Turn& turn) {
 }
 
 // Applies a command. A command that is no longer possible is skipped. The repeated run then differs
-// from the recorded one, which the comparison of the two detects.
+// from the recorded run, and the comparison of these runs reports the difference.
 void RecordedCommands::Apply(const TimedCommand& command, simulation::Turn& turn) const {
   if (const auto* drive = std::get_if<world::DriveCommand>(&command.command)) {
     turn.Command(*drive);

@@ -28,13 +28,13 @@ class SanitizerStack {
   void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
   void AfterPreparing() {}
 
-  // Call the first function just before the thread switches to this stack, and the second one just
+  // Call BeforeEntering() just before the thread switches to this stack, and AfterLeaving() just
   // after the thread is back.
   void BeforeEntering() { __sanitizer_start_switch_fiber(&outside_frames_, bottom_, size_); }
   void AfterLeaving() { __sanitizer_finish_switch_fiber(outside_frames_, nullptr, nullptr); }
 
-  // Call the first function just after each entry to this stack, and the second one just before
-  // each exit.
+  // Call AfterEntering() just after each entry to this stack, and BeforeLeaving() just before each
+  // exit.
   void AfterEntering() {
     __sanitizer_finish_switch_fiber(frames_, &outside_bottom_, &outside_size_);
   }

@@ -6,7 +6,8 @@
 namespace gsv::broker {
 namespace {
 
-// The kind of a literal string of one character is kCharOrString, because it may also be a char.
+// The kind of a literal string of one character is kCharOrString, because such a literal may also
+// be a char.
 enum class Kind { kUnknown, kBoolean, kNumber, kString, kChar, kCharOrString, kSequence, kOther };
 
 Kind KindOf(Scalar scalar) {

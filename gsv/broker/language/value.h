@@ -59,8 +59,8 @@ struct OtherValue {
   std::shared_ptr<const PropertyType> promised_type{};
 };
 
-// An immutable value of 16 bytes that is cheap to copy. It holds numbers and texts of at most 14
-// bytes itself. Copies share everything longer.
+// An immutable value of 16 bytes that is cheap to copy. Numbers and texts of at most 14 bytes are
+// stored in the object itself. Longer content is shared between copies.
 class Value {
  public:
   using Sequence = std::vector<ScalarValue>;

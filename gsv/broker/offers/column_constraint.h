@@ -28,11 +28,11 @@ class ColumnConstraint {
   // `constraint` must exist as long as this object.
   explicit ColumnConstraint(const Expression& constraint);
 
-  // The properties that the constraint names. Each occurs once.
+  // The names of the properties in the constraint. Each name occurs once.
   const std::vector<std::string>& properties() const { return properties_; }
-  // Returns one choice per offer. `columns` are those of properties(), in the same order, and have
-  // a cell for each of `offers` offers. A column may be null; then the terms with its property are
-  // unknown.
+  // Returns one choice per offer. `columns` are the columns of properties(), in the same order.
+  // Each column has a cell for each of `offers` offers, or is null. The terms with the property of
+  // a null column are unknown.
   std::vector<Choice> Choose(const Columns& columns, std::size_t offers) const;
 
  private:

@@ -36,7 +36,7 @@ struct TraderAttributes {
   std::string request_id_stem{};  // octets that differ from those of every other trader
 };
 
-// The policies of one query. An absent policy has the trader's default.
+// The policies of one query. For an absent policy, the trader's default applies.
 struct ImportPolicies {
   std::optional<std::uint32_t> search_card{};
   std::optional<std::uint32_t> match_card{};
@@ -48,7 +48,7 @@ struct ImportPolicies {
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   TraderName starting_trader{};
-  // The id of a query from another trader. It is unique.
+  // The unique id of a query from another trader.
   std::optional<std::string> request_id{};
 };
 

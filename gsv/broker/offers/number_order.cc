@@ -32,7 +32,7 @@ std::uint64_t KeyOf(double number) {
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }
 
-// Sorts by the digits of the key, beginning with the last one (radix sort).
+// Sorts by the digits of the key, beginning with the last digit (radix sort).
 void SortByKey(std::vector<Keyed>& entries) {
   std::array<std::vector<std::uint32_t>, kDigits> places;
   for (auto& place : places) place.resize(kDigitValues);

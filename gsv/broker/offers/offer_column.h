@@ -1,6 +1,6 @@
 // The offers of one service type in the order of export. A query reads them without a lock while
 // other threads change them. The offers are stored in chunks. A change copies a chunk that is being
-// read, and the property columns of all other chunks are kept.
+// read. The property columns of all other chunks do not change.
 //
 // Threads  any thread may read a view. One thread at a time may change the column. Several threads
 //          may make views while no thread changes it.

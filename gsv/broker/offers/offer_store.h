@@ -46,8 +46,8 @@ class OfferStore {
   // the term that finds the fewest offers. Returns nullopt if no term has an index in every type.
   std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
                                                     const std::vector<EqualityTerm>& terms) const;
-  // Makes indices for the first few of `terms`. Each type keeps a few indices, and the oldest one
-  // is removed first.
+  // Makes indices for the first few of `terms`. Each type stores a few indices. The oldest index is
+  // removed first.
   void Index(const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms);
 
  private:

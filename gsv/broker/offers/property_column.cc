@@ -33,7 +33,7 @@ class PropertyColumn::Builder {
   }
   void AddOffer() { AddCell(CellKind::kOffer, 0); }
 
-  // Copies the short texts, so that a scan reads one piece of memory.
+  // Copies the short texts, so that a scan reads contiguous memory.
   void Finish() {
     std::vector<std::string_view>& texts = column_.texts_;
     std::size_t size = 0;

@@ -35,12 +35,12 @@ class PropertyColumn {
   PropertyColumn(const Offers& offers, std::string_view property);
 
   std::span<const CellKind> kinds() const { return kinds_; }
-  // The kind of all cells that are neither kNone nor kOffer, or nullopt if their kinds differ. It
-  // is kNone if there are no such cells.
+  // The kind of all cells that are neither kNone nor kOffer, or nullopt if their kinds differ. The
+  // kind is kNone if there are no such cells.
   std::optional<CellKind> sole_kind() const { return sole_kind_; }
-  // The contents of the cells. A cell's kind determines what it holds: 0 or 1, the integer, the
-  // bits of the real number, the index of the text in texts(), or a sequence for ElementsOf(). It
-  // is 0 for all other kinds.
+  // The contents of the cells. A cell's kind determines its content: 0 or 1 for a boolean, an
+  // integer, the bits of a real number, the index of a text in texts(), or a sequence for
+  // ElementsOf(). The content is 0 for all other kinds.
   std::span<const std::uint64_t> bits() const { return bits_; }
   // The different texts of the column.
   std::span<const std::string_view> texts() const { return texts_; }

@@ -19,7 +19,7 @@ class RandomValues {
 
   std::size_t Below(std::size_t bound) { return random_() % bound; }
 
-  // Returns a random value. Some of the values are equal although their types differ, and some
+  // Returns a random value. Some of the values are equal although their types differ. Some values
   // equal no other value.
   Value AnyValue() {
     const auto small = static_cast<std::int32_t>(Below(4));

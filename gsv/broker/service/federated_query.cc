@@ -119,8 +119,8 @@ CosTrading::Lookup_ptr StartingTrader(TradingObjects& objects, const ImportPolic
   }
   const CORBA::Object_var object = objects.orb->string_to_object(link->target.c_str());
   CosTrading::Lookup_var lookup = CosTrading::Lookup::_unchecked_narrow(object);
-  // The number of steps: one for the called trader, one for each name, and those that the query may
-  // make.
+  // The number of steps: one for the called trader, one for each name, and one for each hop that
+  // the query may still make.
   const auto steps =
       1 + import.starting_trader.size() + EffectiveHopCount(import, objects.trader.attributes());
   omniORB::setClientCallTimeout(lookup,

@@ -17,8 +17,8 @@ struct FederatedQuery {
 };
 
 // Adds the offers of other traders to the local ones, and the names of the policies that limited
-// them. If a trader does not answer, its link counts as not followed, or its proxy as not used.
-// Then link_follow_rule or use_proxy_offers is among these names.
+// the result. If a trader does not answer, its link counts as not followed, or its proxy as not
+// used. In this case, link_follow_rule or use_proxy_offers is among these names.
 // Threads  any; the function waits for other traders.
 void AddFederatedAnswers(TradingObjects& objects, const FederatedQuery& query,
                          MatchingOffers& matches, DynamicValues& values);

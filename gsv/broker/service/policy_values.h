@@ -29,8 +29,8 @@ struct PassedPolicies {
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   std::optional<std::string> request_id{};
-  // These replace the importer's policies with the same names, and come last. They do not replace
-  // the members above.
+  // Policies that replace the importer's policies with the same names, and come last. They do not
+  // replace the members above.
   CosTrading::PolicySeq fixed{};
 };
 

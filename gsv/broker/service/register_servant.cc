@@ -86,7 +86,7 @@ CosTrading::Register_ptr RegisterServant::resolve(const CosTrading::TraderName& 
   rest.length(name.length() - 1);
   for (CORBA::ULong i = 1; i < name.length(); ++i) rest[i - 1] = name[i];
   try {
-    // Each trader on the way has less time than the one before it.
+    // Each trader on the way has less time than the previous trader.
     omniORB::setClientCallTimeout(
         next, static_cast<unsigned long>((2 * limits.per_hop * rest.length()).count()));
     return next->resolve(rest);

@@ -61,8 +61,8 @@ class Journal {
   virtual ~Journal() = default;
   // Returns false once a change could not be written.
   virtual bool works() const = 0;
-  // Queues the change without waiting. A caller must wait for it before appending another one. So
-  // there are at most as many queued changes as callers.
+  // Queues the change without waiting. A caller must wait for the change before appending another
+  // change. So there are at most as many queued changes as callers.
   virtual ChangeNumber Append(StateChange change) = 0;
   // Blocks until this change and all changes before it are stored. Returns false if they cannot be
   // stored.

@@ -17,7 +17,7 @@ namespace gsv::broker {
 TradingResult<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
                                         bool dynamic_allowed);
 
-// Returns the modified properties. It applies either the whole modification or nothing.
+// Returns the modified properties. Applies either the whole modification or no part of it.
 TradingResult<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
                                               Modification modification, bool dynamic_allowed);
 

@@ -147,9 +147,9 @@ class Trader {
   TradingResult<QueryResult> Find(const Query& query) const;
 
  private:
-  // Calls `apply` with the lock held. Returns when the changes that it recorded are durable. If
-  // they cannot be stored, it fails with kNotStored. Only the first failed change remains in
-  // memory; later ones change nothing.
+  // Calls `apply` with the lock held. Returns when the changes that `apply` has recorded are
+  // durable. Fails with kNotStored if the changes cannot be stored. Only the first failed change
+  // remains in memory; later calls change nothing.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
   // Appends a change to the journal, if there is one.

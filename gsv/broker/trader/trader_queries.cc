@@ -147,7 +147,7 @@ class Trader::Search {
     return ExactNumber(*integer);
   }
 
-  // If the number of one offer is unknown, the numbers of all later ones are computed by
+  // If the number of one offer is unknown, the numbers of all later offers are computed by
   // evaluation, too.
   void TakeNumber(std::optional<double> number) {
     if (number && matches_.known.size() == matches_.offers.size()) {

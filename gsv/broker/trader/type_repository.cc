@@ -39,7 +39,7 @@ std::size_t DescriptionSize(const ServiceType& type) {
   return size;
 }
 
-// A definition may only strengthen an inherited one.
+// The definition of a property may only strengthen the inherited definition.
 bool Refines(const PropertyDefinition& derived, const PropertyDefinition& base) {
   return derived.type == base.type && Stronger(derived.mode, base.mode) == derived.mode;
 }

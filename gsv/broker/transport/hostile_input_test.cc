@@ -104,8 +104,8 @@ TEST_F(HostileInputTest, AcceptsConstraintsUpToTheLimits) {
   };
   EXPECT_NO_THROW(Query("Robot", nested(64)));
   Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", nested(65)); });
-  // A comparison takes three nodes, and one more to join it to the rest. A literal takes one node,
-  // and so does `not`.
+  // A comparison takes three nodes, and `and` or `or` before it one more node. A literal and `not`
+  // take one node each.
   std::string thousand = "n == 0";
   for (int i = 1; i < 249; ++i) thousand += " or n == 1";
   thousand += " or not TRUE or TRUE";

@@ -1,4 +1,5 @@
-// Sends malformed TypeCodes over TCP. They would crash omniORB 4.2.5 alone, and the broker with it.
+// Sends malformed TypeCodes over TCP. Without the broker's checks, they would crash omniORB 4.2.5
+// and so the broker.
 #include <atomic>
 #include <list>
 #include <thread>
@@ -123,8 +124,8 @@ class BadService {
 };
 
 TEST_F(HostileTypeCodeTest, MakesADynamicPropertyUnavailable) {
-  // All services exist until the end. Otherwise one could get the port of an earlier service, and
-  // the broker would use the answer that it has cached.
+  // All services exist until the end. Otherwise a new service could get the port of an earlier
+  // service, and the broker would use its cached answer for that port.
   std::list<BadService> services;
   for (const std::string& type : BadTypeCodes()) {
     const BadService& service = services.emplace_back(type);

@@ -14,7 +14,7 @@ namespace gsv::broker {
 void HoldMemoryReserve(std::size_t bytes);
 
 // Throws CORBA::NO_MEMORY while less memory than the reserve is free. Operations that store their
-// arguments call it. It does nothing in a process without a reserve.
+// arguments call this function. It does nothing in a process without a reserve.
 void RequireMemoryReserve();
 
 }  // namespace gsv::broker

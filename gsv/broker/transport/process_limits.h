@@ -18,7 +18,8 @@ struct ProcessLimits {
 // Limits the whole process. Call it before threads start.
 [[nodiscard]] base::Status ApplyProcessLimits(const ProcessLimits& limits);
 
-// The number of connections that clients may keep open. It leaves descriptors for other uses.
+// The number of connections that clients may keep open. The limit leaves some file descriptors for
+// other uses.
 std::size_t MaxConnections();
 
 }  // namespace gsv::broker

@@ -23,7 +23,7 @@ using orb::RawCdr;
 using orb::RawMessage;
 using orb::Signature;
 
-// A server that accepts any request, keeps the last one, and always sends the same reply.
+// A server that accepts any request, stores the last request, and always sends the same reply.
 class Parrot {
  public:
   Parrot() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {

@@ -1,9 +1,8 @@
-// Checks the arguments and results of operations in the bytes of a message,
-// before the ORB unmarshals them. Operations that pass an `any` or a TypeCode
-// need this check, because omniORB 4.2.5 crashes on some malformed ones
-// (type_code_check.h). If a message is invalid, its body is removed. The ORB then
-// answers a request with MARSHAL (or raises it for a reply), and the connection
-// continues.
+// Checks the arguments and results of operations in the bytes of a message, before the ORB
+// unmarshals them. Operations that pass an `any` or a TypeCode need this check, because omniORB
+// 4.2.5 crashes on some malformed values (type_code_check.h). If a message is invalid, its body is
+// removed. The ORB then answers a request with MARSHAL (or raises it for a reply), and the
+// connection continues.
 #pragma once
 
 #include <cstdint>
