@@ -300,7 +300,7 @@ class BrokerApplication final : public Application {
     for (const broker::FoundOffer& offer : *offers) {
       auto created = CreateAt(offer.object, request);
       if (created || created.error().code == base::ErrorCode::kInvalidArgument) return created;
-      error = created.error();  // the server may have ended, so the next one is tried
+      error = created.error();  // the server may have ended, so the next server is tried
     }
     return base::Fail(std::move(error));
   }

@@ -37,8 +37,8 @@ struct RobotRequest {
   double x = 0, y = 0, yaw = 0;
   std::string behaviour;  // the name of an offer; empty for a robot without a behaviour
   std::string name;       // if empty, the robot gets the name of its model
-  // Makes a behaviour of this program, which needs no offer. It runs in this process, on its own
-  // thread.
+  // Makes a behaviour that runs in this process, on its own thread. Such a behaviour needs no
+  // offer.
   BehaviourFactory own_behaviour;
 };
 
@@ -54,8 +54,8 @@ struct RobotState {
 
 // The state of a simulation and its robots at one instant.
 struct SimulationState {
-  // "created", "running", "paused", …, or "lost" if the server has ended. Time and robots of a lost
-  // simulation are the last known ones.
+  // "created", "running", "paused", …, or "lost" if the server has ended. For a lost simulation,
+  // time and robots are the last known values.
   std::string phase;
   SimTime time{0};
   double real_time_factor = 0;
@@ -89,14 +89,14 @@ class RemoteSimulation {
   [[deprecated("use SetRealTimeFactor()")]] base::Status SetFactor(double factor) {
     return SetRealTimeFactor(factor);
   }
-  // Runs a command of the server by name, also one that this library does not know (see `gsv
-  // --help` or sba::Simulation::commands()). Values are texts such as "-1.62" or "true". Fails with
-  // kInvalidArgument for an unknown command or an invalid argument.
+  // Runs a command of the server by name. Commands that this library does not know are possible as
+  // well (see `gsv --help` or sba::Simulation::commands()). Values are texts such as "-1.62" or
+  // "true". Fails with kInvalidArgument for an unknown command or an invalid argument.
   virtual base::Status Command(const std::string& name,
                                const std::map<std::string, std::string>& arguments = {}) = 0;
   // Runs until the instant and pauses there. Blocks until then, at most for `timeout` of wall-clock
-  // time. Calls `keep_waiting` at least every two seconds. If that returns false, this returns
-  // kEnded and the run continues.
+  // time. Calls `keep_waiting` at least every two seconds. If `keep_waiting` returns false, this
+  // function returns kEnded and the run continues.
   virtual base::Status RunUntil(SimTime until,
                                 std::chrono::seconds timeout = std::chrono::minutes(10),
                                 const std::function<bool()>& keep_waiting = {}) = 0;

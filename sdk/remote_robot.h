@@ -31,8 +31,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   base::Status OpenClock();
   // Ends the run on this side: waits and calls return at once from now on.
   void End();
-  // Reports that the behaviour has finished. It is called once, after the behaviour's last use of
-  // the robot.
+  // Reports that the behaviour has finished. Called once, after the behaviour's last use of the
+  // robot.
   void CloseClock();
   // Reports that the run has ended with an error, instead of CloseClock().
   void GiveUp(const std::string& reason);

@@ -29,8 +29,8 @@ int PrintError(const base::Error& error) {
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
-// Blocks SIGINT and SIGTERM in this and all later threads, for sigwait(). It also blocks SIGHUP,
-// unless that is ignored, as by nohup.
+// Blocks SIGINT and SIGTERM in this and all later threads, for sigwait(). Also blocks SIGHUP,
+// unless SIGHUP is ignored, for example by nohup.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);

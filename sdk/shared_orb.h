@@ -1,4 +1,5 @@
-// The ORB of a process, for offers and calls. It starts with its first user and ends with its last.
+// The ORB of a process, for offers and calls. The ORB starts with its first user and ends with its
+// last user.
 //
 // Threads  any. The destructor of the last user waits for incoming calls in progress.
 #pragma once

@@ -137,7 +137,8 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
     return base::Fail(base::ErrorCode::kUnavailable, "there is no host of this name", host);
   }
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, freeaddrinfo);
-  // Connecting a datagram socket sends nothing. It selects the route, and so the local address.
+  // connect() on a datagram socket sends nothing. It only selects the route, and so the local
+  // address.
   const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in local{};
   socklen_t length = sizeof local;

@@ -27,8 +27,8 @@ struct RobotEntry {
   // instead of `behaviour`: a constraint on the behaviour's offer
   std::string behaviour_constraint;
   std::optional<model::Movement> movement;  // if not set, the movement of the model is used
-  // A text as in model/drive_choice.h. If it is empty, the model's own drive is used, or else a
-  // guessed one.
+  // A text as in model/drive_choice.h. If it is empty, the drive of the model is used. A model
+  // without a drive gets a guessed drive.
   std::string drive = {};
 
   friend bool operator==(const RobotEntry&, const RobotEntry&) = default;

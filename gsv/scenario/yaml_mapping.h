@@ -55,8 +55,8 @@ class YamlMapping {
   std::optional<double> Angle(const std::string& key);  // Reads an angle in radians.
   std::optional<std::uint64_t> Count(const std::string& key);
   std::optional<bool> Flag(const std::string& key);
-  // Reads one of two words, and returns whether it is the second one. Adds a problem for other
-  // words.
+  // Reads a value that must be one of two words. Returns whether it is the second word. Adds a
+  // problem for other words.
   std::optional<bool> IsSecondOf(const std::string& key, const std::string& first,
                                  const std::string& second);
   std::vector<std::string> Texts(const std::string& key);

@@ -25,7 +25,7 @@ sba::SensorTraits ToIdl(const model::SensorDescription& description,
 // Converts texts to parameters, and recognises numbers and flags.
 model::Parameters FromIdl(const sba::NameValues& values);
 sba::NameValues ToIdl(const model::Parameters& parameters);
-// Throws sba::Refused for an unknown option, listing the known ones.
+// Throws sba::Refused for an unknown option. The reason lists the known options.
 void RefuseUnknown(const model::Parameters& options, std::initializer_list<std::string_view> known);
 
 sba::CommandDescription ToIdl(const simulation::Command& command);

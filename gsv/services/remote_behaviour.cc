@@ -14,8 +14,8 @@ constexpr std::chrono::milliseconds kPingTimeout{1500};
 
 // Sets the time limit of all remote calls of this thread, during the lifetime of this object.
 class ThreadTimeout {
-  // The ORB stores the limit in an object of its own for each thread; this makes one for a
-  // std::thread.
+  // The ORB stores the limit in an omni_thread object for each thread. This member makes such an
+  // object for a std::thread.
   omni_thread::ensure_self self_;
 
  public:

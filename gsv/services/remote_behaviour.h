@@ -44,7 +44,8 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
  private:
   template <typename Function>
   base::Status Call(const char* operation, Function call) const;
-  // Deactivates the hardware objects of the previous run, and keeps the new ones (or null).
+  // Deactivates the hardware objects of the previous run, and stores the new hardware objects (or
+  // null).
   void ReplaceHardware(std::shared_ptr<ServantGroup> hardware);
 
   const BehaviourIdentity identity_;

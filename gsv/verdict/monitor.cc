@@ -148,7 +148,7 @@ ObligationPtr Normal(const scenario::Formula& formula, bool is_negated,
 }
 
 // Computes one step of the formula progression: the obligation that remains for the states after
-// this one.
+// the current state.
 class Progression {
  public:
   Progression(SimTime now, SimTime step, const std::function<bool(int)>& holds)

@@ -21,7 +21,8 @@ class Behaviour {
   // Runs until robot.SleepFor() or another wait returns false, or until the work is done.
   virtual void Run(Robot& robot) = 0;
 
-  // These are notifications. A behaviour that sleeps on the robot's clock need not react to them.
+  // Called when the simulation pauses or resumes. A behaviour that sleeps on the robot's clock need
+  // not override these functions.
   virtual void Paused() {}
   virtual void Resumed() {}
 };

@@ -36,8 +36,8 @@ struct BehaviourModule {
 
 extern "C" const gsv::BehaviourModule* gsv_behaviour_module();
 
-// Declares a behaviour. `make` is an expression of the type gsv::BehaviourModule. It is evaluated
-// once.
+// Declares a behaviour. `make` is an expression of the type gsv::BehaviourModule. The expression is
+// evaluated once.
 #define GSV_BEHAVIOUR_MODULE(make)                                \
   extern "C" const gsv::BehaviourModule* gsv_behaviour_module() { \
     static const gsv::BehaviourModule module = make;              \

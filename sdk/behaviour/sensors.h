@@ -67,7 +67,7 @@ class SensorPort {
   // Reads the sensor. Returns false after the end of the run, and if the sensor fails, which ends
   // the run. `reading` then has no values.
   virtual bool Measure(Reading& reading) = 0;
-  // Returns an image. It is empty when Measure() would return false, and for sensors without
+  // Returns an image. The image is empty when Measure() would return false, and for sensors without
   // images.
   virtual Image TakeImage() = 0;
   // Sends a message, see Radio::Send(). Sensors other than radios return an error.
@@ -288,8 +288,8 @@ class LogicalCamera : public Sensor {
 };
 
 // Exchanges messages with other robots. A message arrives at radios in range with the next step.
-// Messages arrive in the order of the senders' names, and those of one sender in the order of
-// sending.
+// Messages of different senders arrive in the order of the senders' names. Messages of one sender
+// arrive in the order of sending.
 class Radio : public Sensor {
  public:
   static constexpr const char* kType = readings::Radio::kType;
@@ -312,7 +312,8 @@ class Radio : public Sensor {
 
   // Returns the messages that were received since the last call, the oldest first.
   std::vector<Message> Receive();
-  // The number of messages that later ones replaced in the inbox before Receive() was called.
+  // The number of lost messages: later messages have replaced them in the inbox before Receive()
+  // was called.
   std::uint64_t missed() const { return missed_; }
 
  private:
@@ -399,7 +400,7 @@ class NormalsCamera : public Sensor {
   struct Image {
     int width = 0, height = 0;
     // Three values x, y, z per pixel, in rows from the top. They are the unit normal of the visible
-    // surface, towards the camera, in the sensor frame, or NaN where it is unknown.
+    // surface, towards the camera, in the sensor frame, or NaN where the normal is unknown.
     std::vector<double> normals;
   };
   Image TakeNormals() {

@@ -1,4 +1,5 @@
-// Evenly spaced sonars around a robot: those of its model, or created ones if it has none.
+// Evenly spaced sonars around a robot: the sonars of its model, or created sonars if the model has
+// none.
 //
 // Frame  bearings are counter-clockwise from straight ahead, in (-pi, pi].
 #pragma once

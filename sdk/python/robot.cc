@@ -34,7 +34,7 @@ py::object OpenSensor(RemoteRobot& robot, const std::string& name, const py::obj
   return sensor;
 }
 
-// Creates a sensor. `type` is the name of a type, or a class that has one.
+// Creates a sensor. `type` is the name of a sensor type, or a class with the attribute TYPE.
 py::object CreateSensor(RemoteRobot& robot, const py::object& type, const std::string& name,
                         const Placement& robot_from_sensor, Parameters parameters,
                         double update_rate) {

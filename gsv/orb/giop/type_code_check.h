@@ -27,8 +27,8 @@ struct TypeCodeLimits {
   std::size_t values = 65536;
 };
 
-// Checks the TypeCodes of one message. After each function, the reader is behind the part that was
-// read, or the reader has failed.
+// Checks the TypeCodes of one message. After each function, the reader is at the first byte that
+// the function has not read, or the reader has failed.
 class TypeCodeCheck {
  public:
   explicit TypeCodeCheck(const TypeCodeLimits& limits = {}) : limits_(limits) {}

@@ -10,8 +10,8 @@
 namespace gsv::orb {
 namespace {
 
-// A collection for the sockets of outgoing connections. They have no endpoint, and no thread polls
-// them.
+// A collection for the sockets of outgoing connections. These sockets have no endpoint, and no
+// thread polls them.
 class Unwatched final : public omni::SocketCollection {
   CORBA::Boolean notifyReadable(omni::SocketHolder* /*holder*/) override { return true; }
 };

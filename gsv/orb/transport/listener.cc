@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kHandshakeTime{10}, kFarewellTime{1};
-constexpr std::size_t kMaxPendingHandshakes = 256;  // if there are more, the oldest one is dropped
+constexpr std::size_t kMaxPendingHandshakes = 256;  // above this, the oldest handshake is dropped
 
 }  // namespace
 

@@ -1,8 +1,8 @@
 // Accepts connections for an endpoint, and watches them for the ORB.
 //
-// With TLS, the accepting thread also does the handshakes. It does a step whenever bytes have
-// arrived, without waiting. So a peer that stalls delays no other, and the ORB sees a peer only
-// after the peer has shown its certificate.
+// With TLS, the accepting thread also does the handshakes. It does a step of a handshake whenever
+// bytes have arrived, without waiting. So a peer that stalls does not delay other peers. The ORB
+// sees a peer only after the peer has shown its certificate.
 //
 // Threads  Await() and Notify(): the thread that accepts. Poke(): any.
 #pragma once

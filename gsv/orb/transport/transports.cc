@@ -77,7 +77,7 @@ struct Installed {
   base::Mutex mutex;
   std::unique_ptr<TcpTransport> tcp GSV_GUARDED_BY(mutex);
   std::unique_ptr<LocalTransport> local GSV_GUARDED_BY(mutex);
-  // the last one is current
+  // the last element is the current transport
   std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);
   // certificate of the current TLS transport
   std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);
