@@ -68,8 +68,8 @@ struct SimulationState {
 // A simulation on a server. The destructor destroys the simulation.
 //
 // If the server has ended, the simulation is lost permanently, and every call except State() fails
-// with kUnavailable. A server has ended if its port refuses connections, or if it does not answer for
-// half a minute during RunUntil().
+// with kUnavailable. A server counts as ended if its port refuses connections, or if it does not
+// answer for half a minute during RunUntil().
 class RemoteSimulation {
  public:
   virtual ~RemoteSimulation() = default;

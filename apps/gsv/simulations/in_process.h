@@ -10,8 +10,8 @@
 namespace gsv::app {
 
 // Loads the plug-in gsv-NAME.so from ../lib/gsv beside this program's folder, or from a folder in
-// GSV_PLUGIN_PATH (separated by colons). `behaviour` is a name, followed by spaces and the
-// behaviour's options. Returns an instance of the behaviour for one robot.
+// GSV_PLUGIN_PATH (separated by colons). `behaviour` is a name. The behaviour's options may follow
+// after spaces. Returns an instance of the behaviour for one robot.
 base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
     const std::string& behaviour);
 

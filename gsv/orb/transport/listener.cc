@@ -186,8 +186,8 @@ void Listener::Proceed(PendingHandshake* pending) {
   pending->setSelectable(1, false);
 }
 
-// It is called after all notifications of a round, because some of them may be for handshakes that
-// it destroys.
+// Called after all notifications of a Select() call, because some notifications may be for
+// handshakes that Dismiss() destroys.
 void Listener::Dismiss() {
   const Clock::time_point now = Clock::now();
   std::size_t surplus =
