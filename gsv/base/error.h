@@ -1,4 +1,4 @@
-// Represents expected failures as values: a code, a sentence and a place.
+// Represents expected failures as values: a code, a message and a location.
 //
 // A message says what was expected, what was found and what to do. `where` names the affected
 // file (and line), element path or address. An error is either returned or logged, never

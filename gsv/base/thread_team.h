@@ -1,6 +1,6 @@
 // A thread pool for parallel loops: one range of work at a time.
 //
-// Threads      one caller of ParallelFor() at a time; the caller takes part in the work.
+// Threads      one caller of ParallelFor() at a time; the caller also processes pieces.
 // Determinism  the assignment of pieces to threads varies. So pieces must not depend on each other,
 //              and their results must not depend on how the range is divided.
 #pragma once
@@ -31,8 +31,8 @@ class ThreadTeam {
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
   // Calls work(begin, end) for pieces of at most `grain` that cover [0, count), and returns when
-  // all calls have returned. If there is only one piece, the caller does it alone. `work` does not
-  // throw and calls no ParallelFor() itself.
+  // all calls have returned. If there is only one piece, the caller processes it and no worker is
+  // woken. `work` does not throw and calls no ParallelFor() itself.
   template <class Work>
   void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
     if (count <= grain || workers_.empty()) {
@@ -55,7 +55,7 @@ class ThreadTeam {
   void Work(std::size_t self);
   void WaitForWorkers();
   void RunPieces(std::size_t self);
-  // Waits for an open job and takes part in it. Returns false when the team ends.
+  // Waits for an open job and processes pieces of it. Returns false when the team ends.
   bool Join();
   bool TryJoin();
 

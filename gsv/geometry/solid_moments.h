@@ -21,8 +21,8 @@ struct SolidMoments {
 SolidMoments MomentsOf(const Shape& shape);
 
 // The part of a closed mesh below the plane z = `height` in the world: its volume, and the integral
-// of the position over it. The result is exact. The cut face needs no triangles, because with a
-// point of the plane they would enclose no volume.
+// of the position over it. The result is exact. The cut face needs no triangles: tetrahedra between
+// the cut face and a point of the plane would have no volume.
 struct VolumeBelow {
   double volume = 0;     // m³
   Vector3 first_moment;  // m⁴, in the world

@@ -33,7 +33,7 @@ struct DriveChoice {
 [[nodiscard]] base::Result<DriveChoice> ParseDriveChoice(const std::string& text);
 
 // Returns the model as a robot. `choice` is a text as above, or empty for the model's own drive or
-// a guessed one. A model without either only has joints and sensors. Returns the same model if
+// a guessed one. A model with neither drive only has joints and sensors. Returns the same model if
 // nothing changes. Fails with kBadModel if the model lacks the chosen joints, or if `choice` is
 // empty and the model has no drive, wheels, movable joints or sensors.
 [[nodiscard]] base::Result<std::shared_ptr<const Model>> AsRobot(std::shared_ptr<const Model> model,

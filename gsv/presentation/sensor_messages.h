@@ -34,8 +34,8 @@ void AppendSensorTransform(const world::Layout& layout, int body,
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
 // Collects the lines of all robots at one instant. The message has a marker for each robot, and a
-// deletion for each robot that no longer has lines. The next kDeletions messages repeat it, because a
-// viewer with a slow connection gets only some of the messages.
+// deletion for each robot that no longer has lines. The next kDeletions messages repeat the
+// deletion, because a viewer with a slow connection gets only some of the messages.
 class BeamMarkers {
  public:
   static constexpr int kDeletions = 45;

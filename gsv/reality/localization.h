@@ -2,8 +2,8 @@
 //
 // Method  a likelihood field (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.4): the
 //         distance from each cell to the nearest occupied one. The first pose is searched for
-//         everywhere, by several scans along the first metres of odometry; from there each pose is
-//         found near the one before it.
+//         everywhere, by several scans along the first metres of odometry; each later pose is
+//         searched for near the previous pose.
 // Errors  kInvalidArgument if no pose matches the scans.
 #pragma once
 

@@ -23,7 +23,7 @@ double RobustDeviation(std::vector<double> values);
 
 // Returns half the width of the 95 % interval of an estimate, by the jackknife (Efron 1982). Each
 // element of `without` is the estimate without one of several equal parts of the data. Returns 0
-// for less than two.
+// for fewer than two elements.
 double JackknifeInterval(const std::vector<double>& without);
 
 // Returns the largest difference of the two distribution functions, in [0, 1]; 1 if one sample is

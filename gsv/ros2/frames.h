@@ -27,8 +27,8 @@ class Frames {
   std::string odom() const { return prefix_ + "odom"; }
   const std::string& base() const { return base_; }
   std::string OfLink(const model::Model& model, int link) const;
-  // Returns the frame of a sensor: its link's frame if the sensor has the same pose, else its own
-  // frame.
+  // Returns the frame of a sensor: the link's frame if sensor and link have equal poses, else the
+  // sensor's own frame.
   std::string OfSensor(const model::Model& model, const model::SensorDescription& sensor) const;
 
   // Appends the transforms base → fixed links and links → sensors (and optical frames, if any).

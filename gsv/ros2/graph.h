@@ -35,7 +35,7 @@ class Graph {
  private:
   dds::Participant& participant_;
   const Distro distro_;
-  // Null if the participant refused to make it, which is logged.
+  // Null if the participant refused to make the writer; the refusal is logged.
   std::unique_ptr<dds::Writer> writer_;
   std::optional<std::vector<NodeInfo>> sent_;
 };

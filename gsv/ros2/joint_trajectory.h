@@ -2,7 +2,7 @@
 // between these times are interpolated.
 //
 // Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation":
-//          linear if the points have no velocities, cubic (Hermite) if they have.
+//          linear if the points have no velocities, cubic (Hermite) if they have velocities.
 // Units    rad and rad/s, or m and m/s for sliding joints.
 #pragma once
 

@@ -10,8 +10,8 @@
 namespace gsv::view {
 
 // Returns the corners, in the world, of the boxes around the visible bodies. It omits infinite
-// planes, ground that extends far beyond the bodies on it, and bodies so far away that the others
-// would be too small to see. If no body remains, returns a box of 2 m about the origin.
+// planes, ground that extends far beyond the bodies on it, and bodies so far away that the other
+// bodies would be too small to see. If no body remains, returns a box of 2 m about the origin.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
 // The direction of a view of the whole world, and its zoom.

@@ -9,8 +9,8 @@
 //               pushes from outside.
 // Others        all other drives: the integral of DriveState::actual. For a planar base, this is
 //               the actual motion, including stops at obstacles. For a rigid body it is the
-//               commanded motion of the wheels, as above.
-// Threads       one at a time, except Advance() for some bodies.
+//               commanded motion of the wheels, so it does not measure slip or pushes either.
+// Threads       one at a time, except that Advance() may run concurrently for different bodies.
 #pragma once
 
 #include <cstddef>

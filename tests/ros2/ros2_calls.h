@@ -7,8 +7,8 @@
 
 namespace gsv::ros2_peer {
 
-// Reads a call from each line and prints the response as JSON on one line; then the next. A line is
-// the name of a service of /gsv and its arguments:
+// Reads calls, one per line. For each call, prints the response as JSON on one line. A line
+// contains the name of a service of /gsv and its arguments:
 //
 //   get_simulator_features     get_entities [FILTER]      get_entities_states [FILTER]
 //   get_entity_info ENTITY get_entity_state ENTITY    get_entity_bounds ENTITY   set_entity_state

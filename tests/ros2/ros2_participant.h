@@ -18,7 +18,8 @@ namespace gsv::ros2_peer {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-// `receive_buffer`: bytes that its sockets ask for; 0: the usual ones of Cyclone DDS.
+// `receive_buffer` is the size in bytes that its sockets request; 0 means the default of Cyclone
+// DDS.
 inline std::string Loopback(int receive_buffer) {
   const std::string bytes = std::to_string(receive_buffer) + " B";
   const std::string buffers = receive_buffer == 0
@@ -105,8 +106,8 @@ class Participant {
     return reader;
   }
   // Creates the writer and the reader of a service's client. They keep all samples, as in
-  // rmw_cyclonedds: with "keep last", replies to other clients would replace one that was not taken
-  // yet.
+  // rmw_cyclonedds: with "keep last", replies to other clients would replace a reply that was not
+  // taken yet.
   dds_entity_t Requester(const dds_topic_descriptor_t& type, const std::string& service) {
     return Endpoint(&dds_create_writer, type, "rq" + service + "Request", kKeepAll);
   }

@@ -22,7 +22,8 @@ class OtherHost {
   // The wrapper for Running that starts a program on the other host.
   std::vector<std::string> wrapper() const;
 
-  // Cuts the link. Nothing is refused and nothing answers, as if a cable were unplugged.
+  // Cuts the link. Connections then get neither an answer nor an error, as if a cable were
+  // unplugged.
   void Cut();
   void Mend();
 

@@ -18,7 +18,7 @@ class SshHosts {
   // The reason why this machine cannot have hosts of this kind; empty if it can.
   static std::string Missing(Kind kind);
 
-  // Returns when all of them listen, on 127.0.0.1, 127.0.0.2 and so on.
+  // Returns when all hosts listen, on 127.0.0.1, 127.0.0.2 and so on.
   SshHosts(Kind kind, int count);
   ~SshHosts();
   SshHosts(const SshHosts&) = delete;

@@ -1,6 +1,6 @@
 // Stores the log of a real robot, in one structure for all formats.
 //
-// Units   metres, radians, seconds. Times are relative to the first one in the log.
+// Units   metres, radians, seconds. Times are relative to the first time in the log.
 // Frames  `truth`, `odometry`: world_from_base and odom_from_base. Angles of beams are relative to
 //         the base's x axis, counter-clockwise.
 #pragma once
@@ -65,7 +65,8 @@ struct Log {
 };
 
 // Returns the pose at `time`, interpolated between two of `poses`, which must be ordered by time.
-// Returns nullopt outside of them, and between poses that are more than `max_gap` seconds apart.
+// Returns nullopt before the first and after the last pose, and between poses that are more than
+// `max_gap` seconds apart.
 std::optional<TimedPose> PoseAt(const std::vector<TimedPose>& poses, double time,
                                 double max_gap = 1);
 

@@ -1,4 +1,4 @@
-// The rows of a text log: words separated by blanks, one row a line.
+// The rows of a text log: words separated by blanks, one row per line.
 //
 // Input   untrusted. A file above 512 MiB and a line above 1 MiB are refused. An unusable row is
 //         left out with a sentence that names file and line. For each file, the first 20 such
@@ -34,10 +34,10 @@ class TextRows {
   // fewer than `count` words, or if one is no finite number.
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
-  // Whether the time of this row may follow that of the row before it. A row that goes back in time
-  // is left out. But if up to five earlier rows are ahead of this row and the next one, those rows
-  // are wrong. They were used already, so RemoveMisdated() must remove the values made from them. A
-  // gap of more than 10 s is reported.
+  // Whether the time of this row may follow that of the row before it. A row whose time is earlier
+  // than that of the row before it is left out. But if up to five earlier rows have later times
+  // than this row and the next row, those earlier rows are wrong. The caller has already used them,
+  // so RemoveMisdated() must remove the values made from them. A gap of more than 10 s is reported.
   bool InOrder(double time);
 
   // Removes the values that were made from misdated rows from a series, whose elements have a

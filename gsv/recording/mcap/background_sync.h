@@ -1,5 +1,5 @@
-// Flushes a file to its disk on a separate thread. A flush may take seconds; writing continues
-// meanwhile.
+// Flushes a file to its disk on a separate thread. A flush may take seconds, and writing continues
+// during a flush.
 //
 // Threads  any.
 #pragma once
@@ -13,7 +13,7 @@ namespace gsv::recording {
 
 class BackgroundSync {
  public:
-  // `sink` must outlive this object, and must accept writes while it is synchronised.
+  // `sink` must outlive this object, and must accept writes during its Sync().
   explicit BackgroundSync(ByteSink& sink);
   // Waits until all requested flushes are done.
   ~BackgroundSync();

@@ -1,8 +1,8 @@
 // Keeps the newest part of a recording in memory. It is an output for McapWriter. If all records
 // together exceed the capacity, the oldest chunks are dropped.
 //
-// Kept     schemas, channels and metadata always; the newest chunks; of several attachments with
-//          one name, those that a kept chunk may need, and the newest.
+// Kept     schemas, channels and metadata always; the newest chunks; of attachments with equal
+//          names, the newest one and those that a kept chunk may need.
 // Threads  any.
 #pragma once
 
@@ -62,7 +62,8 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   void AddChunk(const ChunkRecord& chunk, std::span<const std::byte> indexes, const Piece& piece)
       GSV_REQUIRES(mutex_);
   void Shrink() GSV_REQUIRES(mutex_);
-  // Drops each attachment that another one of the same name replaced before the first kept chunk.
+  // Drops each attachment that was replaced before the first kept chunk, by a later attachment with
+  // the same name.
   void DropReplaced() GSV_REQUIRES(mutex_);
 
   const std::size_t capacity_;

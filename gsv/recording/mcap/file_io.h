@@ -20,7 +20,7 @@ class ByteSink {
   [[nodiscard]] virtual base::Status Write(std::span<const std::byte> bytes) = 0;
   // Returns when all written bytes are on the disk, so that they survive a loss of power.
   [[nodiscard]] virtual base::Status Sync() = 0;
-  // Truncates the output to its first `size` bytes, if it supports that.
+  // Truncates the output to its first `size` bytes, if the output supports truncation.
   [[nodiscard]] virtual base::Status Truncate(std::uint64_t size) = 0;
 };
 
@@ -29,7 +29,7 @@ class ByteSource {
  public:
   virtual ~ByteSource() = default;
   virtual std::uint64_t size() const = 0;
-  // Reads `length` bytes from `offset` on. Returns kCorrupt if there are fewer.
+  // Reads `length` bytes from `offset` on. Returns kCorrupt if the input has fewer.
   [[nodiscard]] virtual base::Result<Bytes> Read(std::uint64_t offset,
                                                  std::uint64_t length) const = 0;
 };

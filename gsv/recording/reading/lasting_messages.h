@@ -1,6 +1,6 @@
 // Finds messages that stay valid until the next message of their kind: transforms of sensors, the
-// last command of a robot, edits of the world. An excerpt of a recording must begin with the
-// messages of this kind from before its start.
+// last command of a robot, edits of the world. An excerpt of a recording must begin with those
+// messages from before its start that are still valid.
 #pragma once
 
 #include <vector>

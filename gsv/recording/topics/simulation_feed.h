@@ -3,8 +3,8 @@
 //
 // Threads      any; Next() from one thread only.
 // Bounded      snapshots are limited by a capacity. If the queue is full, the producer waits, or
-//              the snapshot is dropped and counted. Events never wait, because they are emitted
-//              under the simulation's locks; excess events are dropped.
+//              the snapshot is dropped and counted. Producers of events never wait, because events
+//              are emitted under the simulation's locks; excess events are dropped.
 // Determinism  in lockstep nothing is dropped, and the stepping thread takes the lists of sensors
 //              while the threads of all robots wait.
 #pragma once
@@ -30,7 +30,7 @@ using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>
 // Returns the sensors of all robots, avatars and stations of `layout`.
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout);
 
-// A snapshot, with what was sampled on the stepping thread at the same time.
+// A snapshot, with the sensors and the status that the stepping thread sampled at the same time.
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
   // Null if the sensors are unchanged or were not checked.

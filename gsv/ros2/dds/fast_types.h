@@ -24,7 +24,7 @@ class RawType final : public eprosima::fastdds::dds::TopicDataType {
   RawType(const std::string& name, std::size_t max_size);
 
   bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  // Returns an empty sample for one that is above the maximum size or has no header.
+  // Makes an empty sample if the payload exceeds the maximum size or has no header.
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override;
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override;
   void* createData() override { return new std::vector<std::byte>; }

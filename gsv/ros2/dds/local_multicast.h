@@ -3,7 +3,7 @@
 //
 // Linux delivers a datagram to each socket that is bound to the port and has joined any group
 // (IP_MULTICAST_ALL of ip(7)), provided that some program joined this group on loopback.
-// LocalMulticast joins the group itself, so that this is the case.
+// LocalMulticast joins the group on loopback itself to meet this condition.
 //
 // This reaches participants that wait for multicast, as Cyclone DDS does with default settings.
 //

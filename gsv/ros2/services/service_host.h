@@ -8,9 +8,9 @@
 // Requests are untrusted input. A request that cannot be decoded gets no reply. Each service logs
 // the first such request.
 //
-// Threads  Offer…(), Advertise() and the destructor on one. Handlers run on the threads of the
-//          host, one for each lane (kQuick and kLists share one). So slow requests do not delay
-//          quick ones. Other functions on any thread.
+// Threads  Offer…(), Advertise() and the destructor from one thread; other functions from any.
+//          Handlers run on the threads of the host: one thread for each lane, but kQuick and kLists
+//          share a thread. So slow requests do not delay quick ones.
 // Bounded  at most 10,000 requests wait; further ones are dropped, and the first is logged.
 #pragma once
 

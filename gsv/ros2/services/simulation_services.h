@@ -2,7 +2,7 @@
 // follow), and the parameter services of the node /gsv.
 //
 // Source   github.com/ros-simulation/simulation_interfaces, 2.0.
-// Threads  as ServiceHost.
+// Threads  see ServiceHost.
 #pragma once
 
 #include <functional>
@@ -28,8 +28,8 @@ class ServedSimulation {
   using SetNamespace =
       std::function<base::Status(const std::string& robot, const std::string& name_space)>;
 
-  // The host and the spawner must outlive this. The name of the node is "/gsv". With a null spawner
-  // nothing can be added.
+  // The host and the spawner must outlive this object. The name of the node is "/gsv". If the
+  // spawner is null, requests to add entities fail.
   ServedSimulation(ServiceHost& service_host, std::string node_name, Spawner* model_spawner)
       : host(service_host), node(std::move(node_name)), spawner(model_spawner) {}
 
@@ -77,13 +77,13 @@ class StepAction;
 // All services of the node /gsv.
 class SimulationServices {
  public:
-  // `participant` and `spawner` must outlive this. See ServedSimulation and ServiceHost. Clients
-  // find no service before the first Serve().
+  // `participant` and `spawner` must outlive this object. ServiceHost describes `has_hashes`, and
+  // ServedSimulation describes `spawner`. Clients find no service before the first Serve().
   SimulationServices(dds::Participant& participant, bool has_hashes, Spawner* spawner);
   ~SimulationServices();
 
-  // See ServedSimulation. The first call offers the services, so that the first request of a client
-  // already reaches this simulation. One call at a time.
+  // Calls ServedSimulation::Serve(). The first call offers the services, so that the first request
+  // of a client already reaches this simulation. One call at a time.
   void Serve(const std::shared_ptr<simulation::Simulation>& simulation,
              ServedSimulation::SetNamespace set_namespace);
   // Ends the services: no handler runs afterwards.

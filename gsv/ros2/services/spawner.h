@@ -43,10 +43,10 @@ class Spawner {
   virtual ~Spawner() = default;
   virtual std::vector<World> Worlds() = 0;
   virtual std::vector<Spawnable> Spawnables() = 0;
-  // Adds a robot, or an object, for which a running simulation is paused and resumed. Returns its
-  // name. Errors: kNotFound if there is no such model; kCorrupt if its file is refused;
-  // kInvalidArgument if this kind of URI is not accepted; else those of Simulation::AddRobot() or
-  // AddObject().
+  // Adds a robot or an object, and returns its name. To add an object, a running simulation is
+  // paused, and then resumed. Errors: kNotFound if there is no such model; kCorrupt if its file is
+  // refused; kInvalidArgument if this kind of URI is not accepted; else those of
+  // Simulation::AddRobot() or AddObject().
   virtual base::Result<std::string> Spawn(simulation::Simulation& simulation,
                                           const SpawnRequest& request) = 0;
   // Returns the named poses of the world's file.

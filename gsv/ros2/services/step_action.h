@@ -25,7 +25,8 @@ class StepAction {
       const messages::simulation_interfaces::SimulateStepsSendGoalRequest& request);
   void GiveResult(const GoalList::Id& id, const ServiceHost::Replier& reply);
   void Execute(const GoalList::Id& id, std::uint64_t steps);
-  // Takes the steps. Returns the number of steps taken and, if some are missing, the reason.
+  // Takes the steps. Returns the number of steps taken and, if this is less than `steps`, the
+  // reason.
   Outcome Take(simulation::Simulation& simulation, const GoalList::Id& id, std::uint64_t steps);
   void SendFeedback(const GoalList::Id& id, std::uint64_t completed, std::uint64_t remaining);
   void Finish(const GoalList::Id& id, const Outcome& outcome);

@@ -1,6 +1,6 @@
 // Offers the services of simulation_interfaces for worlds and named poses.
 //
-// Threads  as ServiceHost.
+// Threads  see ServiceHost.
 #pragma once
 
 #include "gsv/ros2/services/simulation_services.h"
