@@ -86,7 +86,7 @@ def main():
             file = Path(place) / "case.yaml"
             file.write_text(GOOD + text + "\n")
             by_schema = validator.is_valid(yaml.safe_load(file.read_text()))
-            # The second share of one scenario is empty: it is read, and nothing is run.
+            # The second share of one scenario is empty: the file is read, but nothing is run.
             run = subprocess.run([gsv, "test", file, "--shard", "2/2"], capture_output=True, text=True, check=False)
             by_gsv = {0: True, 3: False}.get(run.returncode)
             for who, verdict in (("the schema", by_schema), ("gsv", by_gsv)):

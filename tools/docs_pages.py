@@ -18,7 +18,7 @@ LANGUAGES = {".cc": "cpp", ".h": "cpp", ".idl": "idl", ".py": "python", ".mjs": 
              ".cmake": "cmake", ".sh": "bash", ".md": "markdown"}
 MAX_SOURCE_BYTES = 200_000
 
-# The order of pages. One that is not listed stands in the section of its folder, else in "More".
+# The order of pages. A page that is not listed is in the section of its folder, or else in "More".
 SECTIONS = (
     ("Tutorial", ("tutorial/README.md", "tutorial/*")),
     ("Guides", ("install.md", "viewer.md", "worlds.md", "sensors.md", "actuators.md", "ros2.md", "python.md",

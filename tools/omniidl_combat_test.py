@@ -29,7 +29,7 @@ module m {
 };
 """
 
-# As combat(n), "Interface Repository", and str.tcl want it.
+# The form that combat(n), "Interface Repository", and str.tcl require.
 TOLD = """combat::ir add {
 {module {IDL:acme/m:1.0 m 1.0} {\
 {const {IDL:acme/m/limit:1.0 limit 1.0} {unsigned short} 7} \

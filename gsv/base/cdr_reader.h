@@ -78,8 +78,8 @@ class CdrReader {
     return octets;
   }
   // Reads a string without its terminating zero. Fails if the zero is missing, or if the string
-  // contains another zero: CORBA strings must not (CORBA 3.1 part 2, 9.3.2.7), and omniORB would
-  // cut the string there.
+  // contains another zero: a CORBA string contains no zero (CORBA 3.1 part 2, 9.3.2.7), and omniORB
+  // would cut the string there.
   std::string_view String() {
     std::string_view text = Octets();
     if (text.empty() || text.find('\0') != text.size() - 1) {

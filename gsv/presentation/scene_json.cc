@@ -92,7 +92,7 @@ class ParameterSets {
     for (const auto& [name, value] : sensor.parameters) {
       std::visit([&, &key = name](const auto& held) { set[key] = held; }, value);
     }
-    // Text that is not UTF-8 must not fail here.
+    // Invalid UTF-8 in a text is replaced, because dump() would otherwise throw.
     const auto [it, is_new] =
         index_.try_emplace(set.dump(-1, ' ', false, Json::error_handler_t::replace), sets_.size());
     if (is_new) sets_.push_back(std::move(set));

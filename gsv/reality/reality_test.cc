@@ -133,7 +133,7 @@ constexpr PanelTest kPanels[] = {{.17, -24, 26},  {.32, -23, 27},  {.46, -23, 30
                                  {1.37, -31, 35}, {1.52, -19, 28}, {1.68, -35, 32}, {1.83, -29, 29},
                                  {1.98, -29, 29}, {2.11, -31, 17}, {2.26, -15, 18}, {2.41, -23, 21},
                                  {2.57, -27, 21}};
-// Maximum distances at which the rule and the sheet.
+// Maximum distances, in m, at which the sonar detects the rule and the sheet.
 constexpr double kRule = 2.45, kSheet = 1.68;
 
 // Returns the errors (degrees) at every second distance, beginning with `first`.
@@ -187,7 +187,8 @@ TEST_F(Reality, ASonarDetectsAPanelOverTheAnglesOfAnHcSr04) {
   Plot(comparison);
 }
 
-// --- Robots with motion capture: the parameters are fitted to two and validated with a third.
+// --- Robots with motion capture: the parameters are fitted to two robots and validated with a
+// third robot.
 
 TEST_F(RealLog, OdometryDriftEqualsThatOfARobotThatWasNotFitted) {
   std::vector<MotionWindow> fitted;

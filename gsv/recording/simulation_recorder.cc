@@ -12,8 +12,8 @@ namespace gsv::recording {
 namespace {
 
 // Wall-clock times: the period of checks for a destroyed simulation or a failed disk, and the age
-// at which messages are written. Together they are well below the guaranteed second, so that the
-// guarantee also holds on a busy machine.
+// at which messages are written. A crash may lose one second of messages at most. The sum of these
+// times is well below one second, so that this also holds on a busy machine.
 constexpr std::chrono::milliseconds kPollPeriod{100};
 constexpr std::chrono::milliseconds kFlushAge{500};
 

@@ -154,7 +154,7 @@ std::vector<Pose> LinkPoses(const Snapshot& snapshot, int body) {
   return poses;
 }
 
-// All calls are inlined, because each turn of a crowd calls this.
+// All calls are inlined, because this function is called very often in worlds with many robots.
 [[gnu::flatten]] Pose LinkPose(const Snapshot& snapshot, int body, int link) {
   const model::Model& model = *snapshot.layout->bodies[body].model;
   return snapshot.state.bodies[body].world_from_model *

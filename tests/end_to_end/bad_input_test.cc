@@ -249,7 +249,7 @@ TEST(BadInput, FullDiskEndsOnlyTheRecording) {
   ExpectOneSentence(outcome, 5, "/dev/full");
 }
 
-// A listening socket, which makes its port used.
+// A listening socket, which occupies its port.
 class TakenPort {
  public:
   TakenPort() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {

@@ -83,7 +83,8 @@ TEST_F(CampaignCommand, SingleRunCanBeExecuted) {
 TEST_F(CampaignCommand, SharesOfAnotherQueueAreCollectedAndContinued) {
   EXPECT_EQ(Campaign("run", {"--shard", "1/3", "--jobs", "1"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 3);
-  // The share is executed again, as by a queue that considers it lost. No run is left to do.
+  // The share is executed again, as a queue does if it considers the share lost. No run is left to
+  // do.
   EXPECT_EQ(Campaign("run", {"--shard", "1/3"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("run", {"--shard", "3/3", "--jobs", "1"}).ending, "exit code 0");
   const Outcome report = Campaign("report", {"--by", "robots[0].x"});

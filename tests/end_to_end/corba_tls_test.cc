@@ -279,8 +279,8 @@ TEST_F(CorbaTls, StalledHandshakesDelayNoOtherClient) {
   }
   const Outcome offers = broker.Offers();
   EXPECT_EQ(offers.ending, "exit code 0") << offers.err;
-  // The oldest connection was dropped for the newest. The newest ones have no more time than
-  // others.
+  // The oldest connection was dropped to accept the newest. The newest connections have the same
+  // time limit as others.
   EXPECT_THAT(stalled.front()->AwaitEnd(), IsEmpty());
   (void)stalled.back()->AwaitEnd();
   EXPECT_THAT(AwaitErrors(broker.program(), "finish"), HasSubstr("did not finish the handshake"));
@@ -320,7 +320,8 @@ std::size_t DescriptorsOf(pid_t pid) {
       fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd"), fs::directory_iterator()));
 }
 
-// Regression: such connections had no address any more when the ORB requested it, and stayed open.
+// Regression: such connections had no address any more when the ORB requested the address, and
+// stayed open.
 TEST_F(CorbaTls, DisconnectAfterTheHandshakeLeaksNothing) {
   BrokerByTls broker;
   EXPECT_EQ(broker.Offers().ending, "exit code 0");

@@ -70,7 +70,7 @@ class Isolation : public Served {
   std::unique_ptr<Running> bad_;
 };
 
-// A simulation whose hash is known from a run beside no others.
+// A simulation whose hash is known from a run without other simulations.
 class HashBesideAnotherSimulation : public Isolation {
  protected:
   HashBesideAnotherSimulation() {
@@ -130,7 +130,8 @@ TEST_F(HashBesideAnotherSimulation, IsUnchangedInAFloodOfCalls) {
     const sba::Simulations_var all = service_->list();
   });
   // The flood of calls must also continue once all behaviours have started. On a busy machine the
-  // first one may count as unresponsive by then, because it reads without ever waiting.
+  // first behaviour may count as unresponsive by then, because it reads its sensors without ever
+  // waiting.
   ExpectUndisturbedUntil([&] {
     const sba::SimulationState_var state = flooded->state();
     return asking.count() > 100 && CountOf(state.in(), sba::AGENT_INITIALISED) == 0;

@@ -1,5 +1,5 @@
-// Tests several servers at one broker. A client gets the least loaded server, and other servers do
-// the runs of a server that dies.
+// Tests several servers at one broker. A client gets the least loaded server, and other servers
+// execute the runs of a server that dies.
 #include <csignal>
 #include <fstream>
 #include <map>

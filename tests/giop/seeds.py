@@ -47,7 +47,7 @@ KEPT_ATTRIBUTES = ["def_search_card", "max_search_card", "def_match_card", "max_
                    "max_return_card", "max_list", "supports_modifiable_properties", "supports_dynamic_properties",
                    "supports_proxy_offers", "def_hop_count", "max_hop_count", "def_follow_policy",
                    "max_follow_policy", "max_link_follow_policy"]
-# Valid calls that a trader or a simulation refuses, ordered by the exception that it raises.
+# Valid calls that a trader or a simulation refuses, with the exception that the refusal raises.
 REFUSED = {
     "CosTrading::Register::resolve": "UnknownTraderName", "CosTrading::Admin::set_type_repos": "system exception",
     "sba::SensorFactory::open": "Refused", "sba::JointActuator::apply": "Refused",

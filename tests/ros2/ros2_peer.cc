@@ -29,9 +29,9 @@
 //                                                user data
 //
 // All commands take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves
-// Cyclone DDS its default settings; without it, it stays on loopback and uses no multicast. TYPE is
-// "sensor_msgs/msg/LaserScan", TOPIC is "/pebble/scan". Exits with 0 if all came, 1 after the time
-// limit, 2 for a usage error.
+// Cyclone DDS its default settings; without this option, Cyclone DDS stays on loopback and uses no
+// multicast. TYPE is "sensor_msgs/msg/LaserScan", TOPIC is "/pebble/scan". Exits with 0 if all
+// came, 1 after the time limit, 2 for a usage error.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

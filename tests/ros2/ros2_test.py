@@ -22,7 +22,7 @@ GSV, PEER = sys.argv[1:3]
 # stop.
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
 DOMAIN = 60 + os.getpid() % 40  # apart from others on this machine
-PUBLISHED = {  # by ROS 2's packages
+PUBLISHED = {  # type hashes that ROS 2's packages contain
     "sensor_msgs::msg::dds_::LaserScan_":
         "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",
     "geometry_msgs::msg::dds_::Twist_":
@@ -77,7 +77,8 @@ def captured(*fields):
             raise unittest.SkipTest("tshark has no permission to capture")
         rows = []
         yield rows
-        # The kernel hands packets over in blocks, some time later: this one comes after all others.
+        # The kernel hands packets over in blocks, some time later: this packet comes after all
+        # others.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             sender.sendto(b"end", ("127.0.0.1", last))
         for line in tshark.stdout:

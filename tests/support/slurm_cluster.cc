@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 constexpr const char* kPrograms[]{"/usr/sbin/munged", "/usr/sbin/slurmctld", "/usr/sbin/slurmd",
                                   "/usr/bin/sbatch", "/usr/bin/squeue"};
 
-// Finds ports on which no process listens. It holds all of them until the end, so that they differ.
+// Finds ports on which no process listens. All ports stay bound until the function returns, so that
+// they differ.
 std::vector<int> FreePorts(int count) {
   std::vector<int> sockets, ports;
   for (int i = 0; i < count; ++i) {
@@ -160,7 +161,7 @@ void SlurmCluster::KillSlurmd(int node) {
 
 void SlurmCluster::LoseNode(int node) {
   KillSlurmd(node);
-  // slurmstepd has the environment of its slurmd, and a task has that of its job.
+  // slurmstepd has the environment of its slurmd, and a task has the environment of its job.
   for (const std::string& variable :
        {"GSV_TEST_NODE=" + NodeName(node), "SLURMD_NODENAME=" + NodeName(node)}) {
     for (const pid_t process : ProcessesWith(variable, "")) kill(process, SIGKILL);

@@ -99,7 +99,7 @@ struct ChunkIndexRecord {
   base::SimTime end{};
   std::uint64_t chunk_offset = 0;  // offset of the chunk's record in the file
   std::uint64_t chunk_length = 0;  // length of the whole record
-  // Channels in ascending order. Each channel has the offset of its message index in the file.
+  // Pairs of a channel and the offset of its message index in the file, ordered by channel.
   std::vector<std::pair<std::uint16_t, std::uint64_t>> message_index_offsets{};
   std::uint64_t message_index_length = 0;
   std::string compression{};

@@ -66,7 +66,8 @@ class Copier {
                    message.data});
       ++recovery_.messages;
     }
-    // Problems are not added here: CopyMessages() meets the same blocks and reports them once.
+    // Problems are not added here: CopyMessages() reads the same blocks and reports each problem
+    // once.
   }
 
   void CopyMessages(const MessageBlock& block) {

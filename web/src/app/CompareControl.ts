@@ -16,8 +16,8 @@ import { shallowEqual } from "../state/Store";
 import { recordingOf } from "./NotesControl";
 import { notify } from "./notices";
 
-// If the two are farther apart than this, the second recording is moved to the instant of the
-// first.
+// If the times of the two recordings differ by more than this, the second recording is moved to the
+// instant of the first.
 const FARTHEST_APART_S = 0.15;
 
 type CompareApi = Pick<SimulationApi, "another" | "rootServer" | "difference">;

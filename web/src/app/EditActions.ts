@@ -41,8 +41,8 @@ export class EditActions {
     return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
   }
 
-  // Adds a shape in front of the selected robot, or where the view looks at. If there is no room, it
-  // gets the first free place.
+  // Adds a shape in front of the selected robot, or else at the point that the camera looks at. If
+  // that place is occupied, the shape gets the first free place.
   async addShape(shape: Shape): Promise<boolean> {
     const { selection, editing } = this.store.get();
     const robot = editing?.chosen == null && selection !== null ? this.placeOf(selection) : null;

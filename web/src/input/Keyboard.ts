@@ -90,13 +90,13 @@ function asOriginal(event: Key, changed: ChangedKeys): Key {
   return { key: isSingleKey(event) ? originalKey(key, changed) : key, ctrlKey, altKey, metaKey };
 }
 
-// Whether it is a letter, digit, punctuation or Space, without Ctrl or Alt.
+// Whether the key is a letter, digit, punctuation or Space, without Ctrl or Alt.
 export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
   return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
 }
 
-// Whether the focused element handles keys itself. Two do not: the timeline's slider, and a field
-// of a dialog that was just closed and still has the focus for a moment.
+// Whether the focused element handles keys itself. Two kinds of elements do not: the timeline's
+// slider, and a field of a dialog that was just closed and still has the focus for a moment.
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof Element)) return false;
   if (target.closest("dialog:not([open])")) return false;

@@ -1,4 +1,4 @@
-// The form that adds a robot, an avatar, an object, or another one like an object of the world.
+// The form that adds a robot, an avatar, an object, or a copy of an object of the world.
 import { EMPTY_SCENARIO, newRobot } from "../api/scenario";
 import type { Behaviours } from "../api/SetUpApi";
 import type { App } from "../app/App";

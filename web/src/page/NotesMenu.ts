@@ -1,5 +1,5 @@
-// The menu of notes: adds one at the present instant, lists all, goes to the time of one, and
-// removes notes from a recording.
+// The menu of notes: adds a note at the present instant, lists all notes, goes to the time of a
+// note, and removes notes from a recording.
 import type { App } from "../app/App";
 import { canNote, recordingOf } from "../app/NotesControl";
 import type { RecordingNote } from "../api/history";

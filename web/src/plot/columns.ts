@@ -13,7 +13,8 @@ export interface DrawnCurve {
   isDashed?: boolean; // whether the curve is of the compared recording
 }
 
-// If the distance of two values exceeds the usual one by this factor, there is a gap in the curve.
+// If the distance of two values exceeds the usual distance by this factor, there is a gap in the
+// curve.
 const GAP_INTERVALS = 8;
 const SHORTEST_GAP_S = 1.5;
 const MARGIN = 0.06; // margin above and below, as a fraction of the range

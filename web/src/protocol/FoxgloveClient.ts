@@ -25,7 +25,7 @@ export interface ClientEvents {
   onConnection(state: ConnectionState): void;
   // A message of the server could not be understood, or the server reports a problem.
   onProblem(sentence: string): void;
-  // Problems that last until the server takes them back, such as a slow connection.
+  // Problems that last until the server withdraws them, such as a slow connection.
   onLasting?(sentences: string[]): void;
   // The server's topics have changed.
   onTopics?(topics: TopicInfo[]): void;
@@ -121,8 +121,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     return [...this.subscriptions].filter(({ id, ended }) => id === null && !ended).map(({ topic }) => topic);
   }
 
-  // Subscribes to a topic; returns the function that ends the subscription. With `newestOnly`, no
-  // message is decoded while the last one has taken more than a fifth of the time since.
+  // Subscribes to a topic; returns the function that ends the subscription. With `newestOnly`,
+  // messages are skipped so that decoding takes at most a fifth of the time.
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,

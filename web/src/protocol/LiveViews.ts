@@ -38,7 +38,7 @@ export interface LiveViewSource {
 // The views of one connection, which may be lost and opened again.
 export class ConnectedViews implements LiveViewSource {
   private readonly readers = new Map<number, ViewReader>();
-  private isOffered: boolean | null = null; // null: the server has not said it
+  private isOffered: boolean | null = null; // null: the server has not reported it yet
 
   constructor(
     private readonly send: (message: object) => void,

@@ -14,9 +14,9 @@ export interface TopicOptions {
 }
 
 export interface TopicSource {
-  // Calls the handler with each message of the topic, and at once with the newest message if others
-  // already read it. Returns the function that ends this. A topic that nobody offers has no
-  // messages.
+  // Calls the handler with each message of the topic, and at once with the newest message if other
+  // readers already read the topic. Returns the function that ends the subscription. A topic that
+  // nobody offers has no messages.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void;
 }
 

@@ -20,10 +20,10 @@ import {
   ZeroFactor,
 } from "three";
 
-// Objects on this layer take part in ambient occlusion.
+// Ambient occlusion is computed from the depths of the objects on this layer.
 export const OCCLUDING_LAYER = 1;
 
-const RADIUS = 0.25; // m: surfaces within this distance of a place darken it
+const RADIUS = 0.25; // m: surfaces within this distance of a point darken the point
 const STRENGTH = 0.06; // m
 const DARKEST = 0.45;
 const SAMPLES = 12;

@@ -127,7 +127,7 @@ export class Arranger {
     event.stopPropagation();
     const { name } = drag.body;
     if (!drag.isMoved) {
-      // A click on the arrow means the body behind its tip, if there is one.
+      // A click on the arrow selects the body behind the tip of the arrow, if there is one.
       const behind = drag.turns ? this.view.bodies()?.pick(this.ray(drag.start)) : null;
       return this.events.onPick(behind && !behind.isFixed ? behind.name : name);
     }

@@ -74,8 +74,8 @@ export class BeamLayer {
     for (const robot of [...this.beams.keys()]) if (!robots.has(robot)) this.beams.delete(robot);
   }
 
-  // Moves the beams with the displayed robots. If there are too many, those of the robots with the
-  // lowest `rank` are drawn.
+  // Moves the beams with the displayed robots. If there are too many beams, the beams of the robots
+  // with the lowest `rank` are drawn.
   place(worldFromRobot: (robot: string) => Matrix4 | null, rank: (robot: string, frame: Matrix4) => number): void {
     const placed = [...this.beams].flatMap(([robot, beams]) => {
       const frame = worldFromRobot(robot);

@@ -21,7 +21,8 @@ export interface PickedView {
 export class BodyPicker {
   constructor(private readonly view: PickedView) {}
 
-  // A robot or an avatar: the body there, or else the nearest one that is drawn close to the place.
+  // Returns the robot or avatar at a place, or else the nearest robot that is drawn close to the
+  // place.
   robotAt(place: ScreenPlace): string | null {
     const hit = this.bodyAt(place);
     if (hit && hasAgent(hit)) return hit.name;

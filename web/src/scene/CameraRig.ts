@@ -1,5 +1,6 @@
 // The camera of the view: orbits, flies to views, follows a robot, or shows a robot's view. The
-// world's z is up. When it follows a robot and a wall is in between, it moves nearer to the robot.
+// world's z is up. If a wall is between the camera and a followed robot, the camera moves nearer to
+// the robot.
 import type { Box3 } from "three";
 import { MOUSE, MathUtils, Matrix4, PerspectiveCamera, TOUCH, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -12,8 +13,8 @@ import { fittingDistance } from "./framing";
 const { clamp, degToRad: radians } = MathUtils;
 
 const FIELD_OF_VIEW_DEG = 50;
-// The field of view of a map. It is so narrow that the map deviates from an orthographic one by
-// less than a hundredth. The server does not support a narrower one.
+// The field of view of a map. It is so narrow that the map deviates from an orthographic map by
+// less than a hundredth. The server does not support a narrower field of view.
 const MAP_FIELD_OF_VIEW_DEG = 1;
 const MAP_DEPTH = 200; // m: what is drawn below and above the camera's target
 const FLIGHT_MS = 450;
@@ -98,7 +99,8 @@ export class CameraRig {
     this.widen();
   }
 
-  // The position and target of the camera. During a flight, those of its end.
+  // The position and target of the camera. During a flight, the position and target at the end of
+  // the flight.
   get viewpoint(): Viewpoint {
     const { position, target } = this.flight?.to ??
       this.beforeEye ?? { position: this.stand.position, target: this.controls.target };
@@ -119,7 +121,8 @@ export class CameraRig {
     this.controls.dispatchEvent({ type: "change" });
   }
 
-  // The camera as numbers for a link. While a map is shown, those of the view before it.
+  // The camera as numbers for a link. While a map is shown, the numbers describe the view before
+  // the map.
   get viewNumbers(): ViewNumbers {
     const { position, target } = this.beforeMap ?? this.viewpoint;
     return [...position.toArray(), ...target.toArray()];
@@ -170,8 +173,8 @@ export class CameraRig {
     return (2 * distance * Math.tan(radians(this.camera.fov) / 2)) / this.height;
   }
 
-  // Flies to the subject and follows it; null ends this. With `turning`, the camera stays behind
-  // the subject and rotates with it.
+  // Flies to the subject and follows it; null ends following. With `turning`, the camera stays
+  // behind the subject and rotates with it.
   follow(subject: Subject | null, turning = false): void {
     if (!subject) {
       if (this.subject && this.turning) this.stayBeforeWall();
@@ -230,8 +233,8 @@ export class CameraRig {
     if (!this.beforeEye) this.stand.position.copy(this.camera.position);
   }
 
-  // Draws from the camera's place, or from in front of a wall that is in between. Returns whether
-  // there is room to move back.
+  // Draws from the camera's position, or from in front of a wall between robot and camera. Returns
+  // whether there is room to move back.
   private draw(nowMs: number): boolean {
     this.camera.position.copy(this.stand.position);
     this.camera.quaternion.copy(this.stand.quaternion);
@@ -273,7 +276,8 @@ export class CameraRig {
     this.fly(beforeEye);
   }
 
-  // Sets the field of view: in a robot's view that of the robot's camera, else the view's own.
+  // Sets the field of view: in a robot's view the field of view of the robot's camera, else the
+  // usual field of view.
   private widen(): void {
     const { camera, eyeView } = this;
     const ownFov = this.beforeMap ? MAP_FIELD_OF_VIEW_DEG : FIELD_OF_VIEW_DEG;

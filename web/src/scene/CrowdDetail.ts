@@ -10,8 +10,8 @@ import type { ModelInstances, Rig } from "./ModelInstances";
 import { boundsOf } from "./ModelTemplate";
 
 const SMALLEST_CROWD = 50;
-// Limits of the size in pixels of a crowd's nearest robot. Between the two, the level of detail
-// does not change.
+// Limits of the size in pixels of a crowd's nearest robot. Between the two limits, the level of
+// detail does not change.
 const COARSE_BELOW = 12;
 const FINE_ABOVE = 16;
 // Parts below this fraction of the largest part are small. At the limits above, such a part is two

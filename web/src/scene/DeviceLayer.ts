@@ -158,8 +158,8 @@ function placeLamp({ ball, halo }: Lamp, lit: { glow: Glow; frame: Matrix4 } | u
   halo.material.opacity = glow.brightness;
 }
 
-// Sets a light by the formula of gsv/rendering/scene/lit_lamps.cc. The factor pi cancels the one
-// in three's reflectance.
+// Sets a light by the formula of gsv/rendering/scene/lit_lamps.cc. The factor pi cancels the
+// division by pi in three.js's reflectance.
 function setLight(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; frame: Matrix4 }): void {
   light.position.setFromMatrixPosition(frame);
   light.color.copy(colourOf(glow));

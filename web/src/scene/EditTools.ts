@@ -115,7 +115,8 @@ export class EditTools {
     return this.tool !== null && this.use === "choose" && this.gizmo.isAt(at);
   }
 
-  // Handles a click that does not select. Returns whether it was one.
+  // Handles a click that moves the selection or provides a point. Returns false if clicks select
+  // bodies.
   click(at: ScreenPlace): boolean {
     if (this.use === "choose") return false;
     const point = this.view.pointAt(at);

@@ -1,5 +1,5 @@
-// Draws one frame of the view: moves what has moved, renews the shadows when they are due, and
-// draws the scene, or draws over an image of the server.
+// Draws one frame of the view: updates the objects that have moved, draws the shadows again when
+// they are due, and draws the scene, or draws over an image of the server.
 import type { Object3D, PerspectiveCamera, Scene } from "three";
 import type { Shown } from "../state/overlays";
 import type { Arranger } from "./Arranger";
@@ -38,7 +38,8 @@ export class FrameDrawer {
 
   constructor(private readonly layers: DrawnLayers) {}
 
-  // The camera of what is on the screen: images of the server show where the camera was.
+  // The camera of the image on the screen. An image from the server shows the view of an earlier
+  // camera.
   get shownCamera(): PerspectiveCamera {
     return this.layers.surface.drawnImage?.camera ?? this.layers.rig.camera;
   }

@@ -21,7 +21,7 @@ export interface GizmoEvents {
   onDrop(): void;
 }
 
-// Whether a part is the arrow of an axis against its direction.
+// Whether a part is an arrow that points against the direction of its axis.
 function isBackArrow(part: Object3D): boolean {
   const axis = AXES[part.name];
   if (axis === undefined || !(part instanceof Mesh)) return false;

@@ -1,6 +1,6 @@
 // The lights of a scene, as in the robots' cameras (gsv/rendering). An intensity of 1 lights a
 // white surface that faces the light to full white, as in the world file. The factor pi cancels the
-// one in three's reflectance. Light colours are linear, not sRGB.
+// division by pi in three.js's reflectance. Light colours are linear, not sRGB.
 import type { Box3, Light } from "three";
 import {
   Color,

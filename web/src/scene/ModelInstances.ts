@@ -47,7 +47,8 @@ export class ModelInstances {
     return this.of.bodies;
   }
 
-  // Moves the meshes to the present poses of the frames. With `all`, also those of fixed bodies.
+  // Moves the meshes to the present poses of the frames. With `all`, also moves the meshes of fixed
+  // bodies.
   place(all = false): void {
     for (const { frames, matrices, isMoving } of this.rigs) {
       if (!isMoving && !all) continue;

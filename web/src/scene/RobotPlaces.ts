@@ -80,8 +80,8 @@ export class RobotPlaces {
     return places;
   }
 
-  // Returns half of each robot's diagonal in metres. If the shape is not loaded yet, that of a
-  // small robot.
+  // Returns half of each robot's diagonal in metres. If the shape is not loaded yet, returns half
+  // the diagonal of a small robot.
   radii(): Float64Array {
     return Float64Array.from(this.robots, ({ body }) => {
       const bounds = this.bodies.templateOf(body)?.bounds;

@@ -12,7 +12,7 @@ export interface Eye {
   view: CameraView | null;
 }
 
-// For a robot without a camera: the front of its top.
+// Returns the pose of the view for a robot without a camera: at the front of its top.
 export function eyeAt(worldFromRobot: Matrix4, bounds: Box3 | null): Matrix4 {
   const isKnown = bounds !== null && !bounds.isEmpty();
   const place = isKnown ? [bounds.max.x, 0, bounds.max.z] : [0, 0, DEFAULT_HEIGHT];

@@ -5,7 +5,7 @@ import { robotsOf } from "../api/scene";
 
 const UP = new Vector3(0, 0, 1);
 const AROUND_ROBOTS = 4; // m: margin around the robots in the first view
-const SMALL_WORLD = 13; // m: a world of at most this half-width is shown whole
+const SMALL_WORLD = 13; // m: a world of at most this half-width is shown completely
 const TALLEST_SHOWN = 3; // m: higher parts of the world do not move the camera farther away
 
 // A body is far away if its distance from the centre exceeds FAR_RADII times that of all nearer
@@ -13,7 +13,7 @@ const TALLEST_SHOWN = 3; // m: higher parts of the world do not move the camera 
 const FAR_RADII = 20;
 const FAR = 100;
 
-// The part of the scene in the first view: the whole of a small world, else the robots with their
+// The part of the scene in the first view: a small world completely, else the robots with their
 // surroundings.
 export function focusOf(scene: SceneDescription): Box3 {
   const world = boundsWithoutFarAway(scene);
@@ -35,8 +35,8 @@ function placeOf({ pose }: { pose: readonly number[] }): Vector3 {
   return new Vector3(pose[0], pose[1], pose[2]);
 }
 
-// The bounds of the scene. If some bodies are so far away that the others would be too small to
-// see, only the nearer ones count.
+// The bounds of the scene. If some bodies are so far away that the other bodies would be too small
+// to see, only the nearer bodies count.
 function boundsWithoutFarAway(scene: SceneDescription): Box3 {
   const bounds = new Box3(new Vector3(...scene.bounds.min), new Vector3(...scene.bounds.max));
   const places = scene.bodies.map(placeOf);
@@ -47,8 +47,9 @@ function boundsWithoutFarAway(scene: SceneDescription): Box3 {
   return box.intersect(bounds);
 }
 
-// The bodies before the first gap, in the order of their distance from the median (of fewer than
-// three: from the origin). At least half of them are kept.
+// Returns the bodies before the first gap, in the order of their distance from the median of all
+// bodies. For fewer than three bodies, uses the origin and not the median. Keeps at least half of
+// the bodies.
 export function withoutFarAway(places: Vector3[]): Vector3[] {
   const middle = new Vector3();
   if (places.length >= 3) {
@@ -64,8 +65,8 @@ export function withoutFarAway(places: Vector3[]): Vector3[] {
   return gap < 0 ? sorted : sorted.slice(0, gap);
 }
 
-// Identifies what the camera was set up for: the camera stays while this is unchanged. Different
-// worlds may have one name, such as the previews of a set-up.
+// Returns an identifier of the world for which the camera is set up. The camera stays while the
+// identifier is unchanged. Different worlds may have one name, such as the previews of a set-up.
 export function environmentOf({ name, bodies }: SceneDescription): string {
   return JSON.stringify([name, bodies.filter(({ isFixed }) => isFixed).map(({ model, pose }) => [model, pose])]);
 }

@@ -9,7 +9,7 @@ export async function startGraphics(): Promise<boolean> {
   return (await askWorker()) ?? drawsInSoftware(document.createElement("canvas")) ?? true;
 }
 
-// Null if no worker can find out. Then the page blocks while the view starts.
+// Resolves to null if no worker can determine this. Then the page blocks while the view starts.
 function askWorker(): Promise<boolean | null> {
   if (typeof Worker === "undefined" || typeof OffscreenCanvas === "undefined") return Promise.resolve(null);
   let worker: Worker;

@@ -2,7 +2,7 @@ import { Vector3 } from "three";
 import { expect, test } from "vitest";
 import { equivalentBox } from "./inertia";
 
-// Of a box with sides 1, 2 and 3 m: m (b² + c²) / 12 and so on.
+// The inertia of a box with sides 1, 2 and 3 m: m (b² + c²) / 12 and so on.
 const MASS = 12;
 const MOMENTS = [13, 10, 5] as const;
 

@@ -33,8 +33,8 @@ export function drawAxes(lines: LineLayer, worldFromFrame: Matrix4, length: numb
   lines.add(worldFromFrame, ORIGIN, [0, 0, length], BLUE);
 }
 
-// For a revolute joint: its axis with a circle. For a prismatic joint: its axis with a bar at each
-// end.
+// Draws a revolute joint as its axis with a circle, and a prismatic joint as its axis with a bar at
+// each end.
 export function drawJoint(
   lines: LineLayer,
   worldFromJoint: Matrix4,
@@ -62,7 +62,7 @@ export function drawJoint(
   }
 }
 
-// A cross at the centre of mass, and the box with the same inertia.
+// Draws a cross at the centre of mass, and the box with the same inertia.
 export function drawMass(lines: LineLayer, worldFromInertia: Matrix4, { frameFromBox, half }: EquivalentBox): void {
   const [x, y, z] = half;
   const size = Math.min(CROSS, Math.max(...half) || CROSS);
@@ -81,8 +81,8 @@ export function drawMass(lines: LineLayer, worldFromInertia: Matrix4, { frameFro
   }
 }
 
-// The pyramid of a camera's field of view, one metre deep; if the angles are unknown, only its
-// direction.
+// Draws the pyramid of a camera's field of view, one metre deep; if its angles are unknown, draws
+// only the camera's direction.
 export function drawView(lines: LineLayer, worldFromCamera: Matrix4, view: CameraView | null): void {
   if (!view) {
     lines.add(worldFromCamera, ORIGIN, [VIEW_DEPTH, 0, 0], VIEW_COLOUR);
@@ -108,8 +108,8 @@ export function forceLength(newtons: number): number {
   return Math.min(LONGEST_FORCE, FORCE_LENGTH * Math.sqrt(newtons / FORCE_UNIT));
 }
 
-// A cross at the point, and an arrow along the force on the robot. If the force is not known, a
-// line along the normal towards the touched body.
+// Draws a cross at the point, and an arrow along the force on the robot. If the force is not known,
+// draws a line along the normal towards the touched body.
 export function drawContact(lines: LineLayer, worldFromSensor: Matrix4, { point, normal, force }: TouchPoint): void {
   const [x, y, z] = point;
   if (force) {

@@ -29,7 +29,7 @@ function makeCanvas(): HTMLCanvasElement {
   return canvas;
 }
 
-// `isFine`: edges are smoothed. Null if the browser has no WebGL 2.
+// `isFine`: with antialiasing. Null if the browser has no WebGL 2.
 export function makeRenderer(isFine: boolean): WebGLRenderer | null {
   const canvas = makeCanvas();
   // Opaque, so that the page behind is hidden.

@@ -85,7 +85,7 @@ export interface State {
   people: People; // the other viewers, and who has control
   editing: Editing | null; // null while nobody edits the simulation here
   recording: Recording | null; // recording of the simulation; null if there cannot be one, or if unknown
-  stopRecordingAsked: boolean; // whether the question is shown if the recording shall end
+  stopRecordingAsked: boolean; // whether the page asks the user to confirm the end of the recording
   endSeen: boolean; // whether the user has closed the summary of an ended run
   setUp: SetUp | null; // null while no simulation is being set up
   // Null if unknown.
@@ -100,7 +100,7 @@ export interface State {
   events: RecordedEvent[]; // events of the recording or the run, ordered by time
   notes: readonly RecordingNote[]; // notes of the recording, ordered by time
   comparison: Comparison | null; // null while no recording is compared
-  wishedTime: number | null; // s; the requested instant of the recording until the replay is there; else null
+  wishedTime: number | null; // s; the requested instant until the replay shows it; else null
   view: View;
   drawnBy: Drawer | null; // null before the view has started
   scene: SceneDescription | null;

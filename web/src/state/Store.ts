@@ -21,8 +21,8 @@ export class Store<State extends object> {
     for (const notify of [...this.watchers]) notify();
   }
 
-  // Calls `listener` now and whenever the selected part changes (according to `equal`). Returns the
-  // function that ends this.
+  // Calls `listener` now and whenever the selected part changes (according to `equal`). Returns a
+  // function that ends these calls.
   watch<T>(
     select: (state: State) => T,
     listener: Listener<T>,

@@ -24,7 +24,7 @@ export function loadLayouts(storage: Reading): SavedLayout[] {
   }
 }
 
-// Returns whether the browser has stored them.
+// Stores the layouts. Returns whether the browser has stored them.
 export function keepLayouts(storage: Writing, saved: readonly SavedLayout[]): boolean {
   try {
     storage?.setItem(SAVED_KEY, JSON.stringify(saved));

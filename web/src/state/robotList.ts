@@ -52,8 +52,8 @@ const FIELDS: Record<string, (robot: ListedRobot) => string> = {
   state: ({ state }) => `${state} ${STATE_WORDS[state]}`,
 };
 
-// Words that must all match: "pebble" is a part of the name, "model:scout" a part of another field,
-// "/^a\d$/" a regular expression for the name, and "model:/^sc/" one for a field.
+// Parses words that must all match: "pebble" is a part of the name, "model:scout" a part of another
+// field, "/^a\d$/" a regular expression for the name, and "model:/^sc/" one for a field.
 export function queryOf(text: string): Query {
   const tests: ((robot: ListedRobot) => boolean)[] = [];
   let problem = "";

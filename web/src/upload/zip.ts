@@ -12,7 +12,7 @@ import { isHidden, LARGEST_FILE, MOST_FILES } from "../api/DroppedFile";
 const LARGEST_TOTAL = 512 * 2 ** 20; // bytes, unpacked
 const MOST_ENTRIES = 4 * MOST_FILES; // includes folders and hidden files
 
-// First bytes of a zip archive with files; the other number is that of an empty archive.
+// The first bytes of a zip archive with files, and the first bytes of an empty archive.
 const FIRST_FILE = 0x04034b50;
 const NO_FILE = 0x06054b50;
 const STORED = 0;

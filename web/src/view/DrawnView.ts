@@ -1,5 +1,5 @@
 // Shows the view drawn by the server: its images on a separate canvas, with the page's overlays on
-// top. The canvas lies over the one that receives the pointer, and does not block it.
+// top. The canvas lies over the canvas that receives the pointer, and does not block the pointer.
 import type { Object3D, PerspectiveCamera } from "three";
 import { Vector3 } from "three";
 import type { LiveViewSource } from "../protocol/LiveViews";
@@ -16,7 +16,7 @@ export interface ImageSources {
 export interface DrawnViewEvents {
   onImage(): void;
   onProblem(sentence: string): void;
-  // The server pushes no images, so each is requested.
+  // The server pushes no images, so the page must request each image.
   onNotPushed(): void;
 }
 

@@ -155,7 +155,7 @@ export class Workspace {
     this.constrain(this.api.addPanel({ id, component: id, tabComponent: "tab", title: panel.title, position, ...(kin ? {} : size) }));
   }
 
-  // An open panel whose part accepts this one as a tab; `place` null: any part except the view's.
+  // An open panel whose part accepts this panel as a tab; `place` null: any part except the view's.
   private kinOf(id: string, place: Panel["place"] | null): IDockviewPanel | undefined {
     const viewGroup = this.api.getPanel(VIEW)?.group;
     const placeOf = (each: string) => this.of.panels.find((panel) => panel.id === each)?.place ?? "below";

@@ -20,8 +20,8 @@ export class ImagePainter {
   private busy = false;
   private isPainted = false;
   private generation = 0;
-  // The processor draws it. Without a graphics card, the page would otherwise wait for the 3D view,
-  // which is being drawn.
+  // The processor, and not the graphics, draws this canvas. Without a graphics card, the page would
+  // otherwise wait for the 3D view, which is being drawn.
   private readonly context: CanvasRenderingContext2D | null;
 
   // `onProblem` gets a sentence if an image cannot be shown.

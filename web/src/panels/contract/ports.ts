@@ -83,13 +83,14 @@ export interface ControlPort {
 
 // The shapes of models. Promises reject with a sentence.
 export interface ShapesPort {
-  // The visuals of the model with this identifier. The identifier of its collision shapes gives
-  // those.
+  // The visuals of the model with this identifier. The identifier of its collision shapes returns
+  // the collision shapes.
   visuals(model: string, links: readonly string[]): Promise<readonly VisualFacts[]>;
 }
 
 export interface ReplayPort {
-  // Goes to an instant of the recording, in simulated seconds. Resolves when the page is there.
+  // Goes to an instant of the recording, in simulated seconds. Resolves when the page shows this
+  // instant.
   seek(time: number): Promise<void>;
 }
 

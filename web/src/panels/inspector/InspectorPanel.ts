@@ -46,7 +46,7 @@ export function mount(ports: Ports): MountedPanel {
   return { body: element("div", { class: "inspector-body" }, hint, createPoseFields(ports), part.element, createInspector(ports)), whileOpen };
 }
 
-// Robots and avatars as a whole have their own card.
+// Returns null for a robot or an avatar itself, because createInspector() shows it.
 function objectOf(node: WorldNode | null): WorldNode | null {
   return node?.kind === "body" && (node.body.isRobot || node.body.isAvatar) ? null : node;
 }

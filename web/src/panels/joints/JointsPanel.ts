@@ -113,7 +113,7 @@ export function mount({ state, control }: Ports): MountedPanel {
   return { body: element("div", { class: "joints-body" }, line, paused.line, note, list), tools: [choice, inDegrees], whileOpen };
 }
 
-// The body that the inspector shows, or whose part it shows.
+// Returns the body that the inspector shows, or the body of the part that it shows.
 function selected(state: State): string | null {
   return shownPart(state)?.body ?? null;
 }

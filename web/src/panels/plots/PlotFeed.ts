@@ -42,7 +42,7 @@ export class PlotFeed {
   private readonly series = new Map<string, Series>(); // by curve
   // Whole curves that the server has computed.
   private readonly whole = new Map<string, WholeCurve>();
-  // Curves of the recording that is compared with.
+  // Curves of the second recording of a comparison.
   private readonly compared = new Map<string, Series>();
   private readonly ends = new Map<string, () => void>(); // by topic
   private readonly last = new Map<string, PlacedAt>(); // by robot
@@ -97,7 +97,7 @@ export class PlotFeed {
     return this.series.get(id) ?? null;
   }
 
-  // The curve of the same value in the recording that is compared with.
+  // The curve of the same value in the second recording of a comparison.
   comparedOf(id: string): Series | null {
     return this.compared.get(id) ?? null;
   }

@@ -26,7 +26,7 @@ export interface CurveEvents {
 
 export class WholeCurves {
   private readonly known = new Set<string>(); // curves that are being read, or were read
-  private readonly compared = new Set<string>(); // likewise for the second recording
+  private readonly compared = new Set<string>(); // the same for curves of the second recording
   private simulation: string | null = null;
   private isReplay = false;
   private other = ""; // the second recording

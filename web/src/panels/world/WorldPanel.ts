@@ -63,7 +63,7 @@ export function mount(ports: Ports): MountedPanel {
     isOpen = true;
     follow();
     const ends = [
-      // The choice in the view, in the list and in the edit panel is shown here, too.
+      // A selection in the view, in the list or in the edit panel is shown in the tree, too.
       state.watch(shownPart, (part) => {
         const node = nodeOf(state.get().scene, part);
         if (node && nodeId(node) !== (chosen && nodeId(chosen))) open(node);

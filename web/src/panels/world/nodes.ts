@@ -64,8 +64,8 @@ export function kindOf(body: SceneBody): string {
   return body.isStatic ? "static" : "dynamic";
 }
 
-// Robots first, then moving bodies, then static ones; each group by name. Includes the bodies with
-// the text in their name, or in the name of a link, joint or sensor.
+// Returns the bodies with `text` in their name, or in the name of a link, joint or sensor. Robots
+// come first, then moving bodies, then static bodies; each group is ordered by name.
 export function bodiesOf(scene: SceneDescription | null, text: string): SceneBody[] {
   const order = ["robot", "avatar", "station", "dynamic", "static"];
   const wanted = text.trim().toLowerCase();

@@ -102,7 +102,8 @@ export function mountLines({ transforms }: TransformsMessage, body: SceneBody, s
   return [["Transform", `${positionText([x, y, z])} in ${found.header.frame_id}, static`]];
 }
 
-// "box, 1 × 2 × 3 m", "cylinder, radius 0.5 m, length 1 m", "mesh, 1 × 1 × 2 m, 1,204 triangles".
+// Returns a text such as "box, 1 × 2 × 3 m", "cylinder, radius 0.5 m, length 1 m", "mesh, 1 × 1 × 2
+// m, 1,204 triangles".
 export function shapeText(shape: VisualFacts["shape"]): string {
   const { kind, size, radius, length, radii, triangles } = shape;
   const parts = [
@@ -137,7 +138,7 @@ function listText(entries: readonly string[]): string {
   return [...texts.slice(0, MAX_ENTRIES), ...(left > 0 ? [`and ${left} more`] : [])].join("\n");
 }
 
-// At most four digits after the point, without zeros at the end.
+// Writes at most four digits after the point, without zeros at the end.
 function numberText(value: unknown): string {
   return typeof value === "number" ? String(Number(value.toFixed(4))) : "?";
 }
