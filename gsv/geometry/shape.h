@@ -21,7 +21,7 @@ struct Sphere {
 struct Cylinder {
   double radius = 0.5, length = 1;
 };
-// `length` is that of the cylindrical part: the whole capsule is length + 2 radius long.
+// `length` is the length of the cylindrical part: the whole capsule is length + 2 radius long.
 struct Capsule {
   double radius = 0.5, length = 1;
 };

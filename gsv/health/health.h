@@ -1,4 +1,4 @@
-// The health of robots: whether each one moves, stands, is stuck, touches something, is late or
+// The health of robots: whether each robot moves, stands, is stuck, touches something, is late or
 // dead; its last command, its actual motion, and the obstacle that stops it. The state is computed
 // from a simulation's status and the readings of range sensors.
 //

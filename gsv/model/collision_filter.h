@@ -12,13 +12,13 @@ struct CollisionFilter {
   friend bool operator==(const CollisionFilter&, const CollisionFilter&) = default;
 };
 
-// Whether two collisions can collide, as SDFormat 1.9 defines it for <category_bitmask>: one of
-// them must collide with the other's category.
+// Whether two collisions can collide, as SDFormat 1.9 defines it for <category_bitmask>: `a` must
+// collide with the category of `b`, or `b` with the category of `a`.
 inline bool Meet(const CollisionFilter& a, const CollisionFilter& b) {
   return ((a.category & b.collides) | (b.category & a.collides)) != 0;
 }
 
-// Returns a filter that collides with everything that one of the two collides with.
+// Returns a filter that collides with everything that `a` or `b` collides with.
 inline CollisionFilter Union(const CollisionFilter& a, const CollisionFilter& b) {
   return {static_cast<std::uint16_t>(a.category | b.category),
           static_cast<std::uint16_t>(a.collides | b.collides)};

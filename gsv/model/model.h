@@ -53,7 +53,7 @@ struct Surface {
   CollisionFilter filter;
 };
 
-// A shape of a link that takes part in collisions, with its surface.
+// A collision shape of a link, with its surface.
 struct Collision {
   std::string name;
   geometry::Pose link_from_collision;
@@ -104,8 +104,8 @@ inline bool TakesCommands(JointKind kind) {
   return kind != JointKind::kFixed && kind != JointKind::kBall;
 }
 
-// A joint that follows another one, as gears do: its position is multiplier * (leader - reference)
-// + offset. With rigid-body dynamics, the reaction acts on the leader.
+// A joint that follows another joint, as gears do: its position is multiplier * (leader -
+// reference) + offset. With rigid-body dynamics, the reaction acts on the leader.
 struct Mimic {
   int leader = 0;  // index in Model::joints
   double multiplier = 1, offset = 0, reference = 0;

@@ -1,8 +1,8 @@
 // Notes that viewers attach to instants of a run.
 //
 // A note is an event of the simulation, of the kind kNoteEvent, whose detail has the instant and
-// the text. It is published and recorded on /gsv/notes, apart from the other events, because it is
-// not part of the run.
+// the text. A note is published and recorded on /gsv/notes, apart from the other events, because a
+// note is not part of the run.
 #pragma once
 
 #include <string>

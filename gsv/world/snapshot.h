@@ -39,8 +39,8 @@ struct Contact {
   // Such a contact is not a collision: only contact sensors report it.
   bool supports = false;
   // All points of two rigid bodies, the deepest first, at the end of the last substep in which the
-  // bodies touched. Their impulses add up to that of the whole step. Empty if the engine computes
-  // only the point above.
+  // bodies touched. The impulses of the points add up to the impulse of the whole step. Empty if
+  // the engine computes only the deepest point.
   std::vector<ContactPoint> points;
 };
 

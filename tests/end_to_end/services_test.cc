@@ -304,7 +304,7 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
 
 // The following tests use the SDK's side of the same services.
 TEST_F(Services, ApplicationNeedsNoCorbaCode) {
-  // A process has one ORB, so the SDK uses this one.
+  // A process has one ORB, so the SDK uses the ORB of this test.
   EXPECT_EQ(RunProgram("example-test-wandering",
                        {"--broker", broker_->reference(), "--world", "playground", "--places", "-1",
                         "0", "1", "0", "--seconds", "10"})

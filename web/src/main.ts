@@ -131,7 +131,7 @@ function showSelectedPose(): void {
   const pose = selected.update(selection, latest, performance.now());
   if (pose) store.set({ selectedPose: pose });
   // If the simulation is paused or the replay was moved here, no further poses arrive, so a timer
-  // shows this one.
+  // shows this pose.
   else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 

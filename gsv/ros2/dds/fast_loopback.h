@@ -2,9 +2,10 @@
 // machine that use the network.
 //
 // The sockets are bound to 127.0.0.1. Participants of this machine that announce a network address
-// also listen at 127.0.0.1, so this transport sends their data there. Fast DDS alone cannot do
-// both. If its only interface is 127.0.0.1, it ignores participants with default settings. If it
-// uses all interfaces, anybody on the network can send to it.
+// also listen at 127.0.0.1, so this transport sends their data there. Fast DDS without this
+// transport cannot stay on this machine and still reach these participants. If its only interface
+// is 127.0.0.1, it ignores participants with default settings. If it uses all interfaces, anybody
+// on the network can send to it.
 #pragma once
 
 #include <cstdint>

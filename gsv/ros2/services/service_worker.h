@@ -32,7 +32,7 @@ class ServiceWorker {
     changed_.notify_one();
     return true;
   }
-  // Finishes the current job, drops the others and ends the thread.
+  // Finishes the current job, drops the waiting jobs and ends the thread.
   void Stop() {
     {
       const base::MutexLock lock(mutex_);

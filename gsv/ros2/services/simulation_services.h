@@ -97,7 +97,7 @@ class SimulationServices {
   void Offer();
 
   std::vector<dds::Guid> readers_, writers_;
-  std::unique_ptr<ServiceHost> host_;  // destroyed first: its handlers use the others
+  std::unique_ptr<ServiceHost> host_;  // destroyed first: its handlers use the other members
   std::unique_ptr<ServedSimulation> served_;
   std::unique_ptr<StepAction> steps_;
 };

@@ -7,7 +7,7 @@ import { objectAt, textOr } from "./json";
 export interface Ros2SetUp {
   cmd_vel: string; // message type of cmd_vel; empty for the server's default
   distro: string; // ROS 2 distribution of the other nodes; empty for the server's default
-  range: string; // likewise
+  range: string; // discovery range; empty for the server's default
   others: Record<string, string>; // namespaces of robots that the scenario does not list
 }
 

@@ -94,8 +94,8 @@ export class EditControl {
     });
   }
 
-  // Selects the object that further edits change; null means the selected robot. Clears the rest of
-  // the selection.
+  // Selects the object that further edits change; null means the selected robot. Deselects all
+  // other bodies.
   choose(object: string | null): void {
     const { editing } = this.store.get();
     if (!editing) return;

@@ -20,7 +20,7 @@ export class PointingControl {
     this.store.set({ placing: placing && (editing !== null || setUp !== null) && chosenOf(this.store.get()) !== null });
   }
 
-  // Draws a wall from the next click on the floor to the one after it.
+  // Draws a wall from the next click on the floor to the click after it.
   drawWall(wall: Omit<WallDrawing, "from"> | null): void {
     this.end();
     if (wall) this.edits.drawWall({ ...wall, from: null });

@@ -1,7 +1,7 @@
 // The displayed poses of a scene's bodies, and of the links that move relative to them, in one list
 // of numbers: seven for each frame (x y z qx qy qz qw, metres). The frames of the scene's `poses`
-// come first, in their order; those of the other bodies follow. All instances are drawn from this
-// list.
+// come first, in their order; the frames of the other bodies follow. All instances are drawn from
+// this list.
 import type { Vector3 } from "three";
 import { Matrix4, Quaternion, Vector3 as Vector } from "three";
 import type { PoseNumbers, SceneDescription } from "../api/scene";

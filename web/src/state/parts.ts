@@ -14,7 +14,7 @@ export function shownPart({ part, editing, selection }: Pick<State, "part" | "ed
   return body === null ? null : bodyPart(body);
 }
 
-// The object that the view marks: the edited one, or the one that the inspector shows.
+// The object that the view marks: the edited object, or else the object that the inspector shows.
 export function markedObject({ part, editing, selection }: State): string | null {
   if (editing) return editing.chosen;
   return part === null || part.body === selection ? null : part.body;

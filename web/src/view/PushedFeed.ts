@@ -1,5 +1,6 @@
 // Receives the images that the server pushes over the live stream. The server sends the next image
-// when this one has been shown, so that a slow connection gets fewer images, but never old ones.
+// when the last image has been shown, so that a slow connection gets fewer images, but never old
+// ones.
 import type { LiveView, LiveViewSource, PushedImage } from "../protocol/LiveViews";
 import type { Feed, FeedEvents, ServerCamera } from "./ImageFeed";
 import { RETRY_MS, TRIES, queryOf } from "./ImageFeed";

@@ -1,5 +1,5 @@
-// Paints the images of one camera. One image is decoded at a time. Of the images that arrive
-// meanwhile, only the newest is decoded next.
+// Paints the images of one camera. One image is decoded at a time. Of the images that arrive during
+// decoding, only the newest is decoded next.
 import type { PointCloud } from "../../live/clouds";
 import { valuesOfGreyPng } from "../../live/greyPng";
 import type { ValueImage } from "../../live/valueImage";

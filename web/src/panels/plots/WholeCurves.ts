@@ -123,7 +123,7 @@ export class WholeCurves {
         if (!isWanted()) return;
       }
     } catch (error) {
-      // The values from playback are plotted nevertheless.
+      // The values from playback are still plotted.
       tell((error as Error).message);
     }
   }
