@@ -143,7 +143,7 @@ const pushed = (name, args) =>
   });
 
 // Counts the calls and triangles of each frame that a graphics card would get, and the time of the
-// page's script for it. Nothing is omitted for lack of a card.
+// page's script for it. The page omits nothing here, although there is no graphics card.
 function countDrawing() {
   const drawn = (window.testDrawn = { calls: 0, triangles: 0, script_ms: 0 });
   const count = (mode, vertices) => {
@@ -184,7 +184,8 @@ async function drawnBy(page, robots) {
 }
 
 // Runs in the page before its own script. Stores when the first row of the list of robots is on the
-// screen, in ms after the address was opened. A question from outside would wait for the page's script.
+// screen, in ms after the address was opened. A query from outside the page would wait for the
+// page's script.
 function noteList() {
   new MutationObserver((_, observer) => {
     if (!document.querySelector("[data-robot]")) return;
@@ -263,7 +264,7 @@ const traffic = (robots, off) =>
       `${url}${off ? "#show=" : ""}`,
       async (page) => {
         const count = () => page.evaluate(() => [JSON.parse(JSON.stringify(window.testTraffic)), performance.now()]);
-        await new Promise((resolve) => setTimeout(resolve, 3000)); // what comes once has come
+        await new Promise((resolve) => setTimeout(resolve, 3000)); // data that is sent only once has arrived
         const [before, from] = await count();
         await new Promise((resolve) => setTimeout(resolve, FRAMES_S * 1000));
         const [after, to] = await count();

@@ -13,7 +13,7 @@ import path from "node:path";
 const [packageJson, url, pid, viewers = "20", stalled = "0", seconds = "20"] = process.argv.slice(2);
 const { WebSocket } = createRequire(path.resolve(packageJson))("ws");
 const TOPICS = ["/gsv/poses", "/gsv/status", "/gsv/events"];
-const TICKS = 100; // a second, of /proc/PID/stat
+const TICKS = 100; // clock ticks per second in /proc/PID/stat
 
 const processorTime = () => {
   const fields = readFileSync(`/proc/${pid}/stat`, "utf8").replace(/^.*\) /, "").split(" ");

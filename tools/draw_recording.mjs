@@ -23,7 +23,7 @@ const WIDTH = 880;
 const MARGIN = 24;
 const LEGEND = 26;
 const MOST_POINTS = 6000; // of each kind
-const CELL = 0.03; // m: points that fall into one are drawn once
+const CELL = 0.03; // m: of several points in one cell, one is drawn
 
 // Composes poses in the plane: [x, y, yaw].
 const compose = ([x, y, yaw], [u, v, turn]) =>

@@ -1,5 +1,5 @@
-// Fails when what a browser fetches for the page is more than 700 kB, compressed, or the script of <gsv-view>
-// more than 8 kB.
+// Fails if the files that a browser fetches for the page exceed 700 kB, compressed, or if the
+// script of <gsv-view> exceeds 8 kB.
 //
 //   node check_size.mjs DIST
 import fs from "node:fs";

@@ -4,7 +4,7 @@
 //
 //   node interop_test.mjs MODULES_ROOT GATEWAY_DEV_SERVER
 //
-// MODULES_ROOT is the package.json whose node_modules hold these packages.
+// MODULES_ROOT is the package.json whose node_modules contain these packages.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";

@@ -5,7 +5,7 @@
 //
 //   node interop_test.mjs MODULES_ROOT WRITE_SAMPLES
 //
-// MODULES_ROOT is the package.json whose node_modules hold these packages.
+// MODULES_ROOT is the package.json whose node_modules contain these packages.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { createRequire } from "node:module";

@@ -3,7 +3,7 @@
 //
 //   node interop_test.mjs PACKAGE_JSON WRITE_RECORDINGS DRAW_RECORDING
 //
-// PACKAGE_JSON is the one whose node_modules hold these packages. DRAW_RECORDING is
+// PACKAGE_JSON is the package.json whose node_modules contain these packages. DRAW_RECORDING is
 // tools/draw_recording.mjs, which uses the same readers.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";

@@ -51,12 +51,12 @@ async function judge(page) {
 }
 
 // A robot is selected, its sensors are read, and a value is plotted. The simulation is paused,
-// because a changing picture keeps a browser without a graphics card busy.
+// because a changing image keeps a browser without a graphics card busy.
 async function openFilled(url) {
   const { page } = await openPage(browser, url);
   await waitUntilDrawn(page);
   await page.locator("[data-robot]").first().click();
-  // The browser keeps the layout: a test before may have left another panel in front.
+  // The browser stores the layout: an earlier test may have left another panel in front.
   await page.getByRole("tab", { name: "Inspector", exact: true }).click();
   await page.getByRole("button", { name: "Plot speed" }).click();
   await page.locator('[data-sensor="sonar_00"] dd').waitFor();

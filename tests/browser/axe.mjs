@@ -6,7 +6,7 @@ const AXE = fs.readFileSync(requireFromWeb.resolve("axe-core/axe.min.js"), "utf8
 
 // Returns the problems that axe-core finds, one per line.
 export async function faultsOf(page) {
-  await page.evaluate(AXE); // past the page's Content-Security-Policy
+  await page.evaluate(AXE); // not restricted by the page's Content-Security-Policy
   const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
   return violations.flatMap(({ id, nodes }) =>
     nodes.map(

@@ -1,8 +1,8 @@
-// What the page does when something goes wrong that it does not cause: a message that cannot be
-// decoded, a topic that ends, a layout of another version, a server that is gone for a while. Each has
-// a sentence, and the page continues. Other cases are in other tests: WebGL that is lost
-// (viewer_test), slow connections (slow_link_test), two viewers who drive one robot and a gamepad that
-// is pulled out (driving_test).
+// Tests how the page handles faults of others: a message that cannot be decoded, a topic that ends,
+// a layout of another version, a server that is unreachable for a while. The page shows a sentence
+// about each fault, and continues. Other tests cover other faults: WebGL that is lost
+// (viewer_test), slow connections (slow_link_test), two viewers who drive one robot and a gamepad
+// that is disconnected (driving_test).
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";

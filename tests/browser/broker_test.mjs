@@ -70,7 +70,7 @@ test("links are shown with their state", async () => {
 
 test("the viewer links to it and back, and there were no script errors", async () => {
   await page.getByTitle("The simulation").click();
-  await waitUntilDrawn(page); // a page that is left while it loads complains of what did not come
+  await waitUntilDrawn(page); // a page that is left while it loads reports errors about missing data
   await page.getByRole("link", { name: "Broker", exact: true }).click();
   await page.getByRole("heading", { name: "Broker", exact: true }).waitFor();
   assert.deepEqual(faults, []);

@@ -1,4 +1,4 @@
-// Starts Debian's headless Chromium with software rendering, as for people without a graphics card:
+// Starts Debian's headless Chromium with software rendering, as for users without a graphics card:
 // SwiftShader only renders WebGL, and the processor composes the page. Each browser has its own
 // profile.
 import fs from "node:fs";

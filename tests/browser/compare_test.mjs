@@ -1,4 +1,5 @@
-// Two recordings laid over each other: ghosts, dashed curves, the first difference; and notes beside a recording.
+// Tests the comparison of two recordings: ghosts, dashed curves, the first difference; and notes
+// beside a recording.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -65,12 +66,12 @@ async function approach() {
   await settled(page);
 }
 
-// Of the replay that the page asked last.
+// Returns the scene that the page requested last.
 function shownScene() {
   return page.evaluate(async (url) => (await fetch(url)).json(), sceneUrl);
 }
 
-// Where the other recording has the robot at the instant that the page shows.
+// The position of the robot in the other recording, at the instant that the page shows.
 async function ghostIsRight() {
   const { bodies, poses: list } = await shownScene();
   const entry = list.findIndex(({ body, link }) => bodies[body].name === MOVER && link === null);
@@ -140,7 +141,7 @@ test("the curves of the second recording are dashed beside those of the first", 
   const plot = page.getByRole("img", { name: "Plot" });
   await page.getByLabel("Add a curve").selectOption({ label: "x" });
   await page.getByText("at 0:04.00", { exact: true }).waitFor();
-  // Two curves of one colour: the one alone has fewer pixels of it.
+  // Both curves have the same colour, so one curve alone has fewer pixels of this colour.
   const coloured = () =>
     plot.evaluate((plotted) => {
       const canvas = plotted.matches("canvas") ? plotted : plotted.querySelector("canvas");

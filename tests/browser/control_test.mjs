@@ -1,4 +1,4 @@
-// Tests several people at one simulation: their names, control and requests for it, and a server
+// Tests several viewers of one simulation: their names, control and requests for it, and a server
 // that requires tokens.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -169,7 +169,7 @@ test("the pages of instances, recordings and the broker ask for the token too", 
     ["recordings.html", ".recording, .frame-list .hint"],
     ["broker.html", ".offer, .summary"],
   ]) {
-    const { page } = await openPage(browsers[1], `${server.url}${name}`); // a tab of its own knows no token
+    const { page } = await openPage(browsers[1], `${server.url}${name}`); // a new tab has no token
     await page.getByRole("alert").filter({ hasText: "requires a token" }).waitFor();
     await page.getByLabel("Token").fill(CONTROL);
     await page.getByRole("button", { name: "Enter" }).click();

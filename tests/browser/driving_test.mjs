@@ -56,7 +56,7 @@ async function standsStill(robot) {
 test("keys drive a robot without a behaviour through the door, and releasing them stops it", async () => {
   await press("Teleoperation");
   const choice = panel("Teleoperation").getByRole("combobox", { name: "Robot to drive" });
-  // Another one has a behaviour, and desk_arm has no drive.
+  // The other robot has a behaviour, and desk_arm has no drive.
   await until(async () => JSON.stringify(await choice.locator("option").allTextContents()) === '["pebble"]', "the list with pebble only");
   await pad().focus();
   await page.keyboard.down("w");

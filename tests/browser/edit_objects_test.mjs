@@ -1,5 +1,4 @@
-// Adds, rotates and removes objects in a paused simulation, and simulates the recording of this
-// again.
+// Adds, rotates and removes objects in a paused simulation, and simulates the recorded run again.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
@@ -48,8 +47,8 @@ async function shown(name, isThere = true) {
   await settled(page);
 }
 
-// Returns the titles of both buttons. They differ after each press, even after one of two equal
-// edits.
+// Returns the titles of both buttons. The titles differ after each press, even if two edits are
+// equal.
 const offered = () =>
   page.evaluate(() => ["Undo", "Redo"].map((each) => document.querySelector(`.edit [aria-label="${each}"]`).title).join());
 
@@ -139,7 +138,7 @@ test("removal is undone, and all edits can be undone and redone", async () => {
   assert.equal(await pressAsOftenAsItGoes("Redo"), 6);
   assert.ok(distance(await place("crate"), crate) < 1e-6);
   assert.ok(Math.abs(yawOf(await place("crate")) - yawOf(crate)) < 1e-6);
-  assert.equal(await body("can"), undefined); // its removal was done again as well
+  assert.equal(await body("can"), undefined); // its removal was redone, too
   await press("Undo");
   await shown("can");
 });
@@ -180,7 +179,8 @@ test("the recording contains the edits, and simulating it again gives the same r
   assert.equal(again.status, 0);
 });
 
-// Without the page: counts steps, so that the behaviours' decisions can be repeated too.
+// Uses the API and not the page: it counts steps, so that the behaviours' decisions can be repeated
+// too.
 test("in lockstep, a run with live behaviours repeats its edits exactly", async () => {
   const file = path.join(folder, "lockstep.mcap");
   server = await startServer([...RUN, "--lockstep", "--record", file]);
@@ -195,7 +195,7 @@ test("in lockstep, a run with live behaviours repeats its edits exactly", async 
   const phase = async () => (await (await fetch(api)).json()).phase;
   const halt = () => until(async () => (await phase()) === "paused", "the pause");
   await until(async () => (await phase()) === "running", "the run");
-  await post("/pause"); // somewhere amid the behaviours' turns
+  await post("/pause"); // at some moment in the behaviours' cycles
   await post("/objects", { model: "can", x: 1, y: 0 });
   await post("/step", { count: 100 });
   await halt();

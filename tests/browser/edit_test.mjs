@@ -129,7 +129,7 @@ test("a recording is started, which another viewer sees, and stopped", async () 
   await ask(page, "/bodies/pebble/place", { x: 0, y: -1.5 });
   try {
     await record(other).click();
-    await other.getByRole("button", { name: "End recording" }).click(); // it was not started there
+    await other.getByRole("button", { name: "End recording" }).click(); // this viewer has not started the recording
     await other.getByText("Recording saved. Replay it on the page Recordings").waitFor();
     await page.locator('.record[aria-pressed="false"]').waitFor();
     assert.ok(fs.statSync(path).size > 1000);

@@ -1,5 +1,5 @@
-// The world is edited by the page alone: shapes of a given size, handles, numbers, several bodies at once,
-// the ruler and the map; then it is saved, and what was saved is read again.
+// Edits a world by the page alone: shapes of a given size, handles, numbers, several bodies at
+// once, the ruler and the map. Then saves the world and reads the saved file.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
@@ -105,7 +105,7 @@ test("a handle moves the body along one axis, in steps if snapping is on", async
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
   await page.mouse.move(from.x + 0.5 * (from.x - middle.x), from.y, { steps: 4 });
-  // The way on the screen is short enough that nothing stands there.
+  // The distance on the screen is so short that no body is in between.
   await page.mouse.move(from.x + (from.x - middle.x), from.y + 10, { steps: 4 });
   await page.mouse.up();
   await until(async () => (await place("box"))[0] - before[0] > 0.2, "the moved box");
@@ -126,7 +126,7 @@ test("a drag of the selected body itself moves it over the floor", async () => {
   await ready();
   const before = await place("box");
   const at = await onScreen("box");
-  // The body's front, below its centre, where the handles meet.
+  // The front of the body, below its centre, which is where the handles meet.
   const from = { x: at.x - 2, y: at.y + 6 };
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
@@ -204,7 +204,7 @@ test("a wall is drawn by two clicks", async () => {
 });
 
 test("the map has a scale, and its ruler agrees with it", async () => {
-  // Beside the floor it has the colour of the world's background, not black.
+  // Beside the floor, the map has the colour of the world's background, not black.
   const { data, width } = await picture(page, await viewClip(page));
   const dark = [4, width - 4].map((x) => data.slice(4 * (40 * width + x), 4 * (40 * width + x) + 3)).filter((colour) => Math.max(...colour) < 20);
   assert.deepEqual(dark, []);
@@ -295,7 +295,7 @@ test("the saved world is read again with the same bodies", async () => {
   await waitUntilDrawn(other);
   const read = (await ask(other, "/scene")).bodies.map(({ name, pose }) => [name, pose]);
   assert.deepEqual(read.map(([name]) => name), poses.map(([name]) => name));
-  // It runs meanwhile: what lies on the floor settles within a millimetre.
+  // The simulation has run in the meantime: bodies on the floor settle within a millimetre.
   read.forEach(([name, pose], i) => pose.forEach((value, j) => assert.ok(Math.abs(value - poses[i][1][j]) < 1e-3, name)));
   await other.close();
   await again.stop();

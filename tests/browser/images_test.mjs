@@ -58,7 +58,7 @@ test("three cameras are seen at once", async () => {
   }, "six images");
   const boxes = await panel().locator("canvas").evaluateAll((all) => all.map((each) => each.getBoundingClientRect()).map(({ x, y, width, height }) => [x, y, width, height]));
   assert.equal(new Set(boxes.map(([x, y]) => `${x} ${y}`)).size, 6, "each has its own place");
-  // They fill the part in rows and columns.
+  // The images fill the panel in rows and columns.
   assert.deepEqual([new Set(boxes.map(([x]) => Math.round(x))).size, new Set(boxes.map(([, y]) => Math.round(y))).size], [3, 2]);
   assert.ok(boxes.every(([, , width, height]) => width > 100 && height > 70), JSON.stringify(boxes));
 });

@@ -82,7 +82,7 @@ test("a click on an object in the view shows its pose, mass, geometry, material 
   await shows(shown, "Collision", "box, 0.4 × 0.4 × 0.4 m");
   await shows(shown, "Position", "0.000, 0.000, 0.200 m");
   await shows(shown, "Age", /^\d+\.\d\d s$/);
-  // The list shows the same choice.
+  // The list shows the same selection.
   await until(async () => (await inList("crate").getAttribute("aria-pressed")) === "true", "the choice in the list");
 });
 

@@ -18,7 +18,7 @@ const SIZES = [
   { name: "on a phone", ...PHONE, colorScheme: "light" },
   { name: "on a phone in dark colours", ...PHONE, colorScheme: "dark" },
 ];
-// The panel Expectations exists only if there are some.
+// The panel Expectations exists only if the scenario has expectations.
 const SCENARIO = `
 world: playground
 mode: real_time

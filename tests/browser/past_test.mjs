@@ -80,7 +80,7 @@ test("one scrubs back while the run continues: the page shows where the robot wa
   assert.ok(Math.hypot(later.x - there.x, later.y - there.y) > 0.2, "the robot did not move");
   await settled(page);
   assert.ok(changedPixels(then, await picture(page, clip)) > 50, "the picture is the same");
-  // The same instant again must show the same place.
+  // After a return to the same instant, the robot must be at the same position.
   await scrubTo(2);
   await until(async () => Math.abs((await place()).time - there.time) < 1e-6, "the same poses");
   assert.deepEqual(await place(), there);

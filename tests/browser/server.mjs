@@ -15,7 +15,7 @@ const RECORD_TIMEOUT_MS = 120_000;
 const STOP_TIMEOUT_MS = 30_000;
 const ADDRESS = /http:\/\/127\.0\.0\.1:(\d+)\//;
 
-// Starts it with these arguments after `run`. `url` is the viewer's address.
+// Starts the server with these arguments after `run`. `url` is the viewer's address.
 export async function startServer(args = []) {
   return start(["run", ...args]);
 }
@@ -101,8 +101,8 @@ class Server {
     this.url = await withTimeout(address, START_TIMEOUT_MS, "the server's address");
   }
 
-  // Ends it like Ctrl-C, and returns its exit code. If it does not end in time, it is killed and
-  // this is an error.
+  // Ends the server like Ctrl-C, and returns its exit code. If the server does not end in time,
+  // kills it and throws an error.
   async stop() {
     const { child } = this;
     if (child.exitCode !== null || child.signalCode !== null) return child.exitCode;
@@ -112,12 +112,12 @@ class Server {
       const [code] = await withTimeout(exit, STOP_TIMEOUT_MS, "the server's end after SIGINT");
       return code;
     } catch (error) {
-      process.kill(-child.pid, "SIGKILL"); // its own group: its behaviours as well
+      process.kill(-child.pid, "SIGKILL"); // the process group, which includes its behaviours
       throw error;
     }
   }
 
-  // Kills it and its behaviours, like a crash.
+  // Kills the server and its behaviours, like a crash.
   async kill() {
     const exit = once(this.child, "exit");
     process.kill(-this.child.pid, "SIGKILL");

@@ -37,10 +37,11 @@ after(async () => {
   if (folder) fs.rmSync(folder, { recursive: true, force: true });
 });
 
-// Asked past the slow network.
+// Queries the server directly, not over the slow network.
 const serverTime = async () => (await (await fetch(`${server.url}api/simulations`)).json())[0].time_s;
 
-// How old the state that the page shows is at least, in simulated seconds, which pass as on the wall.
+// The minimum age of the state that the page shows, in simulated seconds, which equal wall-clock
+// seconds.
 async function ageOf(page) {
   const now = await serverTime();
   return now - (await page.evaluate(() => window.gsv.time));

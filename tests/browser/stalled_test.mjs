@@ -1,5 +1,5 @@
-// Tests a tab whose machine stops for a while, as when a laptop sleeps, while other viewers watch.
-// The others lose no messages, and the tab catches up, or connects again and reports this.
+// Tests a tab whose machine stops for a while, as when a laptop sleeps, while other viewers receive
+// updates. The others lose no messages, and the tab catches up, or connects again and reports this.
 //
 // GSV_STALL_S  duration of the stop (5; `make soak`: 180, which is longer than a server waits for
 // it)
@@ -93,13 +93,13 @@ const simulated = (page) => page.evaluate(() => window.gsv.time);
 
 test(`a tab stands still for ${STALL_S} s: others lose nothing, and it catches up`, { timeout: 1000 * (STALL_S + 300) }, async () => {
   const again = stalled.page.getByText("Connected again.").waitFor({ timeout: 1000 * (STALL_S + 120) });
-  again.catch(() => {}); // it is waited for only where it has to come
+  again.catch(() => {}); // the test awaits it only where it must arrive
   const pids = renderersOf(browsers[0]);
   const began = await timeNow();
   const counts = watchers.map(({ times }) => times.length);
   for (const pid of pids) process.kill(pid, "SIGSTOP");
   try {
-    await reached(watchers[0], began + STALL_S); // of simulated time, which keeps to the wall's
+    await reached(watchers[0], began + STALL_S); // simulated time, which equals wall-clock time
   } finally {
     for (const pid of pids) process.kill(pid, "SIGCONT");
   }

@@ -1,4 +1,4 @@
-// Tests the viewer in a real browser with a real simulation: what a person sees and clicks.
+// Tests the viewer in a real browser with a real simulation: what a user sees and clicks.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
@@ -18,7 +18,7 @@ const SIMULATION = [
   ...["--behaviour", "wander"],
   ...["--avatar", "avatar@-6.5,0"],
 ];
-const STEPS_TO_MOVE = 300; // three simulated seconds: enough to leave one's place
+const STEPS_TO_MOVE = 300; // three simulated seconds: enough for a robot to leave its place
 
 let server;
 let browser;

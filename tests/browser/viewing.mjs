@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { setTimeout } from "node:timers/promises";
 
 const LONGEST_WAIT_MS = 60_000; // two pictures of a busy machine may take ten seconds
-const ASK_AGAIN_MS = 20; // asking without a pause takes a processor from those who are to answer
+const ASK_AGAIN_MS = 20; // queries without a pause would occupy a processor that the answer needs
 
 // Returns the place of the 3D view on the page.
 export async function viewClip(page) {

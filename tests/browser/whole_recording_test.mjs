@@ -1,5 +1,5 @@
 // Tests that a replay shows a whole recording at once: the curve of a value from start to end, and
-// the log. Both lead to their instants.
+// the log. A click on the curve or the log goes to its instant.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";

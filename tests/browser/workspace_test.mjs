@@ -1,5 +1,5 @@
 // Tests the workspace: panels are docked, tabbed, moved, maximised and closed; layouts are saved,
-// linked and shared as files. On a phone, everything can be reached.
+// linked and shared as files. On a phone, all controls can be reached.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
