@@ -21,7 +21,7 @@ WEB = "web/src"
 IMPORT = re.compile(r"""(?:^|[^\w.])(?:from|import)\s*\(?\s*["'](\.[^"']*)["']""")
 BLOCK_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 LINE_COMMENT = re.compile(r"^\s*//.*$", re.MULTILINE)
-# Tests, and what only tests use, may import from any folder.
+# Tests, and files that only tests use, may import from any folder.
 WEB_TEST = re.compile(r"\.test\.ts$|/test[A-Z]\w*\.ts$")
 
 

@@ -89,7 +89,8 @@ class CdrReader {
     text.remove_suffix(1);
     return text;
   }
-  // Reads the number of elements of a sequence. Fails if it exceeds the number of remaining bytes.
+  // Reads the number of elements of a sequence. Fails if the count exceeds the number of remaining
+  // bytes.
   std::uint32_t Count() {
     const std::uint32_t count = ULong();
     if (count > remaining()) Fail();

@@ -14,8 +14,8 @@
 namespace gsv::geometry {
 
 // The sine and cosine of an angle. For small angles, a series avoids the argument reduction of
-// the library, which is several times slower. Its first omitted term is below 2^-68 of the
-// result.
+// the library, which is several times slower. The first omitted term of the series is below 2^-68
+// of the result.
 struct SineCosine {
   explicit SineCosine(double angle) {
     if (!(std::abs(angle) < 0.125)) {

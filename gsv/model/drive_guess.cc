@@ -17,7 +17,7 @@ constexpr double kAcross = 0.9;  // minimum cosine between an axle and the model
 constexpr double kIdlerRadius = 0.8;
 // Wheels nearer to the middle than this fraction of the half track are casters.
 constexpr double kMiddle = 0.25;
-constexpr double kNarrowest = 0.01;  // minimum half track, m
+constexpr double kNarrowest = 0.01;  // m: minimum distance of a wheel from the middle
 // Minimum distance of a caster behind its swivel, as a fraction of the radius.
 constexpr double kTrail = 0.15;
 constexpr double kMaxSteeringAngle = 1.4;  // rad

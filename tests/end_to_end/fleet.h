@@ -28,7 +28,7 @@ class Fleet {
   std::vector<std::unique_ptr<Running>> programs_;
 };
 
-// Returns the command line of `gsv run` with such robots, followed by `more`.
+// Returns the command line of `gsv run` with the robots of a Fleet, followed by `more`.
 std::vector<std::string> FleetRun(const std::string& broker, std::vector<std::string> more = {});
 
 }  // namespace gsv::testing

@@ -95,7 +95,7 @@ TEST(Servers, CampaignSurvivesAKilledAndADisconnectedServer) {
   EXPECT_EQ(outcome.LastLine()["done"], 14) << outcome.err;
   EXPECT_EQ(outcome.LastLine()["errors"], 0) << outcome.err;
 
-  // The results on this machine must be bit-identical.
+  // A campaign without servers, on this machine, must have the same results bit by bit.
   (void)RunProgram("gsv", {"campaign", "run", file, "--results", here});
   const auto runs = RunsOf(there, folder.path() / "there.csv");
   EXPECT_EQ(runs.size(), 14u);

@@ -18,8 +18,8 @@ import unittest
 from xml.etree import ElementTree
 
 GSV, PEER = sys.argv[1:3]
-# Fast DDS 2.9 deletes objects through a type of another size, at which the address sanitizer would
-# stop.
+# Fast DDS 2.9 deletes objects through a type of another size, for which AddressSanitizer would end
+# the program.
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
 DOMAIN = 60 + os.getpid() % 40  # apart from others on this machine
 PUBLISHED = {  # type hashes that ROS 2's packages contain
@@ -195,7 +195,7 @@ class ForeignPeer(unittest.TestCase):
                          "a ROS 2 node publishes std_msgs/msg/String on /pebble/cmd_vel, but pebble takes "
                          "geometry_msgs/msg/Twist"]:
             self.assertEqual(gsv.log.count(sentence), 1, gsv.log)
-        self.assertEqual(gsv.returncode, 130, gsv.log)  # ended by a signal, and by nothing else
+        self.assertEqual(gsv.returncode, 130, gsv.log)  # ended by SIGINT, and not by an error
 
     def test_refuses_a_domain_out_of_range(self):
         done = subprocess.run([GSV, "run", "office", "--robot", "pebble", "--ros2", "--headless"],

@@ -26,8 +26,8 @@ export interface PageHandle {
   readonly robots: string[];
   // The last reported position of the robot in metres, and its simulated time; null while unknown.
   robotPosition(name: string): { x: number; y: number; z: number; time: number } | null;
-  // The place where the ghost of this robot is drawn (from the recording that is compared with), in
-  // metres; null: none.
+  // The place where the ghost of this robot is drawn, in metres; null: there is no ghost. Ghosts
+  // are the robots of the second recording of a comparison.
   ghostPosition(name: string): { x: number; y: number } | null;
   // The place where the robot's centre is drawn, in CSS pixels of the page; null if it is outside
   // the view.

@@ -34,7 +34,7 @@ class ChunkBuilder {
  private:
   ZstdCompressor compressor_;
   Bytes records_;
-  // By channel; empty for channels without messages in the chunk.
+  // The message index of each channel; empty for channels without messages in the chunk.
   std::vector<MessageIndexRecord> index_;
   std::vector<std::uint16_t> channels_;  // channels with entries
   base::SimTime start_{};

@@ -17,7 +17,7 @@ namespace gsv::recording {
 struct Attachment {
   std::string name;
   std::string media_type;
-  std::chrono::nanoseconds log_time{};     // simulated time at which it was attached
+  std::chrono::nanoseconds log_time{};     // simulated time at which the file was attached
   std::chrono::nanoseconds create_time{};  // when the file was created, since 1970
   Bytes data;
 };

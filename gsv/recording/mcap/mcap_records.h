@@ -62,7 +62,7 @@ struct SchemaRecord {
 
 struct ChannelRecord {
   std::uint16_t id = 0;
-  std::uint16_t schema_id = 0;  // 0 if there is none
+  std::uint16_t schema_id = 0;  // 0 if the channel has no schema
   std::string topic;
   std::string message_encoding;
   StringMap metadata;
@@ -150,7 +150,7 @@ struct MetadataIndexRecord {
   std::string name;
 };
 
-// Where the records of one kind are in the summary.
+// The place in the summary where the records of one kind are.
 struct SummaryOffsetRecord {
   Opcode group{};
   std::uint64_t start = 0;

@@ -1,5 +1,4 @@
-// Scans a recording without its summary. Reads it record by record, up to the first invalid
-// one.
+// Scans a recording without its summary. Reads it record by record, up to the first invalid record.
 #include <algorithm>
 #include <set>
 

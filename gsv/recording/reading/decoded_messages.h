@@ -69,7 +69,7 @@ nlohmann::ordered_json ToJson(const Difference& difference);
 enum class Gaps {
   kNone,
   // The first recording may lack messages. A topic is compared at an instant only if both
-  // recordings have the same number of messages there.
+  // recordings have the same number of its messages at that instant.
   kInFirst,
 };
 

@@ -71,7 +71,7 @@ class LastingSearch {
  private:
   struct Channel {
     Lasting lasting = Lasting::kNo;
-    std::optional<messages::Definition> definition;  // for channels of kind kOfEach
+    std::optional<messages::Definition> definition;  // set for channels of the kind kOfEach
   };
   struct Found {
     std::uint64_t place = 0;  // number of the message in the order of the file

@@ -53,7 +53,7 @@ class StateTopics {
   std::vector<simulation::ExpectationState::Verdict> verdicts_;
   std::optional<std::int64_t> poses_step_;  // number of the step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;  // the written entries, one per body of layout_
+  std::vector<presentation::PoseEntry> pose_list_;  // the entries of the written poses, for layout_
   messages::tf2_msgs::TFMessage
       transforms_message_;  // the last message; its names are those of layout_
   std::map<std::string, world::DriveState> written_;  // last written command of each robot

@@ -1,7 +1,7 @@
 // Offers the services GetEntities, GetEntityInfo, GetEntityState, GetEntitiesStates,
-// GetEntityBounds, SetEntityState, GetNamedPoses, GetNamedPoseBounds and GetCurrentWorld.
+// GetEntityBounds, SetEntityState and SetEntityInfo.
 //
-// Every body of the simulation is an entity with the same name. Worlds have no named poses.
+// Every body of the simulation is an entity with the same name.
 #pragma once
 
 #include "gsv/ros2/services/simulation_services.h"

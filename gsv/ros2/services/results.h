@@ -1,5 +1,5 @@
-// Makes Result messages of simulation_interfaces, and performs edits for which the simulation must
-// be paused.
+// Makes Result messages of simulation_interfaces, and performs edits that require a paused
+// simulation.
 #pragma once
 
 #include <functional>

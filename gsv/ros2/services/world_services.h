@@ -7,8 +7,9 @@
 
 namespace gsv::ros2 {
 
-// Offers get_current_world and get_available_worlds. Requests to load or unload a world, or for
-// named poses, get RESULT_FEATURE_UNSUPPORTED.
+// Offers the services for worlds and named poses. If the spawner cannot load worlds, requests to
+// load or unload a world get RESULT_FEATURE_UNSUPPORTED. Without a spawner, requests for named
+// poses or available worlds get the same result.
 void OfferWorldServices(ServedSimulation& served);
 
 }  // namespace gsv::ros2

@@ -35,7 +35,7 @@ export class RecordControl {
   }
 
   // One press ends a recording only if this page has started it, because a command line or another
-  // viewer may need other recordings. For those, the page asks first.
+  // viewer may need other recordings. Before it ends such a recording, the page asks the user.
   press(): void {
     const { recording } = this.store.get();
     if (recording?.isOn && recording.path !== this.startedHere) this.store.set({ stopRecordingAsked: true });

@@ -32,7 +32,7 @@ export class TopicRequests {
     const missing = new Set(this.missing());
     if (missing.size === 0) return;
     for (const { name, sensors } of scene.bodies) {
-      // A robot without sensors has no topics to list, and its beams have none either.
+      // A robot without sensors has no topics of readings or beams to list.
       if (sensors.length === 0) continue;
       if (!missing.has(`/gsv/beams/${name}`) && !sensors.some(({ topic }) => missing.has(topic))) continue;
       // If there is no answer, these topics have no messages. A new connection requests them again.

@@ -80,7 +80,7 @@ function collectObjects(list: unknown[], key: string, depth: number, values: Liv
 }
 
 // Collects all values of a short list, or the minimum and maximum of the finite values of a long
-// one.
+// list.
 function collectList(list: NumberList, key: string, values: LiveValue[]): void {
   if (list.length === 0) return;
   if (list.length <= LONGEST_LISTED) {

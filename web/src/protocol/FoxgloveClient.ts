@@ -23,11 +23,11 @@ export type ConnectionState =
 
 export interface ClientEvents {
   onConnection(state: ConnectionState): void;
-  // A message of the server could not be understood, or the server reports a problem.
+  // Called if a message of the server could not be decoded, or if the server reports a problem.
   onProblem(sentence: string): void;
-  // Problems that last until the server withdraws them, such as a slow connection.
+  // Called with the problems that last until the server withdraws them, such as a slow connection.
   onLasting?(sentences: string[]): void;
-  // The server's topics have changed.
+  // Called when the server's topics have changed.
   onTopics?(topics: TopicInfo[]): void;
 }
 

@@ -14,11 +14,11 @@ export interface PushedImage {
 
 // The callbacks for a view.
 export interface ViewReader {
-  // The stream is open, for the first time or again. `isOffered`: the server pushes images, and
-  // show() has an effect from now on.
+  // Called when the stream is open, for the first time or again. If `isOffered`, the server pushes
+  // images, and show() has an effect from now on.
   onReady(isOffered: boolean): void;
   onImage(image: PushedImage): void;
-  // The server has ended the view for this reason. show() begins it again.
+  // Called when the server has ended the view, with the reason. show() begins it again.
   onEnd(sentence: string): void;
 }
 

@@ -95,7 +95,8 @@ test("following keeps the direction of the view while the robot moves and turns"
   expectNear(rig.camera.position.clone().sub(rig.controls.target), offset.x, offset.y, offset.z);
 });
 
-// The view of a link had been raised by half the robot's height when its model arrived.
+// Regression: the view from a shared link moved up by half the robot's height when the robot's
+// model arrived.
 test("the view does not move when the robot's shape is loaded", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow({ ...HERE, middle: HERE.position });

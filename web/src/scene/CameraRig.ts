@@ -63,7 +63,7 @@ export class CameraRig {
   private drawnMs = 0;
   private flight: Flight | null = null;
   private subject: Subject | null = null;
-  private turning = false; // whether it rotates with the subject
+  private turning = false; // whether the camera rotates with the subject
   // The view before that of a robot; null: no robot's view is shown.
   private beforeEye: Viewpoint | null = null;
   private eyeView: CameraView | null = null; // field of view of the robot's camera

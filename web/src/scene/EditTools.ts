@@ -1,5 +1,5 @@
 // The tools that edit and measure in the view: the gizmo on the selected bodies, rings around them,
-// the rectangle that selects several, and the clicked points of a ruler or a wall.
+// the rectangle that selects several bodies, and the clicked points of a ruler or a wall.
 import type { Camera, Matrix4, Vector3 } from "three";
 import { Group, Matrix4 as Matrix } from "three";
 import type { OrbitControls } from "three/addons/controls/OrbitControls.js";

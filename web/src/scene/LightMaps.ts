@@ -9,8 +9,8 @@ export class LightMaps implements GLTFLoaderPlugin {
 
   constructor(private readonly parser: GLTFParser) {}
 
-  // three.js divides light from around by π, as irradiance. With the factor π, a surface reflects
-  // its diffuse colour times the light map, as in Gazebo and in the robots' cameras.
+  // three.js treats a light map as irradiance and divides it by π. With the factor π, a surface
+  // reflects its diffuse colour times the light map, as in Gazebo and in the robots' cameras.
   async extendMaterialParams(material: number, parameters: { [key: string]: unknown }): Promise<void> {
     const given = this.parser.json.materials[material]?.extensions?.[NAME] as { index: number; intensity?: number } | undefined;
     if (!given) return;

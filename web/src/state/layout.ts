@@ -136,8 +136,8 @@ class Reader {
   }
 }
 
-// Returns the part without unknown panels, and without parts that are then empty; null if nothing
-// is left.
+// Returns the part without unknown panels, and without parts that become empty; null if no part
+// remains.
 function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   if ("tabs" in part) {
     const tabs = part.tabs.filter((id) => known.has(id));

@@ -12,7 +12,7 @@ export function formatTime(seconds: number): string {
   return `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${tail}`;
 }
 
-// Parses such a time, for example "75.25", "1:15.25" or "1:01:15". Returns null for other texts.
+// Parses a time such as "75.25", "1:15.25" or "1:01:15". Returns null for other texts.
 export function parseTime(text: string): number | null {
   const parts = text.trim().split(":");
   const isTime = parts.length <= 3 && parts.every((part) => /^\d+(\.\d*)?$/.test(part));

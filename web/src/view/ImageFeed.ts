@@ -23,7 +23,8 @@ export interface ArrivedImage {
 
 export interface FeedEvents {
   onImage(image: ArrivedImage): void;
-  // The server draws no images, for the reason in the sentence. The feed has ended.
+  // Called if the server draws no images, with a sentence about the reason. The feed has then
+  // ended.
   onProblem(sentence: string): void;
 }
 

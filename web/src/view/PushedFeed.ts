@@ -9,7 +9,7 @@ const FRAMES_PER_SECOND = 30; // maximum rate
 const MAX_CAMERAS = 200; // maximum number of stored cameras while no image arrives
 
 export interface PushedEvents extends FeedEvents {
-  // The server pushes no images. The feed has ended.
+  // Called if the server pushes no images. The feed has then ended.
   onNotOffered(): void;
 }
 

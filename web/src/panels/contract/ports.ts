@@ -20,7 +20,7 @@ import type { RobotFilter } from "../../state/robotList";
 import type { BodyPose, State } from "../../state/State";
 import type { StateReader } from "../../state/Store";
 
-// All ports. A panel names those that it uses.
+// All ports. A panel names the ports that it uses.
 export interface PanelPorts {
   state: StateReader<State>; // the page's state, read-only; the other ports change it
   topics: TopicSource; // topics of the simulation that is shown, and of the next one

@@ -88,7 +88,7 @@ export class VirtualRows<Entry> {
     inSight.forEach((entry, i) => this.place(entry, first + i, i));
   }
 
-  // `nth`: index among the existing rows.
+  // `nth` is the index of the row among the existing rows.
   private place(entry: Entry, index: number, nth: number): void {
     const key = this.kinds.keyOf(entry);
     const row = this.rows.get(key) ?? this.take(this.kinds.kindOf(entry));
