@@ -2,7 +2,7 @@
 //
 // Text    12:03:04.567 warning: text
 // JSON    {"time":"2024-05-06T12:03:04.567Z","level":"warning","message":"text","pid":1,"thread":2}
-// One line  per message: control characters are escaped as \n, \t, \x1b.
+// Lines     one per message: control characters are escaped as \n, \t, \x1b.
 // Bounded   the length of lines, and their rate (see LogRateLimiter). The log reports how many
 //           lines it suppressed.
 // Secrets   texts that are registered with RedactInLog() are replaced in every message.

@@ -51,7 +51,7 @@ int SpellingDistance(std::string_view a, std::string_view b, int limit) {
 bool LooksLike(std::string_view written, std::string_view known) {
   const std::size_t shorter = std::min(written.size(), known.size());
   if (shorter < kMinNameLength || written == known) return false;
-  // Two names of three letters may be two different things: "ksh" is not a misspelt "zsh".
+  // Two names of three letters may be two different words: "ksh" is not a misspelt "zsh".
   if (shorter == kMinNameLength && written.size() == known.size() &&
       !std::is_permutation(written.begin(), written.end(), known.begin())) {
     return false;

@@ -1,4 +1,4 @@
-// The folder through which this user's processes on this machine find each other.
+// The folder whose files let this user's processes on this machine find each other.
 //
 // Threads  any.
 #pragma once

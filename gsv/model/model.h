@@ -111,8 +111,8 @@ struct Mimic {
   double multiplier = 1, offset = 0, reference = 0;
 };
 
-// The gains of a PID controller, as gz::math::PID has them: effort = p e + i ∫e dt + d de/dt, where
-// e is the command minus the measured value.
+// The gains of a PID controller, as in gz::math::PID: effort = p e + i ∫e dt + d de/dt, where e is
+// the command minus the measured value.
 struct JointGains {
   double p = 1, i = 0, d = 0;
   Range integral{-1, 1};      // limits of the term i ∫e dt, N m or N

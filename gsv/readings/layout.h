@@ -37,7 +37,7 @@ struct Layout {
     Multiplicity occurs = Multiplicity::kOnce;
   };
   // The columns in the order of a reading. Columns that occur once come first. Repeated columns
-  // form a group, which is repeated as a whole.
+  // form a group; a reading contains the complete group several times.
   std::vector<Column> values, labels;
 
   void AddValue(const Place& place) { values.push_back(ColumnAt(place)); }

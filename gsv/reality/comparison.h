@@ -39,7 +39,7 @@ struct Comparison {
 struct CompareOptions {
   // If not set, a world is fitted to every other block of the log.
   std::optional<model::WorldDescription> world;
-  // Whether the scans of every other block update the walls of the world. The update shows doors
+  // Whether the scans of every other block update the walls of the world. The update includes doors
   // that are open and objects that have moved.
   bool update_world = false;
   std::string preset;            // the preset of the log's scanner or odometer

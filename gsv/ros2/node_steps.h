@@ -57,9 +57,9 @@ class NodeSteps {
   std::function<void()> repeat_ GSV_GUARDED_BY(repeat_mutex_);
 };
 
-// The agent of a robot that a node steps. At each instant of /clock, it waits for the node, applies
-// the command, and waits for the next instant. The simulation's deadline applies as for every
-// behaviour.
+// The agent of a robot that a node steps. At each instant of /clock, the agent waits for the
+// command of the node, applies it, and waits for the next instant. The simulation's deadline
+// applies as for every behaviour.
 class NodeBehaviour final : public simulation::BehaviourPort {
  public:
   // `period` is the period of /clock.

@@ -3,7 +3,7 @@
 // The file is untrusted input. Topics are renamed to valid ROS names. Topics whose messages are not
 // in CDR are omitted.
 //
-// Threads  its own.
+// Threads  publishes on a thread of its own.
 #pragma once
 
 #include <functional>

@@ -95,8 +95,8 @@ class Robot {
     return {};
   }
 
-  // Returns the collision whose surface is nearest to a point on the ground. For balls and wheels
-  // this uses the radius, and for other shapes the lowest corner.
+  // Returns the collision whose surface is nearest to a point on the ground. Uses the radius of
+  // balls and wheels, and the lowest corner of other shapes.
   std::pair<int, const model::Collision*> Nearest(const Vector3& point) const {
     std::pair<int, const model::Collision*> nearest{0, nullptr};
     double least = std::numeric_limits<double>::infinity();

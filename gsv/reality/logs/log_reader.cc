@@ -48,7 +48,7 @@ void StartAtZero(Log& log) {
 }
 
 // Detects one of two formats, by message names at the beginning of the first 64 lines. Returns an
-// empty text if there are none.
+// empty text if no line begins with such a name.
 std::string FormatOfTextLog(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::array<char, 1 << 16> start{};

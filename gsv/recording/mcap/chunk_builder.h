@@ -20,7 +20,8 @@ class ChunkBuilder {
   // Returns the size of the collected messages before compression.
   std::size_t size() const { return records_.size(); }
 
-  // An encoded chunk with its message index records, and what the file's summary lists about it.
+  // An encoded chunk with its message index records, and the data about the chunk in the file's
+  // summary.
   struct Chunk {
     Bytes bytes;
     ChunkIndexRecord index;

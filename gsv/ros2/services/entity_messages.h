@@ -20,7 +20,7 @@ messages::geometry_msgs::Pose MessageOf(const geometry::Pose& pose);
 // Converts a box to two corners: first the upper right one, then the lower left one.
 messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 
-// Returns the pose of an untrusted message. An orientation of zeros means no rotation. Fails with
+// Returns the pose in an untrusted message. An orientation of zeros means no rotation. Fails with
 // kInvalidArgument for numbers that are not finite, for an orientation that is not a unit
 // quaternion (within 1 %), and for frames other than "world" and "".
 base::Result<geometry::Pose> PoseIn(const std::string& frame,

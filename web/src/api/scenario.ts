@@ -66,7 +66,7 @@ export function newRobot(scenario: Scenario, model: string): RobotSetUp {
   return { name, model, place: null, behaviour: "", constraint: "", movement: "", drive: "", namespace: "" };
 }
 
-// The model's name (the last part of a path), with a number if the name is taken.
+// Returns the model's name (the last part of a path), with a number if the name is in use.
 export function freeName(scenario: Scenario, model: string): string {
   const name = model.split("/").filter(Boolean).at(-1)?.replace(/\.\w+$/, "") || "robot";
   const taken = new Set([...scenario.robots, ...scenario.avatars].map((robot) => robot.name));

@@ -1,4 +1,4 @@
-// Replays a second recording together with the first one, at the same simulated time, for
+// Replays a second recording together with the first recording, at the same simulated time, for
 // comparison.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { CurveOf, WholeCurve } from "../api/curve";

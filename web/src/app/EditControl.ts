@@ -405,7 +405,7 @@ export class EditControl {
     this.store.set(({ editing }) => (editing ? { editing: { ...editing, ...change } } : {}));
   }
 
-  // Performs an edit. Only one is performed at a time. Returns false if another edit is in
+  // Performs an edit. Only one edit is performed at a time. Returns false if another edit is in
   // progress, or if the server refuses (the reason is shown).
   private async ask(work: () => Promise<void>): Promise<boolean> {
     if (!this.store.get().editing || this.store.get().editing?.isBusy) return false;

@@ -143,7 +143,7 @@ export class SetUpControl {
   }
 
   // Uploads a world from this machine with its files. If there are several worlds, the user chooses
-  // one.
+  // a world.
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
     if (!this.store.get().setUp) await this.open();
     this.patch(() => ({ isBusy: true, isHeld: true }));
@@ -220,7 +220,7 @@ export class SetUpControl {
     }
   }
 
-  // Performs the request. The simulation cannot be created until it has ended.
+  // Performs the request. The simulation cannot be created until the request has ended.
   private async hold(work: () => Promise<void>): Promise<void> {
     this.patch(() => ({ isHeld: true }));
     await this.ask(work);

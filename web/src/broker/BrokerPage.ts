@@ -92,7 +92,7 @@ export class BrokerPage {
     }
     this.heading.textContent = type.name;
     this.declared.replaceChildren(declaration(type));
-    this.answer.replaceChildren(); // the shown answer belongs to another type
+    this.answer.replaceChildren(); // the offers on the page belong to another type
     await this.find();
   }
 

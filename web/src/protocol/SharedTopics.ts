@@ -9,7 +9,7 @@ export interface TopicOptions {
   // If messages arrive faster than the page can decode them, only the newest is decoded. This
   // applies to a topic only while all its readers request it.
   newestOnly?: boolean;
-  // The topic to read instead if the server does not offer the first one.
+  // The topic to read if the server does not offer the topic itself.
   orElse?: string;
 }
 

@@ -1,4 +1,4 @@
-// The page of recordings: a list with a link that replays each of them.
+// The page of recordings: a list with a link for each recording, which replays the recording.
 import type { JsonServer } from "../api/JsonServer";
 import { ListPage } from "../frame/ListPage";
 import { element } from "../ui/element";

@@ -47,7 +47,7 @@ vec3 placeAt(vec2 uv) {
 const OCCLUSION = `
 varying vec2 at;
 uniform vec2 size; // pixels
-uniform float pixelsPerMetre; // image pixels per metre at a distance of 1 m
+uniform float pixelsPerMetre; // at a distance of 1 m
 ${PLACE}
 void main() {
   if (texture2D(depths, at).r >= 1.0) {

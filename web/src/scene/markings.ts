@@ -1,4 +1,4 @@
-// Figures made of lines: axes, fields of view, contacts.
+// Draws figures made of lines: axes, fields of view, contacts.
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import type { CameraView, SceneJoint } from "../api/scene";

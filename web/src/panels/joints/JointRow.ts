@@ -35,7 +35,8 @@ export class JointRow {
 
   constructor(joint: Joint, { command, problem }: Actions) {
     const hasLimits = Number.isFinite(joint.minimum) && Number.isFinite(joint.maximum);
-    // A slider for the position needs limits; otherwise it sets the velocity.
+    // A slider for the position needs limits. For a joint without limits, the slider sets the
+    // velocity.
     this.kind = hasLimits ? "position" : "velocity";
     const [minimum, maximum] = this.rangeOf(joint);
     this.slider = element("input", {
