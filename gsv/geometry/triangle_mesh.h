@@ -19,7 +19,8 @@ struct MeshPart {
 };
 
 // Invariants  every index is below positions.size(); normals and texture_coordinates are empty or
-//             as long as positions; parts cover all triangles once, in order; all values finite.
+//             have the size of positions; parts cover all triangles once, in order; all values
+//             finite.
 // Winding     counter-clockwise seen from outside.
 struct TriangleMesh {
   std::vector<Vector3> positions;            // metres

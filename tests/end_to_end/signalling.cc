@@ -1,5 +1,5 @@
 // For tests: a behaviour that switches a lamp, plays sounds and listens. It drives according to the
-// sounds that it hears, and fails if it never hears one.
+// sounds that it hears, and fails if it never hears a sound.
 #include <stdexcept>
 
 #include "sdk/behaviour/module.h"

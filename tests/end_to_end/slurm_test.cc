@@ -130,8 +130,8 @@ TEST_F(SlurmCampaign, LostRunsAreSubmittedAgain) {
   {
     Running driver("gsv", arguments);
     AwaitDone(1, driver);
-    // An array has at most three tasks, so there are three jobs. A user who cancels them wants them
-    // to end.
+    // An array has at most three tasks, so there are three jobs. A user who cancels the jobs wants
+    // the jobs to end.
     EXPECT_EQ(Files("c.runs", ".json"), 4u);  // three batches and the plan
     SlurmCluster::Ask({"scancel", "--state=PENDING", "--me"});
     const Outcome cancelled = AwaitEnd(driver);

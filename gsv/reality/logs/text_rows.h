@@ -31,7 +31,7 @@ class TextRows {
   const std::filesystem::path& path() const { return path_; }
 
   // Reads the words from index `first` on as numbers. Returns false and adds a problem if there are
-  // fewer than `count` words, or if one is no finite number.
+  // fewer than `count` words, or if a word is not a finite number.
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
   // Whether the time of this row may follow that of the row before it. A row whose time is earlier

@@ -79,7 +79,7 @@ class SensorRecorder {
   // Takes the sample's reading, and encodes it.
   void Take(const sensing::Sampling& sampling, Sample& sample) const;
   void Encode(Sample& sample) const;
-  // Takes and writes the samples of one robot. Its beams are cast together.
+  // Takes and writes the samples of one robot. The beams of the robot are cast together.
   void TakeRobotSamples(sensing::Sampling& sampling, std::span<Sample> samples);
   void FindBodies(const std::shared_ptr<const world::Layout>& layout);
   void Write(Sample& sample);

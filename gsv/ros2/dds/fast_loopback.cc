@@ -19,8 +19,8 @@ using eprosima::fastrtps::rtps::Locator_t;
 using eprosima::fastrtps::rtps::LocatorsIterator;
 
 // A placeholder for kDiscoveryGroup in the list of peers. The group itself cannot be in the list:
-// participants with default settings announce it too, and Fast DDS would then send also data to the
-// group.
+// participants with default settings announce this group too, and Fast DDS would then send also
+// data to the group.
 constexpr const char* kGroupPeer = "127.255.255.254";
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.3, 9.6.1.4
 

@@ -14,7 +14,7 @@ export class ApiError extends Error {
   }
 }
 
-// Whether the server requires a token and got none, or the wrong one.
+// Whether the server requires a token and got no token, or a wrong token.
 export function needsToken(error: unknown): boolean {
   return error instanceof ApiError && (error.httpStatus === 401 || error.httpStatus === 403);
 }

@@ -8,7 +8,7 @@ export interface Person {
   number: number;
   name: string;
   simulation: string; // the simulation that they view; empty if there is none
-  holds: boolean; // whether they have control of it
+  holds: boolean; // whether this viewer has control of the simulation
   asks: number; // position in the queue for control, from 1; 0 if not waiting
   passesIn: number; // for the first in the queue: seconds until they get control without an answer
 }

@@ -8,8 +8,8 @@ import { createTokenForm } from "../ui/tokenForm";
 
 type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "ended" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
 
-// Whether the run is over. This stays true if its server has ended too. A replay can start again,
-// so it is never over.
+// Whether the run is over. The result stays true after the end of the server. A replay can start
+// again, so a replay is never over.
 export function hasEnded({ status, replay }: State): boolean {
   return replay === null && (status?.phase === "finished" || status?.phase === "failed");
 }

@@ -10,7 +10,7 @@ const SIZE_PX = 3;
 const SMALLEST_CAPACITY = 1024; // points
 // The lower end of the colour scale, because darker points do not stand out from the floor.
 const DARKEST = 0.25;
-// The upper end, because brighter points do not stand out from a light floor.
+// The upper end of the colour scale, because brighter points do not stand out from a light floor.
 const BRIGHTEST = 0.85;
 const LEVELS = 65; // number of colours in the scale
 

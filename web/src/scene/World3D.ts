@@ -38,7 +38,7 @@ import { ShownPoses } from "./ShownPoses";
 import { Surface } from "./Surface";
 import type { DrawnView } from "../view/DrawnView";
 
-// The limits on beams with and without a graphics card: without one, the beams of a crowd would
+// The limits on beams with and without a graphics card: without a card, the beams of a crowd would
 // take longer than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;

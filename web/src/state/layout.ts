@@ -1,8 +1,8 @@
 // A layout: how the area beside the robot list is divided, and which panels are tabs of which part.
 //
-// As text, it is short enough for a link and readable. r( ) is a row and c( ) a column. Commas
-// separate parts, and points separate the tabs of one part. The tab in front has a *. After ~ is
-// the share of the row or column in thousandths:
+// The text of a layout is readable, and short enough for a link. r( ) is a row and c( ) a column.
+// Commas separate parts, and points separate the tabs of one part. The tab in front has a *. After
+// ~ is the share of the row or column in thousandths:
 //
 //   r(view~740,c(inspector.topics*~600,camera~400)~260)
 export interface Tabs {

@@ -1,6 +1,6 @@
-// Fetches images that the server draws, one after another, from servers that push none. The next
-// image is requested when the last one has arrived, so that a slow connection gets fewer images,
-// but never old ones.
+// Fetches images that the server draws, one after another, from servers that do not push images.
+// The next image is requested when the last one has arrived, so that a slow connection gets fewer
+// images, but never old ones.
 
 // The camera in the server's form; lengths in metres, the size in pixels.
 export interface ServerCamera {

@@ -105,7 +105,7 @@ export interface RobotsPort {
 
 export interface CamerasPort {
   show(camera: CameraChoice): void; // selects the camera, and opens the panel of images
-  showAll(isOn: boolean): void; // shows all cameras in a grid, or the selected one, and opens the panel
+  showAll(isOn: boolean): void; // shows all cameras in a grid, or only the selected camera, and opens the panel
 }
 
 export interface PlotsPort {

@@ -47,7 +47,7 @@ function row(ports: Ports, expectation: Expectation): HTMLElement {
   );
 }
 
-// The time of the verdict. In a recording, a click goes there.
+// Shows the time of the verdict. In a recording, a click goes to this time.
 function instant({ state, replay }: Ports, { verdict, time }: Expectation): Node | string {
   if (verdict === "pending") return "";
   const text = formatTime(time);
