@@ -27,8 +27,8 @@ struct StepTimes {
   std::chrono::nanoseconds bodies{0};      // motion and contacts
   std::chrono::nanoseconds observers{0};   // recorders and viewers
   std::chrono::nanoseconds idle{0};        // in real time: waiting until the step was due
-  // The robot for whose behaviour the step waited last; empty if the step did not wait for a
-  // behaviour.
+  // The robot whose behaviour delayed the step: the last one that the step waited for, or else the
+  // one with the longest turn. Empty if there was none.
   std::string held_up_by;
 
   std::chrono::nanoseconds total() const {

@@ -285,8 +285,8 @@ class TriangleSurface::CylinderContacts {
 
   static double Cross2(const Vector3& a, const Vector3& b) { return a.x * b.y - a.y * b.x; }
 
-  // `normal` is in the frame of the cylinder.
   bool IsContact(double distance) const { return distance < list_.margin() && distance >= floor_; }
+  // Here and in MayTouch(), `on_mesh` and `normal` are in the frame of the cylinder.
   void Add(const Vector3& on_mesh, const Vector3& normal, double distance) {
     list_.Add(cylinder_.position + cylinder_.rotation * on_mesh, cylinder_.rotation * normal,
               distance);

@@ -102,7 +102,8 @@ class ViewDrawer {
   };
 
   void Run();
-  // Releases the sources of worlds without requests after a time.
+  // Forgets each world that nobody has requested for kUnusedSourceTimeout. With the last world, also
+  // forgets the kept images.
   void DropUnused();
   // Answers the requests of one world that are due. Returns whether any request was due.
   bool Serve(const std::string& name);
