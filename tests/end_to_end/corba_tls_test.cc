@@ -283,7 +283,7 @@ TEST_F(CorbaTls, StalledHandshakesDelayNoOtherClient) {
   // time limit as others.
   EXPECT_THAT(stalled.front()->AwaitEnd(), IsEmpty());
   (void)stalled.back()->AwaitEnd();
-  EXPECT_THAT(AwaitErrors(broker.program(), "finish"), HasSubstr("did not finish the handshake"));
+  EXPECT_THAT(AwaitErrors(broker.program(), "finish"), HasSubstr("did not finish the TLS handshake"));
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
 }
 
