@@ -97,7 +97,8 @@ TEST_F(CertificatesTest, ErrorNamesTheInvalidFile) {
   };
   has(Check("old"), "has expired");
   has(Check("early"), "not valid yet");
-  has(CheckKeyPair(folder() / "one.pem", folder() / "two-key.pem"), "not the one of");
+  has(CheckKeyPair(folder() / "one.pem", folder() / "two-key.pem"),
+      "does not belong to the certificate");
   has(CheckKeyPair(folder() / "none.pem", folder() / "two-key.pem"), "No such file");
   has(CheckKeyPair(folder() / "rubbish.pem", folder() / "two-key.pem"), "cannot read a certif");
   has(CheckKeyPair(folder() / "one.pem", folder() / "rubbish.pem"), "cannot read a key");

@@ -95,7 +95,8 @@ TEST(BrokerAdministration, ReportsTheErrorOfALink) {
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways), "");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways),
             "a link named north exists already; remove it first, or choose another name");
-  EXPECT_EQ(administration.RemoveLink("west").error().message, "the broker has no link west");
+  EXPECT_EQ(administration.RemoveLink("west").error().message,
+            "the broker has no link named west; `gsv links` lists its links");
   EXPECT_EQ(administration.AddLink("west", "nonsense", {}, {}).error().code,
             base::ErrorCode::kInvalidArgument);
 }

@@ -62,7 +62,7 @@ TEST(WorldFrames, RefusesCyclesAndUnknownNames) {
   WorldFrames frames;
   frames.Add("a", {{}, "b"});
   frames.Add("b", {{}, "a"});
-  EXPECT_THAT(frames.WorldFrom("a").error().message, testing::HasSubstr("circle"));
+  EXPECT_THAT(frames.WorldFrom("a").error().message, testing::HasSubstr("cycle"));
   EXPECT_THAT(frames.WorldFrom("c").error().message, testing::HasSubstr("no frame \"c\""));
 }
 
