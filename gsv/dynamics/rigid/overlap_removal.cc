@@ -51,7 +51,7 @@ inline double OverlapRemoval::SolveRow(Row& row) {
 bool OverlapRemoval::Solve(double substep) {
   constexpr int kMaxSweeps = 10;
   // m/s: slower motion is not worth a sweep, and does not wake a body at rest
-  constexpr double kLeast = 1e-4;
+  constexpr double kMinSpeed = 1e-4;
   // Sweeps end if no velocity changes by more than this fraction of the greatest target.
   constexpr double kTolerance = 0.02;
   double greatest = 0;
@@ -59,7 +59,7 @@ bool OverlapRemoval::Solve(double substep) {
     row.target = -(row.gap < 0 ? kShare : 1) * row.gap / substep;
     greatest = std::max(greatest, row.target);
   }
-  if (!(greatest > kLeast)) return false;
+  if (!(greatest > kMinSpeed)) return false;
   for (Row& row : rows_) {
     double moved = 0;
     if (row.first >= 0) moved += At(row.first).inverse_mass;
@@ -67,7 +67,7 @@ bool OverlapRemoval::Solve(double substep) {
     row.mass = moved > 0 ? 1 / moved : 0;
   }
   std::erase_if(rows_, [](const Row& row) { return !(row.mass > 0); });
-  const double tolerance = std::max(kLeast, kTolerance * greatest);
+  const double tolerance = std::max(kMinSpeed, kTolerance * greatest);
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     double change = 0;
     if (sweep % 2 == 0) {

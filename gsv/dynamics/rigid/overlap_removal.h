@@ -3,9 +3,9 @@
 // and Solving Constraints", GDC 2009).
 //
 // Method   along the normal of each pair, the bodies part by kShare of their overlap in a substep,
-//          and others may approach by their gap. Velocities w minimise sum m |w|². Projected
-//          Gauss-Seidel, forwards and backwards in turn. No body turns: contact points of one pair
-//          make one row, with the deepest of them.
+//          and pairs that do not overlap may approach by their gap. The velocities w minimise the
+//          sum of m |w|². They are found by projected Gauss-Seidel, forwards and backwards in turn.
+//          Bodies are only shifted, not rotated. So each pair has one row, for its deepest point.
 // Speed    all velocities are scaled so that none exceeds kMaxSpeed. At this speed, two bodies
 //          approach within a substep by less than the margin of contacts, so that no body is pushed
 //          through another.
@@ -21,8 +21,10 @@ namespace gsv::dynamics {
 
 class OverlapRemoval {
  public:
-  static constexpr double kShare = 0.2, kMaxSpeed = 0.5;  // m/s
+  static constexpr double kShare = 0.2;     // fraction of an overlap
+  static constexpr double kMaxSpeed = 0.5;  // m/s
 
+  // Removes all bodies and contacts.
   void Clear();
   // Adds a body, and returns its index.
   int AddBody(double inverse_mass);
@@ -30,9 +32,10 @@ class OverlapRemoval {
   // and points from the second to the first. `gap` (m) is their distance at the end of the substep,
   // negative if they overlap.
   void AddContact(int first, int second, const geometry::Vector3& normal, double gap);
-  // Returns false if no bodies overlap by a length that counts.
+  // Computes the velocities for a substep (s). Returns false if no pair has to part faster than
+  // 0.1 mm/s; then there are no velocities.
   bool Solve(double substep);
-  // m/s
+  // Returns the velocity of a body, in m/s in the world's frame.
   const geometry::Vector3& velocity(int body) const {
     return bodies_[static_cast<std::size_t>(body)].velocity;
   }
