@@ -89,20 +89,19 @@ export class SimulationApi {
     }
   }
 
-  // Opens the stored past as a replay for this page only. All further requests are sent to this
-  // replay, until leavePast().
-  async openPast(name: string): Promise<void> {
+  // Opens the stored past as a replay for this page only, and returns its playback state. All
+  // further requests are sent to this replay, until leavePast(). Requests made before the state has
+  // arrived are still sent to the running simulation.
+  async openPast(name: string): Promise<Replay> {
     const answer = objectAt(await this.root.post(`${simulationPath(name)}/history`, {}), "history");
-    this.server.moveTo(textAt(answer.base, "history.base"));
+    const base = textAt(answer.base, "history.base");
+    const replay = parseReplay(await this.root.get(`${base}${simulationPath(name)}/replay`));
+    this.server.moveTo(base);
+    return replay;
   }
 
   leavePast(): void {
     this.server.moveTo("");
-  }
-
-  // Returns the playback state of a replay.
-  async replay(name: string): Promise<Replay> {
-    return parseReplay(await this.server.get(`${simulationPath(name)}/replay`));
   }
 
   // Returns the events and notes of a running simulation from this simulated time on.

@@ -79,3 +79,16 @@ test("a recording that this page did not start ends only after confirmation", as
   expect(api.record).toHaveBeenCalledWith("house", false);
   expect(store.get().stopRecordingAsked).toBe(false);
 });
+
+test("the past of a run is not asked for its recording", async () => {
+  const { api, store } = await recording();
+  await vi.advanceTimersByTimeAsync(1500);
+  let respond = (_: typeof OFF) => {};
+  api.recording.mockReturnValueOnce(new Promise((resolve) => (respond = resolve)));
+  await vi.advanceTimersByTimeAsync(1500); // a request is under way when the page enters the past
+  store.set({ replay: { start: 0, end: 1, speed: 1, loop: false } });
+  api.recording.mockClear();
+  respond(OFF);
+  await vi.advanceTimersByTimeAsync(10_000);
+  expect(api.recording).not.toHaveBeenCalled();
+});

@@ -62,7 +62,8 @@ export class RecordControl {
 
   private async ask(simulation: string): Promise<void> {
     const known = await this.api.recording(simulation).catch(() => null); // the connection reports its own failures
-    if (this.store.get().simulation !== simulation) return;
+    const { simulation: watched, replay } = this.store.get();
+    if (watched !== simulation || replay !== null) return; // the past of a simulation is a replay, which cannot be recorded
     if (known) this.take(simulation, known);
     clearTimeout(this.timer);
     this.timer = setTimeout(() => void this.ask(simulation), POLL_MS);

@@ -139,15 +139,12 @@ export class Session implements TopicSource, LiveViewSource {
   async enterPast(): Promise<void> {
     const { simulation, inPast } = this.store.get();
     if (simulation === null || inPast) return;
-    await this.api.openPast(simulation);
-    try {
-      const replay = await this.api.replay(simulation);
-      if (this.store.get().simulation !== simulation) throw new Error("Another simulation was opened meanwhile.");
-      this.switchStream(simulation, { inPast: true, replay, isLive: false, events: [] });
-    } catch (error) {
+    const replay = await this.api.openPast(simulation);
+    if (this.store.get().simulation !== simulation) {
       this.api.leavePast();
-      throw error;
+      throw new Error("Another simulation was opened meanwhile.");
     }
+    this.switchStream(simulation, { inPast: true, replay, isLive: false, events: [] });
   }
 
   // Returns to the running simulation.
