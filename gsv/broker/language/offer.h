@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/broker/language/interned.h"
 #include "gsv/broker/language/property.h"
 
 namespace gsv::broker {
@@ -20,7 +21,7 @@ struct ProxyPart {
 // Immutable: a modification replaces the offer, so any holder may read it without a lock.
 struct Offer {
   std::uint64_t number = 0;  // position in the order of export, from 1
-  std::string type;
+  Interned<std::string> type;
   std::string reference;  // reference of the service, or of a proxy's target: "IOR:…"
   PropertyList properties;
   std::shared_ptr<const ProxyPart> proxy{};  // null for an ordinary offer

@@ -8,16 +8,9 @@
 namespace gsv::broker {
 namespace {
 
-const std::shared_ptr<const PropertyNames>& NoNames() {
-  static const auto none = std::make_shared<const PropertyNames>();
-  return none;
-}
-
 std::ptrdiff_t Offset(std::size_t index) { return static_cast<std::ptrdiff_t>(index); }
 
 }  // namespace
-
-PropertyList::PropertyList() : names_(NoNames()) {}
 
 PropertyList::PropertyList(std::vector<Property> properties) {
   std::sort(properties.begin(), properties.end(),
@@ -30,7 +23,7 @@ PropertyList::PropertyList(std::vector<Property> properties) {
     names.push_back(std::move(property.name));
     values_.push_back(std::move(property.value));
   }
-  names_ = std::make_shared<const PropertyNames>(std::move(names));
+  names_ = std::move(names);
 }
 
 PropertyList PropertyList::LastOfEachName(std::vector<Property> properties) {
@@ -65,7 +58,7 @@ void PropertyList::Set(Property property) {
   const auto index = place - names.begin();
   names.insert(place, std::move(property.name));
   values_.insert(values_.begin() + index, std::move(property.value));
-  names_ = std::make_shared<const PropertyNames>(std::move(names));
+  names_ = std::move(names);
 }
 
 bool PropertyList::Remove(std::string_view name) {
@@ -74,7 +67,7 @@ bool PropertyList::Remove(std::string_view name) {
   PropertyNames names = *names_;
   names.erase(names.begin() + Offset(index));
   values_.erase(values_.begin() + Offset(index));
-  names_ = std::make_shared<const PropertyNames>(std::move(names));
+  names_ = std::move(names);
   return true;
 }
 

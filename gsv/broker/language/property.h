@@ -1,12 +1,12 @@
 // Properties: the named values that describe an offer.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gsv/broker/language/interned.h"
 #include "gsv/broker/language/value.h"
 
 namespace gsv::broker {
@@ -52,7 +52,7 @@ class PropertyList : public PropertySource {
     std::size_t index_;
   };
 
-  PropertyList();
+  PropertyList() = default;
   // `properties` may be in any order. Each name occurs at most once.
   explicit PropertyList(std::vector<Property> properties);
   // `properties` may be in any order. If a name occurs several times, the last value applies.
@@ -70,16 +70,14 @@ class PropertyList : public PropertySource {
   // The index of the property with that name, or size() if there is none.
   std::size_t IndexOf(std::string_view name) const;
 
-  // The names in the order of the values. Lists with the same pointer have the same names.
-  const std::shared_ptr<const PropertyNames>& names() const { return names_; }
+  // The names in the order of the values.
+  const Interned<PropertyNames>& names() const { return names_; }
   std::span<const Value> values() const { return values_; }
-  // Replaces the names by `names`, which must be equal to them.
-  void ShareNames(std::shared_ptr<const PropertyNames> names) { names_ = std::move(names); }
 
   std::size_t EncodedSize() const;
 
  private:
-  std::shared_ptr<const PropertyNames> names_;
+  Interned<PropertyNames> names_;
   std::vector<Value> values_;
 };
 

@@ -55,7 +55,7 @@ class DynamicValues {
   // The index at which this property was found last, for offers with these property names.
   struct Place {
     std::string name;
-    std::shared_ptr<const PropertyNames> names{};
+    Interned<PropertyNames> names{};
     std::size_t index = 0;
   };
 

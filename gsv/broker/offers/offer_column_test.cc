@@ -9,7 +9,7 @@ namespace gsv::broker {
 namespace {
 
 OfferPtr Numbered(std::uint64_t number, const char* type = "T") {
-  return std::make_shared<const Offer>(Offer{.number = number, .type = type});
+  return std::make_shared<const Offer>(Offer{.number = number, .type = std::string(type)});
 }
 
 std::vector<std::uint64_t> Numbers(const OfferView& view) {
@@ -43,9 +43,9 @@ TEST(OfferColumn, ViewDoesNotChange) {
   column.Remove(2);
   column.Put(Numbered(3));
   EXPECT_EQ(Numbers(before), (Sequence{1, 2}));
-  EXPECT_EQ(before.chunks()[0]->offers()[0]->type, "before");
+  EXPECT_EQ(*before.chunks()[0]->offers()[0]->type, "before");
   EXPECT_EQ(Numbers(column.View()), (Sequence{1, 3}));
-  EXPECT_EQ(column.View().chunks()[0]->offers()[0]->type, "after");
+  EXPECT_EQ(*column.View().chunks()[0]->offers()[0]->type, "after");
 }
 
 // The expected order is that of a sorted list.

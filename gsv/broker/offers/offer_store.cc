@@ -21,7 +21,6 @@ std::uint64_t OfferStore::Add(Offer offer) {
 }
 
 void OfferStore::Restore(Offer restored) {
-  names_.Share(restored.properties);
   auto offer = std::make_shared<const Offer>(std::move(restored));
   const std::uint64_t number = offer->number;
   Bucket& bucket = by_type_[offer->type];
@@ -34,7 +33,6 @@ void OfferStore::Restore(Offer restored) {
 void OfferStore::SkipTo(std::uint64_t number) { next_number_ = std::max(next_number_, number); }
 
 void OfferStore::Replace(Offer offer) {
-  names_.Share(offer.properties);
   auto stored = std::make_shared<const Offer>(std::move(offer));
   const OfferPtr old = offers_.Find(stored->number);
   GSV_CHECK(old != nullptr && old->type == stored->type);

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "gsv/broker/language/equality_terms.h"
-#include "gsv/broker/language/name_table.h"
 #include "gsv/broker/language/offer.h"
 #include "gsv/broker/offers/offer_column.h"
 #include "gsv/broker/offers/property_index.h"
@@ -60,7 +59,6 @@ class OfferStore {
   };
 
   OfferColumn offers_;
-  NameTable names_;
   std::map<std::string, Bucket> by_type_;
   std::uint64_t next_number_ = 1;
 };

@@ -110,7 +110,7 @@ TEST(PropertyIndex, FindsTheSameAsAnEvaluationOfEachOffer) {
     for (const char* type : {"Robot", "Rover"}) {
       for (const OfferPtr& offer : trader.AllOffers()) {
         DynamicValues none(nullptr, {});
-        if (offer->type == type && Matches(*constraint, EvaluatedOffer(*offer, none))) {
+        if (*offer->type == type && Matches(*constraint, EvaluatedOffer(*offer, none))) {
           expected.push_back(offer->number);
         }
       }

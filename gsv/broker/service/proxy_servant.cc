@@ -45,7 +45,7 @@ void ProxyServant::withdraw_proxy(const char* id) {
 CosTrading::Proxy::ProxyInfo* ProxyServant::describe_proxy(const char* id) {
   const OfferPtr offer = ValueOrRaise(objects_.trader.DescribeProxy(id));
   CosTrading::Proxy::ProxyInfo_var info = new CosTrading::Proxy::ProxyInfo;
-  info->type = offer->type.c_str();
+  info->type = offer->type->c_str();
   const CORBA::Object_var target = objects_.orb->string_to_object(offer->reference.c_str());
   info->target = CosTrading::Lookup::_unchecked_narrow(target);
   FillProperties(offer->properties, info->properties);

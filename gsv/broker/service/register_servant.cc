@@ -47,7 +47,7 @@ CosTrading::Register::OfferInfo* RegisterServant::describe(const char* id) {
   const OfferPtr offer = ValueOrRaise(objects_.trader.Describe(id));
   CosTrading::Register::OfferInfo_var info = new CosTrading::Register::OfferInfo;
   info->reference = objects_.orb->string_to_object(offer->reference.c_str());
-  info->type = offer->type.c_str();
+  info->type = offer->type->c_str();
   FillProperties(offer->properties, info->properties);
   return info._retn();
 }

@@ -257,7 +257,7 @@ base::Status OfferFile::Apply(const OfferStored& change) {
   const Offer& offer = *change.offer;
   if (offer.proxy != nullptr) return PutProxy(offer);
   statements_.put_offer.Bind(1, static_cast<std::int64_t>(offer.number))
-      .Bind(2, offer.type)
+      .Bind(2, *offer.type)
       .Bind(3, offer.reference)
       .BindBlob(4, EncodeProperties(offer.properties));
   if (auto ok = statements_.put_offer.Run(); !ok) return ok;
@@ -266,7 +266,7 @@ base::Status OfferFile::Apply(const OfferStored& change) {
 
 base::Status OfferFile::PutProxy(const Offer& offer) {
   statements_.put_proxy.Bind(1, static_cast<std::int64_t>(offer.number))
-      .Bind(2, offer.type)
+      .Bind(2, *offer.type)
       .Bind(3, offer.reference)
       .BindBlob(4, EncodeProperties(offer.properties))
       .Bind(5, std::int64_t{offer.proxy->if_match_all})

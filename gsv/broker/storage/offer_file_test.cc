@@ -63,7 +63,7 @@ TEST_F(OfferFileTest, KeepsEveryKindOfValue) {
 
   const auto offer = Reopen()->Describe(*id);
   ASSERT_TRUE(offer);
-  EXPECT_EQ((*offer)->type, "Robot");
+  EXPECT_EQ(*(*offer)->type, "Robot");
   EXPECT_EQ((*offer)->reference, "IOR:00");
   ASSERT_EQ((*offer)->properties.size(), properties.size());
   for (std::size_t i = 0; i < properties.size(); ++i) {
@@ -158,7 +158,7 @@ TEST_F(OfferFileTest, KeepsProxies) {
   EXPECT_EQ(trader->ProxyIds(), std::vector<std::string>{kept});
   EXPECT_TRUE(trader->OfferIds().empty());
   const OfferPtr proxy = trader->DescribeProxy(kept).value();
-  EXPECT_EQ(proxy->type, "Robot");
+  EXPECT_EQ(*proxy->type, "Robot");
   EXPECT_EQ(proxy->reference, "IOR:00");
   EXPECT_EQ(*proxy->properties.Find("n"), Value::Long(7));
   EXPECT_TRUE(proxy->proxy->if_match_all);
