@@ -183,6 +183,65 @@ test("typed numbers place the body exactly, and undo reverts each of them", asyn
   await settled(page);
 });
 
+test("a ring turns the body about one axis, in steps if snapping is on", async () => {
+  await edit().getByLabel("Snap").check();
+  await edit().getByLabel("Angle").selectOption("15");
+  await press("Turn");
+  await settled(page);
+  await ready();
+  const before = await place("box");
+  const [middle, x, y] = [await onScreen("box"), await handle("x"), await handle("y")];
+  // Points of the horizontal ring, between the axes, where it crosses no other ring.
+  const onRing = (degrees) => {
+    const [c, s] = [Math.cos((Math.PI * degrees) / 180), Math.sin((Math.PI * degrees) / 180)];
+    const at = (name) => middle[name] + c * (x[name] - middle[name]) + s * (y[name] - middle[name]);
+    return { x: at("x"), y: at("y") };
+  };
+  // Only the half that faces the camera is drawn: that is lower in the image.
+  const start = [45, 135, 225, 315].sort((a, b) => onRing(b).y - onRing(a).y)[0];
+  const [from, to] = [onRing(start), onRing(start + 40)];
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 4 });
+  await page.mouse.move(to.x, to.y, { steps: 4 });
+  await page.mouse.up();
+  const yawDegrees = ([, , , , , qz, qw]) => (360 / Math.PI) * Math.atan2(qz, qw);
+  await until(async () => Math.abs(yawDegrees(await place("box"))) > 10, "the turned box");
+  const now = await place("box");
+  const yaw = yawDegrees(now);
+  assert.ok(Math.abs(yaw / 15 - Math.round(yaw / 15)) < 1e-3, `${yaw} degrees are a multiple of 15`);
+  for (const i of [0, 1, 2, 3, 4]) assert.ok(Math.abs(now[i] - before[i]) < 1e-6, `${now}: about z only`);
+  await settled(page);
+  await ready();
+  await press("Undo");
+  await until(async () => Math.abs(yawDegrees(await place("box"))) < 1e-6, "the box as it was");
+  await edit().getByLabel("Snap").uncheck();
+  await press("Move");
+  await settled(page);
+});
+
+for (const [kind, sizes, geometry, z] of [
+  ["cylinder", { "Radius (m)": "0.15", "Height z (m)": "0.5" }, "cylinder, radius 0.15 m, length 0.5 m", 0.25],
+  ["sphere", { "Radius (m)": "0.25" }, "sphere, radius 0.25 m", 0.25],
+]) {
+  test(`a ${kind} of a given size is added, and undo removes it`, async () => {
+    await ready();
+    await press("Shape");
+    await shape().getByLabel("Shape", { exact: true }).selectOption(kind);
+    for (const [label, value] of Object.entries(sizes)) await shape().getByLabel(label).fill(value);
+    await press("Add shape");
+    await page.waitForFunction((kind) => window.gsv.chosen[0]?.startsWith(kind), kind);
+    await ready();
+    const [name] = await chosen();
+    await page.getByRole("region", { name: "Selected object", exact: true }).getByText(geometry).first().waitFor();
+    assert.ok(Math.abs((await place(name))[2] - z) < 1e-6, "it stands on the floor");
+    await press("Undo");
+    await until(async () => (await body(name)) === undefined, `the end of the ${kind}`);
+    await page.locator('[data-object="box"]').click();
+    await chosenAre("box");
+  });
+}
+
 test("a wall is drawn by two clicks", async () => {
   await page.keyboard.press("r");
   await press("Map");
@@ -216,14 +275,16 @@ test("the map has a scale, and its ruler agrees with it", async () => {
   const at = await onScreen("pebble");
   await page.mouse.click(at.x + 40, at.y + 30);
   await page.getByText("Click the second point").waitFor();
-  await page.mouse.click(at.x + 140, at.y + 30);
+  await page.mouse.click(at.x + 140, at.y - 45);
   const ruler = page.getByRole("region", { name: "Ruler" });
   await ruler.getByText("Distance").waitFor();
   const values = await ruler.locator("dd").allTextContents();
-  const [distance, dx, dy, , angle] = values.map((text) => parseFloat(text.replace("−", "-")));
-  assert.ok(Math.abs(distance - (100 * metres) / pixels) < 0.05 * distance, `${values} of ${metres} m in ${pixels} px`);
-  assert.ok(Math.abs(dx - distance) < 0.05 * distance && Math.abs(dy) < 0.05 * distance);
-  assert.ok(Math.abs(angle) < 3, "east is to the right");
+  const [distance, dx, dy, dz, angle] = values.map((text) => parseFloat(text.replace("−", "-")));
+  // 100 pixels to the east and 75 to the north, on the floor.
+  const wanted = { dx: (100 * metres) / pixels, dy: (75 * metres) / pixels };
+  assert.ok(Math.abs(dx - wanted.dx) < 0.05 * dx && Math.abs(dy - wanted.dy) < 0.05 * dy, `${values} of ${metres} m in ${pixels} px`);
+  assert.ok(Math.abs(distance - Math.hypot(dx, dy, dz)) < 0.002 && Math.abs(dz) < 0.001, `${values}`);
+  assert.ok(Math.abs(angle - (180 / Math.PI) * Math.atan2(75, 100)) < 3, "counter-clockwise from east");
   await page.keyboard.press("Escape");
   await ruler.waitFor({ state: "hidden" });
   assert.deepEqual(await chosen(), ["wall"]); // Escape ended the ruler only
@@ -299,5 +360,42 @@ test("the saved world is read again with the same bodies", async () => {
   read.forEach(([name, pose], i) => pose.forEach((value, j) => assert.ok(Math.abs(value - poses[i][1][j]) < 1e-3, name)));
   await other.close();
   await again.stop();
+});
+
+test("the saved scenario starts the same world with the robot's set-up", async () => {
+  await page.bringToFront();
+  await press("Save");
+  const downloads = [];
+  page.on("download", (download) => downloads.push(download));
+  await press("Save scenario");
+  await until(() => downloads.length === 2, "both files");
+  for (const download of downloads) await download.saveAs(path.join(folder, download.suggestedFilename()));
+  assert.deepEqual(downloads.map((download) => download.suggestedFilename()).sort(), [`${NAME}.sdf`, `${NAME}.yaml`]);
+  const again = await startServer([path.join(folder, `${NAME}.yaml`)]);
+  const { page: other } = await openPage(browser, again.url);
+  await waitUntilDrawn(other);
+  const names = async (of) => (await ask(of, "/scene")).bodies.map(({ name }) => name).sort();
+  assert.deepEqual(await names(other), await names(page));
+  await other.locator('[data-robot="pebble"]').waitFor();
+  await other.close();
+  await again.stop();
+  await page.bringToFront();
+});
+
+test("after editing, the robot for which a shape was added is selected again", async () => {
+  await page.locator('[data-robot="pebble"]').click();
+  await press("Shape");
+  await shape().getByLabel("Shape", { exact: true }).selectOption("box");
+  await press("Add shape");
+  await page.waitForFunction(() => window.gsv.chosen[0]?.startsWith("box"));
+  await ready();
+  await press("Edit");
+  await edit().waitFor({ state: "detached" });
+  await chosenAre("pebble");
+  await page.getByRole("region", { name: "Selected robot" }).getByRole("heading", { name: "pebble" }).waitFor();
+  const offer = page.getByText("The simulation is still paused.");
+  await offer.waitFor();
+  await page.getByTitle("Resume (Space)").click();
+  await offer.waitFor({ state: "detached" });
   assert.deepEqual(faults, []);
 });

@@ -51,6 +51,15 @@ test("no panel covers the view", async () => {
   }
 });
 
+test("the tools of a narrow panel of plots have two lines, and the button to save is beside others", async () => {
+  const tools = part("Plots").locator(".panel-tools");
+  const box = await tools.boundingBox();
+  assert.ok(box.width < 450 && box.height < 100, JSON.stringify(box));
+  const [events, save] = [await tools.getByText("Events", { exact: true }).boundingBox(), await tools.getByRole("button", { name: "Save as CSV" }).boundingBox()];
+  assert.ok(Math.abs(events.y + events.height / 2 - save.y - save.height / 2) < 4, JSON.stringify({ events, save }));
+  assert.ok(save.x + save.width <= box.x + box.width, "the button is inside the panel");
+});
+
 test("a tab is dragged to another part, and beside the view", async () => {
   await chooseLayout("Watch a crowd");
   const tab = page.getByRole("tab", { name: "Log", exact: true });

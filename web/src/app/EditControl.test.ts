@@ -222,8 +222,34 @@ test("after an edit that paused the simulation, a notice offers to resume it", a
   notice.action!.run();
   expect(resume).toHaveBeenCalledTimes(1);
   store.set({ status: simulationStatus("running") });
+  expect(store.get().notices).toEqual([]);
   notice.action!.run();
   expect(resume).toHaveBeenCalledTimes(1);
+});
+
+test("a robot is selected again at the end, if an object was added for it", async () => {
+  const { store, control } = await editing();
+  store.set({ selection: "a" });
+  await control.addObject({ name: "", model: "crate", place: null });
+  expect(store.get()).toMatchObject({ selection: null, editing: { chosen: "crate_2" } });
+  await control.toggle();
+  expect(store.get()).toMatchObject({ selection: "a", part: null });
+});
+
+test("a robot is selected again if undo removes the object that was added for it", async () => {
+  const { store, control } = await editing();
+  store.set({ scene: scene({ bodies: [body("a"), body("crate_2", { isRobot: false })] }), selection: "a" });
+  await control.addObject({ name: "", model: "crate", place: null });
+  store.set({ scene: scene({ bodies: [body("a")] }) });
+  expect(store.get()).toMatchObject({ selection: "a", editing: { chosen: null } });
+});
+
+test("an object that the user selected stays selected at the end", async () => {
+  const { store, control } = await editing();
+  store.set({ selection: "a" });
+  control.choose("box");
+  await control.toggle();
+  expect(store.get()).toMatchObject({ selection: null, part: { body: "box", kind: "body", name: "box" } });
 });
 
 test("after an edit of a simulation that was paused before, nothing offers to resume it", async () => {

@@ -5,11 +5,12 @@ import type { Placed, RobotSetUp } from "../api/scenario";
 import type { Editing, GizmoTool } from "../state/editing";
 import { canEdit } from "../state/actions";
 import { FIRST_EDITING } from "../state/editing";
+import { bodyPart } from "../state/parts";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import type { Edit } from "./edits";
 import { inOrder, together } from "./edits";
-import { notify } from "./notices";
+import { notify, offer } from "./notices";
 
 const MOST_EDITS = 100;
 const STANDS_M = 1e-6; // if a body moved by less, it was only rotated
@@ -40,6 +41,9 @@ export class EditControl {
   private done: Edit[] = []; // edits that can be undone; the newest is last
   private takenBack: Edit[] = [];
   private hasPaused = false; // whether editing paused the simulation
+  // The robot that was selected when an object was added. It is selected again when the object is
+  // no longer selected.
+  private robotBefore: string | null = null;
   // Poses that were set here, but are not in a received scene yet.
   private readonly unseen = new Map<string, BodyPlace>();
   private copied: Copied[] = [];
@@ -59,12 +63,12 @@ export class EditControl {
     );
     store.watch(
       ({ scene }) => scene,
-      (scene) => {
+      () => {
         this.unseen.clear();
         const { editing } = this.store.get();
         if (!editing) return;
-        const isThere = (body: string) => scene?.bodies.some(({ name }) => name === body) ?? false;
-        if (editing.chosen !== null && !isThere(editing.chosen)) this.choose(null);
+        const isThere = (body: string) => this.isInScene(body);
+        if (editing.chosen !== null && !isThere(editing.chosen)) this.selectRobotBefore();
         else if (!editing.more.every(isThere)) this.patch({ more: editing.more.filter(isThere) });
       },
     );
@@ -99,6 +103,7 @@ export class EditControl {
   choose(object: string | null): void {
     const { editing } = this.store.get();
     if (!editing) return;
+    this.robotBefore = null;
     if (editing.chosen !== object || editing.more.length > 0) this.patch({ chosen: object, more: [] });
     if (object !== null) this.store.set({ selection: null, selectedPose: null });
   }
@@ -148,12 +153,14 @@ export class EditControl {
 
   // Adds an object and selects it, so that it can be moved.
   async addObject(object: NewObject, name = ""): Promise<boolean> {
-    const { simulation } = this.store.get();
+    const { simulation, selection } = this.store.get();
     if (!simulation) return false;
+    const robot = selection ?? this.robotBefore;
     const added: string[] = [];
     const edit = this.addition(simulation, object, added);
     if (!(await this.do(name ? { ...edit, name: `add ${name}` } : edit))) return false;
     this.choose(added[0]!);
+    this.robotBefore = robot;
     return true;
   }
 
@@ -386,15 +393,37 @@ export class EditControl {
     });
   }
 
+  // A selected object stays selected, unless it was added for a robot: then the robot is selected again.
   private end(): void {
-    this.store.set({ editing: null, placing: false, chosenPose: null });
+    const object = this.store.get().editing?.chosen ?? null;
+    if (object !== null) this.selectRobotBefore();
+    const isObjectShown = object !== null && this.store.get().selection === null && this.isInScene(object);
+    this.store.set({ editing: null, placing: false, chosenPose: null, ...(isObjectShown && { part: bodyPart(object) }) });
   }
 
-  // After an edit for which the simulation was paused.
+  // Deselects the object, and selects the robot that was selected when the object was added.
+  private selectRobotBefore(): void {
+    const robot = this.robotBefore;
+    this.choose(null);
+    if (robot !== null && this.isInScene(robot)) this.store.set({ selection: robot, part: null });
+  }
+
+  private isInScene(body: string): boolean {
+    return this.store.get().scene?.bodies.some(({ name }) => name === body) ?? false;
+  }
+
+  // After an edit for which the simulation was paused. The offer ends when the simulation is no
+  // longer paused, or is edited again.
   private offerToResume(): void {
-    if (!this.hasPaused || this.store.get().status?.phase !== "paused") return;
-    const run = () => this.store.get().status?.phase === "paused" && this.resume();
-    notify(this.store, "note", "The simulation is still paused.", { label: "Resume", run });
+    const isStillPaused = ({ status, editing }: State) => status?.phase === "paused" && editing === null;
+    if (!this.hasPaused || !isStillPaused(this.store.get())) return;
+    const run = () => isStillPaused(this.store.get()) && this.resume();
+    const remove = offer(this.store, "The simulation is still paused.", { label: "Resume", run });
+    const unwatch = this.store.watch(isStillPaused, (isPaused) => {
+      if (isPaused) return;
+      unwatch();
+      remove();
+    });
   }
 
   private tell(): void {

@@ -8,7 +8,22 @@ const ERROR_MS = 12_000;
 
 let nextId = 1;
 
-export function notify(store: Store<State>, kind: "error" | "note", sentence: string, action?: NoticeAction): void {
+export function notify(store: Store<State>, kind: "error" | "note", sentence: string): void {
+  post(store, kind, sentence);
+}
+
+// Shows a note with a button. Returns a function that removes it.
+export function offer(store: Store<State>, sentence: string, action: NoticeAction): () => void {
+  const id = post(store, "note", sentence, action);
+  return () => dismiss(store, id);
+}
+
+export function dismiss(store: Store<State>, id: number): void {
+  store.set(({ notices }) => ({ notices: notices.filter((each) => each.id !== id) }));
+}
+
+// Returns the id of the message.
+function post(store: Store<State>, kind: "error" | "note", sentence: string, action?: NoticeAction): number {
   const id = nextId++;
   store.set(({ notices }) => ({
     notices: [...notices.filter((each) => each.sentence !== sentence), { id, kind, sentence, ...(action && { action }) }].slice(
@@ -16,8 +31,5 @@ export function notify(store: Store<State>, kind: "error" | "note", sentence: st
     ),
   }));
   setTimeout(() => dismiss(store, id), kind === "error" || action ? ERROR_MS : NOTE_MS);
-}
-
-export function dismiss(store: Store<State>, id: number): void {
-  store.set(({ notices }) => ({ notices: notices.filter((each) => each.id !== id) }));
+  return id;
 }

@@ -42,10 +42,12 @@ export function mount(ports: Ports): MountedPanel {
   }).start();
   const save = smallButton("save", "Save as CSV", () => saveTable(ports, feed));
   const { button, form } = expressionForm(ports);
+  // In a narrow panel the tools have several lines; the button to save never stands alone in one.
+  const last = element("span", { class: "plot-last" }, eventsCheck(ports), element("span", { class: "spacer" }), save);
   const plots = element("div", { class: "plot-body" }, drawing.legend, element("div", { class: "plot-place" }, drawing.place, empty));
   return {
     body: element("div", { class: "plot-panel" }, form, plots),
-    tools: [addChoice(ports), button, acrossChoice(ports), spanChoice(ports), eventsCheck(ports), element("span", { class: "spacer" }), save],
+    tools: [addChoice(ports), button, acrossChoice(ports), spanChoice(ports), last],
     whileOpen: () => {
       const ends = [drawing.open(), events.open(() => drawing.request())];
       return () => ends.forEach((end) => end());
