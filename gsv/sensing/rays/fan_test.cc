@@ -7,6 +7,7 @@
 
 #include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/ray_scene.h"
+#include "gsv/sensing/rays/sectors.h"
 #include "gsv/sensing/testing/test_rays.h"
 #include "gsv/sensing/testing/test_snapshot.h"
 
@@ -137,7 +138,9 @@ TEST(Fan, WithNonFiniteRaysHitsNothing) {
 std::multiset<std::size_t> RaysIn(const Sector& sector, double first, double step, int count) {
   const auto directions = DirectionsOf(first, step, count, 0);
   std::multiset<std::size_t> rays;
-  ForRaysIn(sector, {{}, first, step, 0, 10, directions}, [&](std::size_t i) { rays.insert(i); });
+  ForRunsIn(sector, {{}, first, step, 0, 10, directions}, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i <= to; ++i) rays.insert(i);
+  });
   return rays;
 }
 

@@ -10,6 +10,7 @@
 #include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/candidate_set.h"
 #include "gsv/sensing/rays/ray_pairs.h"
+#include "gsv/sensing/rays/sectors.h"
 
 namespace gsv::sensing {
 namespace {
@@ -80,18 +81,14 @@ bool Passes(const Ray& ray, double length, const BoundingSphere& ball) {
   return Dot(gap, gap) <= ball.radius * ball.radius;
 }
 
-// Calls cast(batch) for all rays that for_rays(visit) visits.
-template <class ForRays, class Cast>
-void InBatches(RayBatch& batch, const ForRays& for_rays, const Cast& cast) {
-  batch.count = 0;
-  for_rays([&](const Vector3& direction, Nearest& found) {
-    batch.directions[batch.count] = direction;
-    batch.nearest[batch.count] = &found;
-    if (++batch.count < RayBatch::kMax) return;
-    cast(batch);
-    batch.count = 0;
-  });
-  if (batch.count > 0) cast(batch);
+// Calls cast(ray, nearest) for ray i of a row, and sets its range to what it found.
+template <class Cast>
+void ShortenRay(RayRow& row, std::size_t i, const Cast& cast) {
+  const Ray ray = row.At(i);
+  Nearest nearest;
+  nearest.distance = ray.max_distance;
+  cast(ray, nearest);
+  if (nearest.body >= 0) row.SetRange(i, nearest.distance);
 }
 
 // Calls cast(i) for each ray i of a mask.
@@ -339,65 +336,58 @@ bool PlacedSolids::UnindexedReach(const Fan& fan, int ignored_body) const {
   return solids_->standing.OthersReach(fan);
 }
 
-void PlacedSolids::CastInto(const Shading& shading, const Fan& fan,
-                            std::span<const Vector3> directions, std::span<Nearest> nearest,
-                            RayBatch& batch) const {
-  const Vector3& place = fan.world_from_fan.position;
-  const auto for_rays = [&](const auto& visit) {
-    ForRaysIn(shading.sector, fan, [&](std::size_t i) {
-      if (nearest[i].distance >= shading.sector.nearest) visit(directions[i], nearest[i]);
+void PlacedSolids::CastInto(const Shading& shading, const Fan& fan, RayRow& row) const {
+  const double nearest = shading.sector.nearest;
+  const auto cast_at = [&](const geometry::Shape& shape, const ShapeFrame& frame) {
+    ForRunsIn(shading.sector, fan, [&](std::size_t first, std::size_t last) {
+      row.CastAt(shape, frame, nearest, first, last);
     });
   };
   if (shading.is_standing) {
     const SolidSet& set = solids_->standing;
-    const Vector3 origin = set.ShapeFromSet(shading.number) * place;
-    return InBatches(batch, for_rays,
-                     [&](RayBatch& rays) { set.CastAtShapeFrom(origin, rays, shading.number); });
+    const Pose& shape_from_set = set.ShapeFromSet(shading.number);
+    return cast_at(set.ShapeAt(shading.number),
+                   {shape_from_set * row.origin(), std::span(&shape_from_set.orientation, 1)});
   }
   const Pose& part_from_world = parts_[shading.number].part_from_world;
   const SolidSet& set = parts_[shading.number].part->solids;
   const std::uint32_t shapes = set.ShapesAlone();
   if (shapes == 0 || shapes > kFewShapes) {
-    return for_rays([&](const Vector3& direction, Nearest& found) {
-      CastAtPart(shading.number, {place, direction, found.distance}, found);
+    return ForRunsIn(shading.sector, fan, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i <= last; ++i) {
+        if (row.range(i) < nearest) continue;
+        ShortenRay(row, i,
+                   [&](const Ray& ray, Nearest& found) { CastAtPart(shading.number, ray, found); });
+      }
     });
   }
-  const Vector3 place_in_part = part_from_world * place;
-  const Bearer bearer = BearerOf(shading.number);
-  InBatches(batch, for_rays, [&](RayBatch& rays) {
-    for (std::size_t i = 0; i < rays.count; ++i) {
-      rays.directions[i] = part_from_world.orientation * rays.directions[i];
-    }
-    for (std::uint32_t i = 0; i < shapes; ++i) {
-      set.CastAtShapeFrom(set.ShapeFromSet(i) * place_in_part, rays, i, bearer);
-    }
-  });
+  const Vector3 place_in_part = part_from_world * row.origin();
+  for (std::uint32_t i = 0; i < shapes; ++i) {
+    const Pose& shape_from_part = set.ShapeFromSet(i);
+    const std::array rotations{part_from_world.orientation, shape_from_part.orientation};
+    cast_at(set.ShapeAt(i), {shape_from_part * place_in_part, rotations});
+  }
 }
 
 void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const {
   GSV_CHECK(ranges.size() == fan.directions.size());
-  const Pose& world_from_fan = fan.world_from_fan;
-  std::vector<Vector3> directions(ranges.size());
-  std::transform(fan.directions.begin(), fan.directions.end(), directions.begin(),
-                 [&](const Vector3& ray) { return world_from_fan.orientation * ray; });
-  const auto ray = [&](std::size_t i) -> Ray {
-    return {world_from_fan.position, directions[i], fan.max_distance};
-  };
   std::vector<Shading> shadings;
   shadings.reserve(FoundBoxes::kMax / 2);
-  const bool is_sound = geometry::IsFinite(world_from_fan) && fan.max_distance >= 0;
+  const bool is_sound = geometry::IsFinite(fan.world_from_fan) && fan.max_distance >= 0;
+  RayRow row(fan);
   if (!is_sound || !FindShadings(fan, ignored_body, shadings)) {
-    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(ray(i), ignored_body);
+    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(row.At(i), ignored_body);
     return;
   }
-  std::vector<Nearest> nearest(ranges.size(), Nearest{.distance = fan.max_distance});
-  RayBatch batch;
-  for (const Shading& shading : shadings) CastInto(shading, fan, directions, nearest, batch);
-  const bool has_rest = UnindexedReach(fan, ignored_body);
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    if (has_rest) CastAtUnindexed(ray(i), ignored_body, nearest[i]);
-    ranges[i] = DistanceOf(nearest[i]);
+  for (const Shading& shading : shadings) CastInto(shading, fan, row);
+  if (UnindexedReach(fan, ignored_body)) {
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      ShortenRay(row, i, [&](const Ray& ray, Nearest& found) {
+        CastAtUnindexed(ray, ignored_body, found);
+      });
+    }
   }
+  for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = row.range(i);
 }
 
 bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,

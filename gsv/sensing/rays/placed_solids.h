@@ -13,6 +13,7 @@
 #include "gsv/sensing/rays/box_index.h"
 #include "gsv/sensing/rays/echo.h"
 #include "gsv/sensing/rays/layout_solids.h"
+#include "gsv/sensing/rays/ray_row.h"
 #include "gsv/sensing/rays/sphere_grid.h"
 
 namespace gsv::sensing {
@@ -70,11 +71,8 @@ class PlacedSolids final : public RayScene {
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
-  // Casts at one solid the rays of a fan that may hit it. directions[i] is the direction of ray i
-  // in the world; `batch` is working memory.
-  void CastInto(const Shading& shading, const Fan& fan,
-                std::span<const geometry::Vector3> directions, std::span<Nearest> nearest,
-                RayBatch& batch) const;
+  // Casts at one solid the rays of a fan that may hit it.
+  void CastInto(const Shading& shading, const Fan& fan, RayRow& row) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
   // Vectors in the order of LayoutSolids::moving. The last two are only for bounded parts.

@@ -262,18 +262,6 @@ Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle) {
   return std::visit(DistanceCaster{ray}, shape);
 }
 
-void DistancesToShape(std::span<const Ray> rays, const geometry::Shape& shape,
-                      std::span<double> distances) {
-  GSV_CHECK(rays.size() == distances.size());
-  std::visit(
-      [&](const auto& its) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-          distances[i] = DistanceCaster{rays[i]}(its).value_or(kInfinity);
-        }
-      },
-      shape);
-}
-
 Vector3 NormalOfShape(const Ray& ray, const geometry::Shape& shape) {
   return Against(std::visit(NormalCaster{ray}, shape), ray.direction);
 }

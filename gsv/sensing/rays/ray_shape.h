@@ -8,7 +8,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "gsv/geometry/shape.h"
 #include "gsv/sensing/rays/ray_scene.h"
@@ -27,9 +26,6 @@ geometry::Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle);
 
 // A Plane is the unbounded surface of a half-space. A Mesh is not allowed.
 std::optional<double> DistanceToShape(const Ray& ray, const geometry::Shape& shape);
-// Returns the distances for many rays; infinite for a ray without a crossing.
-void DistancesToShape(std::span<const Ray> rays, const geometry::Shape& shape,
-                      std::span<double> distances);
 // Returns the normal at the first crossing.
 geometry::Vector3 NormalOfShape(const Ray& ray, const geometry::Shape& shape);
 

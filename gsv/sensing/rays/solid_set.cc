@@ -1,6 +1,7 @@
 #include "gsv/sensing/rays/solid_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -187,23 +188,6 @@ void SolidSet::Commit() {
       DistanceToShape(Moved(shape.shape_from_set, ray, nearest.distance), shape.shape);
   if (!distance) return;
   nearest.Offer(*distance, body, bearer.first_primitive + shape.primitive, bearer.part, solid);
-}
-
-void SolidSet::CastAtShapeFrom(const Vector3& origin_in_shape, RayBatch& rays, std::uint32_t shape,
-                               const Bearer& bearer) const {
-  const SolidShape& at = shapes_[shape];
-  for (std::size_t i = 0; i < rays.count; ++i) {
-    rays.in_shape[i] = {origin_in_shape, at.shape_from_set.orientation * rays.directions[i],
-                        rays.nearest[i]->distance};
-  }
-  DistancesToShape(std::span(rays.in_shape).first(rays.count), at.shape,
-                   std::span(rays.distances).first(rays.count));
-  const int body = bearer.body >= 0 ? bearer.body : at.body;
-  for (std::size_t i = 0; i < rays.count; ++i) {
-    if (rays.distances[i] == kInfinity) continue;
-    rays.nearest[i]->Offer(rays.distances[i], body, bearer.first_primitive + at.primitive,
-                           bearer.part, shape);
-  }
 }
 
 // Compares the height of the fan's origin over each plane with the maximum height that a ray can

@@ -6,7 +6,6 @@
 // Threads      const members may run concurrently.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -46,17 +45,6 @@ struct Nearest {
   }
 };
 
-// Rays from one point with directions in a set's frame, and the nearest hit of each.
-struct RayBatch {
-  static constexpr std::size_t kMax = 32;
-  std::size_t count = 0;
-  std::array<geometry::Vector3, kMax> directions;
-  std::array<Nearest*, kMax> nearest;
-  // Working memory.
-  std::array<Ray, kMax> in_shape;
-  std::array<double, kMax> distances;
-};
-
 class SolidSet {
  public:
   // Adds a shape of a body, before Commit(). `reflectance` is the fraction of light that its
@@ -91,9 +79,6 @@ class SolidSet {
     if (!planes_.empty() || !triangles_.empty()) return 0;
     return static_cast<std::uint32_t>(shapes_.size());
   }
-  // Like CastAtShape(), for rays from one point in the shape's frame, without an ignored body.
-  void CastAtShapeFrom(const geometry::Vector3& origin_in_shape, RayBatch& rays,
-                       std::uint32_t shape, const Bearer& bearer = {}) const;
   // Whether CastAtOthers() may hit something with a ray of the fan, given in the set's frame.
   bool OthersReach(const Fan& fan) const;
   // Whether a shape may extend into a box. For long shapes, this is stricter than the sphere.

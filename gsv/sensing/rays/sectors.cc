@@ -1,4 +1,4 @@
-#include "gsv/sensing/rays/fan.h"
+#include "gsv/sensing/rays/sectors.h"
 
 #include <emmintrin.h>
 
