@@ -19,9 +19,39 @@ before(async () => {
   const robots = ["--robot", `${SURVEYOR}@3.2,0`, "--robot", `${SURVEYOR}@0,2`, "--robot", `${SURVEYOR}@0,-2`];
   server = await startServer(["playground", ...robots]);
   browser = await openBrowser({ width: 1366, height: 768 });
+  await browser.context.addInitScript(holdMessages);
   ({ page, faults } = await openPage(browser, server.url));
   await waitUntilDrawn(page);
 });
+
+// Drops the messages of the topic window.testHeld, like a camera that has stopped.
+function holdMessages() {
+  window.testHeld = "";
+  const channels = new Map(); // topics by channel
+  const subscribed = new Map(); // topics by subscription
+  const send = WebSocket.prototype.send;
+  WebSocket.prototype.send = function (data) {
+    const message = typeof data === "string" ? JSON.parse(data) : {};
+    if (message.op === "subscribe") for (const { id, channelId } of message.subscriptions) subscribed.set(id, channels.get(channelId));
+    return send.call(this, data);
+  };
+  const handler = Object.getOwnPropertyDescriptor(WebSocket.prototype, "onmessage");
+  Object.defineProperty(WebSocket.prototype, "onmessage", {
+    ...handler,
+    set(take) {
+      handler.set.call(this, take && ((event) => {
+        if (typeof event.data === "string") {
+          const message = JSON.parse(event.data);
+          if (message.op === "advertise") for (const { id, topic } of message.channels) channels.set(id, topic);
+          return take(event);
+        }
+        const view = new DataView(event.data);
+        const topic = view.getUint8(0) === 1 ? subscribed.get(view.getUint32(1, true)) : undefined;
+        if (topic === undefined || topic !== window.testHeld) take(event);
+      }));
+    },
+  });
+}
 
 after(async () => {
   await browser?.close();
@@ -87,6 +117,16 @@ test("a depth image has a scale, and the value under the pointer", async () => {
   await until(async () => /\(\d+, \d+\): [\d.]+ m/.test(await value.textContent()), "a depth");
   const metres = Number(/: ([\d.]+) m/.exec(await value.textContent())[1]);
   assert.ok(metres >= least - 0.01 && metres <= largest + 0.01, `${metres} lies between ${least} and ${largest}`);
+});
+
+test("an image that is behind the simulation shows its age", async () => {
+  await camera().selectOption({ label: "surveyor · camera" });
+  const caption = panel().locator(".picture-time");
+  await until(async () => /^\d+:\d\d\.\d\d$/.test(await caption.textContent()), "an image of now");
+  await page.evaluate(() => (window.testHeld = "/surveyor/camera"));
+  await until(async () => /^\d+:\d\d\.\d\d · \d+\.\d s old$/.test(await caption.textContent()), "the age");
+  await page.evaluate(() => (window.testHeld = ""));
+  await until(async () => /^\d+:\d\d\.\d\d$/.test(await caption.textContent()), "a new image");
 });
 
 test("no other host was contacted and there were no errors", () => {

@@ -43,6 +43,19 @@ test("the panel Physics shows gravity, the step, the time of steps, and the beha
   await until(async () => !(await page.evaluate(() => window.gsv.topics)).includes("/gsv/step_costs"), "the end of the measurement");
 });
 
+test("the panel Physics says why a run is slower than its target", async () => {
+  const fast = await startServer(["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander", "--in-process", "--real-time-factor", "100000"]);
+  const { page: other } = await openPage(browser, fast.url);
+  await waitUntilDrawn(other);
+  await other.getByRole("button", { name: "Physics", exact: true }).click();
+  const sentence = other.getByRole("region", { name: "Physics", exact: true }).getByText(/^The simulation runs at [\d.]+× of real time, not at 100000×\. /);
+  await sentence.waitFor();
+  await until(async () => / \d+ % of the time/.test(await sentence.textContent()), "the part that takes most of the time");
+  await other.close();
+  await fast.stop();
+  await page.bringToFront();
+});
+
 test("the tree of the panel World contains links, joints, sensors and transforms", async () => {
   await press("World");
   const world = panel("World");

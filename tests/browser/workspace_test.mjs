@@ -6,7 +6,7 @@ import path from "node:path";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
-import { until } from "./viewing.mjs";
+import { ask, until } from "./viewing.mjs";
 
 let server;
 let browser;
@@ -16,6 +16,7 @@ let faults;
 before(async () => {
   server = await startServer(["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"]);
   browser = await openBrowser({ width: 1366, height: 768 });
+  await browser.context.grantPermissions(["clipboard-read", "clipboard-write"]);
   ({ page, faults } = await openPage(browser, server.url));
   await waitUntilDrawn(page);
 });
@@ -58,6 +59,36 @@ test("the tools of a narrow panel of plots have two lines, and the button to sav
   const [events, save] = [await tools.getByText("Events", { exact: true }).boundingBox(), await tools.getByRole("button", { name: "Save as CSV" }).boundingBox()];
   assert.ok(Math.abs(events.y + events.height / 2 - save.y - save.height / 2) < 4, JSON.stringify({ events, save }));
   assert.ok(save.x + save.width <= box.x + box.width, "the button is inside the panel");
+});
+
+test("buttons have words in a window of 1,200 px, and tooltips at any width", async () => {
+  const buttons = page.locator(".toolbar button:visible, .view-tools button:visible, .panel-bar button:visible");
+  for (const width of [1200, 1100]) {
+    await page.setViewportSize({ width, height: 768 });
+    await chooseLayout("Standard");
+    const found = await buttons.evaluateAll((all) =>
+      all.map((each) => {
+        const word = each.querySelector(".word")?.getBoundingClientRect();
+        const frame = each.getBoundingClientRect();
+        const isInside = word && word.width > 0 && word.left >= frame.left - 1 && word.right <= frame.right + 1 && word.bottom <= frame.bottom + 1;
+        return { name: each.getAttribute("aria-label") ?? each.textContent, hasTooltip: each.title !== "", hasWord: Boolean(isInside) || each.innerText.trim() !== "" };
+      }),
+    );
+    assert.ok(found.length > 25, `${found.length} buttons`);
+    assert.deepEqual(found.filter(({ hasTooltip }) => !hasTooltip), []);
+    if (width >= 1200) assert.deepEqual(found.filter(({ hasWord }) => !hasWord), []);
+  }
+  await page.setViewportSize({ width: 1366, height: 768 });
+});
+
+test("the layout Drive shows a camera and the pad beside the view", async () => {
+  await chooseLayout("Drive");
+  const view = await page.locator(".view").boundingBox();
+  for (const name of ["Images", "Teleoperation"]) {
+    const box = await boxOf(name);
+    assert.ok(box.width > 300 && box.height > 150 && box.x >= view.x + view.width, `${name} has ${JSON.stringify({ box, view })}`);
+  }
+  await page.getByText("No robot can be driven").waitFor(); // the only robot has a behaviour
 });
 
 test("a tab is dragged to another part, and beside the view", async () => {
@@ -184,6 +215,14 @@ test("a panel is moved to its own window, and back", async () => {
   await press("Open in a separate window");
   const popup = await opened;
   await popup.locator(".panel.status tbody tr").first().waitFor();
+  // The window has the page's style, and its panel is up to date.
+  const look = (of) => of.evaluate(() => [getComputedStyle(document.body).fontFamily, getComputedStyle(document.querySelector(".panel.status")).color].join());
+  assert.equal(await look(popup), await look(page).catch(() => look(popup)));
+  const { time_s } = await ask(page, "");
+  await popup.waitForFunction((then) => {
+    const [, minutes, seconds] = /(\d+):(\d+\.\d+)/.exec(document.querySelector(".panel.status").innerText) ?? [];
+    return 60 * minutes + Number(seconds) > then;
+  }, time_s);
   await popup.close();
   await page.locator(".panel.status tbody tr").first().waitFor();
 });
@@ -200,6 +239,13 @@ test("topics are listed with types and rates, and a field of any message is read
   await tree.getByText("robots", { exact: true }).click();
   await tree.locator("summary", { hasText: "[0]" }).getByText("pebble").waitFor();
   await until(async () => Number(await row.locator("td").nth(2).textContent()) > 0, "a rate");
+  const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
+  await press("Hold this message");
+  await press("Copy mode");
+  await until(async () => (await clipboard()) === "real_time", "the copied field");
+  await press("Copy the message as JSON");
+  await until(async () => (await clipboard()).startsWith("{"), "the copied message");
+  assert.equal(JSON.parse(await clipboard()).robots[0].name, "pebble");
   await press("Plot step");
   await page.locator(".plot-legend").getByText("gsv status step").waitFor();
 });
@@ -219,6 +265,24 @@ test("the command palette finds commands, robots, topics and panels", async () =
   await part("Topics").getByRole("heading", { name: "/gsv/events" }).waitFor();
   await find("run pause");
   await page.waitForFunction(() => window.gsv.phase === "paused");
+});
+
+test("the key of a command is changed in the help, and stored", async () => {
+  await chooseLayout("Standard");
+  await page.keyboard.press("?");
+  const help = page.getByRole("dialog", { name: "Help" });
+  const key = help.getByRole("button", { name: "I: change the key", exact: true });
+  await key.click();
+  await page.keyboard.press("z");
+  await help.getByRole("button", { name: "Z: change the key", exact: true }).waitFor();
+  await page.keyboard.press("Escape");
+  await help.waitFor({ state: "hidden" });
+  await page.reload();
+  await waitUntilDrawn(page);
+  await page.keyboard.press("i");
+  await page.keyboard.press("z");
+  await part("Status").waitFor(); // two presses of a key of this panel would have closed it again
+  assert.equal(await page.locator(".panel-bar").getByRole("button", { name: "Status", exact: true }).getAttribute("title"), "Status of the simulation, its robots and the server (Z)");
 });
 
 test("on a phone every panel, view and layout can be reached", async () => {

@@ -115,3 +115,17 @@ test("with single keys turned off, letters have no effect, but Esc has", () => {
   expect(app.topView).not.toHaveBeenCalled();
   expect(app.escape).toHaveBeenCalled();
 });
+
+test("a button that was clicked loses the focus, except in a dialog", () => {
+  const app = { store: { get: () => initialState } } as unknown as App;
+  const page = document.createElement("div");
+  page.innerHTML = "<button>Pause</button><dialog open><button>I</button></dialog>";
+  document.body.replaceChildren(page);
+  listenForKeys(app, page as unknown as Window);
+  const keepsFocus = [...page.querySelectorAll("button")].map((button) => {
+    button.focus();
+    button.dispatchEvent(new MouseEvent("click", { detail: 1, bubbles: true }));
+    return document.activeElement === button;
+  });
+  expect(keepsFocus).toEqual([false, true]);
+});

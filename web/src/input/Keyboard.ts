@@ -132,8 +132,9 @@ export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> =
     event.preventDefault();
     command(app);
   });
-  // A button that was clicked with the mouse must not receive Space.
+  // A button that was clicked with the mouse must not receive Space. In a dialog, keys are no
+  // commands, and a button may wait for one.
   page.addEventListener("click", ({ detail, target }) => {
-    if (detail > 0 && target instanceof Element) target.closest("button")?.blur();
+    if (detail > 0 && target instanceof Element && !target.closest("dialog")) target.closest("button")?.blur();
   });
 }
