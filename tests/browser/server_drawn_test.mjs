@@ -1,9 +1,11 @@
 // Tests the view that the server draws: in a browser without WebGL, and if it is chosen.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { setTimeout } from "node:timers/promises";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { changedPixels, isBlank, picture } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
-import { until } from "./viewing.mjs";
+import { ask, until } from "./viewing.mjs";
 
 const SIMULATION = ["playground", "--robot", "pebble@0,0", "--behaviour", "wander"];
 
@@ -106,6 +108,70 @@ test("while the camera moves, a name stays at its robot in the image", async () 
   assert.ok(Math.max(...gaps) < 12, `names were ${Math.max(...gaps)} pixels away`);
 });
 
+// Stores the image and what is painted on it. Returns the number of pixels that differ from the
+// image stored before.
+async function changedSinceLastLook() {
+  return page.evaluate(() => {
+    const canvas = document.querySelector(".drawn-view");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const before = window.testImage ?? data;
+    window.testImage = data;
+    if (before.length !== data.length) return 0;
+    let changed = 0;
+    for (let i = 0; i < data.length; i += 4) changed += Number([0, 1, 2].some((k) => Math.abs(data[i + k] - before[i + k]) > 40));
+    return changed;
+  });
+}
+
+// Whether a pixel near this place of the page is blue, like the arrow along z.
+async function isBlueAt({ x, y }) {
+  return page.evaluate(
+    ([x, y]) => {
+      const canvas = document.querySelector(".drawn-view");
+      const { left, top } = canvas.getBoundingClientRect();
+      const { data } = canvas.getContext("2d").getImageData(Math.round(x - left) - 5, Math.round(y - top) - 5, 11, 11);
+      for (let i = 0; i < data.length; i += 4) if (data[i + 2] > 100 && data[i + 2] > 1.5 * data[i] && data[i + 2] > 1.5 * data[i + 1]) return true;
+      return false;
+    },
+    [x, y],
+  );
+}
+
+test("overlays and the handles of editing are painted above the image, and a handle is dragged", async () => {
+  await page.getByRole("button", { name: "Edit", exact: true }).click();
+  await page.getByRole("region", { name: "Edit" }).waitFor();
+  await page.keyboard.press("r");
+  await page.getByRole("button", { name: "Shape", exact: true }).click();
+  await page.getByRole("button", { name: "Add shape", exact: true }).click();
+  await page.waitForFunction(() => window.gsv.chosen[0]?.startsWith("box") && window.gsv.gizmoHandle("x") !== null);
+  const poseOf = async () => {
+    const { bodies } = await ask(page, "/scene");
+    const name = await page.evaluate(() => window.gsv.chosen[0]);
+    return bodies.find((each) => each.name === name).pose;
+  };
+  const before = await poseOf();
+  const places = () => page.evaluate(() => [window.gsv.gizmoHandle("z"), window.gsv.robotScreenPosition(window.gsv.chosen[0])]);
+  await until(async () => {
+    const then = JSON.stringify(await places());
+    await setTimeout(200);
+    return then === JSON.stringify(await places());
+  }, "a view at rest");
+  const [from] = await places();
+  await until(() => isBlueAt(from), "the arrow along z");
+  await changedSinceLastLook();
+  await page.keyboard.press("9");
+  await until(async () => (await changedSinceLastLook()) > 50, "collision shapes");
+  await page.keyboard.press("9");
+  await until(async () => (await changedSinceLastLook()) > 50, "the image without them");
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x, from.y - 40, { steps: 5 });
+  await page.mouse.up();
+  await until(async () => (await poseOf())[2] - before[2] > 0.1, "the raised box");
+  const now = await poseOf();
+  assert.ok(Math.abs(now[0] - before[0]) < 1e-6 && Math.abs(now[1] - before[1]) < 1e-6, "along z only");
+});
+
 test("the server pushes the images, and there were no errors", () => {
   assert.deepEqual(requested, []);
   assert.deepEqual(faults, []);
@@ -125,5 +191,42 @@ test("with WebGL the user chooses whether the browser or the server draws", asyn
     await drawn.locator(".drawn-view").waitFor();
   } finally {
     await other.close();
+  }
+});
+
+test("a browser whose WebGL is slow changes to the server's images by itself, and says so", async () => {
+  const other = await openBrowser({ width: 1024, height: 680, drawer: null });
+  try {
+    // Four frames per second, as on a slow machine.
+    await other.context.addInitScript(() => {
+      window.requestAnimationFrame = (act) => window.setTimeout(() => act(performance.now()), 250);
+      window.cancelAnimationFrame = (id) => window.clearTimeout(id);
+    });
+    const moving = await startServer(SIMULATION);
+    const { page: slow } = await openPage(other, moving.url);
+    await slow.getByTestId("drawer").getByText("drawn by the server").waitFor();
+    await slow.locator(".drawn-view").waitFor();
+    await moving.stop();
+  } finally {
+    await other.close();
+  }
+});
+
+test("another page shows the stream /view.mjpeg and the image /view.jpg", async () => {
+  const moving = await startServer(SIMULATION);
+  const dashboard = await browser.context.newPage();
+  try {
+    await dashboard.setContent(`<img src="${moving.url}view.mjpeg?size=640x360&follow=pebble"><img src="${moving.url}view.jpg?size=320x180">`);
+    await dashboard.waitForFunction(() => [...document.images].every(({ naturalWidth }) => naturalWidth > 0));
+    const sizes = await dashboard.evaluate(() => [...document.images].map(({ naturalWidth, naturalHeight }) => [naturalWidth, naturalHeight]));
+    assert.deepEqual(sizes, [[640, 360], [320, 180]]);
+    const look = async (i) => picture(dashboard, await dashboard.locator("img").nth(i).boundingBox());
+    assert.equal(isBlank(await look(1)), false);
+    const first = await look(0);
+    assert.equal(isBlank(first), false);
+    await until(async () => changedPixels(first, await look(0)) > 100, "another image of the stream");
+  } finally {
+    await dashboard.close();
+    await moving.stop();
   }
 });

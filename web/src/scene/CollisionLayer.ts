@@ -1,6 +1,6 @@
 // Draws collision shapes as wireframes: those of the selected robot, else of all bodies. The shapes
 // are fetched when they are first needed.
-import type { Scene } from "three";
+import type { Group, Scene } from "three";
 import { MeshBasicMaterial } from "three";
 import type { SceneDescription } from "../api/scene";
 import { BodyLayer } from "./BodyLayer";
@@ -20,6 +20,11 @@ export class CollisionLayer {
     private readonly library: ModelLibrary,
     private readonly events: { onChange(): void; onProblem(sentence: string): void },
   ) {}
+
+  // The shapes; null while they are hidden.
+  get group(): Group | null {
+    return this.layer?.group ?? null;
+  }
 
   setScene(scene: SceneDescription | null): void {
     this.scene = scene;

@@ -89,8 +89,9 @@ export class FrameDrawer {
 
   // The objects that the page draws over an image from the server.
   private painted(parts: SceneParts | null, shown: Shown): Object3D[] {
-    const { overlays, signs, follower, arranger, tools } = this.layers;
+    const { overlays, collisions, signs, follower, arranger, tools } = this.layers;
     const objects: Object3D[] = [overlays.group, signs.marks.points, follower.ring.mesh, arranger.handle.group, tools.group];
+    if (collisions.group) objects.unshift(collisions.group);
     return parts && shown.grid ? [parts.grid, ...objects] : objects;
   }
 }

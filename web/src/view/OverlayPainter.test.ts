@@ -1,4 +1,15 @@
-import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, PerspectiveCamera, Points, PointsMaterial } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  InstancedMesh,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Points,
+  PointsMaterial,
+} from "three";
 import { expect, test } from "vitest";
 import { OverlayPainter } from "./OverlayPainter";
 
@@ -66,4 +77,20 @@ test("a line that passes the camera is clipped in front of it", () => {
   expect(lines).toHaveLength(1);
   expect(lines[0]!.every(Number.isFinite)).toBe(true);
   expect(lines[0]!.slice(2).map(Math.round)).toEqual([100, 25]);
+});
+
+test("a wireframe is painted as the edges of its triangles, for each instance", () => {
+  const { lines, context } = fakeContext();
+  const net = new InstancedMesh(geometry([2, 0, 0, 2, 1, 0, 2, 0, 1]), new MeshBasicMaterial({ wireframe: true }), 2);
+  net.setMatrixAt(0, new Matrix4());
+  net.setMatrixAt(1, new Matrix4().makeTranslation(0, 0, -1));
+  new OverlayPainter(context, 200, 100, camera()).paint([net]);
+  expect(lines.map((line) => line.map(Math.round))).toEqual([
+    [100, 50, 75, 50],
+    [75, 50, 100, 25],
+    [100, 25, 100, 50],
+    [100, 75, 75, 75],
+    [75, 75, 100, 50],
+    [100, 50, 100, 75],
+  ]);
 });

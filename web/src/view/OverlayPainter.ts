@@ -1,7 +1,7 @@
 // Paints the lines, points and plain surfaces of overlays on an image, projected with its camera.
 // They are on top, because an image has no depths that could hide them.
 import type { BufferAttribute, BufferGeometry, Camera, InterleavedBufferAttribute, Object3D } from "three";
-import { Color, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
+import { Color, InstancedMesh, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
@@ -9,6 +9,7 @@ type Corner = readonly [x: number, y: number, w: number];
 
 const NEAR_W = 1e-3;
 const MOST = 20_000; // maximum number of segments, points or triangles of one object
+const MOST_INSTANCES = 200;
 const LINE_PX = 1.5;
 const POINT_PX = 3;
 
@@ -40,7 +41,18 @@ export class OverlayPainter {
     if (object instanceof LineSegments2) this.paintWideLines(object);
     else if (object instanceof LineSegments) this.paintLines(object);
     else if (object instanceof Points) this.paintPoints(object);
+    else if (object instanceof InstancedMesh) this.paintInstances(object);
     else if (object instanceof Mesh) this.paintSurface(object);
+  }
+
+  private paintInstances(mesh: InstancedMesh): void {
+    const clipFromMesh = this.clipFromObject.clone();
+    const meshFromInstance = new Matrix4();
+    for (let i = 0; i < Math.min(mesh.count, MOST_INSTANCES); i++) {
+      mesh.getMatrixAt(i, meshFromInstance);
+      this.clipFromObject.multiplyMatrices(clipFromMesh, meshFromInstance);
+      this.paintSurface(mesh);
+    }
   }
 
   private paintWideLines({ geometry, material }: LineSegments2): void {
@@ -80,10 +92,15 @@ export class OverlayPainter {
   private paintSurface({ geometry, material }: Mesh): void {
     const { position } = geometry.attributes;
     if (!position) return;
-    this.context.fillStyle = plainColour(material);
+    const plain = plainColour(material);
+    this.context.fillStyle = plain;
     this.context.globalAlpha = opacityOf(material);
     for (const [a, b, c] of trianglesOf(geometry)) {
       const corners = [a, b, c].map((index) => this.corner(position, index));
+      if (isWireframe(material)) {
+        corners.forEach((corner, i) => this.paintLine(corner, corners[(i + 1) % 3]!, plain));
+        continue;
+      }
       if (corners.some(([, , w]) => w < NEAR_W)) continue;
       this.context.beginPath();
       for (const [x, y, w] of corners) this.context.lineTo(x / w, y / w);
@@ -140,6 +157,10 @@ function plainColour(material: unknown): string {
 // Returns whether a material is invisible, like that of an object that only receives the pointer.
 function isInvisible(material: unknown): boolean {
   return (material as { visible?: boolean }).visible === false;
+}
+
+function isWireframe(material: unknown): boolean {
+  return (material as { wireframe?: boolean }).wireframe === true;
 }
 
 function opacityOf(material: unknown): number {
