@@ -34,6 +34,25 @@ class WorldStateTest : public ::testing::Test {
   base::Problems problems_;
 };
 
+TEST_F(WorldStateTest, ReportsTheGapOfALoopThatTheStateOpens) {
+  const std::string pin =
+      "<joint name='pin' type='revolute'><parent>base</parent><child>hand</child><axis><xyz>0 0 1"
+      "</xyz></axis></joint></model>";
+  std::string arm = kSavedArm;
+  arm.replace(arm.find("</model>"), std::string::npos, pin);
+  const auto state = [&](const std::string& angle) {
+    return arm + "\n<state world_name='w'><model name='arm'><joint name='hinge'><angle axis='0'>" +
+           angle + "</angle></joint></model></state>";
+  };
+  (void)World(state("0.0005"));
+  EXPECT_THAT(problems_, IsEmpty());
+  (void)World(state("0.3"));
+  // The pin is 1 m from the hinge: its ends are 2 sin(0.15) m apart.
+  ASSERT_EQ(problems_.size(), 1u);
+  EXPECT_THAT(problems_[0].Sentence(),
+              AllOf(HasSubstr("w.sdf:2"), HasSubstr("\"pin\" closes open by 0.299 m")));
+}
+
 TEST_F(WorldStateTest, PlacesModelsAndLightsAtTheirSavedPoses) {
   const auto world =
       World("<model name='a'>" + std::string(kSavedBox) + "<model name='b'>" + kSavedBox +

@@ -5,6 +5,20 @@
 #include "gsv/base/check.h"
 
 namespace gsv::world {
+namespace {
+
+// Whether the model is fixed to the world and has joints that move. Such a model moves even without
+// collisions. Without a joint to the world, it would fall through the ground.
+bool IsMechanism(const model::Model& model) {
+  const auto is_to_world = [](const model::Joint& joint) { return joint.parent < 0; };
+  const auto is_movable = [](const model::Joint& joint) {
+    return joint.kind != model::JointKind::kFixed;
+  };
+  return std::any_of(model.joints.begin(), model.joints.end(), is_to_world) &&
+         std::any_of(model.joints.begin(), model.joints.end(), is_movable);
+}
+
+}  // namespace
 
 BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement) {
   if (model.script != nullptr) return BodyKind::kActor;
@@ -15,7 +29,7 @@ BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movem
   // A body without any collisions cannot stand on the ground, so it is planar.
   const bool is_planar = model.drive && (movement == model::Movement::kPlanar || !collides);
   if (is_planar) return BodyKind::kPlanarBase;
-  return collides ? BodyKind::kRigidBody : BodyKind::kUnmoved;
+  return collides || IsMechanism(model) ? BodyKind::kRigidBody : BodyKind::kUnmoved;
 }
 
 BodyKind KindOf(const model::PlacedModel& placed) {

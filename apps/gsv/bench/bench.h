@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -45,6 +46,20 @@ inline double QuantileOf(std::vector<double> values, double q) {
   return values[std::min(rank, values.size() - 1)];
 }
 
+// Returns a figure as text: numbers with 5 significant digits, and strings without quotes.
+inline std::string TextOf(const nlohmann::ordered_json& figure) {
+  if (figure.is_string()) return figure.get<std::string>();
+  if (figure.is_array()) {
+    std::string text;
+    for (const auto& each : figure) text += (text.empty() ? "" : " ") + TextOf(each);
+    return text;
+  }
+  if (!figure.is_number_float()) return figure.dump();
+  char text[32];
+  (void)std::snprintf(text, sizeof text, "%.5g", figure.get<double>());
+  return text;
+}
+
 // Prints figures to stdout, as one JSON object or as one line per figure.
 inline void PrintFigures(const nlohmann::ordered_json& figures, bool as_json) {
   if (as_json) {
@@ -52,7 +67,7 @@ inline void PrintFigures(const nlohmann::ordered_json& figures, bool as_json) {
     return;
   }
   for (const auto& [name, value] : figures.items()) {
-    std::printf("%-18s %s\n", name.c_str(), value.dump().c_str());
+    std::printf("%-18s %s\n", name.c_str(), TextOf(value).c_str());
   }
 }
 

@@ -64,7 +64,11 @@ int Rigid(RigidArguments arguments) {
   const auto snapshot = (*simulation)->snapshot();
   for (const world::Contact& contact : snapshot->contacts) points += contact.points.size();
   const auto body = static_cast<std::size_t>(snapshot->layout->Find(kFirstRigidBody));
-  const geometry::Vector3& first = snapshot->state.bodies[body].world_from_model.position;
+  // The base of an arm does not move, so the figure of an arm is the position of its last link.
+  geometry::Pose first = snapshot->state.bodies[body].world_from_model;
+  if (arguments.scene == "arms") {
+    first = world::LinkPoses(*snapshot, static_cast<int>(body)).back();
+  }
   const nlohmann::ordered_json json{
       {"scene", arguments.scene},
       {"bodies", arguments.bodies},
@@ -75,7 +79,7 @@ int Rigid(RigidArguments arguments) {
       {"real_time_factor", base::ToSeconds(status.time) / Seconds(status.wall_time)},
       {"contacts", points},
       {"iterations_per_step", static_cast<double>(dynamics::SolverIterations()) / steps},
-      {"first_m", {first.x, first.y, first.z}},
+      {"first_m", {first.position.x, first.position.y, first.position.z}},
       {"state_hash", (*simulation)->state_hash()}};
   PrintFigures(json, arguments.json);
   return kOk;

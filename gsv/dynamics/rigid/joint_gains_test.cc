@@ -59,6 +59,25 @@ TEST(JointGains, PositionFollowsTheResponseOfASecondOrderSystem) {
   }
 }
 
+// A body without contacts and friction also moves by a force that is too small for a body at rest
+// on the ground (kResting).
+TEST(JointGains, SmallTorqueTurnsAFrictionlessHinge) {
+  const double torque = 0.01, inertia = 0.182, seconds = 10;  // N m, kg m², s
+  auto model = Slider({0, 0, 1});
+  model->joints[0].kind = model::JointKind::kContinuous;
+  model->links[0].inertial.izz = inertia;
+  model->links[0].has_gravity = false;
+  for (const double step : {0.001, 0.01}) {
+    TestWorld world = WorldOf(model);
+    world.CommandJoint("slider", 0, {JointCommand::Kind::kEffort, torque});
+    world.Run(seconds, step);
+    const double acceleration = torque / inertia;
+    EXPECT_WITHIN(world.joint("slider", 0), acceleration * seconds * seconds / 2,
+                  acceleration * seconds * step, "rad")
+        << step;
+  }
+}
+
 TEST(JointGains, LoadDisplacesAJointByItsWeightOverTheGain) {
   auto model = Slider({0, 0, 1});
   model->joints[0].position_gains = {400, 0, 60};

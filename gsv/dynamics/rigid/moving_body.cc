@@ -66,6 +66,7 @@ void MovingBody::Load(const world::State& state) {
     integrals_.assign(first, first + static_cast<std::ptrdiff_t>(plan_.model->joints.size()));
   }
   separating_speed_ = 0;
+  is_held_ = false;
   resting_speed_before_ = tree_.is_single()
                               ? std::max(Norm(body.linear_velocity), Norm(body.angular_velocity))
                               : RestingSpeed();
@@ -160,6 +161,7 @@ void MovingBody::AddJointRows(double seconds) {
 // impulse.
 void MovingBody::AddRow(const Motor& motor, double rate, double impulse) {
   if (!(impulse > 0)) return;
+  is_held_ = true;
   const double fastest = std::min(JointOf(motor).velocity_limit, kNoLimit);
   JointRow& row = rows_.Add(motor.velocity);
   row.target = std::clamp(rate, -fastest, fastest);
@@ -217,6 +219,7 @@ double MovingBody::AddControl(const Motor& motor, const world::JointCommand& com
   const double rate = tree_.joint_velocity(motor.part), most = kNoLimit * seconds;
   const JointDemand demand =
       DemandOf(JointOf(motor), command, tree_.joint_position(motor.part), rate, integral, seconds);
+  is_held_ = true;
   JointRow& row = rows_.Add(motor.velocity);
   row.target = demand.rate;
   row.softness = demand.softness;
@@ -247,6 +250,7 @@ void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
     const double limit = sign > 0 ? joint.position_limits.min : joint.position_limits.max;
     const double room = sign * (at - limit);
     if (!(room < near)) continue;
+    is_held_ = is_held_ || room <= 0;
     JointRow& row = rows_.Add(motor.velocity);
     row.target = -sign * (room > 0 ? room : kLimitCorrection * room) / seconds;
     row.lower = sign > 0 ? 0 : -most;
@@ -270,9 +274,11 @@ void MovingBody::Follow(const Motor& motor, const model::Mimic& mimic, double se
 
 void MovingBody::AfterSubstep(std::span<const double> velocities, bool is_touched, double seconds) {
   if (is_kinematic_) {
+    is_held_ = true;
     tree_.Shift(seconds * velocity_, seconds * angular_velocity_);
     return;
   }
+  is_held_ = is_held_ || is_touched || !plan_.media.empty();
   std::copy(velocities.begin(), velocities.end(), tree_.velocities().begin());
   tree_.Move(velocities, seconds);
   if (!tree_.is_single() || !tree_.is_moved_base() || is_touched) return;
@@ -363,7 +369,8 @@ bool MovingBody::Store(double seconds, world::State& state) const {
   const Vector3 turning = is_kinematic_ ? angular_velocity_ : tree_.base_angular_velocity();
   const double rest = kResting * seconds;
   const double speed = tree_.is_single() ? std::max(Norm(velocity), Norm(turning)) : RestingSpeed();
-  const bool rests = resting_speed_before_ < rest && speed < rest && separating_speed_ < rest;
+  const bool rests =
+      is_held_ && resting_speed_before_ < rest && speed < rest && separating_speed_ < rest;
   StoreJoints(rests, state);
   if (rests) {
     body.linear_velocity = body.angular_velocity = {};

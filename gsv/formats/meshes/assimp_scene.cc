@@ -193,6 +193,27 @@ std::string Import(const fs::path& path, const std::string& bytes, AssimpScene& 
   return FirstLine(result.importer->GetErrorString());
 }
 
+// Replaces numbers such as ".2" and "-.2" by "0.2" and "-0.2", because assimp's OBJ reader does not
+// read the former. Leaves lines other than vertices, normals and texture coordinates as they are.
+void WriteLeadingZeros(std::string& bytes) {
+  if (bytes.find(" .") == std::string::npos && bytes.find("-.") == std::string::npos) return;
+  std::string repaired;
+  repaired.reserve(bytes.size() + bytes.size() / 8);
+  bool is_vertex = false, is_line_start = true;
+  char before = '\n';
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const char c = bytes[i];
+    if (is_line_start) is_vertex = c == 'v';
+    const bool follows = before == ' ' || before == '\t' || before == '-' || before == '+';
+    const bool precedes = i + 1 < bytes.size() && bytes[i + 1] >= '0' && bytes[i + 1] <= '9';
+    if (is_vertex && c == '.' && follows && precedes) repaired += '0';
+    repaired += c;
+    is_line_start = c == '\n';
+    before = c;
+  }
+  bytes = std::move(repaired);
+}
+
 }  // namespace
 
 base::Result<AssimpScene> OpenScene(const fs::path& given, const ReadLimits& limits) {
@@ -219,7 +240,10 @@ base::Result<AssimpScene> OpenScene(const fs::path& given, const ReadLimits& lim
     if (!status) return Fail(status.error());
   }
   // assimp's OBJ reader reads beyond a last line without a newline.
-  if (extension == ".obj") *bytes += '\n';
+  if (extension == ".obj") {
+    *bytes += '\n';
+    WriteLeadingZeros(*bytes);
+  }
   if (extension == ".stl") CountTriangles(*bytes, result.changes);
   std::string reason = Import(path, *bytes, result);
   static constexpr const char* kSimplified[] = {"its animations, cameras and lights",

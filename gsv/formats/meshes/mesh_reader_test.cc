@@ -147,6 +147,14 @@ TEST_F(MeshReaderTest, ReadsSubmeshesAndCentresThem) {
   EXPECT_THAT(absent.error().Sentence(), HasSubstr("no submesh \"middle\""));
 }
 
+TEST_F(MeshReaderTest, ReadsNumbersWithoutALeadingZero) {
+  const auto mesh = Read("zero.obj", "v 0 0 0\nv .2 0 0\nv 0 -.3\t.4\nf 1 2 3\n");
+  ASSERT_TRUE(mesh.has_value()) << mesh.error().Sentence();
+  EXPECT_NEAR(BoundsOf(mesh).max.x, 0.2, 1e-6);
+  EXPECT_NEAR(BoundsOf(mesh).min.y, -0.3, 1e-6);
+  EXPECT_NEAR(BoundsOf(mesh).max.z, 0.4, 1e-6);
+}
+
 // assimp's reader did not terminate on a last line without a newline.
 TEST_F(MeshReaderTest, ReadsObjWhoseLastLineDoesNotEnd) {
   const auto mesh = Read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf -1 -2  ");

@@ -30,8 +30,9 @@ std::optional<std::vector<double>> NumbersOf(const sdf::ElementPtr& parent, cons
                                      [](double number) { return std::isfinite(number); });
   if (text && is_finite) return numbers;
   context.Warn(std::string("<") + name + "> must hold " + std::to_string(count) +
-                   (count == 1 ? " number" : " numbers") + "; it is ignored",
-               PlaceOf(*parent, context.source));
+                   (count == 1 ? " number" : " numbers") + ", not \"" +
+                   parent->Get<std::string>(name) + "\"; it is ignored",
+               PlaceOf(*parent->GetElement(name), context.source));
   return std::nullopt;
 }
 
@@ -43,15 +44,16 @@ void ReadController(const sdf::ElementPtr& controller, const std::string& scope,
     return;
   }
   const std::string name = scope + controller->Get<std::string>("joint");
-  const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
-                                  [&](const model::Joint& each) { return each.name == name; });
-  if (joint == model.joints.end() || !model::TakesCommands(joint->kind)) {
-    context.Warn("the controller names \"" + name + "\", which is not a movable joint", place);
-    return;
-  }
+  model::Joint* const joint = FindControlledJoint(name, place, context, model);
+  if (joint == nullptr) return;
   const auto type = controller->Get<std::string>("type", "").first;
   JointTarget target;
-  target.joint = static_cast<int>(joint - model.joints.begin());
+  target.joint = static_cast<int>(joint - model.joints.data());
+  if (!type.empty() && type != "force" && type != "velocity" && type != "position") {
+    context.Warn("@type of <controller> must be force, velocity or position, not \"" + type +
+                     "\"; position is used",
+                 place);
+  }
   if (type == "force") target.kind = JointTarget::Kind::kEffort;
   if (type == "velocity") target.kind = JointTarget::Kind::kVelocity;
   if (const auto value = NumbersOf(controller, "target", 1, context)) target.value = (*value)[0];
@@ -62,9 +64,7 @@ void ReadController(const sdf::ElementPtr& controller, const std::string& scope,
         target.kind == JointTarget::Kind::kVelocity ? joint->velocity_gains : joint->position_gains;
     of_kind = WithoutNegatives(unlimited, place, context);
   }
-  std::erase_if(model.joint_targets,
-                [&](const JointTarget& each) { return each.joint == target.joint; });
-  model.joint_targets.push_back(target);
+  SetTarget(target, place, context, model);
 }
 
 }  // namespace

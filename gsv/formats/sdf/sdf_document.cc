@@ -17,6 +17,7 @@
 
 #include "gsv/formats/sdf/document_repair.h"
 #include "gsv/formats/sdf/sdf_schema.h"
+#include "gsv/formats/sdf/sdf_xml.h"
 
 namespace gsv::formats {
 namespace {
@@ -197,8 +198,9 @@ bool BreaksFrames(const sdf::Error& error) {
 // unknown types are accepted, a script needs no <uri>, and summaries have no further information.
 bool IsChecked(const sdf::Error& error) {
   const sdf::ErrorCode code = error.Code();
-  for (const char* start : {"Attempting to load a Sensor", "Failed to load a",
-                            "A <script> element is missing", "Error reading element <sdf>"}) {
+  for (const char* start :
+       {"Attempting to load a Sensor", "Failed to load a", "ForceTorque element",
+        "A <script> element is missing", "Error reading element <sdf>"}) {
     if (error.Message().rfind(start, 0) == 0) return true;
   }
   return code == sdf::ErrorCode::VERSION_DEPRECATED || code == sdf::ErrorCode::ELEMENT_DEPRECATED ||
@@ -305,9 +307,23 @@ std::filesystem::path FileOf(const sdf::Element& element, const std::filesystem:
 }
 
 std::string PlaceOf(const sdf::Element& element, const std::filesystem::path& source) {
-  std::string place = FileOf(element, source).string();
-  if (element.LineNumber().value_or(0) > 0) place += ":" + std::to_string(*element.LineNumber());
-  if (!element.XmlPath().empty()) place += ": " + element.XmlPath();
+  std::string line, inner;
+  const sdf::Element* known = &element;  // the innermost element whose path libsdformat knows
+  sdf::ElementPtr above;
+  for (;;) {
+    if (line.empty() && known->LineNumber().value_or(0) > 0) {
+      line = ":" + std::to_string(*known->LineNumber());
+    }
+    if (line.empty() && known->HasAttribute(kLineAttribute)) {
+      line = ":" + known->GetAttribute(kLineAttribute)->GetAsString();
+    }
+    if (!known->XmlPath().empty() || known->GetParent() == nullptr) break;
+    inner = "/" + known->GetName() + inner;
+    above = known->GetParent();
+    known = above.get();
+  }
+  std::string place = FileOf(*known, source).string() + line;
+  if (!known->XmlPath().empty()) place += ": " + known->XmlPath() + inner;
   return place;
 }
 

@@ -53,8 +53,15 @@ void CoupleGearbox(const sdf::Joint& source, const Joint& gearbox, int reference
     context.Warn("the gearbox \"" + gearbox.name + "\" " + why + "; it is left out", place);
   };
   const double ratio = source.Element()->Get<double>("gearbox_ratio", 1.0).first;
-  if (!std::isfinite(ratio) || ratio == 0) return leave_out("has no finite ratio other than 0");
-  if (reference < 0) return leave_out("has no <gearbox_reference_body> that is a link");
+  if (!std::isfinite(ratio) || ratio == 0) {
+    return leave_out("needs a finite <gearbox_ratio> other than 0");
+  }
+  if (reference < 0) {
+    const auto body = source.Element()->Get<std::string>("gearbox_reference_body", "").first;
+    return leave_out(body.empty() ? "has no <gearbox_reference_body>"
+                                  : "names the <gearbox_reference_body> \"" + body +
+                                        "\", which is not a link of the model");
+  }
   const auto input = FindShaft(model, reference, gearbox.parent, AxisOf(source, 0, gearbox));
   const auto output = FindShaft(model, reference, gearbox.child, AxisOf(source, 1, gearbox));
   if (!input || !output || input->joint == output->joint) {

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <vector>
 
+#include "gsv/base/spelling.h"
 #include "gsv/formats/sdf/sdf_document.h"
 
 namespace gsv::formats {
@@ -48,7 +50,9 @@ class TargetReader {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (end != text.c_str() && std::isfinite(value)) return value;
-    context_.Warn(std::string("<") + name + "> must be a number, not \"" + text + "\"", Place());
+    context_.Warn(
+        std::string("<") + name + "> must be a number, not \"" + text + "\"; its default is used",
+        PlaceOf(*plugin_->GetElement(name), context_.source));
     return otherwise;
   }
 
@@ -101,6 +105,42 @@ model::JointGains WithoutNegatives(model::JointGains gains, const std::string& p
   return gains;
 }
 
+model::Joint* FindControlledJoint(const std::string& name, const std::string& place,
+                                  const ReadingContext& context, model::Model& model) {
+  std::vector<std::string> names;
+  for (Joint& joint : model.joints) {
+    if (joint.name != name) {
+      names.push_back(joint.name);
+      continue;
+    }
+    if (model::TakesCommands(joint.kind)) return &joint;
+    context.Warn("the controller names the joint \"" + name + "\", whose type takes no commands; " +
+                     "the controller is ignored",
+                 place);
+    return nullptr;
+  }
+  const bool closes_loop = std::any_of(model.loop_joints.begin(), model.loop_joints.end(),
+                                       [&](const Joint& joint) { return joint.name == name; });
+  context.Warn("the controller names the joint \"" + name + "\", " +
+                   (closes_loop ? "which closes a loop and takes no commands; name another joint "
+                                  "of the loop"
+                                : "which the model does not have" + base::DidYouMean(name, names)),
+               place);
+  return nullptr;
+}
+
+void SetTarget(const JointTarget& target, const std::string& place, const ReadingContext& context,
+               model::Model& model) {
+  const auto earlier = std::erase_if(
+      model.joint_targets, [&](const JointTarget& each) { return each.joint == target.joint; });
+  if (earlier > 0) {
+    context.Warn("the joint \"" + model.joints[static_cast<std::size_t>(target.joint)].name +
+                     "\" has several controllers; the target of the last one is used",
+                 place);
+  }
+  model.joint_targets.push_back(target);
+}
+
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model) {
   const auto kind = KindOf(*plugin);
@@ -112,21 +152,20 @@ void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
     context.Warn("the controller names no joint", reader.Place());
     return;
   }
+  // The further axes of a joint are joints of their own (AddJoint()).
+  const double axis_index = reader.Number("joint_index", 0);
+  const std::string axis =
+      axis_index > 0 ? "::axis" + std::to_string(static_cast<int>(std::min(axis_index, 99.0)) + 1)
+                     : "";
   for (auto element = plugin->GetElement("joint_name"); element != nullptr;
        element = element->GetNextElement("joint_name")) {
-    const std::string name = scope + element->Get<std::string>();
-    const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
-                                    [&](const Joint& j) { return j.name == name; });
-    if (joint == model.joints.end() || !model::TakesCommands(joint->kind)) {
-      context.Warn("the controller names \"" + name + "\", which is not a movable joint",
-                   reader.Place());
-      continue;
-    }
+    const std::string place = PlaceOf(*element, context.source);
+    const std::string name = scope + element->Get<std::string>() + axis;
+    Joint* const joint = FindControlledJoint(name, place, context, model);
+    if (joint == nullptr) continue;
     reader.SetUp(*kind, *joint);
-    const int index = static_cast<int>(joint - model.joints.begin());
-    std::erase_if(model.joint_targets,
-                  [&](const JointTarget& target) { return target.joint == index; });
-    model.joint_targets.push_back({index, *kind, value});
+    const int index = static_cast<int>(joint - model.joints.data());
+    SetTarget({index, *kind, value}, place, context, model);
   }
 }
 

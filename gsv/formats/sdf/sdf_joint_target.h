@@ -26,6 +26,15 @@ namespace gsv::formats {
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model);
 
+// Returns the joint that a controller names. If it takes no commands or does not exist, adds a
+// warning with the reason and returns null.
+model::Joint* FindControlledJoint(const std::string& name, const std::string& place,
+                                  const ReadingContext& context, model::Model& model);
+
+// Sets the target of a joint. A joint that already has one gets a warning, and the new one is used.
+void SetTarget(const model::JointTarget& target, const std::string& place,
+               const ReadingContext& context, model::Model& model);
+
 // Replaces negative gains by 0, with a warning. With negative gains, a joint would move away from
 // its target.
 model::JointGains WithoutNegatives(model::JointGains gains, const std::string& place,

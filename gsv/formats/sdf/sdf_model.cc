@@ -172,6 +172,7 @@ class ModelReader {
     }
     joint.model_from_joint = frames_[joint.name];
     joint_children_[joint.name] = joint.child;
+    joint_places_[joint.name] = place;
     if (source.Type() == sdf::JointType::GEARBOX) {
       const auto reference = source.Element()->Get<std::string>("gearbox_reference_body", "").first;
       gearboxes_.push_back({&source, std::move(joint), LinkIndex(scope + reference), place});
@@ -212,18 +213,20 @@ class ModelReader {
   // cannot contain them.
   void KeepLoops(std::vector<Joint> loops) {
     for (Joint& joint : loops) {
-      const std::string name = "the joint \"" + joint.name + "\" closes a loop";
+      // The name in the file: a joint of several axes was split (AddJoint()).
+      const std::string written = joint.name.substr(0, joint.name.rfind("::axis"));
+      const std::string name = "the joint \"" + written + "\" closes a loop";
+      const auto& place = joint_places_[written];
       const bool has_limits =
           joint.kind != model::JointKind::kContinuous &&
           (std::isfinite(joint.position_limits.min) || std::isfinite(joint.position_limits.max));
       if (joint.kind == model::JointKind::kScrew || IsPartOfAChain(joint)) {
         context_.Warn(name + ", which only fixed, revolute and prismatic joints can; it is ignored",
-                      context_.source.string());
+                      place);
         continue;
       }
       if (has_limits || joint.damping > 0 || joint.friction > 0) {
-        context_.Warn(name + "; its limits, damping and friction are left out",
-                      context_.source.string());
+        context_.Warn(name + "; its limits, damping and friction are left out", place);
       }
       model_.loop_joints.push_back(std::move(joint));
     }
@@ -238,10 +241,33 @@ class ModelReader {
     return joint.kind == model::JointKind::kBall || is_cross(joint.parent) || is_cross(joint.child);
   }
 
+  // Whether the link hangs from `above`, or is this link.
+  bool IsBelow(int link, int above) const {
+    while (link >= 0 && link != above) {
+      const auto joint = std::find_if(model_.joints.begin(), model_.joints.end(),
+                                      [&](const Joint& each) { return each.child == link; });
+      link = joint == model_.joints.end() ? -1 : joint->parent;
+    }
+    return link == above;
+  }
+
+  // Reports a sensor of a joint that closes a loop, and a force_torque sensor on another joint of
+  // the loop: its inverse dynamics leave out the force of the loop joint (sensing/joint_wrench.h).
   void CheckLoop(const model::SensorDescription& sensor, const std::string& frame,
                  const std::string& place) const {
     const auto is_it = [&](const Joint& joint) { return joint.name == frame; };
-    if (std::none_of(model_.loop_joints.begin(), model_.loop_joints.end(), is_it)) return;
+    if (std::none_of(model_.loop_joints.begin(), model_.loop_joints.end(), is_it)) {
+      if (sensor.type != "force_torque" && sensor.type != "forcetorque") return;
+      for (const Joint& loop : model_.loop_joints) {
+        if (IsBelow(loop.parent, sensor.link) == IsBelow(loop.child, sensor.link)) continue;
+        context_.Warn("the sensor \"" + sensor.name +
+                          "\" is on a joint of a closed loop; it leaves out the force of \"" +
+                          loop.name + "\", the joint that closes the loop",
+                      place);
+        return;
+      }
+      return;
+    }
     context_.Warn("the sensor \"" + sensor.name +
                       "\" belongs to a joint that closes a loop; it "
                       "measures the other joint of that link",
@@ -409,6 +435,7 @@ class ModelReader {
   std::vector<PendingJoint> pending_joints_;
   std::vector<Gearbox> gearboxes_;
   std::map<std::string, int> joint_children_;  // link indices
+  std::map<std::string, std::string> joint_places_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;
   std::set<std::string> sensor_names_;

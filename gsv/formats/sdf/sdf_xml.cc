@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <string_view>
 #include <system_error>
 
 #include "gsv/formats/files/xml_text.h"
@@ -175,6 +176,19 @@ void ReportUnsupported(const XmlFile& file, base::Problems& problems) {
   AuditElements({file.path, file.root, file.minor_version}, problems);
 }
 
+namespace {
+
+// Whether the element's content is read from elements that libsdformat copies without their lines.
+bool LosesItsLine(const XMLElement& element) {
+  const std::string_view name = element.Name();
+  if (name == "gsv:slip") return true;
+  const tinyxml2::XMLNode* parent = element.Parent();
+  return name == "plugin" && parent != nullptr && parent->ToElement() != nullptr &&
+         std::string_view(parent->Value()) == "model";
+}
+
+}  // namespace
+
 void LineKeepingPrinter::AdvanceTo(int line) {
   for (; line_ < line; ++line_) out_ += '\n';
 }
@@ -213,6 +227,8 @@ void LineKeepingPrinter::Escaped(const char* text) {
 
 void LineKeepingPrinter::Element(const XMLElement& element) {
   AdvanceTo(element.GetLineNum());
+  const bool is_outermost = !marks_lines_;
+  if (is_outermost) marks_lines_ = LosesItsLine(element);
   out_ += '<';
   out_ += element.Name();
   for (auto* attribute = element.FirstAttribute(); attribute != nullptr;
@@ -222,6 +238,11 @@ void LineKeepingPrinter::Element(const XMLElement& element) {
     out_ += "=\"";
     Escaped(attribute->Value());
     out_ += '"';
+  }
+  if (marks_lines_) {
+    out_ += ' ';
+    out_ += kLineAttribute;
+    out_ += "=\"" + std::to_string(element.GetLineNum()) + '"';
   }
   out_ += '>';
   for (auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
@@ -234,6 +255,7 @@ void LineKeepingPrinter::Element(const XMLElement& element) {
   out_ += "</";
   out_ += element.Name();
   out_ += '>';
+  if (is_outermost) marks_lines_ = false;
 }
 
 std::string PrintCompact(const XMLElement& element) {

@@ -38,6 +38,10 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ResourceF
 // gsv/formats/support/element_audit.h. Call it before the file's elements are changed.
 void ReportUnsupported(const XmlFile& file, base::Problems& problems);
 
+// The attribute with the line of an element in its file. libsdformat does not store the lines of
+// the elements in a <plugin>, and of elements that it does not know.
+inline constexpr char kLineAttribute[] = "gsv:line";
+
 // Prints elements so that each is on the same line as in its file. Lines in libsdformat's errors
 // are then right. Elements must come in the order of their lines.
 class LineKeepingPrinter {
@@ -52,6 +56,7 @@ class LineKeepingPrinter {
 
   std::string out_;
   int line_ = 1;
+  bool marks_lines_ = false;  // prints kLineAttribute
 };
 
 // Returns an element as text without line breaks. Equal elements give equal texts.

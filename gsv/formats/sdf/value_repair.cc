@@ -70,10 +70,15 @@ class ValueRepair {
 
   // Copies @auto of <inertial> to @gsv:auto. SDFormat has @auto since 1.11. libsdformat 12 drops
   // it, but keeps attributes with a namespace prefix.
-  static void KeepAutomaticInertia(XMLElement& element) {
-    if (std::strcmp(element.Name(), "inertial") == 0 && element.BoolAttribute("auto", false)) {
-      element.SetAttribute("gsv:auto", true);
+  void KeepAutomaticInertia(XMLElement& element) {
+    const char* text = element.Attribute("auto");
+    if (text == nullptr || std::strcmp(element.Name(), "inertial") != 0) return;
+    bool is_automatic = false;
+    if (element.QueryBoolAttribute("auto", &is_automatic) != tinyxml2::XML_SUCCESS) {
+      Warn(element, "@auto of <inertial> must be true or false, not \"" + std::string(text) +
+                        "\"; false is used");
     }
+    if (is_automatic) element.SetAttribute("gsv:auto", true);
   }
 
   // Whether the element cannot be used and must be removed.

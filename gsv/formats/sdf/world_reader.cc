@@ -440,7 +440,7 @@ class WorldReader {
       world_.models.push_back({placement.name, framed->model,
                                world_from_model.value_or(Pose{}) * start,
                                placement.is_static.value_or(framed->model->is_static)});
-      state_.Apply(world_.models.back());
+      state_.Apply(world_.models.back(), context_);
     }
   }
 

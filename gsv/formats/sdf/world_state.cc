@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
+#include "gsv/formats/sdf/loop_gap.h"
 #include "gsv/formats/sdf/sdf_xml.h"
 #include "gsv/formats/sdf/value_text.h"
 #include "gsv/formats/sdf/world_frames.h"
@@ -21,6 +23,7 @@ constexpr int kMaxStateDepth = 32;
 // A joint position closer to zero than this (rad or m) becomes zero, so that equal models stay
 // shared.
 constexpr double kAtZero = 1e-9;
+constexpr double kMaxLoopGap = 1e-3;  // m: a larger gap of a loop is reported
 
 std::string NameAttribute(const XMLElement& element) {
   const char* name = element.Attribute("name");
@@ -166,7 +169,7 @@ std::vector<double> WorldState::PositionsOf(const model::Model& model, const Mod
   return has_moved ? positions : std::vector<double>{};
 }
 
-void WorldState::Apply(model::PlacedModel& placed) const {
+void WorldState::Apply(model::PlacedModel& placed, const ReadingContext& context) const {
   const auto found = models_.find(placed.name);
   if (found == models_.end() || placed.model->script != nullptr) return;
   const ModelState& state = found->second;
@@ -179,6 +182,15 @@ void WorldState::Apply(model::PlacedModel& placed) const {
   if (positions.empty()) return;
   auto moved = std::make_shared<model::Model>(*placed.model);
   moved->start_positions = std::move(positions);
+  for (const model::Joint& loop : moved->loop_joints) {
+    const double gap = LoopGap(*moved, loop);
+    if (!(gap > kMaxLoopGap)) continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "the <state> leaves the loop that the joint \"" << loop.name << "\" closes open by "
+         << gap << " m; the links snap together in the first steps";
+    context.Warn(text.str(), state.place);
+  }
   placed.model = std::move(moved);
 }
 

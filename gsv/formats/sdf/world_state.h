@@ -27,8 +27,9 @@ class WorldState {
   // Whether the state deletes this model or light.
   bool IsDeleted(const std::string& name) const { return deleted_.count(name) != 0; }
 
-  // Sets the pose and the joint positions of a model from the state.
-  void Apply(model::PlacedModel& placed) const;
+  // Sets the pose and the joint positions of a model from the state. Warns of a loop of joints that
+  // is open at these positions.
+  void Apply(model::PlacedModel& placed, const ReadingContext& context) const;
   std::optional<geometry::Pose> LightPose(const std::string& name) const;
 
   // Warns of each model, link, joint and light in the states that the complete `world` does not

@@ -233,6 +233,15 @@ class ElementAudit {
       Report(sentence, element);
       return;
     }
+    if (std::string_view(element.Name()) == "gsv:slip" && element.Parent() != nullptr) {
+      const std::string_view parent = element.Parent()->Value();
+      if (parent != "model" && parent != "surface") {
+        Report("<gsv:slip> in " + Tag(parent) +
+                   " is ignored. It belongs in <model> or in the <surface> of a collision.",
+               element);
+        return;
+      }
+    }
     for (auto* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
       VisitOurs(*child);
