@@ -1,6 +1,7 @@
 #include "sdk/remote_joint.h"
 
 #include "gsv/orb/orb.h"
+#include "sdk/behaviour/finite.h"
 
 namespace gsv::sdk {
 namespace {
@@ -26,12 +27,15 @@ class RemoteJoint final : public Joint {
 
   const JointTraits& traits() const override { return traits_; }
   void MoveTo(double position) override {
+    Check(position, "position");
     robot_.Try([&] { joint_->move_to(position); });
   }
   void MoveAt(double velocity) override {
+    Check(velocity, "velocity");
     robot_.Try([&] { joint_->move_at(velocity); });
   }
   void Apply(double effort) override {
+    Check(effort, "effort");
     robot_.Try([&] { joint_->apply(effort); });
   }
   void Release() override {
@@ -47,6 +51,10 @@ class RemoteJoint final : public Joint {
   }
 
  private:
+  void Check(double value, const std::string& quantity) const {
+    (void)Finite(value, "the " + quantity + " of the joint \"" + traits_.name + "\"");
+  }
+
   RemoteRobot& robot_;
   sba::JointActuator_var joint_;
   const JointTraits traits_;

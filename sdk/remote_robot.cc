@@ -7,6 +7,7 @@
 #include "gsv/orb/orb.h"
 #include "idl/actuators.hh"
 #include "idl/sensors.hh"
+#include "sdk/behaviour/finite.h"
 #include "sdk/remote_joint.h"
 
 namespace gsv::sdk {
@@ -235,6 +236,7 @@ bool RemoteRobot::Read(const std::string& sensor, sba::Sensor_ptr reference, Rea
 }
 
 void RemoteRobot::Command(const DriveCommand& command) {
+  CheckDrive(command.linear, command.angular, command.lateral, name_);
   if (running_ && !held_.Delay(command)) SendCommand(command);
 }
 
@@ -301,6 +303,7 @@ bool RemoteRobot::SleepAndRead(SimTime instant) {
 
 bool RemoteRobot::Exchange(const DriveCommand& command, SimTime instant,
                            std::vector<Reading>& readings) {
+  CheckDrive(command.linear, command.angular, command.lateral, name_);
   const sba::BaseCommand given{true, command.linear, command.lateral, command.angular};
   Flush();
   (void)held_.End();

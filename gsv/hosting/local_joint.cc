@@ -1,5 +1,7 @@
 #include "gsv/hosting/local_joint.h"
 
+#include "sdk/behaviour/finite.h"
+
 namespace gsv::hosting {
 namespace {
 
@@ -21,12 +23,17 @@ class LocalJoint final : public Joint {
 
   const JointTraits& traits() const override { return traits_; }
   void MoveTo(double position) override {
+    Check(position, "position");
     robot_.CommandJoint(joint_, {Kind::kPosition, position});
   }
   void MoveAt(double velocity) override {
+    Check(velocity, "velocity");
     robot_.CommandJoint(joint_, {Kind::kVelocity, velocity});
   }
-  void Apply(double effort) override { robot_.CommandJoint(joint_, {Kind::kEffort, effort}); }
+  void Apply(double effort) override {
+    Check(effort, "effort");
+    robot_.CommandJoint(joint_, {Kind::kEffort, effort});
+  }
   void Release() override { robot_.CommandJoint(joint_, {}); }
   JointState Read() override {
     const auto reading = robot_.ReadJoint(joint_);
@@ -34,6 +41,10 @@ class LocalJoint final : public Joint {
   }
 
  private:
+  void Check(double value, const std::string& quantity) const {
+    (void)Finite(value, "the " + quantity + " of the joint \"" + traits_.name + "\"");
+  }
+
   LocalRobot& robot_;
   const int joint_;
   const JointTraits traits_;

@@ -112,6 +112,36 @@ TEST(LocalJoint, MovesToItsTarget) {
   EXPECT_NEAR(positions[2], positions[1] - way, 2e-3);
 }
 
+TEST(LocalJoint, RejectsCommandsThatAreNotFiniteAndContinues) {
+  auto simulation = OnGround(2s);
+  double position = 0;
+  std::vector<std::string> errors;
+  ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinite = std::numeric_limits<double>::infinity();
+    joint.MoveTo(0.3);
+    const std::vector<std::function<void()>> calls = {
+        [&] { joint.MoveTo(nan); }, [&] { joint.MoveAt(-infinite); },
+        [&] { joint.Apply(infinite); }, [&] { robot.Drive(0, nan); }};
+    for (const auto& call : calls) {
+      try {
+        call();
+      } catch (const std::invalid_argument& error) {
+        errors.emplace_back(error.what());
+      }
+    }
+    if (robot.SleepFor(1900ms)) position = joint.Read().position;
+  }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_THAT(errors,
+              ::testing::ElementsAre(
+                  HasSubstr("the position of the joint \"lift\" must be finite, found nan"),
+                  HasSubstr("the velocity of the joint \"lift\" must be finite, found -inf"),
+                  HasSubstr("the effort of the joint \"lift\" must be finite, found inf"),
+                  HasSubstr("the angular velocity of lift must be finite, found nan")));
+  EXPECT_NEAR(position, 0.3, 1e-3);
+}
+
 TEST(LocalJoint, EffortLiftsAWeightAgainstGravity) {
   auto simulation = OnGround(1s);
   double velocity = 0;

@@ -6,6 +6,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/hosting/local_joint.h"
+#include "sdk/behaviour/finite.h"
 
 namespace gsv::hosting {
 namespace {
@@ -252,7 +253,7 @@ void LocalRobot::Command(const DriveCommand& command) {
   if (!is_running_) return;
   const world::DriveCommand given{command.linear, command.lateral, command.angular};
   if (!world::IsFinite(given)) {
-    return Note({base::ErrorCode::kInvalidArgument, "the command is not finite", name()});
+    CheckDrive(command.linear, command.angular, command.lateral, name());
   }
   if (turn_ != nullptr) {
     turn_->Command(given);

@@ -79,7 +79,8 @@ class Robot {
   virtual std::vector<JointTraits> Joints() = 0;
   virtual base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) = 0;
 
-  // Commands the base. The command applies until the next one.
+  // Commands the base. The command applies until the next one. A velocity that is NaN or infinite
+  // is not applied: the call throws std::invalid_argument, and the behaviour may continue.
   virtual void Command(const DriveCommand& command) = 0;
   void Drive(double linear, double angular) { Command({linear, angular}); }
   // Drives a mecanum or omnidirectional base. `lateral` is to the left.

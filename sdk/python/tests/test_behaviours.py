@@ -213,6 +213,27 @@ def test_invalid_times_are_rejected(simulate):
     assert len(refused) == 3
 
 
+def test_commands_that_are_not_finite_are_rejected_and_the_robot_continues(simulate):
+    refused = []
+
+    class Careless(gsv.Behaviour):
+        def run(self, robot):
+            for value in (float("nan"), float("inf")):
+                with pytest.raises(ValueError, match="linear velocity of pebble must be finite"):
+                    robot.drive(value, 0)
+                with pytest.raises(ValueError, match="angular velocity of pebble must be finite"):
+                    robot.exchange(0, value, until=0.01)
+                refused.append(value)
+            robot.drive(0.2, 0)
+            robot.sleep_until(2)
+
+    simulation = simulate("playground")
+    simulation.add("pebble", behaviour=Careless)
+    simulation.run_until(2)
+    assert len(refused) == 2
+    assert simulation.state().robots["pebble"].distance > 0.2
+
+
 def start_program(program, *arguments):
     return subprocess.Popen([sys.executable, str(program), *arguments], text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
