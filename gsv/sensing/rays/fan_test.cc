@@ -157,6 +157,15 @@ TEST(Fan, SectorsContainEachRayOnce) {
   EXPECT_EQ(RaysIn({0, 2, 2.1, true}, 0, degree, 3), (Set{0, 1, 2}));
 }
 
+std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan,
+                               const geometry::Bounds& box) {
+  BoxBatch boxes;
+  boxes.Add(box_from_fan * Inverse(fan.world_from_fan), box);
+  SectorBatch sectors;
+  FindSectors(fan, boxes, sectors);
+  return sectors.At(0);
+}
+
 // The sector of a box that faces the scanner is known in closed form.
 TEST(Fan, SectorIsAsWideAsTheBox) {
   const auto directions = DirectionsOf(-1, 0.1, 21, 0);

@@ -32,8 +32,11 @@ constexpr std::uint32_t kFewShapes = 4;
 // If more rays of a packet than this touch a shape's bounding sphere, the shape may be long.
 constexpr int kMaxRaysOfCompact = 4;
 
-// In candidate sets, this bit of the number distinguishes static shapes from moving parts.
+// In lists of solids, this bit of the number distinguishes static shapes from moving parts.
 constexpr std::uint32_t kStanding = 1u << 31;
+
+// If the reach of rays is less than this, solids are not sorted by distance, in m.
+constexpr double kMinReach = 1e-6;
 
 bool IsSound(const Ray& ray) {
   return ray.max_distance >= 0 && IsFinite(ray.origin) && IsFinite(ray.direction);
@@ -289,43 +292,69 @@ double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
   return DistanceOf(Find(ray, ignored_body));
 }
 
-struct PlacedSolids::Shading {
-  Sector sector;
-  bool is_standing = false;
-  std::uint32_t number = 0;  // number of the static shape, or of the part
+// A list of solids and their sectors.
+struct PlacedSolids::Shadings {
+  static constexpr std::size_t kMax = 2 * FoundBoxes::kMax;
+  struct Shading {
+    Sector sector;
+    std::uint32_t solid;  // kStanding | number of the static shape, or number of the part
+  };
+
+  std::array<Shading, kMax> all;
+  std::array<std::uint16_t, kMax> order;  // indices of the first `count`, the nearest first
+  std::size_t count = 0;
+
+  // Sets `order`. Distances that differ by less than a fraction of the reach may be in any order.
+  void Sort(double reach) {
+    constexpr std::size_t kBuckets = 64;
+    const double per_metre = reach > kMinReach ? kBuckets / reach : 0;
+    std::array<std::uint8_t, kMax> bucket_of;
+    std::array<std::uint16_t, kBuckets> begins{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const double bucket = std::min(all[i].sector.nearest * per_metre, kBuckets - 1.0);
+      bucket_of[i] = static_cast<std::uint8_t>(bucket);
+      ++begins[bucket_of[i]];
+    }
+    std::uint16_t begin = 0;
+    for (std::uint16_t& each : begins) each = std::exchange(begin, begin + each);
+    for (std::size_t i = 0; i < count; ++i) {
+      order[begins[bucket_of[i]]++] = static_cast<std::uint16_t>(i);
+    }
+  }
 };
 
-bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
-                                std::vector<Shading>& shadings) const {
+bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body, Shadings& shadings) const {
   const Vector3& place = fan.world_from_fan.position;
-  const double reach = fan.max_distance;
-  const auto is_near = [&](const BoundingSphere& ball) {
-    const Vector3 gap = ball.centre - place;
-    const double furthest = reach + ball.radius;
-    return Dot(gap, gap) <= furthest * furthest;
+  BoxBatch boxes;
+  SectorBatch sectors;
+  std::array<std::uint32_t, BoxBatch::kMax> solids;
+  const auto flush = [&] {
+    FindSectors(fan, boxes, sectors);
+    for (std::size_t i = 0; i < boxes.count; ++i) {
+      if (const auto sector = sectors.At(i)) shadings.all[shadings.count++] = {*sector, solids[i]};
+    }
+    boxes.count = 0;
   };
+  const auto add = [&](std::uint32_t solid, const Pose& box_from_world, const Bounds& box) {
+    solids[boxes.count] = solid;
+    boxes.Add(box_from_world, box);
+    if (boxes.count == BoxBatch::kMax) flush();
+  };
+  const SolidSet& standing = solids_->standing;
   FoundBoxes found;
-  if (!solids_->standing.Near(place, reach, found)) return false;
-  for (std::size_t i = 0; i < found.count; ++i) {
-    const std::uint32_t shape = found.boxes[i];
-    const SolidSet& standing = solids_->standing;
+  if (!standing.Near(place, fan.max_distance, found)) return false;
+  for (const std::uint32_t shape : std::span(found.boxes).first(found.count)) {
     if (standing.BodyOfShape(shape) == ignored_body) continue;
-    if (!is_near(standing.SphereOfShape(shape))) continue;
-    const auto sector = SectorOf(fan, standing.ShapeFromSet(shape) * fan.world_from_fan,
-                                 standing.OwnBoundsOfShape(shape));
-    if (sector) shadings.push_back({*sector, true, shape});
+    add(kStanding | shape, standing.ShapeFromSet(shape), standing.OwnBoundsOfShape(shape));
   }
   found.count = 0;
-  if (!index().Near(place, reach, found)) return false;
-  for (std::size_t i = 0; i < found.count; ++i) {
-    const std::uint32_t part = found.boxes[i];
-    if (BodyOf(part) == ignored_body || !is_near(spheres_[part])) continue;
-    const auto sector = SectorOf(fan, parts_[part].part_from_world * fan.world_from_fan,
-                                 parts_[part].part->solids.bounds());
-    if (sector) shadings.push_back({*sector, false, part});
+  if (!index().Near(place, fan.max_distance, found)) return false;
+  for (const std::uint32_t part : std::span(found.boxes).first(found.count)) {
+    if (BodyOf(part) == ignored_body) continue;
+    add(part, parts_[part].part_from_world, parts_[part].part->solids.bounds());
   }
-  std::sort(shadings.begin(), shadings.end(),
-            [](const Shading& a, const Shading& b) { return a.sector.nearest < b.sector.nearest; });
+  if (boxes.count > 0) flush();
+  shadings.Sort(fan.max_distance);
   return true;
 }
 
@@ -336,28 +365,28 @@ bool PlacedSolids::UnindexedReach(const Fan& fan, int ignored_body) const {
   return solids_->standing.OthersReach(fan);
 }
 
-void PlacedSolids::CastInto(const Shading& shading, const Fan& fan, RayRow& row) const {
-  const double nearest = shading.sector.nearest;
+void PlacedSolids::CastInto(std::uint32_t solid, const Sector& sector, const Fan& fan,
+                            RayRow& row) const {
+  const double nearest = sector.nearest;
   const auto cast_at = [&](const geometry::Shape& shape, const ShapeFrame& frame) {
-    ForRunsIn(shading.sector, fan, [&](std::size_t first, std::size_t last) {
+    ForRunsIn(sector, fan, [&](std::size_t first, std::size_t last) {
       row.CastAt(shape, frame, nearest, first, last);
     });
   };
-  if (shading.is_standing) {
+  if (const std::uint32_t shape = solid & ~kStanding; shape != solid) {
     const SolidSet& set = solids_->standing;
-    const Pose& shape_from_set = set.ShapeFromSet(shading.number);
-    return cast_at(set.ShapeAt(shading.number),
+    const Pose& shape_from_set = set.ShapeFromSet(shape);
+    return cast_at(set.ShapeAt(shape),
                    {shape_from_set * row.origin(), std::span(&shape_from_set.orientation, 1)});
   }
-  const Pose& part_from_world = parts_[shading.number].part_from_world;
-  const SolidSet& set = parts_[shading.number].part->solids;
+  const Pose& part_from_world = parts_[solid].part_from_world;
+  const SolidSet& set = parts_[solid].part->solids;
   const std::uint32_t shapes = set.ShapesAlone();
   if (shapes == 0 || shapes > kFewShapes) {
-    return ForRunsIn(shading.sector, fan, [&](std::size_t first, std::size_t last) {
+    return ForRunsIn(sector, fan, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i <= last; ++i) {
         if (row.range(i) < nearest) continue;
-        ShortenRay(row, i,
-                   [&](const Ray& ray, Nearest& found) { CastAtPart(shading.number, ray, found); });
+        ShortenRay(row, i, [&](const Ray& ray, Nearest& found) { CastAtPart(solid, ray, found); });
       }
     });
   }
@@ -371,15 +400,16 @@ void PlacedSolids::CastInto(const Shading& shading, const Fan& fan, RayRow& row)
 
 void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const {
   GSV_CHECK(ranges.size() == fan.directions.size());
-  std::vector<Shading> shadings;
-  shadings.reserve(FoundBoxes::kMax / 2);
+  Shadings shadings;
   const bool is_sound = geometry::IsFinite(fan.world_from_fan) && fan.max_distance >= 0;
   RayRow row(fan);
   if (!is_sound || !FindShadings(fan, ignored_body, shadings)) {
     for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(row.At(i), ignored_body);
     return;
   }
-  for (const Shading& shading : shadings) CastInto(shading, fan, row);
+  for (const std::uint16_t i : std::span(shadings.order).first(shadings.count)) {
+    CastInto(shadings.all[i].solid, shadings.all[i].sector, fan, row);
+  }
   if (UnindexedReach(fan, ignored_body)) {
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       ShortenRay(row, i, [&](const Ray& ray, Nearest& found) {

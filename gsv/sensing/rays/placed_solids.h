@@ -14,6 +14,7 @@
 #include "gsv/sensing/rays/echo.h"
 #include "gsv/sensing/rays/layout_solids.h"
 #include "gsv/sensing/rays/ray_row.h"
+#include "gsv/sensing/rays/sectors.h"
 #include "gsv/sensing/rays/sphere_grid.h"
 
 namespace gsv::sensing {
@@ -44,7 +45,7 @@ class PlacedSolids final : public RayScene {
     geometry::Pose part_from_world;
     const Part* part;
   };
-  struct Shading;  // a solid and the rays of a fan that may hit it
+  struct Shadings;  // solids and the rays of a fan that may hit them
 
   // Sets the pose of the moving part with this index.
   void Place(std::size_t index, const world::Snapshot& snapshot);
@@ -59,9 +60,8 @@ class PlacedSolids final : public RayScene {
   Bearer BearerOf(std::size_t part) const;
   // Casts a ray at one moving part.
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
-  // Finds the bounded solids within the fan's reach, the nearest first. Returns false if there are
-  // too many.
-  bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
+  // Finds the bounded solids within the fan's reach. Returns false if there are too many.
+  bool FindShadings(const Fan& fan, int ignored_body, Shadings& shadings) const;
   // Casts the rays of a packet at the solids whose spheres they touch. Sets only the distances of
   // `nearest`, and the body to any that is not -1.
   void CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
@@ -71,8 +71,8 @@ class PlacedSolids final : public RayScene {
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
-  // Casts at one solid the rays of a fan that may hit it.
-  void CastInto(const Shading& shading, const Fan& fan, RayRow& row) const;
+  // Casts at one solid of Shadings the rays in its sector.
+  void CastInto(std::uint32_t solid, const Sector& sector, const Fan& fan, RayRow& row) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
   // Vectors in the order of LayoutSolids::moving. The last two are only for bounded parts.

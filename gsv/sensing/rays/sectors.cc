@@ -1,13 +1,10 @@
 #include "gsv/sensing/rays/sectors.h"
 
-#include <emmintrin.h>
+#include "gsv/base/each_processor.h"
 
 namespace gsv::sensing {
 namespace {
 
-using geometry::Bounds;
-using geometry::Pose;
-using geometry::Quaternion;
 using geometry::Vector3;
 
 // Boxes and sectors are extended by this, which is more than their rounding errors.
@@ -15,35 +12,17 @@ constexpr double kGrown = 1e-6;        // m, and a fraction of the distance
 constexpr double kWidened = 1e-7;      // rad
 constexpr double kInTheMiddle = 1e-3;  // m: a solid that is nearer than this covers all directions
 
-// A rotation by its columns, which are the images of the x, y and z axes.
-struct Rotation {
-  Vector3 x, y, z;
+// The functions below have no branches, so that the compiler computes several boxes at once. It does
+// so only for plain comparisons, not for std::min() and std::max().
 
-  explicit Rotation(const Quaternion& q)
-      : x{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y + q.w * q.z),
-          2 * (q.x * q.z - q.w * q.y)},
-        y{2 * (q.x * q.y - q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z),
-          2 * (q.y * q.z + q.w * q.x)},
-        z{2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x),
-          1 - 2 * (q.x * q.x + q.y * q.y)} {}
-
-  Vector3 operator*(const Vector3& v) const { return v.x * x + v.y * y + v.z * z; }
-};
-
-// A point in the fan's plane, as coordinates along `ahead` and perpendicular to it (left), both
-// multiplied by the length of `ahead` in that plane.
-struct Turned {
-  double along, across;
-
-  Turned(const Vector3& ahead, const Vector3& p)
-      : along(ahead.x * p.x + ahead.y * p.y), across(ahead.x * p.y - ahead.y * p.x) {}
-};
-
-double LengthOf(double x, double y) { return std::sqrt(x * x + y * y); }
+inline double Smaller(double a, double b) { return a < b ? a : b; }
+inline double Larger(double a, double b) { return a > b ? a : b; }
+inline double Between(double x, double low, double high) { return Smaller(Larger(x, low), high); }
+inline double Square(double x) { return x * x; }
 
 // The error is at most 2e-8 for x in [-1, 1].
 // Source  M. Abramowitz, I. Stegun, "Handbook of mathematical functions", 1964, 4.4.49.
-double QuickArcTangent(double x) {
+inline double QuickArcTangent(double x) {
   const double s = x * x;
   return x *
          (1 +
@@ -57,83 +36,136 @@ double QuickArcTangent(double x) {
 
 // QuickAngle() returns the angle with the given tangent, and QuickAzimuth() the azimuth of (x, y).
 // Both have the error of QuickArcTangent().
-double QuickAngle(double tangent) {
-  if (std::abs(tangent) <= 1) return QuickArcTangent(tangent);
-  return std::copysign(std::numbers::pi / 2, tangent) - QuickArcTangent(1 / tangent);
+inline double QuickAngle(double tangent) {
+  const bool is_steep = std::abs(tangent) > 1;
+  const double inverse = 1 / tangent;
+  const double angle = QuickArcTangent(is_steep ? inverse : tangent);
+  return is_steep ? std::copysign(std::numbers::pi / 2, tangent) - angle : angle;
 }
-double QuickAzimuth(double x, double y) {
-  if (std::abs(y) > std::abs(x)) {
-    return std::copysign(std::numbers::pi / 2, y) - QuickArcTangent(x / y);
+inline double QuickAzimuth(double x, double y) {
+  const bool is_steep = std::abs(y) > std::abs(x);
+  const double angle = QuickArcTangent((is_steep ? x : y) / (is_steep ? y : x));
+  const double if_behind = angle + std::copysign(std::numbers::pi, y);
+  const double if_flat = x > 0 ? angle : if_behind;
+  return is_steep ? std::copysign(std::numbers::pi / 2, y) - angle : if_flat;
+}
+
+// A point in the fan's plane, as coordinates along `ahead` and perpendicular to it (left), both
+// multiplied by the length of `ahead` in that plane.
+struct Turned {
+  double along, across;
+
+  Turned(double ahead_x, double ahead_y, double x, double y)
+      : along(ahead_x * x + ahead_y * y), across(ahead_x * y - ahead_y * x) {}
+};
+
+// The smallest and largest tangent of some directions, relative to the nearest point.
+struct Tangents {
+  double least = 0, most = 0;
+
+  void Add(double along, double across) {
+    const double tangent = across / along;
+    least = Smaller(least, tangent);
+    most = Larger(most, tangent);
   }
-  const double from_axis = QuickArcTangent(y / x);
-  return x > 0 ? from_axis : from_axis + std::copysign(std::numbers::pi, y);
-}
+};
 
 }  // namespace
 
-std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const Bounds& box) {
-  const Vector3& origin = box_from_fan.position;
-  const Vector3 to_nearest = {std::clamp(origin.x, box.min.x, box.max.x) - origin.x,
-                              std::clamp(origin.y, box.min.y, box.max.y) - origin.y,
-                              std::clamp(origin.z, box.min.z, box.max.z) - origin.z};
-  const double distance = Norm(to_nearest);
-  const double grown =
-      kGrown * (1 + distance + std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z));
-  if (distance > fan.max_distance + grown) return std::nullopt;
+GSV_FOR_EACH_PROCESSOR
+void FindSectors(const Fan& fan, BoxBatch& boxes, SectorBatch& sectors) {
+  const auto& [at, turn] = fan.world_from_fan;
+  // Per metre of distance in the fan's plane, the rays rise by this.
+  const double slope = fan.elevation != 0 ? std::tan(fan.elevation) : 0;
+  const double max_distance = fan.max_distance;
+  const double at_x = at.x, at_y = at.y, at_z = at.z;
+  const double fw = turn.w, fx = turn.x, fy = turn.y, fz = turn.z;
+  const std::size_t count = boxes.Pad() / 4 * 4;
+  const BoxBatch& b = boxes;
+// The batches do not overlap.
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i) {
+    // The fan's place in the box's frame: position + orientation * at.
+    const double w = b.qw[i], x = b.qx[i], y = b.qy[i], z = b.qz[i];
+    const double cx = y * at_z - z * at_y + w * at_x;
+    const double cy = z * at_x - x * at_z + w * at_y;
+    const double cz = x * at_y - y * at_x + w * at_z;
+    const double ox = b.x[i] + at_x + 2 * (y * cz - z * cy);
+    const double oy = b.y[i] + at_y + 2 * (z * cx - x * cz);
+    const double oz = b.z[i] + at_z + 2 * (x * cy - y * cx);
 
-  // The box in the fan's frame: its centre, and its half extents enlarged by `grown`.
-  const Rotation fan_from_box(Inverse(box_from_fan.orientation));
-  const Vector3 middle = fan_from_box * (0.5 * (box.min + box.max) - origin);
-  const Vector3 half = 0.5 * (box.max - box.min) + Vector3{grown, grown, grown};
-  const Vector3 a = half.x * fan_from_box.x;
-  const Vector3 b = half.y * fan_from_box.y;
-  const Vector3 c = half.z * fan_from_box.z;
+    const double to_x = Between(ox, b.min_x[i], b.max_x[i]) - ox;
+    const double to_y = Between(oy, b.min_y[i], b.max_y[i]) - oy;
+    const double to_z = Between(oz, b.min_z[i], b.max_z[i]) - oz;
+    const double distance = std::sqrt(Square(to_x) + Square(to_y) + Square(to_z));
+    const double grown = kGrown * (1 + distance + std::abs(ox) + std::abs(oy) + std::abs(oz));
 
-  // From the origin to the far end of the box, the rays go from height 0 to this height.
-  double height = 0;
-  if (fan.elevation != 0) {
-    const double far = LengthOf(middle.x, middle.y) + std::abs(a.x) + std::abs(b.x) +
-                       std::abs(c.x) + std::abs(a.y) + std::abs(b.y) + std::abs(c.y);
-    height = far * std::tan(fan.elevation);
-  }
-  const double up = std::abs(a.z) + std::abs(b.z) + std::abs(c.z);
-  if (middle.z - up > std::max(0.0, height) || middle.z + up < std::min(0.0, height)) {
-    return std::nullopt;
-  }
+    // The rotation from the fan to the box, and the columns of its inverse.
+    const double qw = w * fw - x * fx - y * fy - z * fz;
+    const double qx = w * fx + x * fw + y * fz - z * fy;
+    const double qy = w * fy - x * fz + y * fw + z * fx;
+    const double qz = w * fz + x * fy - y * fx + z * fw;
+    const double xx = 1 - 2 * (qy * qy + qz * qz), xy = 2 * (qx * qy - qw * qz);
+    const double xz = 2 * (qx * qz + qw * qy);
+    const double yx = 2 * (qx * qy + qw * qz), yy = 1 - 2 * (qx * qx + qz * qz);
+    const double yz = 2 * (qy * qz - qw * qx);
+    const double zx = 2 * (qx * qz - qw * qy), zy = 2 * (qy * qz + qw * qx);
+    const double zz = 1 - 2 * (qx * qx + qy * qy);
 
-  Sector sector;
-  sector.nearest = std::max(0.0, distance - grown);
-  const Vector3 ahead = fan_from_box * to_nearest;
-  const double ahead_length = LengthOf(ahead.x, ahead.y);
-  if (ahead_length < kInTheMiddle) {
-    sector.is_all = true;
-    return sector;
+    // The box in the fan's frame: its centre, and its half extents enlarged by `grown`.
+    const double px = 0.5 * (b.min_x[i] + b.max_x[i]) - ox;
+    const double py = 0.5 * (b.min_y[i] + b.max_y[i]) - oy;
+    const double pz = 0.5 * (b.min_z[i] + b.max_z[i]) - oz;
+    const double mx = px * xx + py * yx + pz * zx;
+    const double my = px * xy + py * yy + pz * zy;
+    const double mz = px * xz + py * yz + pz * zz;
+    const double half_x = 0.5 * (b.max_x[i] - b.min_x[i]) + grown;
+    const double half_y = 0.5 * (b.max_y[i] - b.min_y[i]) + grown;
+    const double half_z = 0.5 * (b.max_z[i] - b.min_z[i]) + grown;
+    const double ax = half_x * xx, ay = half_x * xy, az = half_x * xz;
+    const double bx = half_y * yx, by = half_y * yy, bz = half_y * yz;
+    const double dx = half_z * zx, dy = half_z * zy, dz = half_z * zz;
+
+    // From the origin to the far end of the box, the rays go from height 0 to this height.
+    const double far = std::sqrt(mx * mx + my * my) + std::abs(ax) + std::abs(bx) + std::abs(dx) +
+                       std::abs(ay) + std::abs(by) + std::abs(dy);
+    const double height = far * slope;
+    const double up = std::abs(az) + std::abs(bz) + std::abs(dz);
+    const double highest = Larger(0, height), lowest = Smaller(0, height);
+
+    const double ahead_x = to_x * xx + to_y * yx + to_z * zx;
+    const double ahead_y = to_x * xy + to_y * yy + to_z * zy;
+    const double ahead_length = std::sqrt(ahead_x * ahead_x + ahead_y * ahead_y);
+    const Turned middle(ahead_x, ahead_y, mx, my), a(ahead_x, ahead_y, ax, ay);
+    const Turned c(ahead_x, ahead_y, bx, by), d(ahead_x, ahead_y, dx, dy);
+    const double least_along =
+        middle.along - std::abs(a.along) - std::abs(c.along) - std::abs(d.along);
+
+    // The tangents of the corners' azimuths.
+    Tangents tangents;
+    const double along_1 = middle.along + a.along, across_1 = middle.across + a.across;
+    const double along_2 = middle.along - a.along, across_2 = middle.across - a.across;
+    tangents.Add(along_1 + c.along + d.along, across_1 + c.across + d.across);
+    tangents.Add(along_1 + c.along - d.along, across_1 + c.across - d.across);
+    tangents.Add(along_1 - c.along + d.along, across_1 - c.across + d.across);
+    tangents.Add(along_1 - c.along - d.along, across_1 - c.across - d.across);
+    tangents.Add(along_2 + c.along + d.along, across_2 + c.across + d.across);
+    tangents.Add(along_2 + c.along - d.along, across_2 + c.across - d.across);
+    tangents.Add(along_2 - c.along + d.along, across_2 - c.across + d.across);
+    tangents.Add(along_2 - c.along - d.along, across_2 - c.across - d.across);
+    const double azimuth = QuickAzimuth(ahead_x, ahead_y);
+
+    sectors.nearest[i] = Larger(0, distance - grown);
+    sectors.from[i] = azimuth + QuickAngle(tangents.least) - kWidened;
+    sectors.to[i] = azimuth + QuickAngle(tangents.most) + kWidened;
+    const double some_or_all =
+        (ahead_length < kInTheMiddle) | (least_along <= kInTheMiddle * ahead_length)
+            ? SectorBatch::kAll
+            : SectorBatch::kSome;
+    sectors.kind[i] = (distance > max_distance + grown) | (mz - up > highest) | (mz + up < lowest)
+                          ? SectorBatch::kNone
+                          : some_or_all;
   }
-  const Turned at(ahead, middle), to_a(ahead, a), to_b(ahead, b), to_c(ahead, c);
-  const double least_along =
-      at.along - std::abs(to_a.along) - std::abs(to_b.along) - std::abs(to_c.along);
-  if (least_along <= kInTheMiddle * ahead_length) {
-    sector.is_all = true;
-    return sector;
-  }
-  // The tangents of the corners' azimuths relative to the nearest point. Two corners are processed
-  // at a time.
-  __m128d least = _mm_setzero_pd(), most = _mm_setzero_pd();
-  const __m128d c_along = _mm_set_pd(to_c.along, -to_c.along);
-  const __m128d c_across = _mm_set_pd(to_c.across, -to_c.across);
-  const auto include = [&](double along, double across) {
-    const __m128d tangent = (_mm_set1_pd(across) + c_across) / (_mm_set1_pd(along) + c_along);
-    least = _mm_min_pd(least, tangent);
-    most = _mm_max_pd(most, tangent);
-  };
-  include(at.along + to_a.along + to_b.along, at.across + to_a.across + to_b.across);
-  include(at.along + to_a.along - to_b.along, at.across + to_a.across - to_b.across);
-  include(at.along - to_a.along + to_b.along, at.across - to_a.across + to_b.across);
-  include(at.along - to_a.along - to_b.along, at.across - to_a.across - to_b.across);
-  const double azimuth = QuickAzimuth(ahead.x, ahead.y);
-  sector.from = azimuth + QuickAngle(std::min(least[0], least[1])) - kWidened;
-  sector.to = azimuth + QuickAngle(std::max(most[0], most[1])) + kWidened;
-  return sector;
 }
 
 }  // namespace gsv::sensing
