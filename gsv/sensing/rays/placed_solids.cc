@@ -9,6 +9,7 @@
 #include "gsv/base/check.h"
 #include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/candidate_set.h"
+#include "gsv/sensing/rays/packet_bounds.h"
 #include "gsv/sensing/rays/ray_pairs.h"
 #include "gsv/sensing/rays/sectors.h"
 
@@ -471,16 +472,19 @@ void PlacedSolids::CastAtTouched(const TouchedSpheres& moving, const TouchedSphe
       continue;
     ForRays(each.rays, [&](std::size_t i) { CastAtPart(each.number, packet.At(i), nearest[i]); });
   }
+  std::optional<PacketBounds> bounds;
   for (const TouchedSpheres::Touched& each : standing.all()) {
     const SolidSet& set = solids_->standing;
     if (set.BodyOfShape(each.number) == ignored_body) continue;
-    // Many rays pass the bounding sphere of a long shape.
-    const bool is_long = std::popcount(each.rays) > kMaxRaysOfCompact;
-    if (!is_long && caster.Add(each.rays, nullptr, set, each.number)) continue;
-    ForRays(each.rays, [&](std::size_t i) {
-      const Ray ray = packet.At(i);
-      if (!set.ShapeReaches(each.number, Around(ray))) return;
-      set.CastAtShape(each.number, ray, ignored_body, nearest[i]);
+    unsigned rays = each.rays;
+    // Many rays pass the bounding sphere of a long shape, but not its bounding box.
+    if (std::popcount(rays) > kMaxRaysOfCompact) {
+      if (!bounds) bounds.emplace(packet);
+      rays &= bounds->Touching(set.PaddedBoundsOf(each.number));
+    }
+    if (rays == 0 || caster.Add(rays, nullptr, set, each.number)) continue;
+    ForRays(rays, [&](std::size_t i) {
+      set.CastAtShape(each.number, packet.At(i), ignored_body, nearest[i]);
     });
   }
   caster.Finish();

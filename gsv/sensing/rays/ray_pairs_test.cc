@@ -1,11 +1,14 @@
 #include "gsv/sensing/rays/ray_pairs.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>
 
 #include "gsv/geometry/constants.h"
+#include "gsv/sensing/rays/packet_bounds.h"
 #include "gsv/sensing/rays/ray_scene.h"
 #include "gsv/sensing/testing/test_rays.h"
 
@@ -81,6 +84,46 @@ TEST(RayPairs, DistancesToBoxesEqualThoseOfSingleRays) {
   };
   ExpectDistancesOfSingleRays<Box, false>(any, random);
   ExpectDistancesOfSingleRays<Box, true>(any, random);
+}
+
+// Whether the box from a to b touches `box`, one axis after the other.
+bool Touch(const Vector3& a, const Vector3& b, const geometry::Bounds& box) {
+  const auto meet = [](double from, double to, double low, double high) {
+    return std::max(from, to) >= low && std::min(from, to) <= high;
+  };
+  return meet(a.x, b.x, box.min.x, box.max.x) && meet(a.y, b.y, box.min.y, box.max.y) &&
+         meet(a.z, b.z, box.min.z, box.max.z);
+}
+
+TEST(PacketBounds, FindsTheRaysWhoseBoxesTouchABox) {
+  Random random(3);
+  int touching = 0;
+  for (int round = 0; round < 2000; ++round) {
+    RayPacket packet;
+    while (packet.count < RayPacket::kMax) packet.Add(AnyRay(round, random));
+    const Vector3 corner = random.Point(3), size = random.Point(1);
+    const geometry::Bounds box{
+        corner, corner + Vector3{std::abs(size.x), std::abs(size.y), std::abs(size.z)}};
+    unsigned expected = 0;
+    for (std::size_t i = 0; i < packet.count; ++i) {
+      const Ray ray = packet.At(i);
+      const Vector3 end = ray.origin + ray.max_distance * ray.direction;
+      expected |= static_cast<unsigned>(Touch(ray.origin, end, box)) << i;
+    }
+    EXPECT_EQ(PacketBounds(packet).Touching(box), expected) << "round " << round;
+    touching += std::popcount(expected);
+  }
+  EXPECT_GT(touching, 500);
+}
+
+TEST(PacketBounds, BoxesThatShareAFaceTouch) {
+  RayPacket packet;
+  for (std::size_t i = 0; i < RayPacket::kMax; ++i) {
+    packet.Add({{}, {1, 0, 0}, 1.0 + static_cast<double>(i)});
+  }
+  EXPECT_EQ(PacketBounds(packet).Touching({{3, -1, -1}, {4, 1, 1}}), 0b1111'1100u);
+  EXPECT_EQ(PacketBounds(packet).Touching({{-2, 0, 0}, {0, 1, 1}}), 0b1111'1111u);
+  EXPECT_EQ(PacketBounds(packet).Touching({{-2, 0, 0}, {-1, 1, 1}}), 0u);
 }
 
 }  // namespace

@@ -81,6 +81,8 @@ class SolidSet {
   }
   // Whether CastAtOthers() may hit something with a ray of the fan, given in the set's frame.
   bool OthersReach(const Fan& fan) const;
+  // Returns a box around a shape, in the set's frame, a little larger than necessary.
+  const geometry::Bounds& PaddedBoundsOf(std::uint32_t shape) const { return shape_bounds_[shape]; }
   // Whether a shape may extend into a box. For long shapes, this is stricter than the sphere.
   bool ShapeReaches(std::uint32_t shape, const geometry::Bounds& into) const {
     const geometry::Bounds& b = shape_bounds_[shape];
