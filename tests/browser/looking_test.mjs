@@ -125,6 +125,43 @@ for (const [name, key, isWanted, least] of [
   });
 }
 
+test("points are coloured by height or range, and trails by speed", async () => {
+  await page.keyboard.press("2");
+  await settled(page);
+  const clip = await viewClip(page);
+  for (const [label, values] of [
+    ["Colour points by", ["height", "range"]],
+    ["Colour trails by", ["speed", "robot"]],
+  ]) {
+    for (const value of values) {
+      const before = await picture(page, clip);
+      await press("Overlays");
+      await page.getByLabel(label).selectOption(value);
+      await page.keyboard.press("Escape");
+      let changed = 0;
+      await until(async () => {
+        await settled(page);
+        changed = changedPixels(before, await picture(page, clip));
+        return changed > 10;
+      }, `other colours by ${value}`);
+    }
+  }
+  await page.keyboard.press("2");
+});
+
+test("centres of mass and inertia boxes are drawn", async () => {
+  await settled(page);
+  const clip = await viewClip(page);
+  const without = await picture(page, clip);
+  await page.keyboard.press("b");
+  await until(async () => {
+    await settled(page);
+    return changedPixels(without, await picture(page, clip)) > 5;
+  }, "the masses");
+  await page.keyboard.press("b");
+  await settled(page);
+});
+
 test("the browser stores the choice of overlays", async () => {
   await page.keyboard.press("2");
   await page.reload();
