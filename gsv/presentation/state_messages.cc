@@ -1,5 +1,6 @@
 #include "gsv/presentation/state_messages.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gsv/messages/time.h"
@@ -114,6 +115,18 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
     total += force;
   }
   message.force = {total.x, total.y, total.z};
+  return message;
+}
+
+messages::gsv_msgs::Contacts ContactsMessage(const world::Snapshot& snapshot) {
+  messages::gsv_msgs::Contacts message;
+  message.stamp = messages::ToMessage(snapshot.state.time);
+  const std::size_t count = std::min(snapshot.contacts.size(), kMaxContacts);
+  message.contacts.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    message.contacts.push_back(ContactMessage(snapshot, snapshot.contacts[i]));
+  }
+  message.left_out = static_cast<std::uint32_t>(snapshot.contacts.size() - count);
   return message;
 }
 

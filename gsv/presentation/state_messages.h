@@ -3,6 +3,7 @@
 // Frames  see gsv/sensing/frames.h.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@
 namespace gsv::presentation {
 
 using sensing::FrameOf;
+
+inline constexpr std::size_t kMaxContacts = 1000;  // maximum number of contacts in a message
 
 // `poses` are those of PosesOf().
 messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
@@ -43,6 +46,8 @@ void UpdateTransforms(const world::Snapshot& snapshot, const std::vector<PoseEnt
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
                                            const world::Contact& contact);
+// Returns the contacts of the snapshot's last step, at most kMaxContacts.
+messages::gsv_msgs::Contacts ContactsMessage(const world::Snapshot& snapshot);
 
 // Returns the command that an actuator applies. The device must have one.
 messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& device,

@@ -42,6 +42,7 @@ std::span<const Topic> Topics() {
       Row(topics::kCommands, {.is_state = false}),
       Row(topics::kActuators, {.is_live = false}),
       Row(topics::kContacts, {.replay = Replay::kEach, .is_state = false}),
+      Row(topics::kCurrentContacts, {.is_recorded = false}),
       Row(topics::kRadio, {.replay = Replay::kEach, .is_state = false}),
       Row(topics::kStateHash, {.is_live = false}),
       Row(topics::kEdits, {.is_live = false}),

@@ -71,6 +71,8 @@ inline constexpr TopicOf<messages::gsv_msgs::Expectations> kExpectations{"/gsv/e
 inline constexpr TopicOf<messages::gsv_msgs::Command> kCommands{"/gsv/commands"};
 inline constexpr TopicOf<messages::gsv_msgs::ActuatorCommand> kActuators{"/gsv/actuators"};
 inline constexpr TopicOf<messages::gsv_msgs::Contact> kContacts{"/gsv/contacts"};
+// All contacts of the last step, for viewers.
+inline constexpr TopicOf<messages::gsv_msgs::Contacts> kCurrentContacts{"/gsv/current_contacts"};
 inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
 // This topic is in every recording of an edited simulation, even if it is not selected.

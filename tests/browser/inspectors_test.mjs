@@ -7,7 +7,9 @@ import path from "node:path";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
-import { until, viewClip } from "./viewing.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { changedPixels, picture } from "./pixels.mjs";
+import { settled, until, viewClip } from "./viewing.mjs";
 
 const box = (size) => `<geometry><box><size>${size}</size></box></geometry>`;
 const WORLD = `<?xml version="1.0"?>
@@ -126,6 +128,21 @@ test("the command palette finds objects and sensors", async () => {
   // Long names of parameters leave room for the values.
   const widths = await page.locator(".inspector-body .world-inspector dd").evaluateAll((all) => all.map((each) => each.clientWidth));
   assert.ok(widths.length > 3 && widths.every((width) => width > 90), `${widths}`);
+});
+
+test("an arrow shows the force of the ground on the crate", async () => {
+  const isPink = (r, g, b) => r > 150 && b > 120 && g < 0.6 * r;
+  const clip = await viewClip(page);
+  await settled(page);
+  const without = await picture(page, clip);
+  await page.keyboard.press("3");
+  await until(async () => {
+    await settled(page);
+    return changedPixels(without, await picture(page, clip), isPink) > 40;
+  }, "the contacts of the crate with the ground");
+  assert.ok((await page.evaluate(() => window.gsv.topics)).includes("/gsv/current_contacts"));
+  await keepPicture(page, "contacts");
+  await page.keyboard.press("3");
 });
 
 test("Escape ends the choice, and the inspector explains how to choose", async () => {

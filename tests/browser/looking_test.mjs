@@ -174,7 +174,6 @@ test("the browser stores the choice of overlays", async () => {
   assert.deepEqual(pressed, [
     "Beams",
     "Points",
-    "Contacts",
     "Trails",
     "Names",
     "States",

@@ -32,7 +32,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
     : hub_(std::make_shared<Hub>(
           InfoOf(*simulation), std::move(on_demand),
           std::make_shared<LiveOperations>(simulation, commanders, recordings))),
-      snapshot_topics_(4),
+      snapshot_topics_(5),
       status_(hub_),
       events_(hub_),
       health_(hub_),
@@ -42,15 +42,18 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       radio_(hub_, topics::kRadio, CollectTransmissions),
       step_costs_(hub_),
       viewers_(hub_, registry) {
-  const std::vector<foxglove::ChannelId> channels =
-      hub_->Advertise({ChannelFor(topics::kClock), ChannelFor(topics::kPoses),
-                       ChannelFor(topics::kTransforms), ChannelFor(topics::kPackedPoses)});
+  const std::vector<foxglove::ChannelId> channels = hub_->Advertise(
+      {ChannelFor(topics::kClock), ChannelFor(topics::kPoses), ChannelFor(topics::kTransforms),
+       ChannelFor(topics::kPackedPoses), ChannelFor(topics::kCurrentContacts)});
   snapshot_topics_[0].encode = &LiveStream::EncodeClock;
   snapshot_topics_[1].encode = &LiveStream::EncodePoses;
   snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;
   snapshot_topics_[3].encode = &LiveStream::EncodePackedPoses;
   snapshot_topics_[3].rate = kPackedPosesRate;
   snapshot_topics_[3].min_rate = kMinPackedPosesRate;
+  snapshot_topics_[4].encode = &LiveStream::EncodeContacts;
+  snapshot_topics_[4].rate = kContactsRate;
+  snapshot_topics_[4].min_rate = kMinContactsRate;
   for (std::size_t i = 0; i < channels.size(); ++i) snapshot_topics_[i].channel = channels[i];
   sensors_ = std::make_shared<SensorTopics>(hub_, watchers);
 }
@@ -126,6 +129,10 @@ SharedBytes LiveStream::EncodePackedPoses(const world::Snapshot& snapshot) const
 
 SharedBytes LiveStream::EncodeTransforms(const world::Snapshot& snapshot) const {
   return Encoded(presentation::TransformsMessage(snapshot, pose_list_));
+}
+
+SharedBytes LiveStream::EncodeContacts(const world::Snapshot& snapshot) const {
+  return Encoded(presentation::ContactsMessage(snapshot));
 }
 
 }  // namespace gsv::gateway

@@ -26,6 +26,8 @@ namespace gsv::gateway {
 // per second reduces it, but not below the lowest rate.
 inline constexpr double kPackedPosesRate = 20;
 inline constexpr double kMinPackedPosesRate = 8;
+inline constexpr double kContactsRate = 15;
+inline constexpr double kMinContactsRate = 2;
 inline constexpr double kMaxPackedBytesPerSecond = 350'000;
 
 // The rate of rounds for a stream with clients, and the highest rate of poses, in Hz of wall-clock
@@ -75,6 +77,7 @@ class LiveStream {
   SharedBytes EncodePoses(const world::Snapshot& snapshot) const;
   SharedBytes EncodePackedPoses(const world::Snapshot& snapshot) const;
   SharedBytes EncodeTransforms(const world::Snapshot& snapshot) const;
+  SharedBytes EncodeContacts(const world::Snapshot& snapshot) const;
 
   const std::shared_ptr<Hub> hub_;
   std::vector<SnapshotTopic> snapshot_topics_;

@@ -64,6 +64,21 @@ TEST_F(LiveStreamTest, EachContactIsSentOnceToSubscribers) {
   EXPECT_NEAR(contact.point.x, std::cos(0.2 * 0.03), 1e-12);
 }
 
+TEST_F(LiveStreamTest, CurrentContactsIncludeThoseThatBeganEarlier) {
+  simulation_->AddOneRobot();
+  simulation_->Meet("robot_0", "robot_1");
+  Subscribe(1, "/gsv/current_contacts");
+  Round();
+  ASSERT_EQ(client_->data(1).size(), 1u);
+  const auto message = Decoded<messages::gsv_msgs::Contacts>(client_->data(1)[0]);
+  ASSERT_EQ(message.contacts.size(), 2u);
+  EXPECT_EQ(message.contacts[1].first, "robot_0");
+  EXPECT_EQ(message.contacts[1].second, "robot_1");
+  ASSERT_EQ(message.contacts[1].points.size(), 1u);
+  EXPECT_EQ(message.left_out, 0u);
+  EXPECT_EQ(simulation_->observers(), 0u);  // the newest snapshot suffices
+}
+
 TEST_F(LiveStreamTest, ContactsAreNotKeptForFormerSubscribers) {
   Subscribe(1, "/gsv/contacts");
   Round();

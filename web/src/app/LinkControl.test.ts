@@ -35,7 +35,7 @@ test("a link shows the same instant from the same place with the same robot", as
   from.place.viewpoint = THERE;
   const link = from.control.linkTo("http://127.0.0.1:8080/");
   expect(link).toBe(
-    "http://127.0.0.1:8080/#t=12.5&view=1,2,3,0,0,0&select=b&mode=chase&show=beams,contacts,labels,states,grid,actuators",
+    "http://127.0.0.1:8080/#t=12.5&view=1,2,3,0,0,0&select=b&mode=chase&show=beams,labels,states,grid,actuators",
   );
   location.hash = new URL(link).hash;
   const to = page({ replay: REPLAY });

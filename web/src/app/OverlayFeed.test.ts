@@ -43,7 +43,9 @@ test("only visible overlays are subscribed", () => {
   expect(topicsToDraw(showing(["labels", "states"]))).toEqual([]);
   expect(topicsToDraw(showing(["beams", "labels"]))).toEqual(["/gsv/beams"]);
   expect(topicsToDraw(showing(["points"]))).toEqual(["/tf_static", "/a/scan", "/b/scan"]);
-  expect(topicsToDraw(showing(["contacts"]))).toEqual(["/tf_static", "/a/bumper", "/b/bumper"]);
+  expect(topicsToDraw(showing(["contacts"]))).toEqual(["/gsv/current_contacts"]);
+  const replay = { start: 0, end: 1, speed: 1, loop: false };
+  expect(topicsToDraw(showing(["contacts"], { replay }))).toEqual(["/tf_static", "/a/bumper", "/b/bumper"]);
   expect(topicsToDraw(showing(["frames"]))).toEqual(["/tf_static"]);
   expect(topicsToDraw(showing([], { viewMode: "eye" }))).toEqual(["/tf_static"]);
   expect(topicsToDraw({ ...showing(["points", "frames"]), scene: null })).toEqual([]);
@@ -105,12 +107,12 @@ test("hidden overlays are unsubscribed and cleared", () => {
   new OverlayFeed(store, session as unknown as Session, view).start();
   expect(heard.size).toBe(0);
   store.set(showing(["points", "contacts"]));
-  expect([...heard.keys()].sort()).toEqual(["/a/bumper", "/a/scan", "/b/bumper", "/b/scan", "/tf_static"]);
+  expect([...heard.keys()].sort()).toEqual(["/a/scan", "/b/scan", "/gsv/current_contacts", "/tf_static"]);
   heard.get("/a/scan")!({ ranges: [] });
   expect(view.setReading).toHaveBeenCalledWith("/a/scan", { ranges: [] });
   store.set(showing(["contacts"]));
-  expect([...heard.keys()].sort()).toEqual(["/a/bumper", "/b/bumper", "/tf_static"]);
-  expect(view.keepReadings).toHaveBeenLastCalledWith(new Set(["/tf_static", "/a/bumper", "/b/bumper"]));
+  expect([...heard.keys()]).toEqual(["/gsv/current_contacts"]);
+  expect(view.keepReadings).toHaveBeenLastCalledWith(new Set(["/gsv/current_contacts"]));
 });
 
 test("topics are subscribed again for another simulation, even if their names are equal", () => {

@@ -4,6 +4,7 @@ import { robotsOf } from "../api/scene";
 import type { MarkerArrayMessage } from "../protocol/messages";
 import type { SceneBody, SceneDescription, SceneSensor } from "../api/scene";
 import type { TransformsMessage } from "../protocol/messages";
+import { CURRENT_CONTACTS_TOPIC } from "../live/clouds";
 import type { TopicSource } from "../protocol/SharedTopics";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
@@ -33,7 +34,7 @@ export interface OverlayView {
 // Returns the topics that the visible overlays need.
 export function topicsToDraw({ scene, shown, selection, viewMode, replay }: State): string[] {
   const wants = (sensor: SceneSensor) =>
-    (shown.points && sensor.overlay === "points") || (shown.contacts && BUMPERS.includes(sensor.type));
+    (shown.points && sensor.overlay === "points") || (shown.contacts && replay !== null && BUMPERS.includes(sensor.type));
   const acts = ({ type }: SceneSensor) =>
     (shown.actuators && ACTUATORS.includes(type)) || (shown.sound && SPEAKERS.includes(type));
   const sensors = sensorsOf(scene, selection);
@@ -49,6 +50,8 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
     ...(beams === null ? [] : [beams]),
     ...(needsFrames && scene ? [FRAMES_TOPIC] : []),
     ...(mayHaveRadio ? [RADIO_TOPIC] : []),
+    // A recording contains only the contacts that bumpers report, and the beginning of others.
+    ...(shown.contacts && scene && replay === null ? [CURRENT_CONTACTS_TOPIC] : []),
     ...readings.map(({ topic }) => topic),
   ];
 }

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { MOST_POINTS, contactsOf, pointsOf } from "./clouds";
+import { MOST_POINTS, contactsOf, pointsOf, worldContactsOf } from "./clouds";
 
 const SCAN = { angle_min: -Math.PI / 2, angle_increment: Math.PI / 2, range_min: 0.1, range_max: 5 };
 
@@ -76,4 +76,21 @@ test("only a bumper's messages contain contacts", () => {
   expect(contactsOf({ contacts: [{ ...contact, force: { x: 0, y: 0, z: 0 } }] })[0]!.force).toBeNull();
   expect(contactsOf({ range: 1 })).toEqual([]);
   expect(contactsOf(null)).toEqual([]);
+});
+
+test("contacts of the world have the force on the first body at each of their points", () => {
+  const up = { x: 0, y: 0, z: 1 };
+  const contact = {
+    first: "box",
+    second: "ground",
+    normal: { x: 0, y: 0, z: -1 },
+    points: [{ x: 1, y: 2, z: 0 }, { x: 3, y: 2, z: 0 }],
+    forces: [{ x: 0, y: 0.5, z: -10 }, { x: 0, y: 0, z: 0 }],
+  };
+  expect(worldContactsOf({ contacts: [contact, { ...contact, points: null }], left_out: 0 })).toEqual([
+    { point: [1, 2, 0], normal: [0, 0, -1], force: [-0, -0.5, 10] },
+    { point: [3, 2, 0], normal: [0, 0, -1], force: null },
+  ]);
+  expect(worldContactsOf({ contacts: [{ points: [up] }] })).toEqual([]);
+  expect(worldContactsOf(null)).toEqual([]);
 });

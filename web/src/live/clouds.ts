@@ -155,6 +155,31 @@ export function contactsOf(message: unknown): TouchPoint[] {
   });
 }
 
+export const CURRENT_CONTACTS_TOPIC = "/gsv/current_contacts";
+const MOST_WORLD_POINTS = 2000;
+
+// Returns the points of all contacts of the world, in the world frame, with the force on the first
+// body of each contact. For a body on the ground, this force points upwards.
+export function worldContactsOf(message: unknown): TouchPoint[] {
+  const contacts = (message as { contacts?: unknown } | null)?.contacts;
+  if (!Array.isArray(contacts)) return [];
+  const found: TouchPoint[] = [];
+  for (const contact of contacts as { normal?: unknown; points?: unknown; forces?: unknown }[]) {
+    const normal = triple(contact.normal);
+    if (!normal || !Array.isArray(contact.points)) continue;
+    const forces = Array.isArray(contact.forces) ? contact.forces : [];
+    for (const [i, point] of contact.points.entries()) {
+      const at = triple(point);
+      const onSecond = triple(forces[i]);
+      const isComputed = onSecond?.some((component) => component !== 0) ?? false;
+      if (at && found.length < MOST_WORLD_POINTS) {
+        found.push({ point: at, normal, force: isComputed ? [-onSecond![0], -onSecond![1], -onSecond![2]] : null });
+      }
+    }
+  }
+  return found;
+}
+
 function triple(value: unknown): [number, number, number] | null {
   const { x, y, z } = (value ?? {}) as Record<string, unknown>;
   const isPoint = typeof x === "number" && typeof y === "number" && typeof z === "number";

@@ -1,10 +1,9 @@
 // The overlays of the view: beams, points, contacts, camera views, trails, axes, actuators.
-import type { Matrix4 } from "three";
-import { Group, Vector3 } from "three";
+import { Group, Matrix4, Vector3 } from "three";
 import type { SceneInertial, SceneSensor } from "../api/scene";
 import { robotsOf } from "../api/scene";
 import type { TouchPoint } from "../live/clouds";
-import { cloudOf, contactsOf } from "../live/clouds";
+import { cloudOf, contactsOf, CURRENT_CONTACTS_TOPIC, worldContactsOf } from "../live/clouds";
 import type { Sound } from "../live/devices";
 import type { MarkerArrayMessage, TransformsMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
@@ -29,6 +28,7 @@ import { Trails } from "./Trails";
 const ROBOT_AXES = 0.45; // m
 const LINK_AXES = 0.2;
 const SENSOR_AXES = 0.14;
+const IN_WORLD = new Matrix4(); // the identity
 const MOST_VIEWS = 40; // cameras
 const MOST_AXES = 400; // frames
 const SILENCE: ReadonlyMap<string, Sound> = new Map();
@@ -50,7 +50,7 @@ export class OverlayLayers {
   private readonly radio = new RadioLinks();
   readonly expectations: ExpectationMarks;
   private trailsOf = ""; // name of the scene to which the trails belong
-  private readonly contacts = new Map<string, TouchPoint[]>(); // by topic, in the sensor's frame
+  private readonly contacts = new Map<string, TouchPoint[]>(); // by topic; in the sensor's frame, or in the world frame
   private bodies: BodyLayer | null = null;
   private sensors = new Map<string, MountedSensor>(); // by topic
   private robots: { name: string; entry: number }[] = [];
@@ -119,7 +119,7 @@ export class OverlayLayers {
     this.devices.take(topic, message);
     this.radio.take(message, performance.now());
     this.points.set(topic, cloudOf(message));
-    this.contacts.set(topic, contactsOf(message));
+    this.contacts.set(topic, topic === CURRENT_CONTACTS_TOPIC ? worldContactsOf(message) : contactsOf(message));
   }
 
   // Removes the readings of all other topics.
@@ -203,7 +203,7 @@ export class OverlayLayers {
 
   private drawContacts(bodies: BodyLayer): void {
     for (const [topic, contacts] of this.contacts) {
-      const frame = this.worldFromSensor(topic, bodies);
+      const frame = topic === CURRENT_CONTACTS_TOPIC ? IN_WORLD : this.worldFromSensor(topic, bodies);
       if (frame) for (const contact of contacts) drawContact(this.lines, frame, contact);
     }
   }

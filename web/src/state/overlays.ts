@@ -29,7 +29,7 @@ export type Shown = Record<OverlayName, boolean>;
 export const OVERLAYS: readonly OverlayKind[] = [
   { name: "beams", label: "Beams", key: "1", hint: "Readings of sonars and other range sensors" },
   { name: "points", label: "Points", key: "2", hint: "Lidar and depth camera points" },
-  { name: "contacts", label: "Contacts", key: "3", hint: "Contact points of bumpers" },
+  { name: "contacts", label: "Contacts", key: "3", hint: "Contact points of all bodies, and the forces at them" },
   { name: "cameras", label: "Fields of view", key: "4", hint: "Fields of view of the cameras" },
   { name: "trails", label: "Trails", key: "5", hint: "Paths of the robots" },
   { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
@@ -46,7 +46,7 @@ export const OVERLAYS: readonly OverlayKind[] = [
 export const FIRST_SHOWN: Shown = {
   beams: true,
   points: false,
-  contacts: true,
+  contacts: false,
   cameras: false,
   trails: false,
   frames: false,
