@@ -93,8 +93,7 @@ base::Result<Clock::duration> CallFromThreads(
   return Clock::now() - start;
 }
 
-// Returns, in milliseconds, the smallest duration that is not less than the fraction `q` of the
-// durations (nearest rank).
+// Returns the `q`-quantile of the durations in ms (nearest rank), such as the median for 0.5.
 double Quantile(std::vector<Clock::duration> durations, double q) {
   std::sort(durations.begin(), durations.end());
   const auto rank = static_cast<std::size_t>(q * static_cast<double>(durations.size()));
@@ -120,13 +119,14 @@ struct BrokerProcess {
   std::function<double()> bytes_used;
   std::function<double()> processor_time;  // processor time of all its threads, s
 
-  // Returns the processor time of each of `count` calls since `start`, in ms.
+  // Returns the mean processor time per call, in ms, of the `count` calls that were made since the
+  // processor time was `start` (s).
   double ForEachCall(double start, std::uint32_t count) const {
     return 1e3 * (processor_time() - start) / count;
   }
 };
 
-// Exports offers to a broker with a data file. Such a broker answers only when the offer is on the
+// Measures exports to a broker with a data file, which answers a call only when the offer is on the
 // disk.
 base::Status MeasureDurable(const Target& target, std::uint32_t offers,
                             const BrokerProcess& process, ordered_json& figures) {
@@ -138,7 +138,7 @@ base::Status MeasureDurable(const Target& target, std::uint32_t offers,
   return {};
 }
 
-// Exports offers to a broker without a data file, and then queries them.
+// Measures exports to a broker without a data file, and then queries for these offers.
 base::Status Measure(const Target& target, std::uint32_t offers, const BrokerProcess& process,
                      ordered_json& figures) {
   const double before = process.bytes_used();
@@ -177,7 +177,8 @@ base::Status Measure(const Target& target, std::uint32_t offers, const BrokerPro
 }
 
 base::Status ToStatus(const broker::TradingError& error) {
-  return base::Fail(base::ErrorCode::kInvalidArgument, "the trader refused: " + error.detail);
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "the trader refused the call: " + error.detail);
 }
 
 Target TargetOf(broker::Trader& trader, const std::string& reference) {

@@ -89,7 +89,8 @@ class ImageCheck {
   }
 
  private:
-  // Stops at the first pixel that differs, because the time of this check counts as rendering time.
+  // Whether the image has fewer than eight different pixel values. The search stops at the eighth,
+  // because the time of this check counts as rendering time.
   static bool IsBlank(const std::shared_ptr<const model::Image>& image) {
     constexpr int kMinImages = 8;
     std::bitset<256> seen;

@@ -19,7 +19,7 @@ namespace {
 using Stopwatch = std::chrono::steady_clock;
 using Readings = std::vector<sensing::Reading>;
 
-// height of the scanner above the robot's origin: the robot's own body does not block the rays
+// height of the scanner above the robot's origin, so that the robot's own body blocks no rays
 constexpr double kScannerHeight = 0.4;  // in m
 
 struct LidarArguments {

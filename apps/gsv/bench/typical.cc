@@ -41,7 +41,7 @@ class Durations {
                            : std::accumulate(values_.begin(), values_.end(), 0.0) /
                                  static_cast<double>(values_.size());
   }
-  // Returns the smallest value that is not less than the fraction `q` of the values (nearest rank).
+  // Returns the `q`-quantile of the durations (nearest rank), such as the median for 0.5.
   double quantile(double q) const {
     const base::MutexLock lock(mutex_);
     if (values_.empty()) return 0;

@@ -25,7 +25,7 @@ using campaign::Attempt;
 using campaign::RunResult;
 using campaign::Spool;
 
-// number of concurrent runs, including those that wait for a slot
+// number of concurrent runs on servers, including the runs that wait for a free slot of a server
 constexpr int kRunsWithServers = 64;
 
 int Processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
@@ -63,7 +63,8 @@ campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted
   return engine;
 }
 
-// Executes the runs of the share that no earlier attempt has done, and writes a journal.
+// Executes `runs`, except those that an earlier attempt has finished, and writes the results to a
+// journal. `attempt.share` is the name of these runs as a share of the campaign.
 int ExecuteShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& runs,
                  const EngineOptions& options, Signals& signals, bool until_stdin_closes = false) {
   const auto earlier = spool.Collect(attempt.share);

@@ -36,7 +36,7 @@ std::string DefaultDataFile(int port) {
     return {};
   }
   folder /= "gsv";
-  std::error_code ignored;  // if this fails, opening the file reports the error
+  std::error_code ignored;  // if the folder cannot be created, opening the file reports an error
   std::filesystem::create_directories(folder, ignored);
   return folder / ("broker-" + std::to_string(port) + ".db");
 }

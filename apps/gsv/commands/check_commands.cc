@@ -57,7 +57,8 @@ Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   return notes;
 }
 
-// The maximum number of places of one message in the text output. The JSON output has all places.
+// If the same message occurs in many places of a file, the text output lists at most this number of
+// places. The JSON output lists all of them.
 constexpr std::size_t kPlacesPrinted = 10;
 
 void Print(const CheckArguments& arguments, const char* severity, const std::string& where,

@@ -1,4 +1,8 @@
-// The subcommands of gsv. Each function adds one subcommand, whose callback sets the exit code.
+// The subcommands of gsv. Each function adds the subcommands that the comment beside it lists, or
+// the subcommand in its own name. The callback of a subcommand sets the exit code.
+//
+// AddCheckCommands() creates `world` and `model`, and AddRecordingCommands() creates `rec`. Call
+// these two before the functions that add subcommands to `world`, `model` and `rec`.
 #pragma once
 
 #include "apps/gsv/process/signals.h"
@@ -19,14 +23,14 @@ void AddRunCommand(const CommandLine& line);
 void AddCampaignCommand(const CommandLine& line);
 void AddCertificatesCommand(const CommandLine& line);
 void AddServeCommand(const CommandLine& line);
-void AddBrokerCommands(const CommandLine& line);  // broker, offers, types, links
-void AddCheckCommands(const CommandLine& line);   // world check, model check, doctor
-void AddDrawCommand(const CommandLine& line);     // world draw; after AddCheckCommands()
-void AddConvertCommand(const CommandLine& line);  // model convert; after AddCheckCommands()
-void AddMapCommands(const CommandLine& line);  // world from-map, to-map; after AddCheckCommands()
-void AddSaveCommand(const CommandLine& line);  // world save; after AddCheckCommands()
+void AddBrokerCommands(const CommandLine& line);     // broker, offers, types, links
+void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
+void AddDrawCommand(const CommandLine& line);        // world draw
+void AddConvertCommand(const CommandLine& line);     // model convert
+void AddMapCommands(const CommandLine& line);        // world from-map, world to-map
+void AddSaveCommand(const CommandLine& line);        // world save
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
-void AddRecordCommands(const CommandLine& line);  // rec start, stop; after AddRecordingCommands()
+void AddRecordCommands(const CommandLine& line);     // rec start, rec stop
 void AddSnapshotCommand(const CommandLine& line);
 void AddFilmCommand(const CommandLine& line);
 void AddCompareCommands(const CommandLine& line);  // compare, fit

@@ -179,7 +179,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->check(OneOf(reality::LogFormats()));
   command
       .add_option("--world", arguments->world,
-                  "world in which the robot drove (default: fitted to half of the log)")
+                  "world in which the robot drove (default: built from half of the log)")
       ->type_name("WORLD");
   command
       .add_flag("--update-world", arguments->options.update_world,

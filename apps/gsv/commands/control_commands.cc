@@ -41,7 +41,8 @@ std::string Json(const FoundSimulation& simulation) {
   json.update(nlohmann::ordered_json::parse(gateway::StatusJson(simulation.status)));
   const auto healths = HealthOf(simulation);
   for (auto& robot : json["robots"]) {
-    robot.erase("health");  // this health was computed here, without the robot's motion
+    // StatusJson() computes a health without the robot's motion, which only the server knows.
+    robot.erase("health");
     const auto found = healths.find(robot.value("name", ""));
     if (found == healths.end()) continue;
     const RemoteHealth& health = found->second;
@@ -53,7 +54,7 @@ std::string Json(const FoundSimulation& simulation) {
   const auto hash = orb::Call(server.Describe(), [&] {
     return std::string(CORBA::String_var(simulation.reference->state_hash()));
   });
-  json["state_hash"] = hash.value_or("");  // the simulation may have ended meanwhile
+  json["state_hash"] = hash.value_or("");  // empty if the simulation has ended
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

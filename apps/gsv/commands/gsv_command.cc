@@ -47,7 +47,8 @@ void AddLogOptions(CLI::App& app, LogArguments& log) {
       ->type_name("text|json")
       ->check(ReadableBy(&base::ParseLogFormat))
       ->envname("GSV_LOG_FORMAT");
-  app.add_option("--log-rate", log.lines, "log lines per second; further lines are counted")
+  app.add_option("--log-rate", log.lines,
+                 "average log lines per second; more lines are suppressed and counted")
       ->type_name("N")
       ->check(Between(1, 1'000'000))
       ->capture_default_str();
@@ -168,7 +169,8 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
       what += " cannot be used together";
     }
   } else if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ConversionError)) {
-    // CLI11 writes "Could not convert: --option = value". Only numbers are converted.
+    // CLI11 writes "Could not convert: --option = value". Only options for numbers have this error,
+    // so the new sentence says that a number was expected.
     const std::string begin = "Could not convert: ", middle = " = ";
     const std::size_t at = what.find(middle);
     if (what.starts_with(begin) && at != std::string::npos) {

@@ -342,7 +342,7 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
   }
   std::fflush(stdout);
   if (arguments.open) OpenBrowser(url);
-  if (!arguments.paused) (void)(*player)->Start();  // the replay is paused at its start
+  if (!arguments.paused) (void)(*player)->Start();  // a new player is paused
   signals.Wait();
   return kOk;
 }
@@ -377,7 +377,9 @@ void AddReplayCommand(const CommandLine& line) {
       "--resimulate", arguments->resimulate,
       "run the simulation again and print where the result first differs (exit code 1)\n"
       "It runs in lockstep, with live behaviours and without a viewer.");
-  command->add_option("--broker", arguments->broker, "broker of the behaviours, with --resimulate")
+  command
+      ->add_option("--broker", arguments->broker,
+                   "broker that offers the behaviours, with --resimulate")
       ->type_name("ADDRESS")
       ->needs(resimulate);
   command

@@ -154,7 +154,7 @@ base::Result<messages::Definition> DefinitionOf(const std::string& type) {
   for (const messages::Schema& schema : messages::AllSchemas()) {
     if (schema.name == type) return messages::Definition::Parse(schema.name, schema.text);
   }
-  return base::Fail(base::ErrorCode::kNotFound, "gsv does not know the message type", type);
+  return base::Fail(base::ErrorCode::kNotFound, "gsv does not support this message type", type);
 }
 
 // A queue of the messages that have arrived on a topic.

@@ -38,8 +38,8 @@ bool PrintErrors(const base::Problems& problems) {
   return !errors.empty();
 }
 
-// Whether the simulation was stopped permanently. A reset also stops it, on its way back to the
-// start.
+// Whether the last of the events "started", "stopped" and "reset" is "stopped". A reset also stops
+// the simulation, but does not end the command.
 bool WasStopped(const Simulation& simulation) {
   const auto events = simulation.events(0);
   const auto last = std::find_if(events.rbegin(), events.rend(), [](const auto& event) {
@@ -48,7 +48,8 @@ bool WasStopped(const Simulation& simulation) {
   return last != events.rend() && last->kind == "stopped";
 }
 
-// Waits until the run is over or a signal interrupts it. Returns the exit code so far.
+// Waits until the run is over or a signal interrupts it. Returns the exit code, which the
+// results of behaviours and expectations may still change.
 int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, Signals& signals) {
   using Clock = std::chrono::steady_clock;
   const auto give_up = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -201,7 +202,8 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
     std::fprintf(notes, "viewer: %s\n", url.c_str());
     if (options.open_browser) OpenBrowser(url);
   }
-  // With a viewer, only programs need the broker's address, and `gsv ps` finds it.
+  // With a viewer, the broker's address is not printed: only programs need it, and they can get it
+  // from `gsv ps --json`.
   const bool shows_broker =
       (*runtime)->viewer_url().empty() || spdlog::should_log(spdlog::level::debug);
   if (options.runtime.has_broker && !is_quiet && shows_broker)
@@ -263,7 +265,9 @@ void AddRunCommand(const CommandLine& line) {
   CLI::App* server =
       line.app.add_subcommand("run-server", "Run the simulations that are requested on stdin")
           ->group("");
-  server->allow_extras();  // the arguments are space for the command line of a run
+  // The arguments are ignored. They only make the process's memory for arguments long enough for
+  // the command line of each run, which `ps` then shows (running/run_server.cc).
+  server->allow_extras();
   server->callback([line] { line.exit_code = ServeRuns(line.signals); });
 }
 

@@ -202,7 +202,8 @@ bool CheckBroker(const std::string& broker) {
   }
   std::printf("broker: does not respond: %s; start one with `gsv broker --port N`\n",
               reached.error().Sentence().c_str());
-  return broker.empty();  // an instance that was not named may just have ended
+  // Without an address from the user, this is no failure, because the instance may just have ended.
+  return broker.empty();
 }
 
 }  // namespace gsv::app

@@ -67,7 +67,8 @@ void LostSimulations::TakeOver(const fs::path& folder) {
   }
   Keep(std::move(lost));
   Write();
-  if (!could_write_) return;  // keeps the notes for a server that can write
+  // If this server cannot write its own note, it leaves the old notes to a later server.
+  if (!could_write_) return;
   std::error_code ignored;
   for (const fs::path& file : done) fs::remove(file, ignored);
 }

@@ -32,8 +32,8 @@ struct LostSimulation {
   std::string server;  // the server that ran it, such as "gsv (process 123)"
 };
 
-// Returns a sentence such as "arena on gsv (process 123) was lost at about 12.3 s, when its server
-// ended unexpectedly; recording X.mcap, whole until 11.9 s".
+// Returns a sentence such as "arena on gsv (process 123) was lost at about 12.3 s (running), when
+// its server was killed; it was not recorded".
 std::string Sentence(const LostSimulation& lost);
 // Returns {name, world, phase: "lost", last_phase, time_s, noted, server, recording,
 // whole_until_s?, sentence}.

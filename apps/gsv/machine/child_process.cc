@@ -26,7 +26,8 @@ struct Ends {
 [[noreturn]] void Execute(char* const* arguments, char* const* environment, const Ends& ends,
                           bool quiet, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(0);  // the parent ended before the call of prctl()
+  // If the parent ended before the call of prctl(), the kernel sends no signal.
+  if (getppid() != parent) _exit(0);
   const int nothing = open("/dev/null", O_RDWR);
   dup2(ends.input >= 0 ? ends.input : nothing, STDIN_FILENO);
   dup2(ends.output, STDOUT_FILENO);
@@ -38,8 +39,8 @@ struct Ends {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  // Otherwise, sockets of libraries would stay open in the child. Their ports would stay in use if
-  // the parent ended first.
+  // Closes all other files in the new program. An inherited socket of a library would keep its port
+  // in use after the end of the parent.
   close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   execve(arguments[0], arguments, environment);
   _exit(127);

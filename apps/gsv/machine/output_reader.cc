@@ -21,7 +21,8 @@ namespace {
 constexpr std::size_t kMaxLineBytes = 16 * 1024;
 constexpr int kPauseMilliseconds = 200;
 constexpr std::chrono::milliseconds kWaitTimeout{500};
-constexpr int kMaxReadsAtEnd = 1000;  // reads of 4 KiB; together more than a pipe holds
+// maximum number of reads (4 KiB each) after the end of a child, enough for a full pipe
+constexpr int kMaxReadsAtEnd = 1000;
 
 // Returns how the child ended. Does not reap it, because its owner does.
 std::string EndingOf(pid_t pid) {
@@ -107,7 +108,8 @@ bool OutputReader::Read(Source& source) {
   return true;
 }
 
-// Another process that the child started may keep the pipe open and continue to write.
+// Limits the number of reads, because another process that the child started may keep the pipe open
+// and write to it forever.
 void OutputReader::ReadRest(Source& source) {
   pollfd event{source.descriptor, POLLIN, 0};
   for (int i = 0; i < kMaxReadsAtEnd && poll(&event, 1, 0) > 0 && Read(source); ++i) {

@@ -52,7 +52,8 @@ base::Result<std::unique_ptr<Ffmpeg>> Ffmpeg::Start(const std::string& program,
 }
 
 Ffmpeg::Ffmpeg(pid_t pid, int input) : pid_(pid), input_(input) {
-  std::signal(SIGPIPE, SIG_IGN);  // its end appears as an error of write()
+  // If ffmpeg ends early, write() then returns an error, and no signal ends this process.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 Ffmpeg::~Ffmpeg() { (void)Finish(); }

@@ -49,7 +49,7 @@ void PreparedFiles::Provide(RunOptions& options) {
   options.runtime.library = library_;
   options.prepared_world = WorldAt(*world);
   if (options.prepared_world == nullptr) return;
-  // The library keeps the files that it has read.
+  // Reads the models only to have the library cache them for the run.
   for (const auto* entries : {&options.scenario.robots, &options.scenario.avatars}) {
     for (const scenario::RobotEntry& entry : *entries) {
       base::Problems reported_by_the_run;

@@ -168,7 +168,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
                                 base::SimTime from) {
     const RecordedRobot& acts = (*robots)[robot];
     hosting::TimedCommands commands = acts.commands;
-    // An earlier robot, which was removed, may have had the same name.
+    // Removes the commands of an earlier robot with the same name, which was removed before `from`.
     std::erase_if(commands, [&](const hosting::TimedCommand& each) { return each.time < from; });
     return std::make_shared<hosting::RecordedCommands>(behaviour, std::move(commands),
                                                        acts.uses_radio);

@@ -14,7 +14,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kCrowd = 20;  // robots; longer lists are sorted
+constexpr std::size_t kCrowd =
+    20;  // more robots than this are sorted by the severity of their state
 
 double Seconds(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
 

@@ -23,7 +23,9 @@ constexpr double kFar = 20;         // minimum distance from the bodies for a wa
 constexpr double kFloorTop = 0.1;   // a body whose top is below this is a floor and not a wall, m
 constexpr double kRayHeight = 0.3;  // height above the floor of the rays that detect walls, m
 constexpr int kDirections = 64;
-constexpr double kEnclosed = 0.9;  // the fraction of directions that must end at a wall
+// The world is enclosed if at least this fraction of the rays from its centre hit a wall.
+constexpr double kEnclosed = 0.9;
+// A start is outside if a smaller fraction of the rays from it hit a wall.
 constexpr double kOutside = 0.75;
 constexpr double kMaxDrop = 100;  // maximum depth of the search for a floor, m
 constexpr double kSight = 1000;   // in m
@@ -112,7 +114,7 @@ class StartCheck {
       Warn(fmt::format("it starts {:.0f} m away from all objects of the world ({})", distance,
                        extent));
     } else if (IsWorldEnclosed() && Walls(start.x, start.y, body) < kOutside) {
-      Warn(fmt::format("it starts outside the walls of the world ({})", extent));
+      Warn(fmt::format("it starts outside the walls that enclose the world ({})", extent));
     }
   }
 

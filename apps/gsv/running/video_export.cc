@@ -70,8 +70,8 @@ class Exporter {
       return Fail(ErrorCode::kInvalidArgument,
                   "the video would be too long; select a part with --from and --to");
     }
-    // Writes the frames before this image's instant. An image that is slightly early counts as
-    // equal.
+    // Repeats the previous image until the frame at which this image is due. The tolerance (1e-6 of
+    // a frame) allows for rounding of the time stamps.
     for (; static_cast<double>(frames_) < due - 1e-6; ++frames_) {
       if (!encoder_->Write(shown_)) return NotFinished();
     }

@@ -16,8 +16,7 @@ constexpr double kBoxSide = 1;        // in m
 constexpr double kWallHeight = 1;     // in m
 constexpr double kWallThickness = 0.2;
 
-// The grid whose cells are the places of the robots. Boxes are at every second inner
-// corner.
+// A square grid. Each robot starts in its own cell. Every second corner inside the grid has a box.
 struct Raster {
   explicit Raster(int robots)
       : columns(static_cast<int>(std::ceil(std::sqrt(robots)))),
@@ -26,7 +25,7 @@ struct Raster {
   double side() const { return columns * field; }
 
   int columns;
-  double field;  // side of the square, m
+  double field;  // side of a cell, m
 };
 
 model::PlacedModel StandingBox(std::string name, const geometry::Vector3& size,

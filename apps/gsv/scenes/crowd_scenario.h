@@ -9,10 +9,9 @@
 
 namespace gsv::app {
 
-// A robot of the crowd is a disc.
-inline constexpr double kCrowdRobotRadius = 0.175;  // in m
-inline constexpr double kCrowdRange = 5;            // length of its eight rays, m
-inline constexpr double kCrowdRayHeight = 0.15;     // in m
+inline constexpr double kCrowdRobotRadius = 0.175;  // radius of a robot, which is a disc, m
+inline constexpr double kCrowdRange = 5;            // maximum range of a robot's rays, m
+inline constexpr double kCrowdRayHeight = 0.15;     // height of the rays above the ground, m
 inline constexpr int kCrowdRays = 8;
 
 // Returns the world with walls, boxes and ground.

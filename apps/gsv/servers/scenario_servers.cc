@@ -38,8 +38,8 @@ class LostServerCheck {
     ++failures_;
     // the server was restarted, or dropped the run
     if (error.code == base::ErrorCode::kEnded) return true;
-    // A broken connection proves nothing. If the port then refuses connections, the process has
-    // ended.
+    // A single failed call may mean only that a connection broke. If the next call fails as well,
+    // and not because of its timeout, the server counts as ended.
     if (error.code != base::ErrorCode::kTimeout && failures_ > 1) return true;
     return Clock::now() - heard_ >= kSilence;
   }
@@ -93,7 +93,8 @@ ScenarioServers::~ScenarioServers() {
 base::Status ScenarioServers::Refresh() {
   auto offers = broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load",
                               kMaxScenarioServers);
-  // A broker does not know the type if no such server has ever registered with it.
+  // kNotFound means that the broker does not know the service type, because no such server has ever
+  // registered with it. So there are no offers.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   const base::MutexLock lock(mutex_);
   is_refreshing_ = false;

@@ -35,7 +35,7 @@ class ScenarioServers {
   TestResult Run(const std::string& scenario, double timeout,
                  const std::atomic<bool>& is_cancelled);
 
-  // The reason for giving up: there was no server for a minute. Empty if it has not given up.
+  // Returns why this object has given up: there was no server for a minute. Empty if it has not.
   std::string failure() const;
 
  private:

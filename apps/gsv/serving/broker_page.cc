@@ -123,7 +123,7 @@ Response BrokerPage::Offers(const gateway::Target& target) const {
 
 Response BrokerPage::Links() const {
   const auto links = broker::BrokerAdministration(broker_, kTimeout).ListLinks();
-  // Not every trader has links.
+  // The error may mean that the trader does not support links, so the list is empty.
   if (!links) return Answer({{"links", ordered_json::array()}});
   return Answer({{"links", Values([&](std::ostream& out) { PrintLinksJson(*links, out); })}});
 }

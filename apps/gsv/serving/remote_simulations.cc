@@ -74,7 +74,7 @@ base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
   const auto offers =
       client->Query(broker::SimulationServiceType().name, "", "first", kMaxOfferedServers);
   if (!offers) {
-    // No simulation was ever offered there.
+    // The broker does not know the service type, because no simulation was ever offered there.
     if (offers.error().code == base::ErrorCode::kNotFound) return {};
     return base::Fail(offers.error());
   }
@@ -213,7 +213,7 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
                                                kMaxOfferedServers)
                                : base::Fail(client.error());
     if (!offers && is_named) return base::Fail(offers.error());
-    if (!offers) continue;  // an instance of the user may just have ended
+    if (!offers) continue;  // the broker's instance may just have ended, so this is no error
     for (const broker::FoundOffer& offer : *offers) {
       RemoteServer server = ServerFrom(offer.properties, client->reference());
       if (IsMeant(selection, server)) found.push_back(std::move(server));
@@ -240,7 +240,7 @@ base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simul
 
 std::map<std::string, RemoteHealth> HealthOf(const FoundSimulation& simulation) {
   std::map<std::string, RemoteHealth> robots;
-  // Servers of earlier releases do not know the operation.
+  // Servers of earlier releases do not know this operation. The result is then empty.
   (void)orb::Call(simulation.server.Describe(), [&] {
     sba::RobotHealths_var list = simulation.reference->health();
     for (CORBA::ULong i = 0; i < list->length(); ++i) {

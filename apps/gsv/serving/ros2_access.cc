@@ -85,7 +85,7 @@ Ros2Arguments WithSettings(Ros2Arguments arguments,
   for (const auto& [robot, name_space] : settings->namespaces) {
     namespaces.push_back(robot + "=" + name_space);
   }
-  // the last namespace of a robot counts
+  // The last namespace of a robot applies, so those of the command line have precedence.
   arguments.namespaces.insert(arguments.namespaces.begin(), namespaces.begin(), namespaces.end());
   return arguments;
 }
@@ -328,7 +328,7 @@ base::Status Ros2Access::Replace(const SimulationPointer& next) {
     if (previous == nullptr && next == nullptr) {
       return base::Fail(base::ErrorCode::kNotFound, "no world is loaded");
     }
-    if (previous == next) return {};  // the watcher has found it already
+    if (previous == next) return {};  // the watcher thread has already published it
     if (next != nullptr) Show(next, *options_);
   }
   if (previous == nullptr) return {};

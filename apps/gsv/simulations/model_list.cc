@@ -22,8 +22,8 @@ bool IsRobot(const model::Model& model) {
          model::GuessDrive(model).kind != model::DriveKind::kNone;
 }
 
-// Whether the model may have a drive. A drive needs a plugin (or a URDF, which has its own element
-// for it). So a library of furniture need not be read completely.
+// Whether the model may have a drive: an SDF file with a <plugin>, or a URDF file, which may have
+// other elements for a drive. This quick search avoids that all models of a library are parsed.
 bool MayHaveDrive(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {

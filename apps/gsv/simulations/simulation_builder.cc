@@ -43,7 +43,7 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
   specification.duration = base::FromSeconds(scenario.duration.value_or(0));
   specification.seed = scenario.seed.value_or(0);
   specification.pedestrians = scenario.pedestrians;
-  specification.keep = true;  // the page that creates the simulation may be closed
+  specification.keep = true;  // continues after the page that created the simulation is closed
   return specification;
 }
 
@@ -257,7 +257,7 @@ FieldResult<std::string> SimulationBuilder::AddRobot(const std::shared_ptr<Simul
                                                      bool is_avatar) {
   base::Problems problems;
   const bool is_published = Ros2().published == simulation->specification().name;
-  const ros2::Options options;  // nodes step only the robots of the scenario
+  const ros2::Options options;  // has no `steps`: only the scenario's robots wait for ROS 2 nodes
   return AddOne(*simulation, host_.library(), robot, is_avatar,
                 BehaviourChoice(is_published ? &options : nullptr), problems);
 }

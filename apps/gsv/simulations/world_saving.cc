@@ -43,7 +43,7 @@ Standing StandingNow(const world::Snapshot& snapshot, const model::WorldDescript
     const world::Body& body = bodies[i];
     const geometry::Pose& pose = snapshot.state.bodies[i].world_from_model;
     standing.poses[body.name] = pose;
-    if (body.is_pedestrian()) continue;  // the scenario or the world has its group
+    if (body.is_pedestrian()) continue;  // the scenario or the world defines groups of pedestrians
     const PlacedModel placed{body.name, body.model, pose, body.is_static()};
     if (!FitsInWorld(body, placed, FindOriginal(original, body.name) != nullptr)) continue;
     standing.models.push_back(placed);
@@ -52,7 +52,9 @@ Standing StandingNow(const world::Snapshot& snapshot, const model::WorldDescript
   return standing;
 }
 
-// Robots of the world file need no model and no pose; without a behaviour they need no entry.
+// Removes model, pose and movement from the entries of robots that the saved world file contains.
+// Removes such an entry completely if it has no behaviour and no drive. Other entries get the
+// robot's current pose.
 void TakeSavedRobots(const Standing& standing, std::vector<scenario::RobotEntry>& robots,
                      std::vector<std::string>& warnings) {
   for (scenario::RobotEntry& robot : robots) {
