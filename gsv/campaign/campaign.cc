@@ -1,7 +1,9 @@
 #include "gsv/campaign/campaign.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -88,7 +90,7 @@ class ParameterReader {
         parameter.values.push_back(value.Tag() == "!" ? "\"" + value.Scalar() + "\""
                                                       : value.Scalar());
       } else {
-        place_.AddProblem(value.Mark(), parameter.path, "a value is a number or a text");
+        place_.AddProblem(value.Mark(), parameter.path, "a value must be a number or a text");
       }
     }
     if (list.size() == 0) place_.AddProblem(list.Mark(), parameter.path, "the list is empty");
@@ -112,10 +114,18 @@ class ParameterReader {
     if (is_normal) parameter.kind = Parameter::Kind::kNormal;
     if (!is_range) return;
     const double stride = step.value_or(1);
-    if (!from || !to || *from > *to || (*to - *from) / stride >= kMaxValues) {
+    if (!from || !to) {
+      mapping.AddProblem("a range needs from and to");
+      return;
+    }
+    if (*from > *to) {
       mapping.AddProblem(
-          "from and to are required; from is the smaller one, and the list has at most 100,000 "
-          "values");
+          "from", fmt::format("from must not be larger than to, found {} and {}", *from, *to));
+      return;
+    }
+    if ((*to - *from) / stride >= kMaxValues) {
+      mapping.AddProblem(
+          "step", fmt::format("the range has more than {} values; use a larger step", kMaxValues));
       return;
     }
     // The tolerance allows for rounding, so that the range includes its end.
@@ -237,7 +247,8 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
                                     const EngineRequest& request, Engine& engine) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
-    return base::Fail(base::ErrorCode::kNotFound, "cannot open the campaign file", file);
+    return base::Fail(base::ErrorCode::kNotFound,
+                      std::string("cannot open the campaign file: ") + std::strerror(errno), file);
   }
   std::string text(scenario::kMaxScenarioBytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -160,7 +160,8 @@ std::string ToHtml(const Report& report) {
   html += "</table>\n";
   if (!report.queue.empty()) html += "<p>" + Escaped(report.queue) + "</p>\n";
   return html +
-         "<p>Shares with Wilson's 95 % interval, means with Student's.</p>\n</body></html>\n";
+         "<p>The intervals are 95 % confidence intervals: Wilson's for fractions of passed runs, "
+         "Student's for means.</p>\n</body></html>\n";
 }
 
 std::string ToCsv(const std::vector<RunResult>& results,

@@ -146,8 +146,8 @@ class SlurmQueue final : public JobQueue {
                         "the cluster, or with --engine local",
                         command.front());
     }
-    // A command with an exit code was refused. If a command was killed, its effect is
-    // unknown.
+    // If a command ended with an exit code, Slurm has refused it. If the command was killed, Slurm
+    // may have executed it.
     const bool has_refused = outcome->ending.starts_with("exit code");
     return base::Fail(
         has_refused ? base::ErrorCode::kNotRunning : base::ErrorCode::kUnavailable,

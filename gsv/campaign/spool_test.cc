@@ -105,8 +105,8 @@ TEST_F(SpoolTest, ReadsAGrowingJournalAndIgnoresAnIncompleteLine) {
   EXPECT_EQ(results->front().metrics, Result(2).metrics);
   EXPECT_EQ(results->front().wall_time, 0.25);
   EXPECT_TRUE(reader.open_runs().empty());
-  // Such incomplete files remain after a killed task or a full disk, or if two machines have
-  // different caches.
+  // An incomplete or damaged line is ignored. A killed task, a full disk, or different caches of
+  // two machines can cause such a line.
   ASSERT_TRUE((*journal)->Add(Result(3)));
   ASSERT_EQ(spool->Collect()->size(), 1u);
   const std::string whole = text(reader.file());

@@ -50,7 +50,7 @@ class alignas(64) HostedBehaviour final : public simulation::LocalBehaviour {
   // The started behaviour if it is a Controller, which needs no fibre; else null.
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
   std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);   // the instant of a controller's next turn
-  const void* sweeps_ GSV_GUARDED_BY(mutex_) = nullptr;  // address of the robot's count of sweeps
+  const void* sweeps_ GSV_GUARDED_BY(mutex_) = nullptr;  // see LocalRobot::sweeps()
   // The fibre of a started behaviour; null for a Controller, which needs no fibre.
   std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);
 

@@ -337,7 +337,7 @@ class OwnSonars final : public Controller {
   int* const cycles_;
 };
 
-TEST(HostedBehaviour, RobotsWithDifferentSensorsReadTheirOwn) {
+TEST(HostedBehaviour, RobotsWithDifferentSensorsReadTheirOwnSensors) {
   auto specification = Lockstep(1s);
   specification.threads = 1;
   auto simulation = simulation::Make(specification);

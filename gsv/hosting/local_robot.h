@@ -27,7 +27,8 @@ class alignas(64) LocalRobot final : public Robot {
   // Sets the current turn, or null between turns.
   void SetTurn(simulation::Turn* turn);
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
-  // The address of the count of sweeps, which each turn changes; null without sensors.
+  // Returns the address of the robot's count of sweeps, for prefetching. A sweep reads all open
+  // sensors together, once per turn. Returns null if there are no sensors.
   const void* sweeps() const { return sweeps_.get(); }
   // Ends the run for the behaviour. From now on, waits and calls return at once.
   void End() { is_running_ = false; }

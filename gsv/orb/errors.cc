@@ -65,7 +65,8 @@ base::Error ToError(const CORBA::SystemException& exception, const std::string& 
     return {ErrorCode::kEnded, "the service no longer exists", where};
   }
   if (CORBA::MARSHAL::_downcast(&exception) != nullptr) {
-    return {ErrorCode::kCorrupt, "the message was too large or did not decode", where};
+    return {ErrorCode::kCorrupt, "the message could not be decoded; it may exceed the size limit",
+            where};
   }
   return {ErrorCode::kUnavailable, std::string("the call failed (") + exception._name() + ")",
           where};

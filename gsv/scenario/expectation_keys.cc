@@ -42,10 +42,11 @@ class FormulaReader {
   Formula Read(YamlMapping& mapping, int depth) {
     Formula formula;
     if (is_too_large()) return formula;
-    if (++count_ > kMaxFormulas || depth > kMaxFormulaDepth) {
+    const bool is_too_deep = depth > kMaxFormulaDepth;
+    if (++count_ > kMaxFormulas || is_too_deep) {
       count_ = kMaxFormulas + 1;
-      mapping.AddProblem(
-          "too many expectations; they have at most 1000 parts, nested at most 16 deep");
+      mapping.AddProblem(is_too_deep ? "conditions are nested more than 16 deep"
+                                     : "the expectations have more than 1000 conditions in total");
       return formula;
     }
     std::string found;
@@ -104,7 +105,7 @@ class FormulaReader {
     formula.from = from.value_or(0);
     formula.by = by;
     if (by && *by < formula.from) {
-      mapping.AddProblem("by", "'by' is before 'from', so the expectation is always or never true");
+      mapping.AddProblem("by", "'by' is before 'from', so the time window is empty");
     }
   }
 

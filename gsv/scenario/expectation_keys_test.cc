@@ -164,7 +164,7 @@ TEST(TestKeys, AliasesCannotExpandToALargeFormula) {
   }
   EXPECT_THAT(
       ProblemsInKeys(text),
-      ::testing::Contains(HasSubstr("they have at most 1000 parts, nested at most 16 deep")));
+      ::testing::Contains(HasSubstr("the expectations have more than 1000 conditions in total")));
 }
 
 }  // namespace

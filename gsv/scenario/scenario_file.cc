@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -130,7 +132,8 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
 base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Problems& problems) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
-    return base::Fail(base::ErrorCode::kNotFound, "the scenario's file cannot be opened", file);
+    return base::Fail(base::ErrorCode::kNotFound,
+                      std::string("cannot open the scenario file: ") + std::strerror(errno), file);
   }
   std::string text;
   std::array<char, 16384> part;

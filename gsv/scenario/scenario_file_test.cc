@@ -138,7 +138,7 @@ TEST(ScenarioFile, WrittenScenarioIsReadBackUnchanged) {
   EXPECT_EQ(Parsed(ToYaml(Scenario())), Scenario());
 }
 
-TEST(ScenarioFile, Ros2IsAFlagOrSettings) {
+TEST(ScenarioFile, Ros2KeyAcceptsAFlagOrSettings) {
   EXPECT_EQ(Parsed("ros2: false").ros2, std::nullopt);
   EXPECT_EQ(Parsed("ros2: true").ros2, Ros2Settings());
   EXPECT_EQ(Parsed("ros2: {distro: kilted, namespaces: {pebble: /}}").ros2,

@@ -87,7 +87,8 @@ base::Status RemoteBehaviour::Resume() {
 }
 
 void RemoteBehaviour::Destroy() {
-  // The process is ending. A behaviour that is still running would not answer.
+  // This process is ending, and the behaviour did not answer stop(). So destroy() is not called: it
+  // would only wait for its time limit.
   const bool is_of_no_use = has_not_stopped_ && stop_timeout_->is_shortened();
   if (!is_of_no_use) {
     orb::LimitCalls(behaviour_, stop_timeout_->limit());

@@ -13,7 +13,8 @@ ProbeResult ProbeServer(int descriptor, const std::string& request) {
                                                                   &SSL_CTX_free);
   if (!context) return reception;
   SSL_CTX_set_verify(context.get(), SSL_VERIFY_NONE, nullptr);
-  // OpenSSL calls this function when the server requests a certificate. The probe has none.
+  // OpenSSL calls this function when the server requests a client certificate. The function stores
+  // this fact, and returns 0 because the probe has no certificate.
   SSL_CTX_set_app_data(context.get(), &reception);
   SSL_CTX_set_client_cert_cb(context.get(), [](SSL* connection, X509**, EVP_PKEY**) {
     static_cast<ProbeResult*>(SSL_CTX_get_app_data(SSL_get_SSL_CTX(connection)))

@@ -57,7 +57,7 @@ TEST(Margin, IsTheLargestDistanceForEventually) {
   EXPECT_EQ(state.margin_at, 1s);
 }
 
-TEST(Margin, IsThatOfTheWorstNumberOfACondition) {
+TEST(Margin, IsTheSmallestDistanceAmongTheNumbersOfACondition) {
   const auto state =
       Noted("{stays_within: {robot: a, x: [0, 4], y: [-1, 1]}}", {{2.0, 0.0}, {2.0, 0.75}});
   EXPECT_DOUBLE_EQ(state.margin.value(), 0.25);
@@ -75,12 +75,12 @@ TEST(Margin, IsMeasuredInsideTheWindowOnly) {
   EXPECT_DOUBLE_EQ(state.margin.value(), 0.5);
 }
 
-TEST(Margin, DoesNotExistForContactsAndOrders) {
+TEST(Margin, ContactAndBeforeExpectationsHaveNoMargin) {
   EXPECT_FALSE(MarginOf(FormulaOf("{never_collides: a}")));
   EXPECT_FALSE(MarginOf(FormulaOf("{before: [{contact: a}, {contact: b}]}")));
 }
 
-TEST(Shapes, ContainTheGoalsAndZones) {
+TEST(Shapes, ReachesIsACircleAndStaysWithinIsABox) {
   simulation::ExpectationState state;
   AddShapes(FormulaOf("{reaches: {robot: a, x: 1, y: 2, within: 0.5}}"), state);
   ASSERT_THAT(state.places, SizeIs(1));

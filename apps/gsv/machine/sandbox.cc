@@ -69,7 +69,7 @@ base::Status EnterSandbox(const Sandbox& bounds) {
   const bool is_bound = (base::kReservesAddressSpace || Bound(RLIMIT_AS, bounds.memory_bytes)) &&
                         Bound(RLIMIT_CPU, static_cast<rlim_t>(bounds.processor_time.count())) &&
                         Bound(RLIMIT_FSIZE, 0) && Bound(RLIMIT_CORE, 0);
-  // A library may write a log. With SIGXFSZ ignored, the write fails, and the process is not killed.
+  // A library may write a log. This write then fails, and the kernel does not kill the process.
   std::signal(SIGXFSZ, SIG_IGN);
   // If memory is exhausted, the process exits. Readers of files would report an exception as an
   // error in the file.

@@ -65,7 +65,7 @@ auto WithLink(const std::string& broker, std::chrono::milliseconds timeout, cons
       broker, timeout, [&](CORBA::ORB_ptr orb, CosTrading::Lookup_ptr lookup) -> Returned {
         const CosTrading::Link_var link = lookup->link_if();
         if (CORBA::is_nil(link)) {
-          return base::Fail(ErrorCode::kUnavailable, "this broker has no links", broker);
+          return base::Fail(ErrorCode::kUnavailable, "this broker does not support links", broker);
         }
         omniORB::setClientCallTimeout(link, static_cast<unsigned long>(timeout.count()));
         return call(orb, link);
@@ -96,7 +96,7 @@ void ForEach(std::uint32_t count, const Work& work) {
   for (auto& worker : workers) worker.get();
 }
 
-// Returns the description of a link, or nullopt if the link was removed meanwhile.
+// Returns the description of a link, or nullopt if the link was removed after its name was listed.
 std::optional<LinkDescription> Describe(CORBA::ORB_ptr orb, CosTrading::Link_ptr link,
                                         const char* name) {
   try {
@@ -175,7 +175,8 @@ base::Status BrokerAdministration::RemoveServiceType(const std::string& name) co
         const CORBA::Object_var object = lookup->type_repos();
         const Repository::_var_type types = Repository::_narrow(object);
         if (CORBA::is_nil(types)) {
-          return base::Fail(ErrorCode::kUnavailable, "this broker has no service types", broker_);
+          return base::Fail(ErrorCode::kUnavailable,
+                            "this broker has no repository of service types", broker_);
         }
         types->remove_type(name.c_str());
         return {};

@@ -188,7 +188,8 @@ Error OfSystem(const std::string& where) {
   } catch (const CORBA::OBJECT_NOT_EXIST&) {
     return {ErrorCode::kUnavailable, "the object at this address is not a broker", where};
   } catch (const CORBA::IMP_LIMIT&) {
-    return {kWrong, "the request exceeds the limits of the broker", where};
+    return {kWrong, "the request exceeds a limit of the broker; docs/broker.md lists the limits",
+            where};
   } catch (const CORBA::NO_MEMORY&) {
     return {ErrorCode::kUnavailable,
             "the broker is out of memory; withdraw offers that are not needed", where};

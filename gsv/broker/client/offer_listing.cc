@@ -35,7 +35,7 @@ base::Result<std::vector<OfferDescription>> ListOffers(const std::string& broker
   std::vector<OfferDescription> offers;
   for (const std::string& id : *ids) {
     const auto offer = client->Describe(id);
-    // The offer was withdrawn meanwhile.
+    // Skips an offer that was withdrawn after its id was listed.
     if (!offer && offer.error().code == base::ErrorCode::kNotFound) continue;
     if (!offer) return base::Fail(offer.error());
     offers.push_back(Describe(*orb, *offer));

@@ -51,7 +51,8 @@ base::Result<PropertyList> DecodeProperties(const std::string& bytes) {
     sequence <<= stream;
     std::vector<Property> properties = ToProperties(sequence);
     if (HasDuplicates(properties)) {
-      return base::Fail(base::ErrorCode::kCorrupt, "an offer has two properties of one name");
+      return base::Fail(base::ErrorCode::kCorrupt,
+                        "an offer has two properties with the same name");
     }
     return PropertyList(std::move(properties));
   });

@@ -73,7 +73,7 @@ TEST_F(RecordEncodingTest, RejectsBytesThatAreNotProperties) {
   for (const auto& each : kCases) EXPECT_FALSE(DecodeProperties(each.bytes.bytes())) << each.what;
 }
 
-TEST_F(RecordEncodingTest, RejectsTwoPropertiesWithOneName) {
+TEST_F(RecordEncodingTest, RejectsTwoPropertiesWithTheSameName) {
   const RawCdr twice = RawCdr()
                            .Octet(1)
                            .ULong(2)
@@ -85,7 +85,7 @@ TEST_F(RecordEncodingTest, RejectsTwoPropertiesWithOneName) {
                            .ULong(8);
   const auto properties = DecodeProperties(twice.bytes());
   ASSERT_FALSE(properties);
-  EXPECT_EQ(properties.error().message, "an offer has two properties of one name");
+  EXPECT_EQ(properties.error().message, "an offer has two properties with the same name");
 }
 
 TEST_F(RecordEncodingTest, PoliciesAreUnchangedAfterEncoding) {

@@ -69,7 +69,7 @@ TEST(Evaluation, CalculatesIntegersExactlyAndTruncatesQuotients) {
   for (const auto& [text, expected] : kCases) EXPECT_EQ(Holds(text), expected) << text;
 }
 
-TEST(Evaluation, FindsTheLeftStringInTheRight) {
+TEST(Evaluation, SubstringOperatorFindsTheLeftStringInTheRight) {
   EXPECT_TRUE(Holds("'laser' ~ name"));
   EXPECT_TRUE(Holds("'' ~ name"));
   EXPECT_TRUE(Holds("name ~ name"));
@@ -87,7 +87,7 @@ TEST(Evaluation, FindsElementsInSequences) {
   EXPECT_TRUE(Holds("not ('A4' in nothing)")) << "an empty sequence is a sequence";
 }
 
-TEST(Evaluation, ReportsWhichPropertiesExist) {
+TEST(Evaluation, ExistOperatorIsTrueForPropertiesOfTheOffer) {
   EXPECT_TRUE(Holds("exist cost"));
   EXPECT_TRUE(Holds("exist place")) << "of any type";
   EXPECT_FALSE(Holds("exist weight"));

@@ -14,7 +14,7 @@ PropertyList WithNames(const std::vector<std::string>& names) {
   return list;
 }
 
-TEST(PropertyList, ListsWithTheSameNamesShareThem) {
+TEST(PropertyList, ListsWithEqualNamesShareOneListOfNames) {
   PropertyList a = WithNames({"speed", "name"});
   PropertyList b = WithNames({"name", "speed"});
   PropertyList c = WithNames({"name"});

@@ -46,7 +46,7 @@ const char* Name(Kind kind) {
     case Kind::kSequence:
       return "a sequence";
     case Kind::kOther:
-      return "of a type that only 'exist' can handle";
+      return "a value of a type that only 'exist' supports";
     case Kind::kUnknown:
       break;
   }

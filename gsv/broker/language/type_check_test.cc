@@ -49,8 +49,8 @@ TEST(TypeCheck, RejectsOperandsThatCannotHaveTheRightTypes) {
       {"name == grade",
        "character 6: '==': its operands are a string and a char, which cannot be compared"},
       {"place == place",
-       "character 7: '==': its operands are of a type that only 'exist' can handle and of a type "
-       "that only 'exist' can handle, which cannot be compared"},
+       "character 7: '==': its operands are a value of a type that only 'exist' supports and a "
+       "value of a type that only 'exist' supports, which cannot be compared"},
       {"name + 1 == 2", "character 6: '+': it needs a number, and its operand is a string"},
       {"not ppm", "character 1: 'not': it needs a boolean, and its operand is a number"},
       {"colour and cost", "character 8: 'and': it needs a boolean, and its operand is a number"},

@@ -89,7 +89,8 @@ class Value {
   Scalar scalar() const { return scalar_; }
   bool is_sequence() const { return form_ == Form::kSequence; }
 
-  // Return nullopt or null if the value is of another kind. A view is valid as long as this object.
+  // Each function returns nullopt or null if the value is of another kind. A returned view is valid
+  // as long as this object.
   std::optional<bool> AsBoolean() const;
   std::optional<std::int64_t> AsInteger() const;
   std::optional<double> AsReal() const;

@@ -5,7 +5,8 @@
 namespace gsv::broker {
 namespace {
 
-// An offer that is needed may keep this many other offers alive.
+// From() shares the views if they have at most this number of offers for each remaining offer.
+// Otherwise it copies the remaining offers, so that the memory of the other offers can be freed.
 constexpr std::size_t kKeptForOne = 4;
 
 }  // namespace

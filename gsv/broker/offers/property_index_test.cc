@@ -130,7 +130,7 @@ TEST(PropertyIndex, FindsTheSameAsAnEvaluationOfEachOffer) {
   }
 }
 
-TEST(PropertyIndex, KeepsTheCardinalities) {
+TEST(PropertyIndex, IndexedQueryAppliesTheCardinalityPolicies) {
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
   for (std::int32_t i = 0; i < 1000; ++i) {

@@ -62,7 +62,8 @@ void AddLinks(TradingObjects& objects, const FederatedQuery& query,
   }
 }
 
-// A proxy does not count as a hop, but its target must answer within the remaining time.
+// Adds a destination for each proxy offer. The target of a proxy must answer within the remaining
+// time, but the call does not count as a hop.
 void AddProxies(TradingObjects& objects, const FederatedQuery& query, std::uint32_t hops,
                 MatchingOffers& matches, DynamicValues& values, Destinations& destinations) {
   const std::size_t most = objects.trader.limits().federation.proxies;

@@ -35,7 +35,7 @@ TEST_F(CursorTableTest, ReturnsEachEntryOnceInOrder) {
   EXPECT_FALSE(table_.Take(key, 1, 1000, TenBytes));
 }
 
-TEST_F(CursorTableTest, KeepsABatchWithinItsBytesButNeverEmpty) {
+TEST_F(CursorTableTest, LimitsTheBytesOfABatchButReturnsAtLeastOneEntry) {
   const std::uint64_t key = table_.Open({1, 2, 3, 4}, "");
   EXPECT_EQ(table_.Take(key, 9, 25, TenBytes)->entries, (std::vector<int>{1, 2}));
   EXPECT_EQ(table_.Take(key, 9, 5, TenBytes)->entries, std::vector<int>{3});

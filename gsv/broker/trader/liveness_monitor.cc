@@ -29,7 +29,8 @@ void LivenessMonitor::Work() {
       AskDueServices();
       return;
     } catch (const std::bad_alloc&) {
-      // Retries, because other threads may use up the limited address space for a moment.
+      // Tries again after a pause, because other threads may use up the limited address space for a
+      // short time.
       base::MutexLock lock(mutex_);
       ending_changed_.wait_for(lock, options_.timeout,
                                [this]() GSV_REQUIRES(mutex_) { return ending_; });
@@ -61,8 +62,8 @@ std::shared_ptr<const LivenessMonitor::Service> LivenessMonitor::Next(base::Mute
     if (!is_over) share = share / static_cast<int>(round_.size()) * static_cast<int>(next_);
     const auto due = round_start_ + share;
     if (Clock::now() < due) {
-      // The loop checks again, because meanwhile another thread may have taken the service or begun
-      // a round.
+      // The loop checks the condition again. During the wait, another thread may have taken this
+      // service, or may have begun the next check of all services.
       ending_changed_.wait_until(lock, due, [this]() GSV_REQUIRES(mutex_) { return ending_; });
     } else if (is_over) {
       StartRound();

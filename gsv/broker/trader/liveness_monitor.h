@@ -84,7 +84,7 @@ class LivenessMonitor {
   std::vector<std::shared_ptr<const Service>> round_ GSV_GUARDED_BY(mutex_);
   std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
   Clock::time_point round_start_ GSV_GUARDED_BY(mutex_);
-  // addresses that did not answer in this round
+  // addresses that did not answer since the last StartRound()
   std::set<std::string> silent_addresses_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, Clock::time_point> silent_since_ GSV_GUARDED_BY(mutex_);  // by reference
   std::vector<std::thread> workers_;  // destroyed first, because they use the other members

@@ -89,7 +89,9 @@ class Trader {
   TradingResult<void> MaskType(const std::string& name);
   TradingResult<void> UnmaskType(const std::string& name);
 
-  // ---- Offers Returns the service type for an export. Fails if the type is unknown or masked.
+  // ---- Offers
+
+  // Returns the service type for an export. Fails if the type is unknown or masked.
   TradingResult<ServiceType> TypeForExport(const std::string& type) const;
   // Exports an offer without checking `reference`. Returns the offer's id.
   TradingResult<std::string> Export(const std::string& type, std::string reference,
@@ -113,6 +115,7 @@ class Trader {
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
   // ---- Proxy offers, which the members for offers above do not affect
+
   // Exports a proxy offer without checking `target`, the Lookup of another trader. Returns the
   // proxy's id.
   TradingResult<std::string> ExportProxy(const std::string& type, std::string target,
@@ -137,6 +140,7 @@ class Trader {
   }
 
   // ---- Queries
+
   // Queries search the offers of this trader only. FindMatching() finds the offers, and Rank()
   // orders and limits them. Find() calls both functions. A caller may call FindMatching() and
   // Rank() separately, and add offers of other traders in between.

@@ -18,12 +18,15 @@ TradingResult<std::string> Trader::ExportProxy(const std::string& type, std::str
   if (!IsRecipe(part.recipe, *checked)) {
     return Refuse({.refusal = Refusal::kIllegalRecipe, .name = part.recipe});
   }
-  const std::size_t extra = part.recipe.size() + part.policies.size();
-  if (part.recipe.size() > limits_.expression.length || extra > limits_.offer_bytes) {
+  if (part.recipe.size() > limits_.expression.length) {
     return Refuse({.refusal = Refusal::kLimit,
-                   .detail = fmt::format("a recipe has more than {} characters, or a proxy more "
-                                         "than {} bytes",
-                                         limits_.expression.length, limits_.offer_bytes)});
+                   .detail = fmt::format("the recipe has more than {} characters",
+                                         limits_.expression.length)});
+  }
+  if (part.recipe.size() + part.policies.size() > limits_.offer_bytes) {
+    return Refuse({.refusal = Refusal::kLimit,
+                   .detail = fmt::format("recipe and policies have more than {} bytes",
+                                         limits_.offer_bytes)});
   }
   return Store({.type = type,
                 .reference = std::move(target),

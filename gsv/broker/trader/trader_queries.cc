@@ -273,7 +273,7 @@ TradingResult<std::size_t> Trader::WithdrawMatching(const std::string& type,
   const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
   if (!compiled) return Refuse(compiled.error());
 
-  // Services for dynamic properties are called without the lock held.
+  // Searches without the lock, because the services of dynamic properties may answer slowly.
   const std::vector<OfferView> views = [&] {
     const base::ReaderLock lock(mutex_);
     return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}));
@@ -292,7 +292,7 @@ TradingResult<std::size_t> Trader::WithdrawMatching(const std::string& type,
   return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<std::size_t> {
     OffersRemoved removed;
     for (const OfferPtr& offer : matching) {
-      // An offer that was modified meanwhile may no longer match.
+      // Skips an offer that was modified after the search, because it may no longer match.
       if (offers_.Find(offer->number) != offer) continue;
       offers_.Remove(offer->number);
       removed.numbers.push_back(offer->number);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 #include "gsv/broker/language/names.h"
 
@@ -106,7 +107,9 @@ TradingResult<void> TypeRepository::CheckNew(const ServiceType& type) const {
   std::size_t names_bytes = type.name.size();
   for (const auto& [name, known] : types_) names_bytes += name.size() + 8;
   if (names_bytes > limits_.type_names_bytes) {
-    return Refuse({.refusal = Refusal::kLimit, .detail = "there are too many service types"});
+    return Refuse({.refusal = Refusal::kLimit,
+                   .detail = "the names of all service types would have more than " +
+                             std::to_string(limits_.type_names_bytes) + " bytes"});
   }
   return {};
 }
@@ -154,10 +157,15 @@ TradingResult<void> TypeRepository::CheckInheritedProperties(const ServiceType& 
       }
     }
   }
-  if (size > limits_.type_bytes || ancestors.size() > limits_.super_types) {
+  if (ancestors.size() > limits_.super_types) {
     return Refuse({.refusal = Refusal::kLimit,
-                   .detail = "the service type " + type.name + " has too many properties or " +
-                             "super types"});
+                   .detail = "the service type " + type.name + " has more than " +
+                             std::to_string(limits_.super_types) + " super types"});
+  }
+  if (size > limits_.type_bytes) {
+    return Refuse({.refusal = Refusal::kLimit,
+                   .detail = "the description of the service type " + type.name +
+                             " has more than " + std::to_string(limits_.type_bytes) + " bytes"});
   }
   return {};
 }

@@ -80,7 +80,8 @@ class ClientConnection final : public orb::ConnectionHooks {
     table_->Remove(&control_);
   }
 
-  void OnWait() override { ReleaseSlot(); }  // called if the previous request had no reply
+  // The ORB waits for the next request. A previous request without a reply still has its slot.
+  void OnWait() override { ReleaseSlot(); }
   void OnBytes() override { NoteActivity(); }
   void OnMessage(std::string& message) override {
     AcquireSlot();

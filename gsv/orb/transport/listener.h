@@ -28,8 +28,9 @@ class Listener {
   ~Listener();
 
   bool speaks_tls() const { return context_ != nullptr; }
-  // Like AcceptAndMonitor() of omniORB's endpoints: waits for the next connection, and calls
-  // `readable` for each connection that the ORB must read meanwhile. Returns null after Poke().
+  // Like AcceptAndMonitor() of omniORB's endpoints: waits for the next connection. During the wait,
+  // it calls `readable` for each connection from which the ORB must read. Returns null after
+  // Poke().
   omni::giopConnection* Await(omni::giopConnection::notifyReadable_t readable, void* cookie);
   void Poke() { poked_ = true; }
 

@@ -219,7 +219,7 @@ TEST_F(MessageTransportTest, JoinsFragmentsAndIgnoresCancelRequests) {
   EXPECT_EQ(Answer(connection), 2u);
 }
 
-TEST_F(MessageTransportTest, LocalSocketsFollowTheSameRules) {
+TEST_F(MessageTransportTest, LocalSocketsJoinFragmentsAndLimitTheSizeOfMessages) {
   OrbOptions options;
   options.local_socket = true;
   options.max_message_bytes = 10'000;
