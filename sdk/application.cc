@@ -251,8 +251,8 @@ class SimulationProxy final : public RemoteSimulation {
       return Lose("no program accepts connections at this address any more");
     return answer;
   }
-  // Whether the server refuses connections. A broken connection is no proof that it has ended, and
-  // there may be several.
+  // Whether the server refuses connections. One failed call does not prove that the server has
+  // ended, because the ORB may have several open connections, and each of them may be broken.
   bool IsServerGone() {
     for (int i = 0; i < kConnectionsTried; ++i) {
       try {
@@ -288,7 +288,8 @@ class BrokerApplication final : public Application {
                                                          const std::string& constraint,
                                                          const std::string& preference) override {
     auto offers = broker_.Query(broker::SimulationServiceType().name, constraint, preference, 16);
-    // A broker does not know the type if no simulator has ever registered with it.
+    // kNotFound means that the broker does not know the service type, because no simulator has ever
+    // registered with it. So there are no offers.
     if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
     if (!offers) return base::Fail(offers.error());
     base::Error error{

@@ -43,7 +43,8 @@ bool HeldInstant::Delay(const DriveCommand& command) {
   const bool is_finite = std::isfinite(command.linear) && std::isfinite(command.angular) &&
                          std::isfinite(command.lateral);
   const base::MutexLock lock(mutex_);
-  if (!now_ || !is_finite) return false;  // the simulation refuses other commands
+  // A command that is not finite is sent at once, so that the simulation refuses it now.
+  if (!now_ || !is_finite) return false;
   command_ = command;
   return true;
 }

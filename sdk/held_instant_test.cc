@@ -7,7 +7,7 @@
 namespace gsv::sdk {
 namespace {
 
-TEST(HeldInstant, ReadingsHoldUntilTheNextWait) {
+TEST(HeldInstant, ReadingsStayValidUntilTheNextWait) {
   HeldInstant held;
   Reading reading;
   EXPECT_FALSE(held.Read("sonar", reading));

@@ -25,7 +25,7 @@ class ExportedBehaviour final : public OfferedBehaviour {
   ~ExportedBehaviour() override {
     if (!offer_.empty()) {
       if (auto ok = client_.Withdraw(offer_); !ok) {
-        // The broker may have ended before, and then the offer does not exist either.
+        // If the broker has ended, its offers no longer exist. So this is no error.
         spdlog::debug("{}", ok.error().Sentence());
       }
     }

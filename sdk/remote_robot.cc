@@ -142,7 +142,8 @@ RemoteRobot::~RemoteRobot() = default;
 base::Result<std::shared_ptr<RemoteRobot>> RemoteRobot::Connect(const std::string& name,
                                                                 sba::Hardware_ptr hardware) {
   if (CORBA::is_nil(hardware)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "was given no hardware", name);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "init() was called without hardware",
+                      name);
   }
   std::shared_ptr<RemoteRobot> robot(new RemoteRobot(name, hardware));
   orb::LimitCalls(robot->hardware_, kCallTimeout);
@@ -296,7 +297,8 @@ bool RemoteRobot::SleepAndRead(SimTime instant) {
   if (holds_time) {
     held_.Begin(SimTime(reached), std::move(readings));
   } else {
-    batch_clock_ = sba::BatchClock::_nil();  // a clock in real time never holds it
+    // In real time, no wait holds the simulated time, so later waits use the plain clock.
+    batch_clock_ = sba::BatchClock::_nil();
   }
   return true;
 }

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
-"""behaviours/fetch.cc in Python, with equal commands: carries a body in front of its gripper to a point.
+"""The behaviour behaviours/fetch.cc in Python: carries a body in front of its gripper to a point.
 
     examples/python/porter.py --broker REFERENCE [--name NAME] [--goal-x X] [--goal-y Y]
 
-Its LED shows how it goes: yellow, green with what it holds, red without.
+Its LED shows the state: yellow while searching, green with a body, red without, blue at the end.
 """
 import argparse
 import math
 
 import gsv
 
-BETWEEN_THE_JAWS = 0.03  # distance from the sonar, m
+BETWEEN_FINGERS = 0.03  # a body nearer to the sonar is between the fingers, m
 BACK_OFF, BACK_OFF_SPEED = 0.3, 0.15  # m, m/s
 YELLOW, GREEN, RED, BLUE = (gsv.Colour(1, 0.7, 0), gsv.Colour(0, 1, 0), gsv.Colour(1, 0, 0),
                             gsv.Colour(0, 0, 1))
@@ -62,8 +62,8 @@ class Porter(gsv.Behaviour):
         self.say(BLUE, 1320)
 
     def approach(self, robot):
-        while (distance := self.ahead.range()) > BETWEEN_THE_JAWS:
-            robot.drive(clamp(0.8 * (distance - BETWEEN_THE_JAWS), 0.02, 0.3), 0)
+        while (distance := self.ahead.range()) > BETWEEN_FINGERS:
+            robot.drive(clamp(0.8 * (distance - BETWEEN_FINGERS), 0.02, 0.3), 0)
             if not robot.sleep_for(0.05):
                 return False
         robot.drive(0, 0)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""behaviours/wander.cc in Python, with equal commands: in lockstep, runs are bit-identical.
+"""The behaviour behaviours/wander.cc in Python. It gives the same commands, so runs in lockstep are
+bit-identical.
 
     examples/python/wander.py --broker REFERENCE [--name NAME] [--no-pictures]
 """
@@ -12,7 +13,7 @@ RECONSIDER_AFTER, RECONSIDER_FOR = 200, 40  # control cycles
 
 
 class Rule:
-    """Decides how to drive: forward if the sonars detect space, else turns to the freer side."""
+    """Decides how to drive: forward if there is space, else a turn to the side with more space."""
 
     def __init__(self):
         self.turn = 0  # +1 for a turn to the left, -1 to the right, 0 for driving forward
@@ -25,12 +26,15 @@ class Rule:
         ahead = gsv.nearest(echoes, 0.0, 0.9)
         left = gsv.nearest(echoes, 0.9, 0.9)
         right = gsv.nearest(echoes, -0.9, 0.9)
-        # Starts to turn early before an obstacle, and turns until there is more space.
+        # Starts to turn when an obstacle ahead is nearer than radius + 0.4 m. Turns until no
+        # obstacle ahead is nearer than radius + 0.7 m.
         if ahead < radius + (0.7 if self.turn else 0.4):
             self.turn = self.turn or (1 if left >= right else -1)
             return 0.0, 0.9 * self.turn
         self.turn = 0
-        # Drifts to one side and then to the other. After a while, tries another way.
+        # Drifts to the left and to the right in turn, because a straight path shows little of a
+        # room. After a while it drives backwards and turns, because an object between the beams
+        # may block it.
         self.forward = (self.forward + 1) % RECONSIDER_AFTER
         if self.forward == 0:
             self.reconsidering = RECONSIDER_FOR

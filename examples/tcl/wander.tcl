@@ -1,21 +1,22 @@
 #!/usr/bin/tclsh
-# A behaviour on another ORB, in another language: Tcl with Combat (Debian: tcl-combat).
+# A behaviour in another language and with another ORB: Tcl with Combat (Debian: tcl-combat).
 #
 #   examples/tcl/wander.tcl --broker REFERENCE [--name NAME]
 #   gsv run playground --broker REFERENCE --robot pebble --behaviour wander-tcl --lockstep
 #
-# Combat has one thread and an event loop, so nothing here may block: a control loop is a coroutine
-# that sleeps until the answer to its call has come, and one program may drive several robots. It is
-# quickest with one: Combat sends all its calls over one connection, where they wait for each other.
+# Combat has one thread with an event loop, so no call may block. Each control loop is a coroutine,
+# which is suspended until its call is answered. So one program can drive several robots. It is
+# fastest with one robot, because Combat sends all calls over one connection, one after the other.
 source [file join [file dirname [file normalize [info script]]] sba.tcl]
 
-# Calls an operation from within a coroutine, while the event loop goes on.
+# Calls an operation from a coroutine. The event loop continues during the call.
 proc call {object args} {
     $object -timeout 10000 -callback [info coroutine] {*}$args
     corba::request get [yield]
 }
 
-# Forward where there is room, else to the freer side; twenty times a simulated second.
+# Drives forward if there is space, else turns to the side with more space. Decides twenty times per
+# simulated second.
 proc wander {hardware base ahead left right} {
     set clock [call $hardware open_clock]
     set next [call $clock now]
@@ -28,7 +29,7 @@ proc wander {hardware base ahead left right} {
             call $base drive 0.0 -0.9
         }
         incr next 50000000
-        # A wait is a lease: it is asked for again until the instant has come.
+        # A wait returns NOT_YET after two seconds of wall-clock time. Repeat it until the instant.
         while {[call $clock sleep_until $next] eq "NOT_YET"} {}
     }
 }

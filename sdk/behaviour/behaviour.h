@@ -10,7 +10,8 @@
 
 namespace gsv {
 
-// Derive a class from it, or from Controller, and implement Run() or Control().
+// A behaviour derives from this class and implements Run(), or derives from Controller and
+// implements Control().
 class Behaviour {
  public:
   virtual ~Behaviour() = default;

@@ -18,7 +18,7 @@ void RunCommand(const Call& call) {
 }
 
 void BindLamp(py::module_& module, py::class_<Sensor>& sensor) {
-  py::class_<Colour>(module, "Colour", "Red, green and blue, each from 0 to 1.")
+  py::class_<Colour>(module, "Colour", "A colour: red, green and blue, each from 0 to 1.")
       .def(py::init<double, double, double>(), py::arg("red") = 1.0, py::arg("green") = 1.0,
            py::arg("blue") = 1.0)
       .def_readonly("red", &Colour::red)
@@ -36,17 +36,19 @@ void BindLamp(py::module_& module, py::class_<Sensor>& sensor) {
           [](Lamp& self, const Colour& colour, double brightness) {
             RunCommand([&] { return self.Set(colour, brightness); });
           },
-          py::arg("colour") = Colour{}, py::arg("brightness") = 1.0, "brightness from 0 to 1")
-      .def("switch_off", [](Lamp& self) { RunCommand([&] { return self.SwitchOff(); }); })
-      .def("read", &Lamp::Read, LetOthersRun(), "its brightness and colour");
+          py::arg("colour") = Colour{}, py::arg("brightness") = 1.0,
+          "Sets the colour and the brightness (0 to 1).")
+      .def(
+          "switch_off", [](Lamp& self) { RunCommand([&] { return self.SwitchOff(); }); },
+          "Switches the lamp off.")
+      .def("read", &Lamp::Read, LetOthersRun(), "Returns the brightness and the colour.");
   BindReading<Lamp::Glow>(lamp, "Glow");
   Deprecate(lamp, "shine", "set");
   Deprecate(lamp, "look", "read");
 }
 
 void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
-  auto gripper = BindKind<Gripper>(module, "Gripper", sensor,
-                                   "Two fingers that attach the body between them.");
+  auto gripper = BindKind<Gripper>(module, "Gripper", sensor, "Two fingers that grasp a body.");
   gripper
       .def(
           "grasp", [](Gripper& self) { RunCommand([&] { return self.Grasp(); }); },
@@ -54,7 +56,8 @@ void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
       .def(
           "open", [](Gripper& self) { RunCommand([&] { return self.Open(); }); },
           "Opens the fingers and detaches the body.")
-      .def("read", &Gripper::Read, LetOthersRun(), "its opening and the body that it holds");
+      .def("read", &Gripper::Read, LetOthersRun(),
+           "Returns the opening in m, and the name of the grasped body.");
   BindReading<Gripper::State>(gripper, "State");
   Deprecate(gripper, "grip", "grasp");
   Deprecate(gripper, "let_go", "open");
@@ -63,7 +66,8 @@ void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
 }
 
 void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
-  auto speaker = BindKind<Speaker>(module, "Speaker", sensor, "Makes sounds.");
+  auto speaker =
+      BindKind<Speaker>(module, "Speaker", sensor, "Plays sounds, which microphones hear.");
   speaker
       .def(
           "play",
@@ -72,19 +76,24 @@ void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
             RunCommand([&] { return self.Play(sound, frequency, duration, volume); });
           },
           py::arg("sound"), py::arg("frequency"), py::arg("duration"), py::arg("volume") = 1.0,
-          "\"tone\", \"buzz\", \"chirp\" or \"noise\"; Hz, s, and a volume from 0 to 1.")
+          "Plays \"tone\", \"buzz\", \"chirp\" or \"noise\". Frequency in Hz, duration in s, "
+          "volume from 0 to 1.")
       .def(
           "beep",
           [](Speaker& self, double frequency, double duration) {
             RunCommand([&] { return self.Beep(frequency, duration); });
           },
-          py::arg("frequency") = 880.0, py::arg("duration") = 0.2)
-      .def("silence", [](Speaker& self) { RunCommand([&] { return self.Silence(); }); })
-      .def("playing", &Speaker::Playing, LetOthersRun(), "the sound that is playing");
+          py::arg("frequency") = 880.0, py::arg("duration") = 0.2,
+          "Plays a tone. Frequency in Hz, duration in s.")
+      .def(
+          "silence", [](Speaker& self) { RunCommand([&] { return self.Silence(); }); },
+          "Stops the sound.")
+      .def("playing", &Speaker::Playing, LetOthersRun(), "Returns the sound that is playing.");
   BindReading<Speaker::Sound>(speaker, "Sound");
-  auto microphone =
-      BindKind<Microphone>(module, "Microphone", sensor, "Measures the loudest sound.");
-  microphone.def("listen", &Microphone::Listen, LetOthersRun());
+  auto microphone = BindKind<Microphone>(module, "Microphone", sensor,
+                                         "Measures the sound level and the loudest sound.");
+  microphone.def("listen", &Microphone::Listen, LetOthersRun(),
+                 "Returns the sound level in dB, and frequency and source of the loudest sound.");
   BindReading<Microphone::Hearing>(microphone, "Hearing");
 }
 

@@ -70,19 +70,22 @@ void BindState(py::module_& module) {
       .def_readonly("name", &RobotState::name)
       .def_readonly("model", &RobotState::model)
       .def_readonly("behaviour", &RobotState::behaviour)
-      .def_readonly("agent", &RobotState::agent,
-                    "\"running\", \"waiting\", \"finished\", \"unresponsive\", \"dead\", …")
+      .def_readonly(
+          "agent", &RobotState::agent,
+          "state of the behaviour: \"running\", \"waiting\", \"finished\", \"unresponsive\", "
+          "\"dead\", …")
       .def_readonly("place", &RobotState::place, "its pose in the world")
-      .def_readonly("distance", &RobotState::distance, "m travelled")
+      .def_readonly("distance", &RobotState::distance, "driven distance in m")
       .def_readonly("collisions", &RobotState::collisions)
       .def("__repr__", [](const RobotState& r) {
         return py::str("<robot \"{}\" at ({:.3f}, {:.3f}), {}, {:.2f} m, {} collisions>")
             .format(r.name, r.place.x, r.place.y, r.agent, r.distance, r.collisions);
       });
-  py::class_<SimulationState>(module, "SimulationState", "A simulation at an instant.")
+  py::class_<SimulationState>(module, "SimulationState",
+                              "The state of a simulation and its robots at one instant.")
       .def_readonly("phase", &SimulationState::phase, "\"created\", \"running\", \"paused\", …")
       .def_property_readonly(
-          "time", [](const SimulationState& s) { return SecondsOf(s.time); }, "simulated seconds")
+          "time", [](const SimulationState& s) { return SecondsOf(s.time); }, "simulated time in s")
       .def_readonly("real_time_factor", &SimulationState::real_time_factor)
       .def_readonly("late_steps", &SimulationState::late_steps)
       .def_readonly("waiting_for", &SimulationState::waiting_for,
@@ -154,20 +157,21 @@ void BindApplications(py::module_& module) {
            "Resets the simulation to its start, with the same robots.")
       .def("set_factor", Calling(&RemoteSimulation::SetRealTimeFactor), py::arg("factor"),
            LetOthersRun(),
-           "Set the target real-time factor from the next step on. Raises an error in lockstep.")
+           "Sets the target real-time factor from the next step on. Raises Refused in lockstep.")
       .def("command", &Command, py::arg("name"),
            "Executes a command of the simulator with named arguments: "
            "command(\"step\", count=10).")
       .def("run_until", &RunUntil, py::arg("instant"), py::kw_only(), py::arg("patience") = 600.0,
            "Runs until that simulated time in seconds and pauses. Blocks until then, but at most "
            "`patience` seconds of wall-clock time.")
-      .def("state", Calling(&RemoteSimulation::State), LetOthersRun())
+      .def("state", Calling(&RemoteSimulation::State), LetOthersRun(),
+           "Returns the current state of the simulation and its robots.")
       .def("state_hash", Calling(&RemoteSimulation::StateHash), LetOthersRun(),
-           "hash of the state; equal runs have equal hashes")
+           "Returns a hash of the state. Equal runs have equal hashes.")
       .def("viewer_url", Calling(&RemoteSimulation::ViewerUrl), LetOthersRun(),
-           "address of the viewer; empty: the server has no viewer")
+           "Returns the address of the viewer, or an empty text if the server has no viewer.")
       .def("start_recording", Calling(&RemoteSimulation::StartRecording), py::arg("path"),
-           LetOthersRun(), "starts recording to a file on the simulator's machine")
+           LetOthersRun(), "Starts recording to a file on the machine of the simulator.")
       .def("stop_recording", Calling(&RemoteSimulation::StopRecording), LetOthersRun())
       .def("destroy", &PythonSimulation::Destroy, LetOthersRun());
 }

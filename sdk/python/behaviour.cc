@@ -77,7 +77,7 @@ void BindBehaviours(py::module_& module) {
            }),
            py::arg("broker"), py::arg("name"), py::arg("make"), py::arg("description") = "",
            py::arg("time_managed") = true)
-      .def_property_readonly("broker", &Offer::broker, "the broker's address")
+      .def_property_readonly("broker", &Offer::broker, "address of the broker")
       .def("withdraw", &Offer::Withdraw, LetOthersRun());
   module.def(
       "end_with_parent", [] { prctl(PR_SET_PDEATHSIG, SIGTERM); },

@@ -4,7 +4,8 @@
 
 PYBIND11_MODULE(_native, module) {
   using namespace gsv::python;
-  module.doc() = "The C++ side of gsv; import gsv instead.";
+  module.doc() =
+      "The part of gsv in C++. Import the package gsv, which contains this module's names.";
   module.attr("__version__") = GSV_VERSION;
   gsv::base::InitLogging(spdlog::level::info);
   BindSensors(module);

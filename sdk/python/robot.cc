@@ -26,10 +26,10 @@ py::object OpenSensor(RemoteRobot& robot, const std::string& name, const py::obj
   }
   py::object sensor = MakeSensor(ValueOrRaise(std::move(port)));
   if (!kind.is_none() && !py::isinstance(sensor, kind)) {
-    Raise(
-        {base::ErrorCode::kInvalidArgument,
-         "the sensor \"" + name + "\" is no " + py::str(kind.attr("__name__")).cast<std::string>(),
-         robot.name()});
+    Raise({base::ErrorCode::kInvalidArgument,
+           "the sensor \"" + name + "\" is not of the class " +
+               py::str(kind.attr("__name__")).cast<std::string>(),
+           robot.name()});
   }
   return sensor;
 }
@@ -78,33 +78,41 @@ std::vector<SonarRing::Echo> EchoesFrom(const SonarRing& ring, const py::dict& r
 }
 
 void BindRing(py::module_& module) {
-  py::class_<SonarRing> ring(
-      module, "SonarRing",
-      "Evenly spaced sonars around a robot: those of its model, or created ones if it has none.");
+  py::class_<SonarRing> ring(module, "SonarRing",
+                             "Evenly spaced sonars around a robot: the sonars of its model, or new "
+                             "sonars if the model has none.");
   py::class_<SonarRing::Echo>(ring, "Echo")
       .def_readonly("bearing", &SonarRing::Echo::bearing,
-                    "rad, counter-clockwise from straight ahead")
-      .def_readonly("distance", &SonarRing::Echo::distance, "m from the robot's origin")
+                    "direction of the sonar, rad, counter-clockwise from straight ahead")
+      .def_readonly("distance", &SonarRing::Echo::distance,
+                    "distance of the echo from the robot's origin, m")
       .def_readonly("in_reach", &SonarRing::Echo::in_reach,
-                    "False: no echo up to the sonar's maximum range");
+                    "False if there is no echo within the sonar's maximum range");
   ring.def(py::init(&OpenRing), py::arg("robot"), py::arg("count"), py::keep_alive<1, 2>(),
            LetOthersRun())
-      .def("read", &SonarRing::Read, LetOthersRun(), "Reads the sonars one after the other.")
+      .def("read", &SonarRing::Read, LetOthersRun(),
+           "Reads all sonars, one after the other, and returns their echoes.")
       .def("from_readings", &EchoesFrom, py::arg("readings"),
-           "Returns the readings of the ring from the readings of an exchange.");
-  module.def("nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
-             "The distance to the nearest echo within half_angle of bearing; inf without an echo.");
+           "Returns the echoes of this ring's sonars in the readings of Robot.exchange().");
+  module.def(
+      "nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
+      "Returns the distance in m of the nearest echo within half_angle of bearing (rad); inf if "
+      "there is none.");
 }
 
 void BindJoints(py::module_& module) {
-  py::class_<JointTraits>(module, "JointTraits", "rad, rad/s and N m, or m, m/s and N.")
+  py::class_<JointTraits>(
+      module, "JointTraits",
+      "Name, kind and limits of a joint: rad, rad/s and N m. Prismatic joints: m, m/s and N.")
       .def_readonly("name", &JointTraits::name)
       .def_readonly("kind", &JointTraits::kind)
       .def_readonly("min_position", &JointTraits::min_position)
       .def_readonly("max_position", &JointTraits::max_position)
       .def_readonly("max_velocity", &JointTraits::max_velocity)
       .def_readonly("max_effort", &JointTraits::max_effort);
-  py::class_<JointState>(module, "JointState", "rad and rad/s, or m and m/s, at an instant.")
+  py::class_<JointState>(
+      module, "JointState",
+      "Position and velocity of a joint at one instant: rad and rad/s, or m and m/s.")
       .def_property_readonly("time", [](const JointState& s) { return SecondsOf(s.time); })
       .def_readonly("position", &JointState::position)
       .def_readonly("velocity", &JointState::velocity);
@@ -125,22 +133,25 @@ void BindRobot(py::module_& module) {
   py::class_<RemoteRobot, std::shared_ptr<RemoteRobot>>(
       module, "Robot",
       "A robot as its behaviour sees it. After the end of the run every call returns at once and "
-      "does nothing. Times are simulated seconds. One thread.")
+      "does nothing. Times are in simulated seconds. Use a robot in one thread only.")
       .def_property_readonly("name", &RemoteRobot::name)
       .def_property_readonly(
           "footprint_radius", &RemoteRobot::footprint_radius,
-          "m: radius of a circle around the origin that contains the whole robot")
-      .def("sensors", &RemoteRobot::Sensors, LetOthersRun(), "the sensors of the robot's model")
+          "radius in m of a circle around the robot's origin that contains the whole robot")
+      .def("sensors", &RemoteRobot::Sensors, LetOthersRun(),
+           "Returns the descriptions of the sensors of the robot's model.")
       .def("open", &OpenSensor, py::arg("name"), py::arg("kind") = py::none(),
            py::keep_alive<0, 1>(),
-           "Returns a sensor of the robot's model, as an object of the class of its type. `kind` "
-           "is the expected class.")
-      .def("create", &CreateSensor, py::arg("type"), py::arg("name"),
-           py::arg("robot_from_sensor") = Placement{}, py::arg("parameters") = Parameters{},
-           py::arg("update_rate") = 0.0, py::keep_alive<0, 1>(),
-           "Creates a sensor, mounted on the base. `type` is a class or a name; its parameters are "
-           "those of docs/sensors.md.")
-      .def("joints", &RemoteRobot::Joints, LetOthersRun(), "the joints that accept commands")
+           "Opens a sensor of the robot's model and returns an object of the class for its type. "
+           "Raises Refused if the object is not of the class `kind`.")
+      .def(
+          "create", &CreateSensor, py::arg("type"), py::arg("name"),
+          py::arg("robot_from_sensor") = Placement{}, py::arg("parameters") = Parameters{},
+          py::arg("update_rate") = 0.0, py::keep_alive<0, 1>(),
+          "Creates a sensor that is mounted on the base. `type` is a class or the name of a sensor "
+          "type. docs/sensors.md lists the parameters of each type.")
+      .def("joints", &RemoteRobot::Joints, LetOthersRun(),
+           "Returns the descriptions of the joints that accept commands.")
       .def(
           "open_joint",
           [](RemoteRobot& robot, const std::string& name) {
@@ -153,29 +164,31 @@ void BindRobot(py::module_& module) {
             robot.Command({linear, angular, lateral});
           },
           py::arg("linear"), py::arg("angular"), py::arg("lateral") = 0.0, LetOthersRun(),
-          "Commands the base, in m/s and rad/s, until the next command. `lateral` is to the left, "
-          "for "
-          "bases that can move sideways.")
+          "Commands the velocity of the base in m/s and rad/s. The command applies until the next "
+          "one. `lateral` is the velocity to the left, for bases that can move sideways.")
       .def(
           "now", [](RemoteRobot& robot) { return SecondsOf(robot.Now()); }, LetOthersRun(),
-          "simulated seconds")
+          "Returns the time of the robot's clock in simulated seconds.")
       .def(
           "sleep_until",
           [](RemoteRobot& robot, double instant) { return robot.SleepUntil(TimeFrom(instant)); },
-          py::arg("instant"), LetOthersRun(), "False when the run has ended")
+          py::arg("instant"), LetOthersRun(),
+          "Sleeps until this simulated time in seconds. Returns False if the run has ended.")
       .def(
           "sleep_for",
           [](RemoteRobot& robot, double duration) { return robot.SleepFor(TimeFrom(duration)); },
-          py::arg("duration"), LetOthersRun(), "False when the run has ended")
-      .def("exchange", &Exchange, py::arg("linear"), py::arg("angular"), py::arg("until"),
-           py::arg("lateral") = 0.0,
-           "One control cycle in one round trip: drives, sleeps until that instant, then reads "
-           "every open sensor. Returns a dict of Reading by sensor name, or None when the run has "
-           "ended.")
+          py::arg("duration"), LetOthersRun(),
+          "Sleeps for this simulated time in seconds. Returns False if the run has ended.")
+      .def(
+          "exchange", &Exchange, py::arg("linear"), py::arg("angular"), py::arg("until"),
+          py::arg("lateral") = 0.0,
+          "Does one control cycle in one round trip: commands the base, sleeps until the instant "
+          "`until`, then reads all open sensors. Returns a dict of Reading by sensor name, or None "
+          "if the run has ended.")
       .def_property_readonly("is_running", &RemoteRobot::IsRunning)
       .def_property_readonly(
           "error", &RemoteRobot::error,
-          "the reason why it does not run; empty while it runs and after a normal end");
+          "the reason why the run ended; empty during the run and after a normal end");
   BindRing(module);
 }
 

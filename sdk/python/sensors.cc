@@ -83,7 +83,7 @@ py::tuple Segment(SegmentationCamera& camera) {
 
 void BindPlainData(py::module_& module) {
   py::class_<Placement>(module, "Placement",
-                        "A pose: metres, and fixed-axis roll, pitch, yaw in radians.")
+                        "A pose: position in m, and roll, pitch and yaw about fixed axes in rad.")
       .def(py::init<double, double, double, double, double, double>(), py::arg("x") = 0.0,
            py::arg("y") = 0.0, py::arg("z") = 0.0, py::arg("roll") = 0.0, py::arg("pitch") = 0.0,
            py::arg("yaw") = 0.0)
@@ -99,7 +99,7 @@ void BindPlainData(py::module_& module) {
                    "yaw={:.3f})")
             .format(p.x, p.y, p.z, p.roll, p.pitch, p.yaw);
       });
-  BindReading<readings::Quaternion>(module, "Quaternion", "A rotation.");
+  BindReading<readings::Quaternion>(module, "Quaternion", "A rotation as a unit quaternion.");
   BindReading<Vector>(module, "Vector", "Three components along x, y and z.")
       .def("__iter__", [](const Vector& v) { return py::iter(py::make_tuple(v.x, v.y, v.z)); })
       .def("__repr__", [](const Vector& v) {
@@ -110,17 +110,20 @@ void BindPlainData(py::module_& module) {
       .def_readonly("name", &SensorTraits::name)
       .def_readonly("type", &SensorTraits::type, "\"sonar\", \"camera\", …")
       .def_readonly("robot_from_sensor", &SensorTraits::robot_from_sensor)
-      .def_readonly("update_rate", &SensorTraits::update_rate, "Hz; 0: at every reading")
+      .def_readonly("update_rate", &SensorTraits::update_rate,
+                    "in Hz; 0 if each request makes a new reading")
       .def_readonly("parameters", &SensorTraits::parameters)
       .def("__repr__",
            [](const SensorTraits& t) { return py::str("<{} \"{}\">").format(t.type, t.name); });
   py::class_<Reading>(module, "Reading", "A sensor's measurement at one instant.")
       .def_readonly("sensor", &Reading::sensor)
       .def_property_readonly(
-          "time", [](const Reading& r) { return SecondsOf(r.time); }, "simulated seconds")
-      .def_property_readonly("values", &AllValues,
-                             "numpy.float64 (a view), with the shape in docs/sensors.md")
-      .def_readonly("labels", &Reading::labels, "names that go with the values")
+          "time", [](const Reading& r) { return SecondsOf(r.time); }, "simulated time in s")
+      .def_property_readonly(
+          "values", &AllValues,
+          "numpy.float64, as a view; docs/sensors.md has the layout for each type")
+      .def_readonly("labels", &Reading::labels,
+                    "names that belong to the values, such as names of joints")
       .def("__repr__", [](const Reading& r) {
         return py::str("<{} values of \"{}\" at {:.3f} s>")
             .format(r.values.size(), r.sensor, SecondsOf(r.time));
@@ -128,16 +131,17 @@ void BindPlainData(py::module_& module) {
 }
 
 void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
-  BindKind<Sonar>(module, "Sonar", sensor, "A cone of sound; its nearest echo gives a range.")
+  BindKind<Sonar>(module, "Sonar", sensor, "Measures the distance to the nearest object in a cone.")
       .def("range", &Sonar::Range, LetOthersRun(),
-           "m to the nearest echo; max_range without an echo")
+           "Returns the distance to the nearest echo in m, or max_range if there is no echo.")
       .def_property_readonly("max_range", &Sonar::max_range);
-  BindKind<Lidar>(module, "Lidar", sensor, "A scanning range finder.")
+  BindKind<Lidar>(module, "Lidar", sensor, "A laser scanner, with one or more rows of beams.")
       .def(
           "ranges", [](Lidar& lidar) -> py::object { return ReadLidar(lidar)[0]; },
-          "numpy.float64, m, beam by beam; infinite where nothing was hit")
+          "Returns the range of each beam in m (numpy.float64); inf if the beam hit nothing.")
       .def("read", &ReadLidar,
-           "(ranges, intensities) of one scan; without intensity_scale there are no intensities");
+           "Returns (ranges, intensities) of one scan. intensities is empty without the parameter "
+           "intensity_scale.");
   SensorMakers()[Camera::kWideAngleType] = MakeSensorOf<Camera>;
   auto camera = BindKind<Camera>(module, "Camera", sensor, "Takes images.");
   camera.def(
@@ -150,58 +154,72 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
         }
         return ToArray(std::move(image));
       },
-      "numpy.uint8 of the shape (height, width, 3): RGB, rows from the top");
+      "Returns an RGB image: numpy.uint8 of the shape (height, width, 3), rows from the top.");
   Deprecate(camera, "take_picture", "take_image");
   BindKind<DepthCamera>(module, "DepthCamera", sensor, "Measures the depth of each pixel.")
       .def("take_depth", &TakeDepth,
-           "numpy.float64 of the shape (height, width): m along the view, infinite where nothing "
-           "is");
+           "Returns the depth along the optical axis in m: numpy.float64 of the shape (height, "
+           "width); inf if there is no surface.");
   BindKind<ThermalCamera>(module, "ThermalCamera", sensor,
                           "Measures the temperature of each pixel.")
       .def("take_temperatures", &TakeTemperatures,
-           "numpy.float64 of the shape (height, width): K, whole steps of the resolution");
+           "Returns temperatures in K: numpy.float64 of the shape (height, width), in whole steps "
+           "of the resolution.");
   BindKind<NormalsCamera>(module, "NormalsCamera", sensor,
                           "Measures the surface normal at each pixel.")
       .def("take_normals", &TakeNormals,
-           "numpy.float64 of the shape (height, width, 3): unit vectors towards the camera in the "
-           "sensor frame; NaN where the normal is unknown");
+           "Returns unit normals in the sensor frame, towards the camera: numpy.float64 of the "
+           "shape (height, width, 3); NaN where the normal is unknown.");
   BindKind<SegmentationCamera>(module, "SegmentationCamera", sensor,
                                "Labels each pixel with the model that it shows.")
       .def("segment", &Segment,
-           "(labels, names): numpy.uint32 of the shape (height, width); a pixel of label n shows "
-           "names[n - 1], one of label 0 nothing");
+           "Returns (labels, names). labels is numpy.uint32 of the shape (height, width). A pixel "
+           "with label n shows names[n - 1], and label 0 is the background.");
   auto boxes = BindKind<BoundingBoxCamera>(module, "BoundingBoxCamera", sensor,
-                                           "Finds models in its image.");
-  boxes.def("detect", &BoundingBoxCamera::Detect, LetOthersRun());
-  BindReading<BoundingBoxCamera::Box>(boxes, "Box", "Pixels from the upper left corner.");
-  auto logical =
-      BindKind<LogicalCamera>(module, "LogicalCamera", sensor, "Finds models in its frustum.");
-  logical.def("read", &LogicalCamera::Read, LetOthersRun(), "the models in view");
+                                           "Finds the models in its image.");
+  boxes.def("detect", &BoundingBoxCamera::Detect, LetOthersRun(),
+            "Returns the bounding boxes of the visible models.");
+  BindReading<BoundingBoxCamera::Box>(
+      boxes, "Box", "A bounding box, in pixels from the upper left corner of the image.");
+  auto logical = BindKind<LogicalCamera>(module, "LogicalCamera", sensor,
+                                         "Lists the models in its field of view.");
+  logical.def("read", &LogicalCamera::Read, LetOthersRun(),
+              "Returns the visible models with their poses.");
   Deprecate(logical, "look", "read");
   BindReading<LogicalCamera::Sighting>(logical, "Sighting");
 }
 
 void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
-  BindKind<PositioningSystem>(module, "PositioningSystem", sensor, "Measures its position.")
-      .def("locate", &PositioningSystem::Locate, LetOthersRun(), "its pose in the world");
+  BindKind<PositioningSystem>(module, "PositioningSystem", sensor,
+                              "Measures its pose in the world.")
+      .def("locate", &PositioningSystem::Locate, LetOthersRun(),
+           "Returns the pose of the sensor in the world.");
   auto imu = BindKind<Imu>(module, "Imu", sensor, "Measures angular velocity and specific force.");
   imu.def("read", &Imu::Read, LetOthersRun());
   Deprecate(imu, "feel", "read");
-  BindReading<Imu::Motion>(imu, "Motion", "In the sensor's frame; at rest the force is upwards.");
+  BindReading<Imu::Motion>(
+      imu, "Motion",
+      "Angular velocity and specific force in the sensor's frame. At rest, the force points up.");
   auto odometer = BindKind<Odometer>(module, "Odometer", sensor,
                                      "Estimates the pose from the wheels (dead reckoning).");
   odometer.def("read", &Odometer::Read, LetOthersRun());
   Deprecate(odometer, "reckon", "read");
-  BindReading<Odometer::Estimate>(odometer, "Estimate",
-                                  "Relative to the pose at which the robot started.");
+  BindReading<Odometer::Estimate>(
+      odometer, "Estimate",
+      "The pose relative to the start pose of the robot, and the velocities.");
   auto gnss = BindKind<GnssReceiver>(module, "GnssReceiver", sensor,
                                      "Receives satellite navigation signals.");
   gnss.def("fix", &GnssReceiver::Fix, LetOthersRun());
-  BindReading<GnssReceiver::Position>(gnss, "Position", "WGS84; m, m/s.");
+  BindReading<GnssReceiver::Position>(
+      gnss, "Position",
+      "A position in WGS84 (degrees, m), and the velocity east, north and up (m/s).");
   Deprecate(module, "SatelliteReceiver", "GnssReceiver");
   BindKind<Magnetometer>(module, "Magnetometer", sensor, "Measures the magnetic field.")
-      .def("field", &Magnetometer::Field, LetOthersRun(), "tesla, in the sensor's frame");
-  auto altimeter = BindKind<Altimeter>(module, "Altimeter", sensor, "Measures its height.");
+      .def("field", &Magnetometer::Field, LetOthersRun(),
+           "Returns the field in the sensor's frame, in tesla.");
+  auto altimeter =
+      BindKind<Altimeter>(module, "Altimeter", sensor,
+                          "Measures the height above its reference, and the vertical speed.");
   altimeter.def("measured", &Altimeter::Measured, LetOthersRun());
   BindReading<Altimeter::Height>(altimeter, "Height",
                                  "Height above the reference in m, and vertical speed in m/s.");
@@ -211,24 +229,29 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
   auto bumper = BindKind<Bumper>(module, "Bumper", sensor, "Reports the robot's contacts.");
   bumper.def("is_pressed", &Bumper::IsPressed, LetOthersRun())
       .def("touches", &Bumper::Touches, LetOthersRun());
-  BindReading<Bumper::Touch>(bumper, "Touch", "In the sensor's frame; the normal points outwards.");
+  BindReading<Bumper::Touch>(
+      bumper, "Touch",
+      "A contact, in the sensor's frame. The normal points from the robot to the other body.");
   auto force_torque = BindKind<ForceTorque>(
       module, "ForceTorque", sensor, "Measures the force and torque that a joint transmits.");
   force_torque.def("read", &ForceTorque::Read, LetOthersRun());
   BindReading<ForceTorque::Wrench>(force_torque, "Wrench",
                                    "Force in N and torque in N m, about the joint's origin.");
-  auto encoders = BindKind<JointEncoders>(module, "JointEncoders", sensor,
-                                          "Reads the positions of the robot's joints.");
+  auto encoders =
+      BindKind<JointEncoders>(module, "JointEncoders", sensor,
+                              "Measures the positions and velocities of the robot's joints.");
   encoders.def("joints", &JointEncoders::Joints, LetOthersRun());
-  BindReading<JointEncoders::Joint>(encoders, "Joint",
-                                    "Position and velocity: rad and rad/s, or m and m/s.");
+  BindReading<JointEncoders::Joint>(
+      encoders, "Joint", "Position and velocity of one joint: rad and rad/s, or m and m/s.");
   auto battery =
       BindKind<Battery>(module, "Battery", sensor, "Measures the charge of the battery.");
   battery.def("level", &Battery::Level, LetOthersRun());
-  BindReading<Battery::Charge>(battery, "Charge", "V, A drawn, Ah.");
+  BindReading<Battery::Charge>(
+      battery, "Charge",
+      "Voltage in V, drawn current in A, charge and capacity in Ah, and fraction (0 to 1).");
   BindKind<Ranging>(module, "Ranging", sensor, "Measures the distance to one radio anchor.")
       .def("distance", &Ranging::Distance, LetOthersRun(),
-           "distance in m; infinite if the anchor is not received");
+           "Returns the distance in m; inf if the anchor is not received.");
   auto radio = BindKind<Radio>(module, "Radio", sensor,
                                "Sends messages to other robots and receives theirs.");
   const auto send = [](Radio& from, const std::string& receiver, const std::string& content) {
@@ -246,16 +269,17 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
           "broadcast", [send](Radio& from, const std::string& content) { send(from, "", content); },
           py::arg("content"), "Sends to all robots in range.")
       .def("receive", &Radio::Receive, LetOthersRun(),
-           "the messages received since the last call, oldest first")
-      .def_property_readonly("missed", &Radio::missed);
+           "Returns the messages that were received since the last call, the oldest first.")
+      .def_property_readonly("missed", &Radio::missed,
+                             "number of lost messages: the inbox was full before receive()");
   py::class_<Radio::Message>(radio, "Message")
       .def_readonly("sender", &Radio::Message::sender)
       .def_property_readonly(
           "content", [](const Radio::Message& message) { return py::bytes(message.content); })
       .def_property_readonly(
           "sent", [](const Radio::Message& message) { return SecondsOf(message.sent); },
-          "simulated seconds")
-      .def_readonly("strength", &Radio::Message::strength, "dBm");
+          "simulated time of sending, s")
+      .def_readonly("strength", &Radio::Message::strength, "received signal strength, dBm");
 }
 
 }  // namespace
@@ -268,10 +292,11 @@ std::map<std::string, SensorMaker>& SensorMakers() {
 void BindSensors(py::module_& module) {
   BindPlainData(module);
   py::class_<Sensor> sensor(
-      module, "Sensor", "Any sensor of a robot. After the end of a run its readings are empty.");
+      module, "Sensor",
+      "The base class of all sensors. After the end of a run, readings have no values.");
   sensor.def_property_readonly("traits", &Sensor::traits)
       .def_property_readonly("name", [](const Sensor& s) { return s.traits().name; })
-      .def("measure", &Measured, "a Reading")
+      .def("measure", &Measured, "Takes a Reading and returns it.")
       .def("__repr__", [](const Sensor& s) {
         return py::str("<{} \"{}\">").format(s.traits().type, s.traits().name);
       });

@@ -1,4 +1,5 @@
-"""Ends simulations and offers before the interpreter exits: their threads must not call Python later."""
+"""Ends simulations and offers before the interpreter exits, because their threads must not call
+Python after that."""
 
 from __future__ import annotations
 
@@ -10,7 +11,8 @@ _open: dict[int, tuple[weakref.ref[Any], Callable[[Any], None]]] = {}
 
 
 def end_at_exit(thing: Any, end: Callable[[Any], None]) -> None:
-    """Calls `end(thing)` at exit if `thing` still exists. The last registered call comes first."""
+    """Registers the call `end(thing)` for the exit of the interpreter, if `thing` still exists then.
+    The last registered call is made first."""
     key = id(thing)
     _open[key] = weakref.ref(thing, lambda _: _open.pop(key, None)), end
 

@@ -51,7 +51,7 @@ class Controller(Behaviour):
         start, cycle = robot.now(), 0
         command: Tuple[float, ...] = (0.0, 0.0)
         while True:
-            cycle += 1  # multiply, because a sum of periods would accumulate rounding errors
+            cycle += 1  # instants are multiples of the period: a sum would accumulate rounding errors
             linear, angular, *sideways = command
             readings = robot.exchange(linear, angular, until=start + cycle * self.period,
                                       lateral=sideways[0] if sideways else 0.0)
@@ -112,8 +112,8 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
                                           parser.description or doc, time_managed) as offer:
             print(f"{options.name}: offered at {offer.broker}", flush=True)
             if options.exit_with_parent:
-                # A gsv that captures the output continues to read stdout. Other parents do not,
-                # so then stdout becomes a copy of stderr.
+                # If gsv captures the output, it continues to read stdout. Other parent processes do
+                # not, so stdout is then replaced by a copy of stderr.
                 if "GSV_OUTPUT_CAPTURED" not in os.environ:
                     os.dup2(2, 1)
                 sys.stdout.reconfigure(line_buffering=True)  # type: ignore[attr-defined]

@@ -1,5 +1,5 @@
-"""The exceptions of gsv. The message of each says what was expected, what was found and what to do.
-Most derive from an exception of Python, too."""
+"""The exceptions of gsv. Each message contains what was expected, what was found and what to do.
+Most classes also derive from an exception of Python, such as ValueError."""
 
 
 class Error(Exception):
@@ -39,4 +39,4 @@ class Ended(Error):
 
 
 class Corrupt(Error):
-    """Bytes that cannot be decoded."""
+    """A file or a message whose bytes cannot be decoded."""

@@ -15,7 +15,7 @@ _NOT_OF_IMAGES = ("label",)
 class View:
     """The view of a simulation as HTML, for Jupyter and other notebooks.
 
-    The server draws it; the browser must reach the server's address.
+    The server renders the images, so the browser must be able to reach the server's address.
     """
 
     def __init__(self, url: str, width: str, height: str, attributes: dict[str, str]) -> None:
@@ -32,7 +32,7 @@ class View:
                 "</gsv-view>")
 
     def _stream(self) -> str:
-        """The address of the images, for notebooks that run no scripts."""
+        """Returns the address of the stream of images, for notebooks that run no scripts."""
         query = dict(parse_qsl(urlsplit(self.url).query))
         query = {"simulation": query["simulation"]} if "simulation" in query else {}
         query.update({name: value for name, value in self._attributes.items() if name not in _NOT_OF_IMAGES})
@@ -45,10 +45,10 @@ class View:
 
 def view(simulation: Union[str, Any], *, width: str = "100%", height: str = "420px",
          **attributes: Union[str, float]) -> View:
-    """The view of a simulation, to be shown as the result of a notebook's cell.
+    """Returns the view of a simulation. A notebook shows it as the result of a cell.
 
     `simulation` is a gsv.Simulation, or the address of a viewer ("http://127.0.0.1:8080/"). `width` and
-    `height` are lengths of CSS. `attributes` are those of the element <gsv-view>: eye and target
+    `height` are CSS lengths, such as "100%" or "420px". `attributes` are those of the element <gsv-view>: eye and target
     ("X,Y,Z" in metres), follow (a robot), camera ("ROBOT/CAMERA"), fov (degrees), quality, fps, token,
     label. Raises Unavailable if the simulation has no viewer, and TypeError for other attributes.
     """

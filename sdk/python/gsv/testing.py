@@ -121,14 +121,15 @@ class ScenarioResult:
     scenario: str
     status: str  # "passed", "failed", "error", "interrupted"
     message: str  # the reason, if it has not passed
-    folder: str  # the folder with the recording of a failure; empty: none
+    folder: str  # the folder with the recording of a failure; empty if it was not recorded
     state_hashes: list[str]  # final state hash of each repetition
-    report: dict[str, Any]  # the report of `gsv run --json`; empty: there is none
+    report: dict[str, Any]  # the report of `gsv run --json`; empty if the run has no report
 
 
 def run_scenarios(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
-    """Runs `gsv test ARGUMENT…`: files, folders, and options such as "--repeat", "3". Raises
-    BadModel with gsv's message if a file is missing or is no scenario."""
+    """Runs `gsv test ARGUMENT…` and returns one result per scenario. Arguments are files, folders, and
+    options such as "--repeat", "3". Raises BadModel with gsv's message if a file is missing or is not a
+    scenario."""
     command = [find_program("gsv"), "test", "--json", *(os.fspath(each) for each in arguments)]
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if done.stdout:

@@ -153,7 +153,7 @@ def test_sensors_are_found_by_name_and_checked_by_type(simulate, world):
     def prepare(robot):
         of_type = {traits.name: traits.type for traits in robot.sensors()}
         assert of_type["sonar_00"] == "sonar"
-        with pytest.raises(gsv.Refused, match="\"sonar_00\" is no Camera"):
+        with pytest.raises(gsv.Refused, match="\"sonar_00\" is not of the class Camera"):
             robot.open("sonar_00", gsv.Camera)
         with pytest.raises(gsv.Refused, match="no sensor \"nose\""):
             robot.open("nose")

@@ -8,7 +8,7 @@ from gsv import _native
 
 
 def declared_in(body):
-    """Returns the names that a stub's body declares, each with the names inside it (None: there are none)."""
+    """Returns the names that a stub's body declares, each with the names inside it (None if it has no names inside)."""
     names = {}
     for node in body:
         if isinstance(node, ast.ClassDef):
