@@ -62,7 +62,7 @@ class SlurmQueueTest : public ::testing::Test {
   FakeSlurm slurm_;
 };
 
-TEST_F(SlurmQueueTest, SubmitsABatchAsOneArrayWithTheFilesOptionsBeforeTheCommandLines) {
+TEST_F(SlurmQueueTest, SubmitsABatchAsOneJobArrayWithTheOptionsOfTheFileFirst) {
   EngineRequest request{.name = "slurm"};
   request.options["--partition"] = {"long"};
   request.options["--sbatch"] = {"--mem=2G"};

@@ -28,7 +28,7 @@ struct SweepPlan {
   sensing::BeamSet beams;
 };
 
-// Returns an equal plan that is in use, or this plan if there is none.
+// Returns an equal plan that another robot uses. If there is no such plan, returns `plan`.
 std::shared_ptr<const SweepPlan> Share(std::shared_ptr<const SweepPlan> plan);
 
 }  // namespace gsv::hosting

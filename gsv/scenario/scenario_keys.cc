@@ -83,7 +83,7 @@ std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
-    // Add a problem only if none was added for this value yet.
+    // Adds the error as a problem only if reading this value has not added a problem already.
     if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
       keys.AddProblem(ok.error().message);
     }

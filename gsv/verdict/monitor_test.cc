@@ -115,7 +115,7 @@ TEST(Monitor, EventuallyIsViolatedAtTheLastStateOfItsWindow) {
   Expect(Of(MonitorKind::kEventually, {AtomNumber(0)}, 0.21, 0.29), TraceOf("111111"), false, 2);
 }
 
-TEST(Monitor, UntilRequiresItsSecondPart) {
+TEST(Monitor, UntilIsViolatedIfItsSecondConditionNeverHolds) {
   const Formula until = Of(MonitorKind::kUntil, {AtomNumber(0), AtomNumber(1)});
   Expect(until, TraceOf("1110", "0001"), true, 3);
   Expect(until, TraceOf("1100", "0001"), false, 2);

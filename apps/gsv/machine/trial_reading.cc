@@ -31,7 +31,7 @@ base::Status TryToRead(const std::string& world,
   }
   auto child = ChildProcess::Start(std::move(arguments), true);
   if (!child) return base::Fail(child.error());
-  // The errors are not needed here. They are read so that the pipe does not fill up.
+  // Reads and ignores the child's output, because a full pipe would block the child.
   const auto give_up = std::chrono::steady_clock::now() + limits.wall_time;
   const auto left = [&] {
     return std::chrono::ceil<std::chrono::milliseconds>(give_up - std::chrono::steady_clock::now());
@@ -47,7 +47,11 @@ base::Status TryToRead(const std::string& world,
                 " bytes of memory"
       : ending.empty()
           ? "reading it takes longer than " + std::to_string(limits.wall_time.count()) + " s"
-      : ending.starts_with("signal") ? "reading it crashes, or takes too long (" + ending + ")"
+      : ending == "signal " + std::to_string(SIGKILL) ||
+              ending == "signal " + std::to_string(SIGXCPU)
+          ? "reading it takes more than " + std::to_string(limits.sandbox.processor_time.count()) +
+                " s of processor time"
+      : ending.starts_with("signal") ? "reading it crashes (" + ending + ")"
                                      : "reading it fails (" + ending + ")";
   return base::Fail(base::ErrorCode::kBadModel,
                     why + " (a separate process tried to read it first)", world);

@@ -37,7 +37,7 @@ Ending EndOf(std::FILE* output, const char* text, int exit_code) {
   return ending;
 }
 
-TEST(StandardOutput, KeepsTheExitCodeIfItWasWritten) {
+TEST(StandardOutput, KeepsTheExitCodeIfAllOutputWasWritten) {
   const File output = OpenToWrite("/dev/null");
   const Ending ending = EndOf(output.get(), "text\n", kOk);
   EXPECT_EQ(ending.exit_code, kOk);

@@ -5,7 +5,7 @@
 
 namespace gsv::app {
 
-// Whether a world is a single model, with at most a ground besides.
+// Whether a world consists of a single model, or of a single model and a ground.
 bool IsModelAlone(const model::WorldDescription& world);
 // Places the model of such a world on the ground. The origin of a model may be anywhere, so its
 // lowest visible point is used.

@@ -1,8 +1,9 @@
 // Serves the requests of the viewer's broker page over HTTP:
 //   GET /api/broker/types   the service types
 //   GET /api/broker/offers?type=&constraint=&preference=
-//                           offers of a type: matches, and for the others the term that failed
-//   GET /api/broker/links   the links, and whether they answer
+//                           the offers of a type: those that match the constraint, and for each
+//                           other offer the value of each term of the constraint
+//   GET /api/broker/links   the links, and whether their targets respond
 //
 // Threads  any.
 #pragma once

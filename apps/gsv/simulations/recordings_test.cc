@@ -49,7 +49,7 @@ TEST(RecordingRate, IsSetByKind) {
   }
 }
 
-TEST_F(RecordingsTest, FileNamesTheProgramThatWroteIt) {
+TEST_F(RecordingsTest, RecordingContainsTheVersionAndCommandOfItsProgram) {
   ASSERT_TRUE(recordings_.Start(simulation_, path_));
   ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);
   ASSERT_TRUE(recordings_.Stop("simulation"));

@@ -29,7 +29,7 @@ std::string Indented(const std::string& text) {
   return indented;
 }
 
-// Returns the first lines of a text, and the number of the others.
+// Returns the first lines of a text, and a line with the number of omitted lines.
 std::string FirstLines(const std::string& text) {
   constexpr int kMaxLines = 8;
   std::size_t end = 0;

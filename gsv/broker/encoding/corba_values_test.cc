@@ -130,7 +130,7 @@ TEST_F(CorbaValuesTest, KeepsAScalarBehindAnAlias) {
   EXPECT_EQ(ToValue(any), Value::Double(2.5));
 }
 
-TEST_F(CorbaValuesTest, KeepsOtherValuesEncoded) {
+TEST_F(CorbaValuesTest, ValuesOfOtherTypesStayEncoded) {
   const Value value = ToValue(AnyOf(CORBA::Any::from_octet(7)));
   ASSERT_NE(value.AsOther(), nullptr);
   EXPECT_EQ(value.AsOther()->type_name, "octet");

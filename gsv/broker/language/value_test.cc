@@ -18,7 +18,7 @@ TEST(Value, HoldsTextsOfEveryLength) {
   }
 }
 
-TEST(Value, CopiesLiveAsLongAsTheyAreNeeded) {
+TEST(Value, CopyStaysValidAfterItsOriginalIsDestroyed) {
   Value copy = Value::Long(1);
   {
     const Value sequence = Value::Strings({"a text that is not short", "b"});

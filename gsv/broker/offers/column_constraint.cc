@@ -61,8 +61,8 @@ struct ManyNumbers {
   T operator[](std::size_t index) const { return std::bit_cast<T>(bits[index]); }
 };
 
-// Calls `use` with the numbers of type T. Returns false if the operands are not all of that type. A
-// literal of the other type counts if it has the same value in T.
+// Calls `use` with the numbers of type T (std::int64_t or double). Returns false if an operand is
+// not of type T. A literal of the other type is accepted if T can represent its value exactly.
 template <typename T, typename Use>
 bool WithNumbers(const Operands& operands, const Use& use) {
   constexpr bool kReals = std::is_same_v<T, double>;

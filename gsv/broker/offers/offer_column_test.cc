@@ -23,7 +23,7 @@ std::vector<std::uint64_t> Numbers(const OfferView& view) {
 
 using Sequence = std::vector<std::uint64_t>;
 
-TEST(OfferColumn, KeepsTheOrderOfNumbers) {
+TEST(OfferColumn, KeepsOffersInTheOrderOfTheirNumbers) {
   OfferColumn column;
   for (const std::uint64_t number : {3, 1, 7, 2}) column.Put(Numbered(number));
   EXPECT_EQ(Numbers(column.View()), (Sequence{1, 2, 3, 7}));
@@ -34,7 +34,7 @@ TEST(OfferColumn, KeepsTheOrderOfNumbers) {
   EXPECT_EQ(column.size(), 4u);
 }
 
-TEST(OfferColumn, ViewDoesNotChange) {
+TEST(OfferColumn, ViewStaysUnchangedWhenTheColumnChanges) {
   OfferColumn column;
   column.Put(Numbered(1, "before"));
   column.Put(Numbered(2));

@@ -82,7 +82,7 @@ std::vector<std::uint64_t> OneByOne(const Trader& trader, const std::string& tex
   return OfferNumbers(matching);
 }
 
-TEST(PropertyColumns, FindTheSameAsAnEvaluationOfEachOffer) {
+TEST(PropertyColumns, FindTheSameOffersAsAnEvaluationOfEachOffer) {
   RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));

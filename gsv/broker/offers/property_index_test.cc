@@ -88,7 +88,7 @@ class RandomValues {
   std::mt19937_64 random_;
 };
 
-TEST(PropertyIndex, FindsTheSameAsAnEvaluationOfEachOffer) {
+TEST(PropertyIndex, FindsTheSameOffersAsAnEvaluationOfEachOffer) {
   RandomValues random(20261121);
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));

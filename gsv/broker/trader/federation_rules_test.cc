@@ -46,7 +46,7 @@ TEST(Federation, FollowsIfNoLocalOnlyWithoutLocalOffers) {
   EXPECT_EQ(without_local[1].name, "maybe");
 }
 
-TEST(Federation, LimitsTheImportersHopCountByTheTraders) {
+TEST(Federation, HopCountIsAtMostTheMaximumOfTheTrader) {
   const TraderAttributes attributes{.def_hop_count = 3, .max_hop_count = 7};
   EXPECT_EQ(EffectiveHopCount({}, attributes), 3u);
   EXPECT_EQ(EffectiveHopCount({.hop_count = 5}, attributes), 5u);

@@ -117,7 +117,7 @@ TEST_F(LivenessMonitorTest, ServiceIsDeadOnlyAfterTheMaximumSilence) {
 
 // The two references have the same address, so the monitor must call only one of them per period. A
 // monitor that called both services would call them equally often.
-TEST_F(LivenessMonitorTest, CallsASilentAddressOncePerRound) {
+TEST_F(LivenessMonitorTest, CallsASilentAddressOncePerPeriod) {
   const std::string first = Reference(4321, 'a');
   const std::string second = Reference(4321, 'b');
   const std::string elsewhere = Reference(4322, 'a');

@@ -29,7 +29,7 @@ class TypeRepositoryTest : public testing::Test {
   TypeRepository repository_{TraderLimits{}};
 };
 
-TEST_F(TypeRepositoryTest, CountsIncarnationsAndListsTypesSinceOne) {
+TEST_F(TypeRepositoryTest, CountsIncarnationsAndListsTypesSinceAnIncarnation) {
   EXPECT_EQ(repository_.next_incarnation(), 1u);
   EXPECT_EQ(*Add("A"), 1u);
   const std::uint64_t since = repository_.next_incarnation();
@@ -138,7 +138,7 @@ TEST_F(TypeRepositoryTest, RemovesOnlyTypesWithoutSubTypes) {
   EXPECT_EQ(repository_.Remove("A").error().refusal, Refusal::kUnknownServiceType);
 }
 
-TEST_F(TypeRepositoryTest, MasksAndUnmasksOnce) {
+TEST_F(TypeRepositoryTest, MaskingAMaskedTypeOrUnmaskingAnUnmaskedTypeIsRefused) {
   ASSERT_TRUE(Add("A"));
   EXPECT_EQ(repository_.Unmask("A").error().refusal, Refusal::kNotMasked);
   EXPECT_TRUE(repository_.Mask("A"));

@@ -138,7 +138,7 @@ TEST_F(HostileFloodTest, SurvivesRandomMessages) {
   Judge(bystander, "random_messages");
 }
 
-// omniORB 4.2.5 alone would keep such a text for ever, which would be 240 MB here.
+// omniORB 4.2.5 alone would leak each unterminated string, in total 240 MB in this test.
 TEST_F(HostileFloodTest, SurvivesUnterminatedStrings) {
   Bystander bystander(lookup_);
   const std::string text = RawCdr().Octets(std::string(60'000, 'a')).bytes();
