@@ -182,7 +182,7 @@ void RemoteRobot::End() { running_ = false; }
 
 void RemoteRobot::CloseClock() {
   Flush();
-  // The simulation may have ended, and then there is no clock to close.
+  // The call may fail, because the clock does not exist after the end of the simulation.
   if (!CORBA::is_nil(clock_)) (void)orb::Call(name_, [this] { clock_->close(); });
 }
 

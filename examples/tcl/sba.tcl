@@ -1,5 +1,5 @@
-# The part of idl/ that wander.tcl uses, in the form in which Combat wants to be told (what idl2tcl
-# prints, which needs an interface repository to run). docs/services.md says what it all means.
+# The part of idl/ that wander.tcl uses, in the form that Combat requires. The program idl2tcl
+# prints this form, but it needs an interface repository. docs/services.md describes the interfaces.
 package require combat
 
 namespace eval sba {
@@ -90,7 +90,7 @@ namespace eval trading {
         variable type
         variable property
         set lookup [corba::string_to_object $broker]
-        catch {add_type $lookup}  ;# it is there already when gsv has been
+        catch {add_type $lookup}  ;# the type exists if a program of GSV has used the broker
         set register [corba::dii $lookup {Object _get_register_if {}}]
         set properties [list \
             [list name name value [list string $name]] \
@@ -106,7 +106,7 @@ namespace eval trading {
     # "corbaloc::1.2@HOST:PORT/…" -> {HOST PORT}
     proc address {broker} {
         if {![regexp {^corbaloc:(?:iiop)?:(?:1\.\d@)?([^:/,]+):(\d+)/} $broker -> host port]} {
-            error "a broker is corbaloc::1.2@HOST:PORT/TradingService, not $broker"
+            error "the reference has not the form corbaloc::1.2@HOST:PORT/TradingService: $broker"
         }
         return [list $host $port]
     }

@@ -52,7 +52,7 @@ itcl::class Wander {
 
     public method init {agent_name hardware} {
         set factory [$hardware sensor_factory]
-        # Combat lets go of a call's arguments when it returns.
+        # Combat releases the arguments of a call when the call returns, so this copies one.
         set robot [list [corba::duplicate $hardware] [$hardware base]]
         set radius [$hardware footprint_radius_m]
         foreach {name bearing} {ahead 0.0 left 0.8 right -0.8} {
@@ -63,13 +63,13 @@ itcl::class Wander {
         }
     }
 
-    # Returns at once; the loop begins when the event loop comes to it.
+    # Returns at once. The event loop starts the coroutine later.
     public method start {} {
         set finished 0
         after 0 [list coroutine ::loop_[incr loops] run_to_its_end [itcl::scope finished] $robot]
     }
 
-    # The simulation has ended the loop's wait with Ended before it asks for this.
+    # Waits for the end of the loop. Before this call, the loop's wait has raised Ended.
     public method stop {} {
         while {!$finished} { vwait [itcl::scope finished] }
     }
@@ -96,7 +96,8 @@ itcl::class WanderFactory {
     }
 }
 
-# Combat listens on every address; this behaviour listens on the one that reaches the broker only.
+# By default, Combat listens on all addresses. Here it listens only on the address of this machine
+# that the connection to the broker uses.
 proc listen_towards {host port} {
     set probe [socket $host $port]
     set address [lindex [fconfigure $probe -sockname] 0]
@@ -113,7 +114,8 @@ proc main {arguments} {
     array set option {--broker "" --name wander-tcl}
     if {[info exists ::env(GSV_BROKER)]} { set option(--broker) $::env(GSV_BROKER) }
     foreach {name value} $arguments {
-        if {$name eq "--exit-with-parent"} break  ;# what gsv adds; the kernel sees to it
+        # gsv adds this option, which is ignored: the kernel ends the program together with gsv.
+        if {$name eq "--exit-with-parent"} break
         set option($name) $value
     }
     if {$option(--broker) eq "" || [array size option] != 2} {

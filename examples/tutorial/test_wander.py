@@ -1,4 +1,4 @@
-"""Does wander move without collisions? In a room, with other robots, from several seeds."""
+"""Tests that robots with the behaviour wander move without collisions, and leave a corner."""
 import pytest
 
 pytest_plugins = ["gsv.testing"]
@@ -10,7 +10,7 @@ def wander(simulator):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_wander_gets_about_and_hits_nobody(simulate, seed):
+def test_wander_moves_without_collisions(simulate, seed):
     simulation = simulate("playground", seed=seed)
     for y in (-1.0, 0.0, 1.0):
         simulation.add("pebble", y=y, yaw=seed, behaviour="wander")

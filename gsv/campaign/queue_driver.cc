@@ -102,7 +102,8 @@ class Drive {
       }
     }
     ExplainTheWait(*tasks);
-    // Collect once more: a task may have written results between the last collection and the query.
+    // Collects again, because a task may have written results between the last collection and the
+    // query.
     if (auto ok = CollectResults(); !ok) return ok;
     if (auto ok = DropBatchesWithoutRuns(); !ok) return ok;
     auto missing = MissingRuns();

@@ -102,8 +102,8 @@ TEST(HostedBehaviour, ControllerEqualsTheSameLoopOnAFibre) {
   EXPECT_EQ(HashOfACrowd(3, 1, as_controller), HashOfACrowd(3, 1, as_loop));
 }
 
-// A second run has the behaviour on a thread of its own, and makes the calls of a remote
-// behaviour's servants.
+// The second run executes the behaviour on a separate thread, and makes the calls that the servants
+// make for a remote behaviour.
 TEST(HostedBehaviour, HasTheSameHashAsTheRemoteBehaviour) {
   auto outside = simulation::Make(Lockstep(2s));
   auto behaviour = std::make_shared<simulation::ThreadBehaviour>(
@@ -273,7 +273,7 @@ class Sweeper final : public Controller {
     Ranges swept, alone;
     for (int i = 0; i < kSonars; ++i) {
       EXPECT_EQ(readings.at(i).sensor, "s" + std::to_string(i));
-      // One of the tests disables the first sensor.
+      // One of the tests disables the first sensor, so its reading may be older.
       if (i > 0) EXPECT_EQ(readings.at(i).time, robot_->Now());
       swept.push_back(readings.at(i).values.at(0));
       alone.push_back(sonars_[i]->Range());

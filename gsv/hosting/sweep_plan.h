@@ -17,8 +17,8 @@ namespace gsv::hosting {
 struct SweepPlan {
   static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
 
-  // Plans for `sensors`, which are ordered by name. Beams of sensors without an update rate are
-  // cast together.
+  // Makes the plan for `sensors`, which must be ordered by name. The beams of sensors without an
+  // update rate are cast together.
   explicit SweepPlan(const std::vector<std::shared_ptr<simulation::MountedSensor>>& sensors);
 
   bool HasOnlyBeams() const { return beams.size() == names.size(); }

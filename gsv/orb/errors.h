@@ -10,7 +10,7 @@
 
 namespace gsv::orb {
 
-// Return the error for an exception of a remote call to the peer at `where`.
+// Returns the error for an exception of a remote call to the peer at `where`.
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where);
 base::Error ToError(const CORBA::UserException& exception, const std::string& where);
 

@@ -26,7 +26,7 @@ class ActuatorServant : public SensorServant<Skeleton> {
   }
 };
 
-// Make the servants; SensorServants registers these functions.
+// Functions that make the servants. SensorServants registers them.
 PortableServer::ServantBase* MakeLampServant(std::shared_ptr<simulation::Agent> agent,
                                              model::SensorDescription description,
                                              std::shared_ptr<ServantGroup> group);

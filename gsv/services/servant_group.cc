@@ -31,7 +31,7 @@ void ServantGroup::DeactivateId(const std::string& id) {
     std::memcpy(object_id.get_buffer(), id.data(), id.size());
     poa_->deactivate_object(object_id);
   } catch (const CORBA::Exception&) {
-    // Another call has deactivated the object at the same time.
+    // Another call has deactivated the object at the same time, which is no error.
   }
 }
 
@@ -54,7 +54,7 @@ void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {
     }
     DeactivateId(Key(id));
   } catch (const CORBA::Exception&) {
-    // Another call has deactivated the object at the same time.
+    // Another call has deactivated the object at the same time, which is no error.
   }
 }
 

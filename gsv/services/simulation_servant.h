@@ -114,7 +114,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   base::Mutex mutex_;
   base::ConditionVariable closing_changed_;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
-  // whether a simulation was destroyed since the janitor's last round
+  // whether a simulation was destroyed since the janitor's last check
   bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;
   std::map<std::string, SimulationServant*> servants_
       GSV_GUARDED_BY(mutex_);  // servants by simulation; the POA owns them

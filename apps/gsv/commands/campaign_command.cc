@@ -184,7 +184,7 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
     names.push_back(type.name);
     help += (help.empty() ? "" : "; ") + type.name + ": " + type.help;
     for (const campaign::EngineOption& option : type.options) {
-      // another engine may have the same option
+      // another engine has already added an option with this flag
       if (engine.options.contains(option.flag)) continue;
       CLI::Option* added = run->add_option(option.flag, engine.options[option.flag], option.help)
                                ->allow_extra_args(false)

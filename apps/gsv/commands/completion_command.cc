@@ -34,7 +34,7 @@ struct CompletedCommand {
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-// Type names such as "jpeg|png" list the values of an option.
+// Returns the values of an option whose type name lists them, such as "jpeg|png".
 std::vector<std::string> ValuesIn(const std::string& with_checks) {
   // CLI11 appends the checks of the option, as in "jpeg|png:{jpeg,png}".
   const std::string type_name = with_checks.substr(0, with_checks.find(":{"));

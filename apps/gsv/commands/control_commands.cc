@@ -262,7 +262,7 @@ void AddParameter(const simulation::Parameter& parameter, CLI::App& command, Arg
       ->required(parameter.is_required());
 }
 
-// Adds a command as the table describes it, with its parameters as options.
+// Adds a command of the table simulation::Commands, with its parameters as options.
 void AddFromTable(const CommandLine& line, const simulation::Command& command) {
   const auto call = [&command](sba::Simulation_ptr simulation, const Arguments& given) {
     const model::Parameters texts(given.texts.begin(), given.texts.end());

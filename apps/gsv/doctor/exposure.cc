@@ -156,7 +156,8 @@ Exposure Probe(const Listener& listener) {
     exposure.speaks = Speaks::kCorba;
     return exposure;
   }
-  if (listener.is_dds) {  // without keys, DDS does not authenticate
+  // DDS authenticates participants only if it uses keys.
+  if (listener.is_dds) {
     exposure.speaks = Speaks::kRos2;
     exposure.takes_keys = listener.takes_keys;
     return exposure;

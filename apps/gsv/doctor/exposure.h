@@ -17,10 +17,10 @@ enum class Speaks { kHttp, kHttps, kCorba, kCorbaTls, kRos2, kUnknown };
 // The result of testing a socket: its protocol, and the credentials that it requires from clients.
 struct Exposure {
   Speaks speaks = Speaks::kUnknown;
-  bool watching_takes_token = false;  // for HTTP and HTTPS
-  bool acting_takes_token = false;    // for HTTP and HTTPS
-  bool takes_certificate = false;     // for CORBA by TLS
-  bool takes_keys = false;            // for ROS 2 with DDS Security
+  bool watching_takes_token = false;  // HTTP and HTTPS: whether watching requires a token
+  bool acting_takes_token = false;    // HTTP and HTTPS: whether control requires a token
+  bool takes_certificate = false;     // CORBA with TLS: whether clients need a certificate
+  bool takes_keys = false;            // ROS 2: whether participants need keys
 };
 
 // Tests a socket.

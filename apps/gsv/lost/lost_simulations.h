@@ -26,8 +26,8 @@ class LostSimulations {
   static constexpr std::size_t kMaxKept = 100;
 
   struct Server {
-    std::string name;    // the name in its offer
-    std::string broker;  // the reference of its broker
+    std::string name;    // the name in the server's offer
+    std::string broker;  // the reference of the server's broker
     std::filesystem::path recordings;
   };
 

@@ -52,7 +52,7 @@ class ChildProcess {
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
   // Returns how the child ended, such as "exit code 5" or "signal 11". Empty while it runs.
   std::string Ending();
-  // Waits for its end or the time limit, and returns Ending().
+  // Waits for the child's end or the time limit, and returns Ending().
   std::string AwaitEnd(std::chrono::milliseconds timeout);
   void Signal(int signal);
 

@@ -9,9 +9,9 @@
 
 namespace gsv::app {
 
-// Sets the drives of --drive in the scenario's robots. Reads `world` into the specification if a
-// model of the world becomes a robot. Returns kInvalidArgument if there is no robot with a given
-// name.
+// Sets the drives of --drive in the scenario's robots. If --drive names a model of the world, reads
+// `world` into the specification, and the model becomes a robot. Returns kInvalidArgument if there
+// is no robot with a given name.
 base::Status PrepareDrives(const std::string& world, formats::ModelLibrary& library,
                            RunOptions& options, base::Problems& problems);
 

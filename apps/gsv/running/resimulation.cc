@@ -44,7 +44,7 @@ base::Error NotOfARun(const std::string& file) {
 // The command line of the recorded run.
 struct RecordedCall {
   std::vector<std::string> arguments;  // the arguments after the program and "run"
-  std::string folder;                  // the base of relative paths
+  std::string folder;                  // its working directory, to which relative paths refer
 };
 
 base::Result<RecordedCall> CallOf(const recording::RecordingInfo& info) {

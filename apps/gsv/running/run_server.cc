@@ -110,7 +110,9 @@ void ShowAs(const std::vector<std::string>& arguments) {
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return;
   std::istringstream fields(stat.substr(name_end + 1));
-  constexpr int kArgStart = 48;  // proc(5) counts fields from 1; the third field follows the name
+  // The number of the field arg_start; proc(5) counts fields from 1. The third field follows the
+  // name.
+  constexpr int kArgStart = 48;
   std::string skipped;
   for (int i = 3; i < kArgStart; ++i) fields >> skipped;
   std::uintptr_t start = 0, end = 0;
@@ -247,7 +249,7 @@ class RunServer {
 }  // namespace
 
 int ServeRuns(Signals& signals) {
-  unsetenv("GSV_BROKER");  // a run has its own broker
+  unsetenv("GSV_BROKER");  // each run has its own broker, so this must not select another one
   ShowAs({ProgramPath().string(), "run-server"});
   return RunServer(signals).Serve();
 }

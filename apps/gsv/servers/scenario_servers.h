@@ -67,7 +67,7 @@ class ScenarioServers {
   mutable base::Mutex mutex_;
   base::ConditionVariable room_;
   std::vector<std::shared_ptr<Server>> servers_
-      GSV_GUARDED_BY(mutex_);  // in the order of the broker
+      GSV_GUARDED_BY(mutex_);  // in the order in which the broker returns the offers
   bool is_refreshing_ GSV_GUARDED_BY(mutex_) = false;
   Clock::time_point refreshed_ GSV_GUARDED_BY(mutex_){},
       served_{};  // the last time at which a server existed

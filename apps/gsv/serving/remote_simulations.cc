@@ -162,7 +162,7 @@ base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
         instance.simulations.push_back(std::move(simulation.status));
     });
   }
-  askers.clear();  // each thread ends after its timeouts
+  askers.clear();  // waits for the threads; the calls of each thread have time limits
   return instances;
 }
 

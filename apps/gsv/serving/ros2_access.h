@@ -57,7 +57,7 @@ std::string DescribeReach(const ros2::dds::ParticipantOptions& options);
 // Publishes a recording while it is replayed.
 class Ros2Replay {
  public:
-  // Logs a warning if other machines can reach it.
+  // Logs a warning if other machines can reach the topics.
   static base::Result<std::unique_ptr<Ros2Replay>> Start(
       const ros2::Options& options, const std::string& path,
       std::function<ros2::RecordingBridge::Position()> position);
@@ -86,7 +86,7 @@ class Ros2Access final : public Ros2Publisher {
                                                          formats::ModelLibrary& library, List list);
   ~Ros2Access() override;
 
-  // Whether the command line has --ros2. If it has not, only Follow() may be called first.
+  // Whether the command line has --ros2. Call Publish(simulation) and Follow() only if it has.
   bool is_on() const { return options_.has_value(); }
   std::string Description() const { return DescribeReach(reach_); }
   // Returns why other machines can reach the topics, or an empty text if they cannot.

@@ -23,7 +23,7 @@ struct ViewerOptions {
   // 0 if the system chooses it; -1 for the default, or for another one if that is in use
   int port = -1;
   std::string recordings;            // a folder; empty for the current one
-  int history_mib = 64;              // for the history of each simulation; 0: no history
+  int history_mib = 64;              // for the history of a simulation, MiB; 0: no history
   std::string listen = "127.0.0.1";  // an address of this machine
   std::vector<std::string> names;    // host names of this machine that browsers may use
   gateway::access::Tokens tokens;

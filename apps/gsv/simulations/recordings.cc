@@ -93,7 +93,7 @@ std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
   constexpr std::size_t kMaxListed = 24;
   std::vector<std::string> sentences;
   for (const std::string& pattern : recording::UnmatchedPatterns(topics, choice.topics)) {
-    // The name of a robot, or /gsv, selects the topics below it.
+    // Whether there are topics below the name, as for the name of a robot and for /gsv.
     const bool is_folder = recording::UnmatchedPatterns(topics, {pattern + "/"}).empty();
     const std::size_t listed = std::min(topics.size(), kMaxListed);
     std::string there = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + listed, ", "));

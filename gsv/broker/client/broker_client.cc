@@ -71,7 +71,8 @@ void AppendOffers(const CosTrading::OfferSeq& offers, std::size_t limit,
   }
 }
 
-// A broker on another host cannot reach a service on this host's loopback.
+// Returns an error if the broker is on another host and the service listens on this host's loopback
+// address, because the broker cannot reach the service then.
 base::Status CheckReachable(CORBA::ORB_ptr orb, CORBA::Object_ptr object,
                             const std::string& broker) {
   const std::string broker_host = HostOf(broker);

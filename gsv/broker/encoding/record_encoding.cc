@@ -18,7 +18,8 @@ std::string Encode(const T& value) {
   return BytesOf(stream);
 }
 
-// `read` may throw omniORB's exceptions for bytes that cannot be decoded.
+// Returns the result of `read`, or kCorrupt if it throws omniORB's exception for bytes that cannot
+// be decoded.
 template <typename T, typename Read>
 base::Result<T> Decode(const char* what, const Read& read) {
   try {

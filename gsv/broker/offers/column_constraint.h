@@ -47,8 +47,8 @@ class ColumnConstraint {
 
   const Expression& constraint_;
   std::vector<std::string> properties_;
-  std::vector<std::size_t> column_of_node_;  // index in properties_, by node
-  std::vector<Term> terms_;                  // those that `and` joins at the top level, in order
+  std::vector<std::size_t> column_of_node_;  // for each node, the index in properties_
+  std::vector<Term> terms_;                  // the operands of `and` at the top level, in order
 };
 
 }  // namespace gsv::broker

@@ -42,7 +42,7 @@ class DynamicValues {
   // If `evaluator` is null, dynamic properties have no value.
   DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget);
 
-  // Sets the slot that is paused during calls to services, or null.
+  // Sets the slot that is released during calls to services, or null for none.
   void set_slot(ScanSlot* slot) { slot_ = slot; }
 
   // Returns the property's value, or null if there is none. Evaluates dynamic properties. The

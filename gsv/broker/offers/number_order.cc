@@ -16,7 +16,7 @@ struct Keyed {
 };
 
 constexpr int kDigitBits = 11;
-constexpr int kDigits = 6;  // the number of digits; together they hold 66 bits
+constexpr int kDigits = 6;  // digits of a key; together they have 66 bits, and a key has 64
 constexpr std::size_t kDigitValues = std::size_t{1} << kDigitBits;
 
 std::size_t Digit(std::uint64_t key, int digit) {

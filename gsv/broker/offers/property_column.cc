@@ -10,7 +10,7 @@ namespace gsv::broker {
 namespace {
 
 constexpr std::size_t kColumns = 16;
-// A longer text is not copied to the column.
+// The maximum length of a text that is copied to the column, bytes.
 constexpr std::size_t kShortText = 64;
 
 // A cell of a sequence has the index of its first element in its upper half, and the number of its

@@ -227,7 +227,7 @@ void OfferFile::Write() {
   }
 }
 
-// Retries, because other threads may use up the limited address space for a moment.
+// Retries after bad_alloc, because other threads may use up the limited address space for a moment.
 base::Status OfferFile::WriteWithRetries(const std::vector<StateChange>& changes) {
   constexpr int kTries = 50;
   constexpr std::chrono::milliseconds kPause(100);
@@ -247,7 +247,7 @@ base::Status OfferFile::WriteAll(const std::vector<StateChange>& changes) {
   for (const StateChange& change : changes) {
     const base::Status ok = std::visit([this](const auto& each) { return Apply(each); }, change);
     if (ok) continue;
-    (void)database_.Run("ROLLBACK");  // the first error is returned
+    (void)database_.Run("ROLLBACK");  // the error of the change is returned, not one of ROLLBACK
     return ok;
   }
   return statements_.commit.Run();

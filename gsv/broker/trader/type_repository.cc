@@ -258,7 +258,7 @@ std::vector<const ServiceType*> TypeRepository::Ancestors(const ServiceType& typ
   std::set<std::string_view> seen;
   const auto add_parents = [&](const ServiceType& child) {
     for (const std::string& name : child.super_types) {
-      // A type is added only after its super types, and removed before them.
+      // A type is added only after its super types, and removed before them, so types_ has `name`.
       if (seen.insert(name).second) ancestors.push_back(&types_.at(name));
     }
   };

@@ -163,7 +163,7 @@ void ConnectionTable::EndMostIdle() {
 // A connection to a service or another trader.
 class ServiceConnection final : public orb::ConnectionHooks {
  public:
-  // The reply may arrive before OnSent() is called.
+  // The reply may arrive before OnSent() is called, so OnSend() notes the request.
   void OnSend(std::string_view bytes) override {
     const base::MutexLock lock(mutex_);
     replies_.Sending(bytes);

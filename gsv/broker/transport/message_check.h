@@ -15,7 +15,7 @@ const orb::Signatures& TradingSignatures();
 // Calls orb::CheckRequest() with the signatures of the operations in trading.idl.
 void CheckRequest(std::string& message);
 
-// Whether `encapsulation` has a sequence of properties, or of policies.
+// Whether `encapsulation` contains a sequence of properties, or of policies.
 bool IsPropertySequence(std::string_view encapsulation);
 
 }  // namespace gsv::broker

@@ -49,7 +49,7 @@ TEST(MessageCheckTest, ChecksAReplyAgainstItsRequest) {
   std::string reply = RawReply(7, good.bytes());
   check.Check(reply);
   EXPECT_EQ(reply, RawReply(7, good.bytes()));
-  // No request waits for a second reply.
+  // No request waits for a second reply, so the contents of the reply are removed.
   check.Check(reply);
   EXPECT_EQ(reply, RawReply(7, ""));
 

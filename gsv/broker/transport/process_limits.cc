@@ -14,6 +14,7 @@ namespace gsv::broker {
 
 namespace {
 
+// Raises the limit of open descriptors to `wanted`, or as far as the system allows.
 void AskForDescriptors(std::size_t wanted) {
   rlimit descriptors{};
   getrlimit(RLIMIT_NOFILE, &descriptors);

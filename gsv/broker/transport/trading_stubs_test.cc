@@ -66,7 +66,7 @@ class Parrot {
   std::string ReplyTo(const std::string& message) {
     std::uint32_t id = 0;
     std::memcpy(&id, message.data() + 12, sizeof id);
-    if (message[7] == kLocateRequest) {  // the reply says that the object is here
+    if (message[7] == kLocateRequest) {  // replies that the object exists here
       constexpr auto kLocateReply = static_cast<orb::MessageType>(4);
       return RawMessage(kLocateReply, RawCdr().ULong(id).ULong(1).bytes());
     }

@@ -8,7 +8,7 @@
 namespace gsv::orb {
 namespace {
 
-// maximum, also for calls with a longer time limit or with none
+// The maximum duration of a TLS handshake, also for calls with a longer time limit or without one.
 constexpr long kMaxHandshakeSeconds = 10;
 
 IIOP::Address WithHost(const char* host, const IIOP::Address& address) {
