@@ -196,7 +196,7 @@ std::string Fields(const Ros2Settings& settings) {
 
 std::string OneLineYaml(const YAML::Node& node) {
   if (node.IsScalar()) {
-    // A text that looks like a number needs its quotes, or it would be read back as a number.
+    // A text that looks like a number keeps its quotes. Without them, it would be read as a number.
     const bool is_number = node.Tag() != "!" && ParseNumber(node.Scalar());
     return is_number ? node.Scalar() : Text(node.Scalar());
   }

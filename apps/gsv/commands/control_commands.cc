@@ -41,7 +41,8 @@ std::string Json(const FoundSimulation& simulation) {
   json.update(nlohmann::ordered_json::parse(gateway::StatusJson(simulation.status)));
   const auto healths = HealthOf(simulation);
   for (auto& robot : json["robots"]) {
-    // StatusJson() computes a health without the robot's motion, which only the server knows.
+    // Only the server knows the robot's motion, so the health of StatusJson() is replaced by the
+    // server's.
     robot.erase("health");
     const auto found = healths.find(robot.value("name", ""));
     if (found == healths.end()) continue;

@@ -194,7 +194,7 @@ void GroupCommands(CLI::App& app) {
   }
 }
 
-// Returns the arguments in reverse order, as CLI11 wants them. `gsv help run` is `gsv run --help`.
+// Returns the arguments in reverse order, as CLI11 requires. `gsv help run` is `gsv run --help`.
 // Without "--help", an unknown command is an error.
 std::vector<std::string> WordsOf(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);

@@ -23,8 +23,8 @@ constexpr std::chrono::seconds kMessageTime{3};
 
 // Limits the number of requests in progress to about the number of processors. Dozens of threads
 // that wait for the ORB's lock and the trader's lock would switch at each lock. A request that has
-// waited for a millisecond continues anyway, so that a request that waits for another broker does
-// not delay others.
+// waited for a millisecond continues without a slot, so that a request that waits for another
+// broker does not delay others.
 //
 // Threads  any.
 class RequestSlots {
@@ -39,8 +39,8 @@ class RequestSlots {
 class ClientConnection;
 
 // The open connections of clients. While no thread of the ORB waits on a connection, Readable()
-// collects the bytes of its next message. It gives only a complete message to the ORB, so that a slow
-// client occupies no thread.
+// collects the bytes of its next message. Only a complete message is given to the ORB, so that a
+// slow client occupies no thread.
 //
 // Threads  any.
 class ConnectionTable {

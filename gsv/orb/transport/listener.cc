@@ -78,8 +78,8 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused_ = false, is_gone_ = false;
 };
 
-// A file descriptor that becomes readable at regular intervals while it is set. Otherwise Select()
-// might sleep forever.
+// A file descriptor that becomes readable at regular intervals while it is set. Without it,
+// Select() might never return.
 class Alarm : public omni::SocketHolder {
  public:
   explicit Alarm(omni::SocketCollection& collection)
