@@ -64,8 +64,8 @@ class TlsTransport final : public omni::giopTransportImpl {
   const std::shared_ptr<const TlsContext> context_;
 };
 
-// Renames omniORB's transport for `address` to `name`. omniORB uses the first transport with a given
-// name, and that must be GSV's.
+// Renames omniORB's transport for `address` to `name`. omniORB uses the first transport with a
+// given name, and that must be GSV's.
 void GiveUpName(const char* address, const char* name) {
   omni::giopTransportImpl* const plain = omni::giopTransportImpl::str2Transport(address);
   GSV_CHECK(plain != nullptr);

@@ -19,7 +19,8 @@ _USAGE, _INFRASTRUCTURE = 2, 5  # exit codes, the same as for C++ programs
 class Behaviour:
     """The base class of behaviours. Each instance drives one robot, also over the network.
 
-    `init`, `paused` and `resumed` run on other threads than `run`, and never at the same time as `init`.
+    `init`, `paused` and `resumed` are called one at a time, on other threads than `run`. `paused`
+    and `resumed` may be called while `run` is running.
     """
 
     def init(self, robot: _native.Robot) -> None:
@@ -31,7 +32,8 @@ class Behaviour:
         raise NotImplementedError("a behaviour needs a method run(self, robot)")
 
     def paused(self) -> None:
-        """Called when the simulation pauses. A behaviour that waits by the robot's clock can ignore this."""
+        """Called when the simulation pauses. A behaviour that waits by the robot's clock need not
+        override this."""
 
     def resumed(self) -> None:
         """Called when the simulation resumes after a pause."""
@@ -51,7 +53,7 @@ class Controller(Behaviour):
         start, cycle = robot.now(), 0
         command: Tuple[float, ...] = (0.0, 0.0)
         while True:
-            cycle += 1  # instants are multiples of the period: a sum would accumulate rounding errors
+            cycle += 1  # multiples of the period, because a sum would accumulate rounding errors
             linear, angular, *sideways = command
             readings = robot.exchange(linear, angular, until=start + cycle * self.period,
                                       lateral=sideways[0] if sideways else 0.0)

@@ -47,10 +47,11 @@ def view(simulation: Union[str, Any], *, width: str = "100%", height: str = "420
          **attributes: Union[str, float]) -> View:
     """Returns the view of a simulation. A notebook shows it as the result of a cell.
 
-    `simulation` is a gsv.Simulation, or the address of a viewer ("http://127.0.0.1:8080/"). `width` and
-    `height` are CSS lengths, such as "100%" or "420px". `attributes` are those of the element <gsv-view>: eye and target
-    ("X,Y,Z" in metres), follow (a robot), camera ("ROBOT/CAMERA"), fov (degrees), quality, fps, token,
-    label. Raises Unavailable if the simulation has no viewer, and TypeError for other attributes.
+    `simulation` is a gsv.Simulation, or the address of a viewer ("http://127.0.0.1:8080/"). `width`
+    and `height` are CSS lengths, such as "100%" or "420px". `attributes` are those of the element
+    <gsv-view>: eye and target ("X,Y,Z" in metres), follow (a robot), camera ("ROBOT/CAMERA"), fov
+    (degrees), quality, fps, token, label. Raises Unavailable if the simulation has no viewer, and
+    TypeError for other attributes.
     """
     url = simulation if isinstance(simulation, str) else simulation.viewer_url()
     if not url:

@@ -127,9 +127,9 @@ class ScenarioResult:
 
 
 def run_scenarios(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
-    """Runs `gsv test ARGUMENT…` and returns one result per scenario. Arguments are files, folders, and
-    options such as "--repeat", "3". Raises BadModel with gsv's message if a file is missing or is not a
-    scenario."""
+    """Runs `gsv test ARGUMENT…` and returns one result per scenario. Arguments are files, folders
+    and options such as "--repeat", "3". Raises BadModel with gsv's message if a file is missing or
+    is not a scenario."""
     command = [find_program("gsv"), "test", "--json", *(os.fspath(each) for each in arguments)]
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if done.stdout:

@@ -8,7 +8,7 @@ from gsv import _native
 
 
 def declared_in(body):
-    """Returns the names that a stub's body declares, each with the names inside it (None if it has no names inside)."""
+    """Returns the names that a stub's body declares, each with the names inside it or None."""
     names = {}
     for node in body:
         if isinstance(node, ast.ClassDef):
