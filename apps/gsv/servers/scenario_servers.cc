@@ -196,7 +196,8 @@ TestResult ScenarioServers::Run(const std::string& scenario, double timeout,
     lost += ending == Ending::kLost;
   }
   result.message = fmt::format(
-      "{} servers ended, one after the other, during this run; it may crash them", kMaxLostServers);
+      "{} servers ended, one after the other, during this run; the run may be the cause",
+      kMaxLostServers);
   return result;
 }
 

@@ -64,8 +64,9 @@ base::Status TypeRepository::Restore(std::vector<ServiceType> types,
   for (ServiceType& type : types) {
     for (const std::string& name : type.super_types) {
       if (types_.contains(name)) continue;
-      return base::Fail(base::ErrorCode::kCorrupt,
-                        "the service type " + type.name + " lacks its super type " + name);
+      return base::Fail(
+          base::ErrorCode::kCorrupt,
+          "the super type " + name + " of the service type " + type.name + " is missing");
     }
     next_incarnation = std::max(next_incarnation, type.incarnation + 1);
     types_.emplace(type.name, std::move(type));
