@@ -33,8 +33,8 @@ Attachment HoldCrate(const TestWorld& world, const Pose& link_from_held = kLinkF
   return {world.layout().Find("robot"), 0, world.layout().Find("crate"), link_from_held};
 }
 
-// Moves the attached crate with the robot. The engine does not move attached bodies; its caller
-// must.
+// Moves the attached crate with the robot, as a caller of the engine must do. The engine itself
+// does not move attached bodies.
 void CarryCrate(TestWorld& world) {
   world.body("crate").world_from_model = world.body("robot").world_from_model * kLinkFromCrate;
 }

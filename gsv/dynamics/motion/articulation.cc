@@ -140,7 +140,8 @@ Articulation MakeArticulation(const model::Model& model) {
   for (const model::Joint& joint : model.joints) {
     if (joint.parent < 0) articulation.is_fixed = true;
   }
-  // The loop goes from the roots outwards, because a link's part depends on the part of its parent.
+  // Links are added from the roots outwards, because the part of a link depends on the part of its
+  // parent link.
   for (std::size_t placed = 0, before = 1; placed != before;) {
     before = placed;
     for (std::size_t l = 0; l < model.links.size(); ++l) {

@@ -18,7 +18,8 @@ class AttachedLayout {
   // Sets a layout, and removes all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
-  // Implement Engine::Attach() and Engine::Detach(), which describe the errors.
+  // Attach a body to a link, and detach it, as Engine::Attach() and Engine::Detach() do. engine.h
+  // describes the errors.
   base::Status Attach(const Attachment& attachment, const world::State& state);
   void Detach(int held_body);
 

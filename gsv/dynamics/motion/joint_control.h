@@ -23,11 +23,13 @@ struct JointDemand {
 // Returns the gains that apply to a command of this kind, or null.
 const model::JointGains* GainsFor(const model::Joint& joint, world::JointCommand::Kind kind);
 
-// Returns the demand in a substep of `seconds` for a joint at `position` with `velocity`.
+// Returns the constraint row by which a joint at `position` with `velocity` follows its command in
+// a substep of `seconds`.
 JointDemand DemandOf(const model::Joint& joint, const world::JointCommand& command, double position,
                      double velocity, double integral, double seconds);
 
-// Adds the errors of the next step to the integral terms of the controllers of all rigid bodies.
+// Advances the integral terms of the controllers of all rigid bodies by one step, with the present
+// errors of their joints.
 void IntegrateErrors(const world::Layout& layout, double step_seconds, world::State& state);
 
 }  // namespace gsv::dynamics

@@ -14,8 +14,8 @@ using geometry::Vector3;
 
 constexpr int kSegmentsAround = 24;
 
-// The mass of fluid below a height, and its first moment (the integral of the position over the
-// mass).
+// The fluid that a body displaces below a height: its mass (kg), and its first moment (the integral
+// of the position over the mass, kg m).
 struct Displaced {
   double mass = 0;
   Vector3 moment;
@@ -50,7 +50,8 @@ Displacer DisplacerOf(const geometry::Shape& shape, const Pose& part_from_shape,
   return displacer;
 }
 
-// The fraction of a displacer's volume below a height.
+// The volume of a displacer (a collision shape that displaces fluid) below a height, and the first
+// moment of this volume.
 geometry::VolumeBelow DisplacedBelow(const Displacer& displacer, const Pose& world_from_part,
                                      double height) {
   const Vector3 centre = world_from_part * displacer.centre;

@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kTurningTime = 0.3;   // s
 constexpr double kMaxTurnRate = 4;     // rad/s
-constexpr double kStandsStill = 0.05;  // a pedestrian that is slower than this keeps its heading,
-                                       // m/s
+constexpr double kStandsStill = 0.05;  // m/s: a slower pedestrian keeps its heading
 // Cosine of 60 degrees. Obstacles within this angle count as one obstacle.
 constexpr double kSameSide = 0.5;
 constexpr double kRoundingOfCells = 1e-9;
@@ -131,8 +130,8 @@ void Crowd::SortOthers(const world::State& state) {
     ++cell_start_[cell_of_[i]];
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  // Fills the entries of each cell from last to first. Then cell_start_ is the first entry of each
-  // cell.
+  // Fills each cell from its last entry to its first. Afterwards, cell_start_ has the index of the
+  // first entry of each cell.
   for (std::size_t i = others_.size(); i-- > 0;) {
     const std::uint32_t place = --cell_start_[cell_of_[i]];
     sorted_[place] = others_[i];

@@ -48,7 +48,8 @@ class Crowd {
     int body = 0;
     const world::Pedestrian* pedestrian = nullptr;
     std::size_t level = 0;  // the level at which walls are sliced for this pedestrian
-    // The goal after `reached` goals. It is stored because it is drawn at random only once.
+    // The present goal, after `reached` goals have been reached. It is stored because it is drawn
+    // at random only once.
     bool has_goal = false;
     std::uint32_t reached = 0;
     Vector2 goal;
@@ -88,15 +89,15 @@ class Crowd {
 
   const std::shared_ptr<base::ThreadTeam> team_;
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<Walker> walkers_;  // by body
+  std::vector<Walker> walkers_;  // in the order of bodies
 
   std::vector<Interval> levels_;       // heights at which walls are sliced
-  std::vector<ObstacleField> walls_;   // by level
+  std::vector<ObstacleField> walls_;   // slices of the walls at each of levels_
   std::vector<int> standing_;          // static bodies, which are walls
   std::vector<geometry::Pose> poses_;  // the poses of these bodies when they were sliced
   bool is_sliced_ = false;
 
-  std::vector<Other> others_;  // by body
+  std::vector<Other> others_;  // bodies that pedestrians avoid, in the order of bodies
   // The grid of others_. A cell is at least as wide as the range of the forces. The entries of a
   // cell are consecutive in sorted_.
   double left_ = 0, bottom_ = 0, per_cell_ = 1;

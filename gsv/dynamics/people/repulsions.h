@@ -38,7 +38,7 @@ class Repulsions {
     ++count_;
   }
 
-  // Adds the forces of the remaining pairs.
+  // Adds the forces of all pairs that Add() has only stored.
   void Finish(std::span<geometry::Vector2> forces);
 
  private:

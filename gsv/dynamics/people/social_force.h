@@ -30,14 +30,14 @@ namespace gsv::dynamics {
 
 inline constexpr double kRelaxationTime = 0.5;  // s
 inline constexpr double kMaxSpeedFactor = 1.3;  // maximum speed as a multiple of the desired speed
-// Pedestrians (m between centres) and walls (m) beyond these distances have no effect.
+// Maximum distances, in m, at which a pedestrian (from centre to centre) and a wall exert a force.
 inline constexpr double kOthersReach = 3, kWallsReach = 1.2;
 
 // The vector from another pedestrian to this one. `between` is the vector from centre to centre. It
 // is shortened because these pedestrians are wider than those of the paper, but never to less than
-// 5 cm. The paper's pedestrians are points. The driving force balances the repulsion at a
-// distance of 0.29 m. So each has a radius of about 0.14 m. kPaperRadius is smaller, so that people
-// of any size keep about 10 cm between them.
+// 5 cm. The pedestrians of the paper are points, but their driving force balances the repulsion at
+// a distance of 0.29 m. So they behave like discs with a radius of about 0.14 m. kPaperRadius is
+// smaller than that, so that people of any size keep about 10 cm between them.
 geometry::Vector2 Apart(geometry::Vector2 between, double radius, double other_radius);
 
 // The acceleration due to one other pedestrian, without the weight w. `apart` is not zero.
@@ -50,7 +50,8 @@ geometry::Vector2 AsSeen(geometry::Vector2 force, geometry::Vector2 wanted);
 // The acceleration due to a wall at `distance`. `away` is the unit vector that points away from it.
 geometry::Vector2 RepulsionByWall(geometry::Vector2 away, double distance);
 
-// The fraction of the difference to v0 e that remains after `seconds`.
+// The fraction of the difference between the velocity and the desired velocity v0 e that remains
+// after `seconds`.
 double Relaxation(double seconds);
 
 // The velocity after a time under a constant force. `wanted` is v0 e, `left` is

@@ -23,7 +23,8 @@ class BoxBvh {
   template <typename Use>
   void ForEachNear(const geometry::Vector3& low, const geometry::Vector3& high,
                    const Use& use) const {
-    // Each level halves the boxes, and adds one node to the stack.
+    // Each level halves the number of boxes and leaves one more node on the stack. So 64 entries
+    // suffice.
     int stack[64];
     int depth = 0;
     if (!nodes_.empty()) stack[depth++] = 0;
@@ -47,10 +48,10 @@ class BoxBvh {
     Box box;
     int index;
   };
-  // The left child follows its parent.
+  // The left child is stored directly after its parent.
   struct Node {
     Box box;
-    int right = -1;  // -1: a leaf
+    int right = -1;  // index of the right child; -1 for a leaf
     int first = 0, count = 0;
   };
 

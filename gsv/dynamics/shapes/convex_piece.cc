@@ -21,7 +21,8 @@ constexpr double kClearly = 1 + 1e-6;
 struct ClosestPoints {
   double squared = kInfinity;
   Vector2 on_a, on_b;
-  Vector2 edge;  // the edge, if the closest point lies between the ends of one; else (0, 0)
+  // The vector along the edge on which one of the two points lies; (0, 0) if both are vertices.
+  Vector2 edge;
 };
 
 // Compares each vertex with each edge. If `swapped` is true, the vertices are those of b.

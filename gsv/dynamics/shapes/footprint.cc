@@ -88,7 +88,7 @@ Interval Union(const std::vector<Footprint::Piece>& pieces) {
 // Simplifies pieces that have the same collision filter.
 void Simplify(std::vector<Footprint::Piece>& pieces) {
   const Interval heights = Union(pieces);
-  // There are too many pieces to compare all pairs.
+  // More than 256 pieces are too many to compare all pairs, so layers replace them first.
   if (pieces.size() > 256) pieces = Layers(pieces, heights);
   DropCovered(pieces);
   if (pieces.size() > Footprint::kMaxPieces) pieces = Layers(pieces, heights);

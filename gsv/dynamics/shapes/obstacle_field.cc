@@ -106,7 +106,7 @@ void ObstacleField::ForEachCellNear(const Obstacle& obstacle, Visit visit) const
 }
 
 void ObstacleField::FillGrid() {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // (cell, obstacle)
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // pairs of (cell, obstacle)
   for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
     if (obstacles_[i].radius > kTooLarge) continue;
     ForEachCellNear(obstacles_[i], [&](std::uint32_t cell) { found.emplace_back(cell, i); });

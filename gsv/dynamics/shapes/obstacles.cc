@@ -95,7 +95,8 @@ std::vector<Obstacle> CollectDynamicObstacles(const world::Layout& layout,
 }
 
 double DynamicRadius(const world::Body& body) {
-  // The collision shapes of an actor are fixed to its frame.
+  // Joints may move the shapes of a rigid body to any distance. They do not move the shapes of an
+  // actor.
   if (!body.model->joints.empty() && !body.is_actor())
     return std::numeric_limits<double>::infinity();
   const std::vector<double> zero(body.model->joints.size(), 0.0);

@@ -95,7 +95,7 @@ class Crowd {
 
   TestWorld world_;
   base::Noise noise_;
-  std::vector<std::size_t> robots_;  // their bodies
+  std::vector<std::size_t> robots_;  // indices of the robots' bodies
   std::vector<world::Contact> contacts_;
 };
 
