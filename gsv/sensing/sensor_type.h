@@ -25,7 +25,7 @@
 namespace gsv::sensing {
 
 // A sensor whose readings have the struct ValuesType (gsv/readings) and the message MessageType.
-// Base is Sensor or Actuator.
+// Base is Sensor, Device or Actuator.
 template <typename ValuesType, typename MessageType, typename Base = Sensor>
 class SensorOf : public Base {
  public:

@@ -69,7 +69,7 @@ void SharedReadings::Account(const Sensor& sensor, const Sampling& sampling,
                              const base::Result<Reading>& taken) {
   const base::MutexLock lock(mutex_);
   std::erase_if(entries_, [&](Entry& entry) GSV_REQUIRES(mutex_) {
-    if (entry.bytes == 0) {  // being taken
+    if (entry.bytes == 0) {  // some thread takes this reading now
       if (!IsOf(entry, sensor, sampling)) return false;
       if (!taken) return true;
       bytes_ += entry.bytes = BytesOf(*taken);

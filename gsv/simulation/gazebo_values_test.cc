@@ -229,7 +229,7 @@ TEST_F(GazeboValues, IncludedActorWalksItsTrajectory) {
   for (const SimTime time : {SimTime(500ms), SimTime(1s), SimTime(1500ms), SimTime(2500ms)}) {
     RunUntil(time);
     // Gazebo's spline: at each end, the tangent is half of the way to the other waypoint.
-    const double u = std::fmod(base::ToSeconds(time), 2) / 2;  // it loops
+    const double u = std::fmod(base::ToSeconds(time), 2) / 2;  // the script loops after 2 s
     EXPECT_WITHIN(At("guide").position.x, u + 3 * u * u - 2 * u * u * u, 1e-6, "m") << u;
     EXPECT_WITHIN(At("guide").position.y, 5, 1e-6, "m");
   }

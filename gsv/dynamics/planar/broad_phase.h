@@ -44,7 +44,7 @@ class BroadPhase {
 
   int columns_ = 0, rows_ = 0;
   std::vector<std::uint32_t> cell_of_, cell_start_;
-  std::vector<Entry> entries_;  // by cell
+  std::vector<Entry> entries_;  // sorted by cell
   std::vector<Pair> pairs_;
 };
 

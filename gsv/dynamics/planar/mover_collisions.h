@@ -30,7 +30,7 @@ class MoverCollisions {
  public:
   MoverCollisions(const PlanarScene& scene, base::ThreadTeam& team) : scene_(scene), team_(team) {}
 
-  // Removes all pairs. Must be called when the scene has been sliced again.
+  // Removes all pairs. Must be called after each PlanarScene::Slice().
   void Reset();
 
   // Whether the candidates are still valid for a mover that moves no further than `travel` from
@@ -72,7 +72,7 @@ class MoverCollisions {
   struct PiecePair {
     std::uint32_t first, second;  // indices of pieces of the two footprints
     geometry::PlanarPosition first_found_at, second_found_at;
-    Separation separation;  // there
+    Separation separation;  // at first_found_at and second_found_at
   };
   struct MoverPair {
     std::uint32_t first, second;           // movers

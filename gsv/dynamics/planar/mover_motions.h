@@ -47,7 +47,8 @@ class MoverMotions {
 
   // Sets a mover's position from `state`.
   void Load(std::uint32_t mover, const world::State& state);
-  // Starts the first leg, which takes `seconds`. The mover follows its command; with 0 s it stays.
+  // Starts the first leg, which takes `seconds`. The mover follows its command. With 0 s, it does
+  // not move.
   void FollowCommand(std::uint32_t mover, const world::State& state, double seconds);
   // Starts a leg with this twist.
   void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);

@@ -23,8 +23,7 @@ class NearObstacles {
  public:
   explicit NearObstacles(const PlanarScene& scene) : scene_(scene) {}
 
-  // Clears all data. Must be called when the scene has been sliced again. Chunks are numbered from
-  // 0.
+  // Clears all data. Must be called after each PlanarScene::Slice(). Chunks are numbered from 0.
   void Reset(std::size_t chunks);
 
   // Empties a chunk's list. Then call Find() for the movers of the chunk in ascending order.
@@ -51,7 +50,7 @@ class NearObstacles {
     std::uint32_t mover, piece, obstacle;
     const ObstacleField* field;
     geometry::PlanarPosition found_at;
-    Separation separation;  // there
+    Separation separation;  // at the position found_at
   };
   // Stores that a mover with its origin at `centre`, at any heading, is further than `radius` from
   // every obstacle.
@@ -59,7 +58,7 @@ class NearObstacles {
     Vector2 centre;
     double radius = -1;
   };
-  struct alignas(64) Chunk {  // each has its own cache line, because threads write to adjacent ones
+  struct alignas(64) Chunk {  // a cache line each, because threads write to adjacent chunks
     std::vector<Near> near;
     std::vector<BodyPair> touching;
   };

@@ -86,7 +86,7 @@ class PlanarScene {
   // Whether there are dynamic obstacles: rigid bodies or actors.
   bool has_dynamic() const { return !dynamic_.empty(); }
   const ObstacleField& dynamic_field(int level) const { return dynamic_fields_[level]; }
-  // The height of a mover's origin, as last sliced.
+  // The height of a mover's origin at the last Slice(), m.
   double height(std::size_t mover) const { return heights_[mover]; }
 
  private:

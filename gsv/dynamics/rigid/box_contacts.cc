@@ -127,7 +127,7 @@ void AddFacePoints(const BoxAt& reference, int axis, double sign, const BoxAt& o
 }
 
 // Adds the point at which an edge of one box crosses an edge of the other. `normal` points away
-// from the first.
+// from the first box.
 void AddEdgePoint(const BoxAt& first, int first_edge, const BoxAt& second, int second_edge,
                   const Vector3& normal, std::vector<TouchPoint>& points) {
   const auto middle_of = [](const BoxAt& box, int edge, const Vector3& towards) {

@@ -19,7 +19,8 @@ btTransform TransformOf(const PlacedPiece& placed) {
 }  // namespace
 
 PairAlgorithms::PairAlgorithms() : at_one_point_(m_pdSolver) {
-  // Bullet finds all points of a contact area in one call, and not over several substeps.
+  // With these settings, Bullet finds all points of a contact area in one call. By default it would
+  // collect them over several substeps.
   setPlaneConvexMultipointIterations(kDirections, kContactPoints);
   setConvexConvexMultipointIterations(kDirections, kContactPoints);
 }

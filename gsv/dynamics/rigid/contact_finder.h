@@ -109,7 +109,7 @@ class ContactFinder {
   std::vector<std::pair<int, int>> group_pairs_;
   std::vector<Contact> contacts_;
   std::vector<TouchPoint> points_;
-  std::vector<std::pair<int, int>> slipping_;  // pairs of colliders, one for each point
+  std::vector<std::pair<int, int>> slipping_;  // the colliders of each contact that slips
   BulletPairs bullet_;
 };
 

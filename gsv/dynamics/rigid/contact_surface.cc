@@ -35,7 +35,9 @@ void TakeDirections(const Vector3& direction, double along, double across, Conta
                   std::max(across / most, kShortest) * Cross(normal, first)};
 }
 
-// Adds the slip of a wheel to that of the surfaces, along the axes that are nearest to its own.
+// Adds the slip of a wheel to the slip of the surfaces. The slip along the wheel's rolling
+// direction is added to the contact's axis that is nearest to this direction, and the slip along
+// the axle to the other axis.
 void AddSlip(const SlippingContact& wheel, Contact& contact) {
   const auto [first, second] = contact.axes;
   const double along_first = std::abs(Dot(wheel.forwards, first)) / Norm(first);

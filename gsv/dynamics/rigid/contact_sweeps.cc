@@ -136,8 +136,9 @@ int ContactSweeps::LevelOf(int contact) const {
   return std::max(levels_[AsIndex(of.first)], levels_[AsIndex(of.second)]);
 }
 
-// Processes the contacts level by level. Within a level, some of the next contacts may precede a
-// contact that waits for a body.
+// Puts the contacts into batches, level by level. Within a level, a contact joins the first of at
+// most kOpen batches in which no contact has one of its bodies. So it may be solved before a
+// contact that precedes it.
 void ContactSweeps::MakeBatches() {
   constexpr std::size_t kOpen = 12;
   batches_.clear();

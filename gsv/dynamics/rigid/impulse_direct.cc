@@ -14,7 +14,8 @@ double Length(const std::array<double, 2>& v) { return std::sqrt(v[0] * v[0] + v
 
 }  // namespace
 
-// Only rows on the same body are coupled: each body has a chain of the blocks on it.
+// Two rows are coupled only if they act on the same body. So the blocks that act on one body form a
+// linked list.
 GSV_FOR_EACH_PROCESSOR
 void ImpulseRows::CoupleAll() {
   const std::size_t count = rows_.size();
@@ -104,7 +105,8 @@ std::array<double, 2> ImpulseRows::GiveOf(const Cone& cone) const {
 }
 
 // The friction x of a contact that slips is radius * e / |e|, where e is the missing velocity.
-// Along e it changes with the radius, and across e as e turns: Newton's method on both.
+// Along e, it changes with the radius; across e, it changes as e rotates. Newton's method includes
+// both changes.
 void ImpulseRows::WriteSlip(const Cone& cone) {
   const std::size_t n = free_.size(), count = rows_.size();
   const auto first = static_cast<std::size_t>(place_[static_cast<std::size_t>(cone.first_row)]);

@@ -152,7 +152,8 @@ int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const A
                          const std::array<double, 2>& softness) {
   Combine(first_row, axes);
   const Row &a = At(first_row), &b = At(first_row + 1);
-  // Neither the bodies nor the softness couple the rows.
+  // Rotates both rows to the principal axes of J M⁻¹ Jᵀ + softness. In these axes, the couplings by
+  // the bodies and by the softness cancel.
   const Axes principal =
       PrincipalAxesOf(Coupling(a, a) + softness[0], Coupling(b, b) + softness[1], Coupling(a, b));
   Combine(first_row, principal);

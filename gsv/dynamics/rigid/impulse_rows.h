@@ -163,7 +163,7 @@ class ImpulseRows {
 
   // The linear equations of the rows that are within their bounds.
   std::vector<double> couplings_;  // J M⁻¹ Jᵀ of all rows, computed on first use
-  std::vector<int> free_;          // rows
+  std::vector<int> free_;          // rows of the linear equations
   std::vector<int> place_;         // index of each row in free_, or -1
   std::vector<int> last_block_;    // index of each body's last block, or -1
   std::vector<bool> slips_;        // for each cone, whether its friction is at its limit

@@ -15,8 +15,8 @@ std::size_t PlaceOf(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-// Bodies with joints lose their overlaps by the velocities that Solve() finds. For the others, they
-// are obstacles.
+// The velocities of Solve() remove the overlaps of bodies with joints. This function removes the
+// overlaps between bodies without joints, for which bodies with joints are fixed obstacles.
 void IslandSolver::RemoveOverlaps(const ContactFinder& finder,
                                   std::span<const std::unique_ptr<MovingBody>> bodies,
                                   const std::vector<Contact>& contacts, double substep,

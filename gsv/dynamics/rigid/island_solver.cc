@@ -10,8 +10,9 @@ namespace {
 
 using geometry::Vector3;
 
-// The distance by which a contact gives way under its robot's weight: about a micrometre. So wheels
-// and casters on one floor share the load, even if their heights differ slightly.
+// The softness of contacts of bodies with joints, as a fraction of J M⁻¹ Jᵀ. Under the weight of a
+// robot, a contact gives way by about a micrometre. So wheels and casters on one floor share the
+// load, even if their heights differ slightly.
 constexpr double kGive = 0.02;
 // The compliance of an impulse in one iteration of Newton's method, relative to the inverse mass.
 constexpr double kCompliance = 1e-6;

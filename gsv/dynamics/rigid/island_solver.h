@@ -77,13 +77,14 @@ class IslandSolver {
     // start of its values in values_: one row after the other, with `count` values each
     int values = 0;
     double target = 0, softness = 0, lower = 0, upper = 0;
-    double compliance = 0,
-           stiffness = 0;  // stiffness for the iterations: of the proximal step, and of guesses
+    // Used by the iterations: the compliance of an impulse, and the stiffness that converts a
+    // velocity error to a guess of the impulse.
+    double compliance = 0, stiffness = 0;
     double impulse = 0;
     bool is_active = false;
   };
   struct ContactRows {
-    Row normal;  // its values are three rows
+    Row normal;  // its values are those of three rows: normal, then both tangents
     int index = 0;
     double friction = 0;
     std::array<double, 2> target{}, softness{}, compliance{}, impulse{};

@@ -83,7 +83,7 @@ class LinkTree {
   // Returns the rotation of a ball joint from its zero position.
   const geometry::Quaternion& turn(int part) const { return turns_[Index(part)]; }
 
-  // Returns the indices of the velocities that move a part: first those of its own joint, last
+  // Returns the indices of the velocities that move a part: first those of its own joint, and last
   // those of the base.
   std::span<const int> Chain(int part) const { return links_[Index(part)].chain; }
   // For each velocity of the part's chain: the velocity of a point of the part, and its angular
@@ -104,9 +104,9 @@ class LinkTree {
  private:
   struct Link {
     int parent = -1, joint = -1;
-    int first = 0, count = 0;  // its velocities
+    int first = 0, count = 0;  // range of its velocities
     model::JointKind kind = model::JointKind::kFixed;
-    geometry::Quaternion parent_from_part;  // at zero
+    geometry::Quaternion parent_from_part;  // with the joint at zero
     // axis, and vectors from the pivot, in the part's frame
     geometry::Vector3 axis, pivot_in_parent, arm;
     double pitch = 0, mass = 0, heaviness = 1;
@@ -141,7 +141,7 @@ class LinkTree {
   int size_ = 0, base_size_ = 6;
   std::vector<int> parents_;  // parents of velocities; -1: none
 
-  geometry::Quaternion base_;                // orientation
+  geometry::Quaternion base_;                // orientation of the base
   std::vector<geometry::Quaternion> turns_;  // rotations of ball joints, by part
   std::vector<double> joint_positions_;      // by part
   std::vector<geometry::Quaternion> orientations_;

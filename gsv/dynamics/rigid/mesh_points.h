@@ -8,15 +8,16 @@
 
 namespace gsv::dynamics {
 
-// Collects points in the frame of the mesh, and removes those that others make redundant.
+// Collects the points at which a piece touches a mesh, in the mesh's frame, and removes redundant
+// points.
 //
-// Fine meshes  a wheel of 0.1 m is within a millimetre of 3 cm of the ground, which may have
-//              thousands of triangles. At most kMaxPoints points remain: the deepest one, and then,
-//              one by one, the point that is farthest from those chosen before. From this distance
-//              is taken the distance s at which a cylinder of this radius that rolls on a plane has
-//              the gap of the point, s = √(2 radius gap). So on a plane a sphere keeps one point,
-//              and a cylinder keeps both ends. A bump is left out if it is lower than 1 % of its
-//              distance from a chosen point; it is chosen as soon as it is the deepest.
+// Fine meshes  A wheel of 0.1 m is within a millimetre of 3 cm of the ground, which may have
+//              thousands of triangles. At most kMaxPoints points are chosen: first the deepest
+//              point, then repeatedly the point that is farthest from the points chosen before. The
+//              distance of a point with a gap is reduced by s = √(2 radius gap): at this distance
+//              from its contact, a cylinder of this radius on a plane has this gap. So on a plane, a
+//              sphere keeps one point, and a cylinder keeps both ends. A bump is left out if it is
+//              lower than 1 % of its distance from a chosen point, unless it is the deepest point.
 // Determinism  the chosen points depend on the added points, not on their order.
 class MeshPoints {
  public:

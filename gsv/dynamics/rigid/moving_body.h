@@ -12,7 +12,7 @@ namespace gsv::dynamics {
 
 class MovingBody {
  public:
-  // `world` is the world that the body is in. Both must outlive the body.
+  // `world` is the body's world. `plan` and `world` must outlive this object.
   MovingBody(const RigidBody& plan, const model::WorldDescription& world);
 
   // Begins a step from this state.

@@ -85,7 +85,8 @@ bool OverlapRemoval::Solve(double substep) {
   return true;
 }
 
-// A part of the velocities is permitted by all rows, too.
+// Scales all velocities so that none exceeds kMaxSpeed. Bodies that overlap then part more slowly,
+// and other bodies still approach by no more than their gap.
 void OverlapRemoval::Limit() {
   double square = 0;
   for (const Body& body : bodies_) square = std::max(square, Dot(body.velocity, body.velocity));

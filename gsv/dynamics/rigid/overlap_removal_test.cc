@@ -80,12 +80,13 @@ TEST(OverlapRemoval, HeapThatStartsWithOverlapsLosesThemAndGainsNoEnergy) {
   double energy = EnergyOf(world), deepest = 0;
   for (int i = 0; i < 2000; ++i) {
     deepest = DeepestOf(world.Step(kSubstep));
-    // Bodies move apart upwards, too, by less than the greatest speed.
+    // Bodies that move apart may also rise, at most at the greatest speed. This adds potential
+    // energy.
     const double now = EnergyOf(world);
     EXPECT_LT(now, energy + 64 * testing::kG * OverlapRemoval::kMaxSpeed * kSubstep);
     energy = now;
   }
-  // Equal boxes move by a half each.
+  // The boxes are equal, so each of two boxes moves by a half of the correction.
   EXPECT_WITHIN(deepest, 0, kTolerated + RestingExcess(0.5), "m");
   const double at_rest = 64 * testing::kG * kEdge / 2;
   EXPECT_GT(energy, at_rest);

@@ -11,8 +11,9 @@ constexpr double kTouchingDistance = 1e-4;
 // A body carries another from below if the normal is within 45° of the vertical (its cosine).
 constexpr double kSupports = 0.70710678118654757;
 
-// Distributes further impulses of the two bodies, from earlier substeps, among the points. Each
-// gets a share in proportion to its normal impulse, or an equal share.
+// Distributes among the points the impulses of earlier substeps between the two bodies. Each point
+// gets a share in proportion to its normal impulse. If all normal impulses are zero, the shares are
+// equal.
 void ShareImpulse(const geometry::Vector3& total, std::vector<world::ContactPoint>& points) {
   geometry::Vector3 rest = total;
   double weight = 0;

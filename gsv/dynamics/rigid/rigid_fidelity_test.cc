@@ -118,7 +118,7 @@ double SpeedAfterLanding(double friction, double height_more) {
 }
 
 TEST(RigidFidelity, FrictionAtAnImpactIsProportionalToTheImpulse) {
-  // The contact is found at different times within a step.
+  // The heights differ, so that the contacts begin at different times within a step.
   for (const double more : {0.0, 3e-4, 7e-4, 1.3e-3, 1.9e-3}) {
     EXPECT_WITHIN(SpeedAfterLanding(0.1, more), 3 - 0.1 * 2 - 0.1 * kG * 0.05, 2e-3, "m/s") << more;
     // With so much friction the ball rolls at once, at 5/7 of the speed.
@@ -301,9 +301,8 @@ TEST(RigidFidelity, StackIsStableForAMinute) {
   }
 }
 
-// One cube on another, at rest from the start.
-// More boxes than are solved exactly. The uppermost may be heavy. No contact is deeper than the
-// overlap of 0.1 mm that stays.
+// The tower has more boxes than the solver solves exactly. Its top box weighs 1 kg or 100 kg. No
+// contact is deeper than 0.1 mm, because deeper overlaps are removed.
 TEST(RigidFidelity, TowerOfTwelveBoxesStands) {
   constexpr int kBoxes = 12;
   for (const double mass : {1.0, 100.0}) {

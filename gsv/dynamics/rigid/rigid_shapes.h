@@ -66,7 +66,7 @@ class RigidShapes {
     friend auto operator<=>(const MeshKey&, const MeshKey&) = default;
   };
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
-  std::map<MeshKey, std::unique_ptr<StandingMesh>> meshes_, used_before_;  // never walked through
+  std::map<MeshKey, std::unique_ptr<StandingMesh>> meshes_, used_before_;  // never iterated
 };
 
 }  // namespace gsv::dynamics

@@ -312,7 +312,7 @@ class TriangleSurface::CylinderContacts {
   }
 
   void AddVertex(const Triangle& triangle, std::size_t corner) {
-    // Vertices inside of a plane are no contacts.
+    // A vertex between two flat edges is inside of a plane, where only the faces have contacts.
     if (triangle.edges[corner] == Edge::kFlat && triangle.edges[(corner + 2) % 3] == Edge::kFlat) {
       return;
     }
@@ -397,7 +397,7 @@ class TriangleSurface::CylinderContacts {
   const PlacedPiece& cylinder_;
   const double radius_, half_;
   MeshPoints& list_;
-  std::unordered_set<int> answered_;  // vertices
+  std::unordered_set<int> answered_;  // vertices that were already checked
   std::array<Vector3, 3> corners_;
   double floor_ = 0;
 };

@@ -12,7 +12,8 @@ namespace gsv::rendering {
 namespace {
 
 using ApngBytes = std::vector<std::uint8_t>;
-constexpr std::size_t kPngSignature = 8, kPngChunkEnds = 12;  // length, type and checksum
+// Sizes in bytes: the signature of a file, and the length, type and checksum of a chunk.
+constexpr std::size_t kPngSignature = 8, kPngChunkEnds = 12;
 
 void PutNumber(std::uint32_t value, int bytes, ApngBytes& out) {
   for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {

@@ -259,7 +259,7 @@ TEST(LensMap, IsBlackWhereTheLensShowsNothing) {
   const std::vector<std::shared_ptr<const model::Image>> faces{white};
   const model::Image joined = map.Join(faces);
   EXPECT_EQ(Brightness(joined, 160, 120), 255);
-  EXPECT_EQ(Brightness(joined, 160 + 75, 120), 255);  // 0.5 rad are 80 pixels, so the ball is here
+  EXPECT_EQ(Brightness(joined, 160 + 75, 120), 255);  // 0.5 rad are 80 pixels
   EXPECT_EQ(Brightness(joined, 160 + 85, 120), 0);
   EXPECT_EQ(Brightness(joined, 0, 0), 0);
 }

@@ -16,7 +16,8 @@ namespace {
 using geometry::Vector3;
 
 constexpr int kTileWidth = 32, kTileHeight = 16;
-// The depth factor of the ground, so that objects on the ground hide it.
+// The ground is moved back: its 1/w (w is the distance along the view) is multiplied by this
+// factor, so that objects on the ground hide it.
 constexpr float kGroundBack = 1 - 2e-4f;
 
 // Returns the coarsest level of detail whose vertices are displaced by at most about a pixel.
@@ -297,7 +298,8 @@ bool ImageRenderer::IsStillTile(int x0, int y0, int x1, int y1) const {
 
 // Returns the texels of the shadow map that points of the tile may look up.
 ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
-  // The displacement of a look-up along the normal, and the width of the filter.
+  // The maximum distance, in texels, between a point and the texels that it looks up: the
+  // displacement along the normal plus the width of the filter.
   constexpr float kBeside = 4;
   if (box.is_empty) return {0, 0, 0, 0};
   const std::array<float, 16>& m = background_.block.shadow_from_relative;
@@ -322,7 +324,7 @@ ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
 }
 
 ImageRenderer::TileBox ImageRenderer::BoxOfTile(int x0, int y0, int x1, int y1) const {
-  F8 most = Splat(0), least = Splat(1e30f);  // both in units of 1/w
+  F8 most = Splat(0), least = Splat(1e30f);  // the extremes of 1/w in the tile
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; x += 8) {
       const I8 seen = (LoadInt(&nearest_[At(x, y)]) != 0) & (IntSteps() < SplatInt(x1 - x));

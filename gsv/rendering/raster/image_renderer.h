@@ -5,7 +5,8 @@
 // near.
 //
 // A tile that shows only still bodies, on which no moving body casts a shadow, keeps its colours
-// for the next image of the same view. Such an image equals the one of a new ImageRenderer.
+// for the next image of the same view. This does not change the image: a new ImageRenderer would
+// render the same one.
 // Threads  one thread at a time; it shades on the threads of a team.
 #pragma once
 
@@ -113,7 +114,7 @@ class ImageRenderer {
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
   Background background_;
-  std::vector<Tile> tiles_;  // by rows
+  std::vector<Tile> tiles_;  // row by row
   Rasteriser rasteriser_;
 };
 

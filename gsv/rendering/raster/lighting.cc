@@ -85,7 +85,8 @@ F8x3 FromLamp(const LightBlock& lamp, const Reflector& s, const F8x3& position) 
     const F8x3 offset = Splat3(lamp.position_range) - position;
     const F8 distance2 = Max(Dot(offset, offset), Splat(1e-8f));
     const F8 x2 = distance2 * Splat(lamp.attenuation[3]);
-    // Beyond its range and behind the surface, the light below is weaker than the limit there.
+    // Returns early if all eight points are beyond the lamp's range or face away from the lamp. The
+    // computation below would give no light either.
     if (Bits((x2 < Splat(1)) & (Dot(s.normal, offset) > Splat(0))) == 0) return Splat(0, 0, 0);
     const F8 window = Clamp01(Fma(-x2, x2, Splat(1)));
     const F8 distance = Sqrt(distance2);

@@ -34,7 +34,8 @@ void ShadowBounds::Update(const float* map, std::ptrdiff_t stride,
 
 ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y) {
   const int x0 = kBlock * x, y0 = kBlock * y;
-  // The texels that look-ups in the block may read. Two vectors cover a row of them.
+  // The range of texels that look-ups in the block may read. Two vectors of eight texels cover each
+  // row.
   const int top = std::max(-1, y0 - kBefore),
             bottom = std::min(kShadowSide, y0 + kBlock - 1 + kAfter);
   const int left = std::max(-1, x0 - kBefore),
@@ -59,13 +60,13 @@ ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stri
                   (depth(kEnd, 0) + depth(kEnd, kEnd) - depth(0, 0) - depth(0, kEnd)) / (2 * kEnd),
               by_y =
                   (depth(0, kEnd) + depth(kEnd, kEnd) - depth(0, 0) - depth(kEnd, 0)) / (2 * kEnd);
-  F8 above = Splat(-1e30f);  // the depths above the plane with these slopes
+  F8 above = Splat(-1e30f);  // the largest heights of depths above a plane with these slopes
   for_each([&](F8 depths, int column, int row) {
     const F8 dx = Splat(static_cast<float>(column - x0) + 0.5f) + Steps();
     const float dy = static_cast<float>(row - y0) + 0.5f;
     above = Max(above, Fma(Splat(-by_x), dx, depths - Splat(by_y * dy)));
   });
-  // This is above all rounding errors.
+  // This margin is larger than all rounding errors.
   constexpr float kSlack = 1e-6f;
   const float plane = Most(above) + kBesideX * std::abs(by_x) + kBesideY * std::abs(by_y) + kSlack;
   // The sloped plane replaces the flat bound if it is lower at the middle of the block.

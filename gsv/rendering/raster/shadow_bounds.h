@@ -1,5 +1,5 @@
-// Bounds of the depths of a shadow map, for each block of texels. They decide most look-ups: all
-// texels around a point have the same answer.
+// Bounds of the depths of a shadow map, for each block of texels. For most points, the bounds
+// suffice: a point above the upper bound is lit, and a point below the lower bound is in shadow.
 #pragma once
 
 #include <vector>
@@ -45,8 +45,9 @@ class ShadowBounds {
   static constexpr int kBlock = 8;  // in texels
   static constexpr int kSide = kShadowSide / kBlock;
 
-  // The upper bound is a plane, because the depths of a lit surface that is tilted differ within a
-  // block by more than the surface's distance from its own depths.
+  // The upper bound is a plane, so that a lit surface that is tilted is above it. Within a block,
+  // the depths of such a surface differ by more than the small offset between the surface and its
+  // own depths. A constant bound would be above a part of the surface.
   struct Block {
     float min = 0;
     float max = 0;                   // at the block's first corner
@@ -54,7 +55,7 @@ class ShadowBounds {
   };
   static Block BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y);
 
-  std::vector<Block> blocks_ = std::vector<Block>(std::size_t{kSide} * kSide);  // by rows
+  std::vector<Block> blocks_ = std::vector<Block>(std::size_t{kSide} * kSide);  // row by row
 };
 
 #pragma GCC pop_options

@@ -14,7 +14,8 @@ constexpr int kStride = kShadowSide + 16;
 constexpr int kFirst = kStride + 1;  // the index of texel (0, 0) of the map without its border
 
 // The detail of casters in the shadow map, in texels. Shadows of robots are rendered for each
-// snapshot, so they have less detail. The image must not depend on whether an object has moved.
+// snapshot, so they have less detail. Other objects always have full detail, because the image must
+// not depend on whether an object has moved.
 struct Fineness {
   double moved_by;  // the approximate maximum displacement of a caster's vertices
   double smallest;  // the minimum radius of a caster

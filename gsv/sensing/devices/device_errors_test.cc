@@ -212,7 +212,8 @@ TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
 }
 
 // The Allan deviation of a bias that drifts with the correlation time T and the deviation d has its
-// maximum, 0.617 d, at 1.89 T (IEEE 952, C.1.5). It is the instability, to a tenth.
+// maximum, 0.617 d, at 1.89 T (IEEE 952, C.1.5). This maximum equals the configured instability
+// within 10 %.
 TEST_F(DeviceErrors, ImuBiasHasTheConfiguredInstability) {
   Place({});
   const double instability = 1e-3, time = 189;

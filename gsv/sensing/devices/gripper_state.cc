@@ -34,7 +34,7 @@ struct Between {
 // Casts rays across the opening from both open fingers. Both rays must hit the same body.
 std::optional<Between> FindBetween(const world::DeviceStep& step, const Pose& world_from_gripper,
                                    const GripperSetup& gripper, int robot) {
-  // as fractions of the fingers' length
+  // positions of the rays, as fractions of the fingers' length
   constexpr std::array<double, 3> kAlong = {1.0 / 6, 0.5, 5.0 / 6};
   constexpr std::array<double, 3> kUp = {-1.0 / 3, 0, 1.0 / 3};  // as fractions of their height
   const auto cast = [&](double x, double side, double z) {
@@ -51,7 +51,8 @@ std::optional<Between> FindBetween(const world::DeviceStep& step, const Pose& wo
       if (!left || !right || left->body != right->body) continue;
       const world::Body& body = step.now->layout->bodies[static_cast<std::size_t>(left->body)];
       if (!CanBeGrasped(body) || held.contains(body.name)) continue;
-      // A ray from inside a body that reaches beyond a finger hits the body's far side.
+      // If the body extends beyond a finger, the ray of this finger starts inside the body and hits
+      // its far side. Then there is no width left, and the body is not grasped.
       const double width = gripper.opening - left->distance - right->distance;
       if (width > 0 && (!found || width > found->width)) found = Between{left->body, width};
     }

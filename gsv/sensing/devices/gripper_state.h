@@ -49,7 +49,8 @@ class GripperState final : public world::ActuatorState {
 
   // Attaches the body between fingers that close in this step.
   world::DeviceStatePtr BeforeStep(world::DeviceStep& step) const override;
-  // Releases a body that was removed or placed.
+  // Returns the state after a change of the world's bodies. Releases the attached body if it was
+  // removed or placed.
   world::DeviceStatePtr CarryOver(const world::Layout& layout,
                                   const std::vector<std::string>& placed,
                                   base::SimTime now) const override;

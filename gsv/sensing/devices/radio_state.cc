@@ -66,7 +66,7 @@ bool RadioState::IsLost(const world::DeviceStep& step, std::size_t place,
     if (noise.Uniform() < errors_.loss_probability) return true;
   }
   if (errors_.capture_ratio == 0) return false;
-  double others = 0;  // power in mW
+  double others = 0;  // power of the messages of other senders, mW
   for (std::size_t i = 0; i < arriving.size(); ++i) {
     if (!arriving[i] || step.transmissions[i].message->sender == message.sender) continue;
     others += std::pow(10, *arriving[i] / 10);

@@ -102,7 +102,8 @@ bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& 
     const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
     const std::uint32_t begin = starts[left], second = starts[left + 1], end = starts[right + 1];
     if (count + (end - begin) > FoundBoxes::kMax) return false;
-    // Which entries count is hard to predict, so they are written without a branch.
+    // Each entry is written, and the next entry overwrites it if it does not count. This needs no
+    // branch, which the processor could hardly predict.
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t mark = row_mark | (i < second ? 0 : kFirstColumn);
       found.boxes[count] = entries_[i] & kBox;

@@ -101,15 +101,15 @@ void ForRays(unsigned mask, const Cast& cast) {
   for (; mask != 0; mask &= mask - 1) cast(static_cast<std::size_t>(std::countr_zero(mask)));
 }
 
-// Casts rays of a packet at cylinders and boxes, several pairs at a time. Sets only the distances of
-// `nearest`, and the body to any that is not -1.
+// Casts rays of a packet at cylinders and boxes, several pairs at a time. For each hit, sets only
+// two members of `nearest`: the distance, and the body, which becomes 0 for any body.
 class PacketCaster {
  public:
   PacketCaster(const RayPacket& packet, std::span<Nearest> nearest)
       : packet_(packet), nearest_(nearest) {}
 
-  // Casts the rays of a mask at a shape of a set, whose frame is that of a part or the world (null).
-  // Returns false if this must be done for each ray alone.
+  // Casts the rays of a mask at a shape of a set, whose frame is that of a part, or the world if
+  // `part_from_world` is null. Returns false if this must be done for each ray alone.
   bool Add(unsigned rays, const Pose* part_from_world, const SolidSet& set, std::uint32_t shape) {
     if (!is_fast_) return false;
     const geometry::Shape& at = set.ShapeAt(shape);
@@ -233,7 +233,8 @@ void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& neares
   part->solids.Cast(moved, -1, nearest, BearerOf(index));
 }
 
-// This is called last, because there are many triangles, and earlier hits shorten the ray.
+// Call this after all other casts. There may be many triangles, and the hits found before shorten
+// the ray.
 void PlacedSolids::CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);

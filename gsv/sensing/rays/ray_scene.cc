@@ -52,13 +52,13 @@ class RaySceneCache::Impl {
   struct Solids {
     std::shared_ptr<const world::Layout> layout;
     std::once_flag is_built;
-    std::shared_ptr<const LayoutSolids> solids;  // null before
+    std::shared_ptr<const LayoutSolids> solids;  // null until they are built
   };
   struct Entry {
     std::shared_ptr<const world::Snapshot> snapshot;
     std::shared_ptr<Solids> solids;  // solids of the snapshot's layout
     std::once_flag is_built;
-    std::shared_ptr<const RayScene> scene;  // null before
+    std::shared_ptr<const RayScene> scene;  // null until it is built
   };
 
   std::shared_ptr<Entry> FindOrAdd(const std::shared_ptr<const world::Snapshot>& snapshot) {
@@ -70,7 +70,7 @@ class RaySceneCache::Impl {
       solids_ = std::make_shared<Solids>();
       solids_->layout = snapshot->layout;
     }
-    // The removed entry may return its scene to the pool.
+    // If nobody else uses the scene of the removed entry, it returns to the pool and is reused.
     if (recent_.size() == kRecent) recent_.pop_front();
     auto entry = std::make_shared<Entry>();
     entry->snapshot = snapshot;

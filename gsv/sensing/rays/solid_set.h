@@ -31,7 +31,7 @@ struct Nearest {
   double distance = 0;  // initially the length of the ray
   int body = -1;        // -1: nothing found yet
   std::uint32_t primitive = 0;
-  int part = -1;            // the bearer's
+  int part = -1;            // Bearer::part of the hit set
   std::uint32_t solid = 0;  // number in its set, see SolidSet::NormalAt()
 
   // Stores the hit if it is nearer. At equal distance, the hit with the lower body index and then
@@ -137,7 +137,7 @@ class SolidSet {
   struct SolidPlane {
     SolidShape solid;
     geometry::Vector3 normal;  // normal in the set's frame
-    double offset;             // along it
+    double offset;             // distance of the plane from the origin along the normal, m
   };
   // Adds the triangles of a mesh.
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);

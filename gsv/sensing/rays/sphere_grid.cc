@@ -109,7 +109,8 @@ __attribute__((target("avx2,fma"))) bool TestByAvx2(const PacketRays& rays,
       const __m256 gap = _mm256_fnmadd_ps(along, s + s - along, apart);
       const __m256 touches = _mm256_cmp_ps(gap, _mm256_set1_ps(margins[lane]), _CMP_LE_OQ);
       const auto mask = static_cast<unsigned>(_mm256_movemask_ps(touches)) & rays.used;
-      // Which spheres are touched is hard to predict, so they are written without a branch.
+      // Each sphere is written, and the next sphere overwrites it if no ray touches it. This needs
+      // no branch, which the processor could hardly predict.
       found.touched[touched] = {spheres.numbers[first + lane], mask};
       touched += mask != 0;
     }

@@ -40,8 +40,8 @@ struct PacketRays {
   using Floats = std::array<float, RayPacket::kMax>;
 
   alignas(32) Floats dx, dy, dz;  // directions
-  alignas(32) Floats ox, oy, oz;  // origins times -2
-  alignas(32) Floats start;       // origin times direction
+  alignas(32) Floats ox, oy, oz;  // origins relative to the place, times -2
+  alignas(32) Floats start;       // scalar product of origin and direction
   alignas(32) Floats square;      // square of the origin's distance, m²
   alignas(32) Floats length;
   float place_x, place_y, place_z;
@@ -97,7 +97,7 @@ class SphereGrid {
   // The first sphere of each cell, row by row, and the number of spheres.
   std::vector<std::uint32_t> starts_;
   std::vector<std::uint32_t> cell_of_;  // working memory of Build()
-  // The spheres by cell, and after the last one room for a whole vector.
+  // The spheres, ordered by cell. After the last sphere there is space for a whole vector.
   std::vector<float> x_, y_, z_, radius_;
   std::vector<std::uint32_t> numbers_;
   std::vector<Large> large_;  // solids that are too large for cells

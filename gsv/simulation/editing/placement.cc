@@ -25,7 +25,7 @@ int FindOverlap(dynamics::Engine& engine, const world::Layout& layout, const wor
 // Moves the body to the nearest free place, at most its own radius away. Returns false if there is
 // no free place.
 bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, world::State& state) {
-  constexpr double kStride = 0.01;  // in m
+  constexpr double kStride = 0.01;  // distance between two tried places, m
   constexpr int kDirections = 16;
   const world::Body& robot = layout.bodies[static_cast<std::size_t>(body)];
   const double farthest = model::FootprintRadius(*robot.model);

@@ -41,7 +41,6 @@ class Turn {
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 
-    // Records that a turn has cast rays, so that Prepare() builds the ray scene at the next instant.
     // Records that a turn has cast rays. Prepare() then builds the ray scene at the next instant.
     void NoteRays() const;
 

@@ -85,7 +85,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   };
   // Ends waits for instants up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
-  // Does the same for a local behaviour without marking it as ready. If it was woken and has not
+  // Like Wake(), but does not mark the local behaviour as ready. If the agent was woken and has not
   // died, the caller must take its turn.
   Woken WakeForTurn(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
   // The event on which the agent's calls wait. After a signal, a call checks whether its wait is
@@ -226,7 +226,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   ClockId turn_clock_ = 0;                        // the clock of the last turn; used like turn_
   std::atomic<WallTime> turn_began_{WallTime()};  // start of the current turn; WallTime() between
                                                   // turns
-  WallDuration turn_took_{};                      // used like turn_
+  WallDuration turn_took_{};                      // duration of the last turn; used like turn_
 
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;

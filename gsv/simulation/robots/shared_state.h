@@ -56,13 +56,15 @@ struct SharedState {
   int running GSV_GUARDED_BY(simulation_mutex) = 0;
   // The agents that wait for an instant.
   TimerQueue<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
-  // The same for local behaviours with one clock, which wake where they take their turns.
+  // The agents of local behaviours with one clock that wait for an instant. The thread that
+  // executes the turn of such an agent also wakes it.
   TimerQueue<RobotAgent> turn_sleepers GSV_GUARDED_BY(simulation_mutex);
   // Agents with a command for the next step.
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);
   // The local behaviours that have a turn now.
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);
-  // Those of turn_sleepers whose instant has come. They still wait, and do not count in `running`.
+  // The agents from turn_sleepers whose instant has come. They still wait, so they do not count in
+  // `running`.
   std::vector<RobotAgent*> due GSV_GUARDED_BY(simulation_mutex);
   bool has_turns() const GSV_REQUIRES(simulation_mutex) { return !ready.empty() || !due.empty(); }
   // Whether deaths of agents were reported. The dead agents may still count as running.

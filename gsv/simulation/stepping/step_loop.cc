@@ -212,7 +212,7 @@ void StepLoop::WakeForTurns(std::size_t begin, std::size_t end) {
     mutex.lock();
     break;
   }
-  simulation_mutex.AssertHeld();  // it is `mutex`
+  simulation_mutex.AssertHeld();  // `mutex` is the simulation's mutex
   const WallTime wall_now = WallNow();
   for (std::size_t i = begin; i < end; ++i) {
     const RobotAgent::Woken woken = turns_[i]->WakeForTurn(parts_.shared->now, wall_now);
@@ -228,7 +228,7 @@ void StepLoop::WakeForTurns(std::size_t begin, std::size_t end) {
 void StepLoop::ApplyUsualTurns(std::size_t begin, std::size_t end) {
   base::Mutex& mutex = parts_.shared->mutex;
   if (!mutex.try_lock()) return;
-  simulation_mutex.AssertHeld();  // it is `mutex`
+  simulation_mutex.AssertHeld();  // `mutex` is the simulation's mutex
   const SimTime now = parts_.shared->now;
   for (std::size_t i = begin; i < end; ++i) {
     if (outcomes_[i] == TurnOutcome::kTaken) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);

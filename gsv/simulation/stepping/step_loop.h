@@ -91,16 +91,17 @@ class StepLoop {
   RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
   bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
 
-  // The stepping thread alone uses these.
+  // Only the stepping thread uses the following members.
   SnapshotPool snapshots_;
   DeviceActions device_actions_;  // the actions for the next step
   Turn::Instant instant_;         // the instant of the current turns
   // The agents of the current turns. The first `awake_` are awake. The others wake first.
   std::vector<RobotAgent*> turns_;
   std::size_t awake_ = 0;
-  enum class TurnOutcome : std::uint8_t { kTaken, kDied, kNone };  // kNone: it did not wake
+  // kNone: the agent did not wake, so it has no turn.
+  enum class TurnOutcome : std::uint8_t { kTaken, kDied, kNone };
   std::vector<TurnOutcome> outcomes_;
-  std::vector<RobotAgent::UsualEnd> usual_ends_;  // how they ended, once applied
+  std::vector<RobotAgent::UsualEnd> usual_ends_;  // the ends of the applied turns
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events of the agents that were just woken
   bool is_timed_ = false;        // whether an observer requests the times of steps
