@@ -48,7 +48,7 @@ TEST(Attachment, AttachedBodyStopsItsHolderAtAWall) {
   EXPECT_NEAR(world.position("robot").x, 1 - 0.35 - kCrateSide / 2, 1e-4);
 }
 
-TEST(Attachment, EqualsOneModelWithAllShapes) {
+TEST(Attachment, MovesLikeOneModelWithAllShapes) {
   TestWorld attached = GraspScene();
   ASSERT_TRUE(attached.Start());
   ASSERT_TRUE(attached.engine().Attach(HoldCrate(attached), attached.state()));
@@ -93,7 +93,7 @@ TEST(Attachment, DetachedBodyFalls) {
   EXPECT_NEAR(world.position("crate").z, kCrateSide / 2, 1e-3);
 }
 
-TEST(Attachment, EndsWithTheNextLayout) {
+TEST(Attachment, EndsWhenALayoutIsSet) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
@@ -118,7 +118,7 @@ TEST(Attachment, DoesNotDependOnTheOrderOfAttaching) {
   EXPECT_EQ(digest_after(true), digest_after(false));
 }
 
-TEST(Attachment, AffectsOverlapsAtOnce) {
+TEST(Attachment, AttachedShapesCauseOverlapsAtOnce) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   const int robot = world.layout().Find("robot");

@@ -78,7 +78,7 @@ TEST(Impulse, OfAPushIsTheFrictionTimesTheStep) {
   EXPECT_NEAR(impulse, 0.5 * 2 * testing::kG * 1, 0.2);
 }
 
-TEST(Impulse, IsUnknownForAStopByPlanarKinematics) {
+TEST(Impulse, IsNanIfPlanarKinematicsStopsARobot) {
   TestWorld world = WorldOnGround();
   world.AddRobot("robot", testing::DiscRobot(), {});
   world.AddBox("wall", {0.2, 4, 1}, 0.4, 0);

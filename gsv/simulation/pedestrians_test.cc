@@ -62,7 +62,7 @@ TEST(Pedestrians, AreTheSameAfterAReset) {
   EXPECT_EQ(simulation->state_hash(), first);
 }
 
-TEST(Pedestrians, DependOnTheSeed) {
+TEST(Pedestrians, StartDifferentlyForAnotherSeed) {
   Specification other = WithWalkers(5);
   other.seed = 4;
   const auto a = Make(WithWalkers(5)), b = Make(other);

@@ -216,7 +216,7 @@ TEST(Radio, HashDoesNotDependOnTheSpeedOfBehaviours) {
   EXPECT_EQ(hashes.size(), 1u);
 }
 
-TEST(Radio, AffectsTheHash) {
+TEST(Radio, MessagesChangeTheHash) {
   const auto hash_of = [](const std::string& word) {
     auto simulation = Make(Lockstep(200ms));
     EXPECT_TRUE(simulation->AddRobot(RobotWithRadio("a", 0, 0, Says({word}))));

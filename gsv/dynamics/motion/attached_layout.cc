@@ -62,12 +62,21 @@ base::Status AttachedLayout::Check(const Attachment& attachment) const {
     return refuse("cannot attach: the holder has no link " + std::to_string(attachment.holder_link),
                   holder.name);
   }
-  if (holder.is_static() || IsHeld(attachment.holder_body) ||
-      attachment.holder_body == attachment.held_body) {
-    return refuse("cannot attach: the holder is static or is attached itself", holder.name);
+  if (attachment.holder_body == attachment.held_body) {
+    return refuse("cannot attach the body to itself", held.name);
   }
-  if (!held.is_rigid() || IsHeld(attachment.held_body) || IsHolder(attachment.held_body)) {
-    return refuse("cannot attach: only a rigid body without attachments can be attached",
+  if (holder.is_static()) return refuse("cannot attach: the holder is static", holder.name);
+  if (IsHeld(attachment.holder_body)) {
+    return refuse("cannot attach: the holder is itself attached to another body", holder.name);
+  }
+  if (!held.is_rigid()) {
+    return refuse("cannot attach the body: it does not move by rigid-body dynamics", held.name);
+  }
+  if (IsHeld(attachment.held_body)) {
+    return refuse("cannot attach the body: it is already attached; detach it first", held.name);
+  }
+  if (IsHolder(attachment.held_body)) {
+    return refuse("cannot attach the body: it holds another body; detach that body first",
                   held.name);
   }
   return {};

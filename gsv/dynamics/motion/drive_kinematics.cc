@@ -63,8 +63,7 @@ base::Status Check(const model::Model& model) {
     if (status && !(drive.steering_limit > 0 && drive.steering_limit < 1.57)) {
       return base::Fail(
           ErrorCode::kBadModel,
-          fmt::format("the drive's steering limit is {} rad; it must lie between 0 and "
-                      "a quarter turn",
+          fmt::format("the drive's steering limit is {} rad; it must lie between 0 and 1.57 rad",
                       drive.steering_limit));
     }
   }

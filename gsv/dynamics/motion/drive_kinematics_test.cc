@@ -171,7 +171,7 @@ TEST(DriveKinematics, RejectsInvalidDrives) {
             }),
             "cart: the drive's linear acceleration from 1 to 2 must include 0");
   EXPECT_EQ(message([](model::Drive& d) { d.steering_limit = 2; }),
-            "cart: the drive's steering limit is 2 rad; it must lie between 0 and a quarter turn");
+            "cart: the drive's steering limit is 2 rad; it must lie between 0 and 1.57 rad");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(MediumForces, AddUpTheLayersOfAFluid) {
   EXPECT_NEAR(wrench.force.z, 9.8 * (500 + 200 + 0.25), 1e-9);
 }
 
-TEST(MediumForces, OfOneLayerAloneAreThoseOfAUniformFluid) {
+TEST(MediumForces, InASingleLayerEqualThoseOfAUniformFluid) {
   model::WorldDescription world;
   world.fluid = model::Fluid{1000, {{100, 0}}, {}};
   EXPECT_NEAR(WrenchOfModel(BoxOf({}), world).force.z, 9800, 1e-9);

@@ -49,7 +49,7 @@ TEST(SocialForce, OfAWallDecaysWithTheDistance) {
   EXPECT_NEAR(RepulsionByWall({0, 1}, -0.1).y, 50, 1e-12);
 }
 
-TEST(SocialForce, IsHalvedFromBehind) {
+TEST(SocialForce, OfAPedestrianBehindIsHalved) {
   const Vector2 from_ahead{-1, 0}, from_behind{1, 0};
   EXPECT_EQ(AsSeen(from_ahead, {1, 0}), from_ahead);
   EXPECT_EQ(AsSeen(from_behind, {1, 0}), (Vector2{0.5, 0}));

@@ -65,7 +65,7 @@ TEST(ObstacleField, FindsAllNearObstacles) {
   EXPECT_GT(total, 1000u);
 }
 
-TEST(ObstacleField, MayBeEmpty) {
+TEST(ObstacleField, FindsNothingWithoutObstacles) {
   const ObstacleField field({}, 0.3);
   field.ForEachNear({0, 0}, 10, [](std::uint32_t) { FAIL(); });
 }

@@ -15,7 +15,7 @@ namespace gsv::dynamics {
 //              thousands of triangles. At most kMaxPoints points are chosen: first the deepest
 //              point, then repeatedly the point that is farthest from the points chosen before. The
 //              distance of a point with a gap is reduced by s = √(2 radius gap): at this distance
-//              from its contact, a cylinder of this radius on a plane has this gap. So on a plane, a
+//              from its contact, a cylinder of this radius on a plane has this gap. So on a plane a
 //              sphere keeps one point, and a cylinder keeps both ends. A bump is left out if it is
 //              lower than 1 % of its distance from a chosen point, unless it is the deepest point.
 // Determinism  the chosen points depend on the added points, not on their order.

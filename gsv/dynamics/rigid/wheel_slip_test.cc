@@ -70,7 +70,7 @@ TEST(WheelSlip, SlipRatioIsTheComplianceTimesThePullOverTheLoad) {
   }
 }
 
-TEST(WheelSlip, WheelMayHaveItsOwnLoad) {
+TEST(WheelSlip, UsesTheLoadThatAWheelSpecifies) {
   const double angle = 0.1, load = 50;
   auto rover = Rover({});
   for (std::size_t i = 1; i < 5; ++i) {

@@ -123,7 +123,7 @@ TEST(Camera, FailsIfTheRendererIsNull) {
   EXPECT_FALSE((*camera)->Sample(sensing::Sampling(scene.Snapshot(), 0, 1, fixture.rays)));
 }
 
-TEST(Camera, OverlayIsAnImage) {
+TEST(Camera, ReadingIsShownToViewersAsAnImage) {
   Fixture fixture(nullptr);
   EXPECT_EQ(fixture.type().overlay, sensing::Overlay::kImage);
 }

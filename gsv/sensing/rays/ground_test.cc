@@ -31,7 +31,7 @@ TEST(FloorHeight, IsZeroWithoutAFloor) {
   EXPECT_EQ(FloorHeight(*scene, 0, 0), 0);
 }
 
-TEST(FloorHeight, MayBeBelowZero) {
+TEST(FloorHeight, IsNegativeForAFloorBelowZero) {
   RaySceneCache cache;
   const auto scene =
       cache.At(MakeSnapshot({{"pit", ModelOf(geometry::Plane{}), {{0, 0, -2}, {}}, true}}));
