@@ -21,7 +21,8 @@ using base::Fail;
 using base::Result;
 using Images = std::vector<std::shared_ptr<const model::Image>>;
 
-// After this many images of one batch, requests for other snapshots follow.
+// The maximum number of images in a batch, so that requests for other snapshots do not wait too
+// long.
 constexpr std::size_t kMaxBatchSize = 64;
 // After this time without requests, unused data are removed from the card.
 constexpr std::chrono::seconds kIdleSweep{5};

@@ -47,7 +47,7 @@ struct SensorType {
   // the schema of Sensor::Encode(); null if there is no message
   const messages::Schema* schema = nullptr;
   readings::Layout layout;             // layout of the readings; empty if it is unknown
-  std::optional<Companion> companion;  // for cameras only, which also have an optical frame
+  std::optional<Companion> companion;  // set for cameras, whose frames include an optical frame
   Overlay overlay = Overlay::kNone;
 
   // Set only if the messages depend on the sensor's description. If it is empty, the messages above

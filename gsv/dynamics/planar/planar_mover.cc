@@ -117,7 +117,8 @@ void TeamMover::SliceVisibleObstacles(const world::State& state, double seconds)
   scene_.SliceDynamicObstacles(state, sights_);
 }
 
-// Finds the obstacles and pairs for a step of `seconds`. Nothing moves in a step of 0 s.
+// Finds the obstacles and pairs that may collide in a step of `seconds`. With 0 s, finds those that
+// overlap now, because nothing moves.
 void TeamMover::Begin(const world::State& state, double seconds) {
   if (!scene_.HasValidSlices(state)) Slice(state);
   SliceVisibleObstacles(state, seconds);

@@ -209,7 +209,8 @@ __attribute__((always_inline)) inline double ContactSweeps::Solve(Batch& batch, 
   const FourDoubles normal = wanted > zero ? wanted : zero;
   change[0] = normal - impulse[0];
   const FourDoubles radius = batch.friction * normal;
-  // Computes the friction that stops the slip or, if that is too large, a step against the slip.
+  // Computes the friction that stops the slip. If it exceeds the limit, a gradient step against the
+  // slip replaces it, shortened to the limit.
   const FourDoubles slip_a =
       missing[1] - batch.coupling[0] * change[0] - batch.softness[0] * impulse[1];
   const FourDoubles slip_b =

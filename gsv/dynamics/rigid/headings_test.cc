@@ -141,7 +141,7 @@ struct Case {
   const char* name;
   std::shared_ptr<model::Model> model;
   world::DriveCommand command;
-  double turned = 1;  // as a fraction of the commanded angle
+  double turned = 1;  // the robot's rotation, as a fraction of the commanded angle
 };
 
 // Coulomb's friction at four points of equal load, whose wheels rotate as commanded. In a rotation

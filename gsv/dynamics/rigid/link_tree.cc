@@ -234,8 +234,9 @@ void LinkTree::WriteMass() {
   Factorise();
 }
 
-// Writes the row of the mass matrix for `velocity`. It is the momentum of this part and all parts
-// below it due to `velocity`, along each velocity from there to the base.
+// Writes the row of the mass matrix for `velocity`. If this velocity is 1 and all others are 0,
+// this part and all parts below it have a momentum. The entry for another velocity on the chain to
+// the base is the component of this momentum along that velocity.
 void LinkTree::WriteMassesOf(int part, int velocity) {
   const Inertia& inertia = inertias_[Index(part)];
   const auto& [turning, moving] = motions_[Index(velocity)];

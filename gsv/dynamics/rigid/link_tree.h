@@ -115,8 +115,8 @@ class LinkTree {
   };
   struct Inertia {
     double mass;
-    geometry::Vector3 moment;  // mass times position, from the base's centre of mass
-    Matrix3 turning;           // about the base's centre of mass
+    geometry::Vector3 moment;  // mass times the vector from the base's centre of mass
+    Matrix3 turning;           // inertia about the base's centre of mass
   };
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
   Link LinkOf(int part) const;
@@ -142,16 +142,17 @@ class LinkTree {
   std::vector<int> parents_;  // parents of velocities; -1: none
 
   geometry::Quaternion base_;                // orientation of the base
-  std::vector<geometry::Quaternion> turns_;  // rotations of ball joints, by part
-  std::vector<double> joint_positions_;      // by part
+  std::vector<geometry::Quaternion> turns_;  // rotation of the ball joint of each part
+  std::vector<double> joint_positions_;      // one for each part
   std::vector<geometry::Quaternion> orientations_;
   std::vector<Matrix3> rotations_;
   std::vector<geometry::Vector3> positions_;
   std::vector<double> velocities_, free_, free_momenta_, efforts_;
   std::vector<geometry::Vector3> forces_, torques_;
-  std::vector<Motion> motions_;  // by velocity; moving: at the base's centre of mass
+  // One for each velocity. `moving` is the velocity of the point at the base's centre of mass.
+  std::vector<Motion> motions_;
   std::vector<Inertia> inertias_;
-  std::vector<Matrix3> own_inertias_;  // about each part's centre of mass
+  std::vector<Matrix3> own_inertias_;  // inertia of each part about its centre of mass
   std::vector<double> masses_, factors_;
   Matrix3 inverse_inertia_;  // inverse inertia of a single body
   mutable std::vector<double> scratch_;

@@ -31,7 +31,7 @@ struct Piece {
   geometry::Vector3 normal;           // normal of a plane, which passes through the piece's origin
   geometry::Vector3 middle, box;      // centre of its bounding box, and half of its size
   btCollisionShape* shape = nullptr;  // never null
-  const TriangleSurface* triangles = nullptr;  // set for a static mesh
+  const TriangleSurface* triangles = nullptr;  // null except for a static mesh
   model::Surface surface;
 };
 

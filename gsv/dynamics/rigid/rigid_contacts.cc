@@ -43,7 +43,7 @@ void RigidContacts::Add(const ContactFinder& finder, const std::vector<Contact>&
     const Collider* first = &finder.collider(each.first);
     const Collider* second = &finder.collider(each.second);
     geometry::Vector3 normal = -point.normal;
-    // The impulse acts on the second body. Impulses of contacts act on their first body.
+    // `impulse` acts on the second body, and `each.impulse` on the first body. So the signs differ.
     geometry::Vector3 impulse =
         each.impulse[0] * normal - each.impulse[1] * each.axes[0] - each.impulse[2] * each.axes[1];
     if (second->moving >= 0 && (first->moving < 0 || second->solid->body < first->solid->body)) {

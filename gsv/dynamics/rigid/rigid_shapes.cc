@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Vector3;
 
-// m: maximum rounding of edges by Bullet, if it uses margins
+// m: Bullet rounds the edges of boxes and cylinders, and of hulls, by at most these margins
 constexpr double kMargin = 1e-3;
 constexpr double kHullMargin = 1e-4;
 constexpr int kMaxCorners = 64;

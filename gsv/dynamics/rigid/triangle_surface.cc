@@ -96,7 +96,7 @@ void TriangleSurface::AddTriangle(const std::array<int, 3>& vertices) {
 
 void TriangleSurface::JoinNeighbours() {
   struct Side {
-    int low, high;  // vertices
+    int low, high;  // indices of the vertices
     int edge;       // 3 * triangle + edge
   };
   std::vector<Side> sides;

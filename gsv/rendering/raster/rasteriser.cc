@@ -88,7 +88,8 @@ int Rasteriser::SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t fi
   const F8 nearest = Max(Max(iw[0], iw[1]), iw[2]), farthest = Min(Min(iw[0], iw[1]), iw[2]);
   const F8 min_x = Min(Min(x[0], x[1]), x[2]), max_x = Max(Max(x[0], x[1]), x[2]);
   const F8 min_y = Min(Min(y[0], y[1]), y[2]), max_y = Max(Max(y[0], y[1]), y[2]);
-  // Farther from the image than this, single precision is too coarse.
+  // In pixels. If a corner is farther from the image than this, single precision is too coarse. The
+  // triangle is then set up in double precision, like those that cross the near plane.
   constexpr float kFar = 16384;
   const I8 is_far = (Max(Abs(min_x), max_x) > Splat(kFar)) | (Max(Abs(min_y), max_y) > Splat(kFar));
   const I8 crosses = ((farthest <= zero) | is_far) & (nearest > zero) &

@@ -73,7 +73,7 @@ void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std
                             std::vector<float>& map) {
   FrameBlock block{};
   region_.Describe({}, block);
-  // The map's coordinates are in [0, 1]. Clip space is [-1, 1] by [-1, 1].
+  // Converts the map's x and y, from 0 to 1, to clip space, from -1 to 1.
   std::array<float, 16> clip = block.shadow_from_relative;
   float depth_row[4];
   for (int column = 0; column < 4; ++column) {

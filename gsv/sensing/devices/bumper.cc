@@ -15,7 +15,8 @@ namespace {
 
 using geometry::Vector3;
 
-// a contact is with the ground if its normal points down within 45 degrees, so that z is below this
+// A contact is with the ground if the z component of its normal is below this value, so that the
+// normal is within about 45 degrees of downwards.
 constexpr double kGroundSlope = -0.70;
 constexpr double kNormalLength = 0.3;  // m
 // Two collisions share the point of a contact if their distances from it differ by less than this

@@ -106,8 +106,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   const bool has_orientation_;
   const OrientationReference reference_;
   std::array<NoiseModel, 6> noise_;
-  // The models by term (first white noise and bias instability, then random walk), and then by
-  // angular velocity and force.
+  // allan_[term][quantity]. Term 0 is white noise and bias instability, and term 1 random walk.
+  // Quantity 0 is the angular velocity, and quantity 1 the specific force.
   std::array<std::array<NoiseModel, 2>, 2> allan_;
 };
 

@@ -122,7 +122,7 @@ class LogicalCamera final
 
   const double near_, far_;
   const Frustum frustum_;
-  const double half_width_, half_height_;  // of the view at a distance of 1
+  const double half_width_, half_height_;  // half the size of the view at 1 m, m
   const bool hides_, robots_only_;
 };
 

@@ -25,7 +25,7 @@ struct HeardMessage {
 // Errors of the radio channel at the receiver. A value of 0 switches an error off.
 struct RadioErrors {
   double fading = 0;            // deviation of each message's strength, dB
-  double loss_probability = 0;  // of a message that is strong enough
+  double loss_probability = 0;  // probability that a message is lost although it is strong enough
   // required margin above everything else that is sent in the same step, dB; 0: radios do not
   // disturb each other
   double capture_ratio = 0;

@@ -21,7 +21,7 @@ using geometry::Vector3;
 struct SonarSettings {
   double min = 0, max = 5;
   double field_of_view = 0.26;
-  std::optional<SoundSettings> sound;  // for a cone
+  std::optional<SoundSettings> sound;  // set if the beam is a cone
   NoiseModel noise;
 };
 

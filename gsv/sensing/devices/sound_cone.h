@@ -76,7 +76,7 @@ class SoundCone {
  private:
   struct Beam {
     geometry::Vector3 direction;  // direction in the sonar's frame
-    double strength = 0;          // strength after both ways
+    double strength = 0;          // strength after the way to the target and back
   };
 
   struct Echo {

@@ -84,7 +84,8 @@ class CandidateSet {
   }
 
  private:
-  // Single precision has a relative error of 6e-8, and the gap between ray and centre takes a dozen
+  // Spheres are enlarged by this fraction of the coordinates. It exceeds the rounding error: single
+  // precision has a relative error of 6e-8, and the gap between ray and centre takes a dozen
   // operations.
   static constexpr double kRounding = 4e-6;
 

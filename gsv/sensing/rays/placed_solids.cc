@@ -30,7 +30,8 @@ constexpr std::size_t kPartsAtOnce = 128, kMinParts = 400;
 // cast at the shapes that its index finds.
 constexpr std::uint32_t kFewShapes = 4;
 
-// If more rays of a packet than this touch a shape's bounding sphere, the shape may be long.
+// If more rays of a packet than this touch a shape's bounding sphere, the shape may be long. Then
+// each ray is tested with the bounding box first.
 constexpr int kMaxRaysOfCompact = 4;
 
 // In lists of solids, this bit of the number distinguishes static shapes from moving parts.

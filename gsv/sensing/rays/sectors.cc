@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Vector3;
 
-// Boxes and sectors are extended by this, which is more than their rounding errors.
+// Boxes are extended by kGrown, and sectors by kWidened. This is more than their rounding errors.
 constexpr double kGrown = 1e-6;        // m, and a fraction of the distance
 constexpr double kWidened = 1e-7;      // rad
 constexpr double kInTheMiddle = 1e-3;  // m: a solid that is nearer than this covers all directions

@@ -73,8 +73,8 @@ struct SharedState {
   // is none).
   bool is_timed GSV_GUARDED_BY(simulation_mutex) = false;
   std::string held_up_by GSV_GUARDED_BY(simulation_mutex);
-  // The robots whose behaviours have given up, with a sentence each, which the stepping thread
-  // emits.
+  // The robots whose behaviours have given up, each with a sentence. The stepping thread emits an
+  // event with this sentence.
   std::vector<std::pair<std::string, std::string>> given_up GSV_GUARDED_BY(simulation_mutex);
 };
 

@@ -24,7 +24,7 @@ class SnapshotRays final : public world::RayCaster {
   mutable std::shared_ptr<const sensing::RayScene> scene_;
 };
 
-// The device states of a world. They are copied when the first one changes.
+// The device states of a world. Snapshots share them, so they are copied before the first change.
 class ChangingDevices {
  public:
   explicit ChangingDevices(world::State& state) : state_(state) {}
