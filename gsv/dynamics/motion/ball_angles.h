@@ -33,7 +33,7 @@ class BallAngles {
 
  private:
   std::array<int, 3> joints_;
-  std::array<geometry::Vector3, 3> axes_;  // in the joint's frame
+  std::array<geometry::Vector3, 3> axes_;  // the three joint axes, in the joint's frame
   geometry::Quaternion part_from_joint_;
 };
 

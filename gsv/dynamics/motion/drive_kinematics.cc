@@ -147,7 +147,7 @@ void DriveKinematics::AddWheels(const model::Model& model, const std::vector<int
   const double to_side = side * drive_.wheel_separation / 2;
   for (const int joint : joints) {
     const geometry::Pose& pose = model.joints[joint].model_from_joint;
-    // A wheel whose axis points to the left turns forwards.
+    // If the axis of a wheel points to the left, a positive rate rolls the wheel forwards.
     const bool backwards = (pose.orientation * model.joints[joint].axis).y < 0;
     const double scale = side > 0 ? drive_.left_wheel_scale : drive_.right_wheel_scale;
     const double radius =

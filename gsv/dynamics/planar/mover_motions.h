@@ -68,7 +68,7 @@ class MoverMotions {
   std::vector<geometry::Twist> twists;      // twist in this leg
   std::vector<double> times;                // duration in this leg; 0 at rest
   std::vector<double> reaches;              // maximum distance that any part moves in this step, m
-  std::vector<Vector2> normals;  // for a stopped mover, the direction towards the obstacle
+  std::vector<Vector2> normals;  // direction towards the obstacle that has stopped the mover
 
  private:
   const PlanarScene& scene_;

@@ -60,7 +60,8 @@ class ContactSweeps {
     int first, second;
     geometry::Vector3 arm_first, arm_second;
     std::array<geometry::Vector3, 3> axes;
-    std::array<geometry::Vector3, 3> turn_first, turn_second;  // by a unit impulse along each axis
+    // Changes of the two bodies' angular velocities by a unit impulse along each axis.
+    std::array<geometry::Vector3, 3> turn_first, turn_second;
     // J M⁻¹ Jᵀ: along the normal; of friction, with its softness: [[a, c], [c, b]] and its largest
     // eigenvalue; from the normal to each axis of friction.
     double normal, a, b, c, max;

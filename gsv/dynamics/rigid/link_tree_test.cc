@@ -35,7 +35,7 @@ model::Joint JointAt(const Vector3& at, int parent, int child, JointKind kind,
   return joint;
 }
 
-// Returns the tree of a model at the origin, with these positions and velocities.
+// The link tree of a model at the origin, with given positions and velocities.
 class Tree {
  public:
   explicit Tree(model::Model model) : model_(std::move(model)) {

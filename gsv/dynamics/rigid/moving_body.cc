@@ -258,8 +258,8 @@ void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
   }
 }
 
-// Works like gears: the joint moves at its leader's rate times the multiplier, and towards its
-// correct position. The reaction acts on the leader.
+// Couples a joint to its leader like a gear. The joint moves at the leader's rate times the
+// multiplier, and towards its correct position. The reaction acts on the leader.
 void MovingBody::Follow(const Motor& motor, const model::Mimic& mimic, double seconds) {
   const auto leader = std::find_if(motors_.begin(), motors_.end(),
                                    [&](const Motor& other) { return other.joint == mimic.leader; });

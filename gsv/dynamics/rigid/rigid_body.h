@@ -54,7 +54,7 @@ struct RigidBody {
   const model::Model* model = nullptr;
   Articulation articulation;
   std::vector<Solid> solids;      // the solids of its parts
-  std::vector<PartMedium> media;  // the media of its parts; empty if no medium pushes it
+  std::vector<PartMedium> media;  // one for each part; empty if no medium exerts a force
   std::optional<DriveKinematics> kinematics;
   int first_joint = 0;
   bool is_jointed() const { return articulation.parts.size() > 1; }

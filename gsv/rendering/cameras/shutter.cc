@@ -37,7 +37,7 @@ double Shutter::Age(int sample) const {
 }
 
 std::pair<int, int> Shutter::SamplesOf(int row, int height) const {
-  constexpr double kRounding = 1e-9;  // the tolerance, as a fraction of a sample
+  constexpr double kRounding = 1e-9;  // tolerance for rounding, as a fraction of a sample
   const double newest = readout_time_ * (1 - (row + 0.5) / height);
   const double per_second = samples_ / (exposure_time_ + readout_time_);
   // Returns the sample at which Age(sample) equals `age`.

@@ -37,7 +37,7 @@ class RenderTarget {
   int width_, height_, capacity_;
   std::size_t begun_ = 0;
   GlRenderbuffer depth_;
-  std::vector<Layer> layers_;  // only as many as were needed so far
+  std::vector<Layer> layers_;  // layers are added when they are needed
   std::vector<std::uint8_t> rgba_;
 };
 

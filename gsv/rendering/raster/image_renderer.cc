@@ -424,8 +424,8 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            // Images have few of these pixels. So they are shaded with all lamps, also those whose
-            // range ends before them.
+            // Images have few transparent pixels. So it would not save time to select the lamps
+            // that reach these pixels, and all lamps are used.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
                                                {kAnywhere, kAnywhere, kAnywhere});

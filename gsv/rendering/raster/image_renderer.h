@@ -109,8 +109,9 @@ class ImageRenderer {
   std::vector<Triangle> triangles_;
   std::vector<Shading> shadings_;
   std::vector<Drawn> drawn_;
-  std::vector<std::uint8_t> is_still_;             // for opaque items, in the order of drawn_
-  std::vector<std::int32_t> body_of_, visual_of_;  // for opaque items, in the order of drawn_
+  std::vector<std::uint8_t> is_still_;  // for opaque items, in the order of drawn_
+  std::vector<std::int32_t> body_of_,
+      visual_of_;  // one for each opaque item, in the order of drawn_
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
   Background background_;

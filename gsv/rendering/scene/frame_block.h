@@ -35,7 +35,8 @@ struct FrameBlock {
   Float4 sun_colour;
   Float4 ambient_above, ambient_below;
   Float4 zenith, horizon, nadir;
-  Float4 view_forward, view_right, view_down;  // to the centre and to the edges of the image
+  Float4 view_forward, view_right,
+      view_down;  // from the camera to the image's centre, and from there to its edges
   std::array<std::int32_t, 4> light_count;
   std::array<LightBlock, kMaxLights> lights;
 };

@@ -32,7 +32,7 @@ class ShadowRegion {
   std::vector<std::size_t> MovingCasters(const RenderList& render_list,
                                          const std::vector<CameraView>& views) const;
 
-  struct Rectangle {  // in texels, [min, max)
+  struct Rectangle {  // a part of the map in texels, [min, max)
     int min_x, min_y, max_x, max_y;
   };
   // Returns the parts of the map around the bodies of some items, or the whole map if that is
@@ -47,7 +47,7 @@ class ShadowRegion {
   friend bool operator==(const ShadowRegion&, const ShadowRegion&) = default;
 
  private:
-  std::array<geometry::Vector3, 3> axes_;  // to the right, up, and towards the sun
+  std::array<geometry::Vector3, 3> axes_;  // to the right and up in the map, and towards the sun
   geometry::Vector3 min_, max_;            // minimum and maximum along axes_
 };
 

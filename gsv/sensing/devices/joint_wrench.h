@@ -17,7 +17,7 @@ namespace gsv::sensing {
 // The force and torque that a joint transmits, in world axes.
 struct JointWrench {
   geometry::Vector3 origin;         // origin of the joint
-  geometry::Vector3 force, torque;  // of the parent on the child: N, and N m about the origin
+  geometry::Vector3 force, torque;  // exerted by the parent on the child: N, and N m about `origin`
 };
 
 // Returns the joint above a link, or -1.

@@ -22,7 +22,7 @@ struct Angles {
 struct LidarSettings {
   Angles horizontal, vertical;
   double min = 0, max = 0;
-  double noise_mean = 0, noise_stddev = 0;  // only white noise, which is drawn for each beam
+  double noise_mean = 0, noise_stddev = 0;  // white noise, drawn for each beam
   std::optional<NoiseModel> full_noise;     // the noise model if it has other terms
   LidarErrors errors;                       // applied before the noise
   // The intensity of a white surface at right angles, at the range `intensity_range`, or at any

@@ -106,7 +106,7 @@ double SoundCone::NearestHeard(const Sampling& sampling, std::vector<Echo> echoe
   });
   // Echoes whose distances differ by less than this come from one target, which is represented by
   // the strongest of them.
-  constexpr double kOneTarget = 0.02;  // as a fraction of the distance
+  constexpr double kOneTarget = 0.02;  // fraction of the distance
   constexpr int kMaxTargets = 6;
   int targets = 0;
   for (std::size_t i = 0; i < echoes.size() && targets < kMaxTargets; ++targets) {

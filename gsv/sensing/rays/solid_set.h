@@ -21,7 +21,7 @@ namespace gsv::sensing {
 
 // The body that a set belongs to, if the set is one part of a moving body.
 struct Bearer {
-  int body = -1;  // -1: the bodies that were given to Add()
+  int body = -1;  // body of all shapes; -1: each shape has its own body, given to Add()
   int part = -1;  // index of the part in the scene
   std::uint32_t first_primitive = 0;
 };
@@ -32,7 +32,7 @@ struct Nearest {
   int body = -1;        // -1: nothing found yet
   std::uint32_t primitive = 0;
   int part = -1;            // Bearer::part of the hit set
-  std::uint32_t solid = 0;  // number in its set, see SolidSet::NormalAt()
+  std::uint32_t solid = 0;  // number of the solid in its set, for SolidSet::NormalAt()
 
   // Stores the hit if it is nearer. At equal distance, the hit with the lower body index and then
   // the lower primitive index is kept.
@@ -155,7 +155,7 @@ class SolidSet {
   std::vector<SolidShape> shapes_;
   std::vector<geometry::Bounds> shape_bounds_;      // padded, in the set's frame
   std::vector<BoundingSphere> shape_spheres_;       // padded, in the set's frame
-  std::vector<geometry::Bounds> shape_own_bounds_;  // in the shape's frame
+  std::vector<geometry::Bounds> shape_own_bounds_;  // in the frame of each shape
   BoxIndex shape_index_;
   SphereGrid shape_grid_;
   std::vector<SolidPlane> planes_;

@@ -43,8 +43,9 @@ bool Suits(const BoundingSphere& sphere) {
          fits(sphere.radius);
 }
 
-// The test of a sphere takes the squared gap between its centre and a ray, as a difference of sums
-// of products of up to twice the reach, in a dozen operations.
+// Spheres are enlarged by this fraction of the squared distances in their test. It exceeds the
+// rounding error of the squared gap between centre and ray, which takes a dozen operations in
+// single precision.
 constexpr float kSquareRounding = 1e-6f;
 
 // Spheres that are side by side, in a row of cells.

@@ -20,7 +20,8 @@ constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThrea
 // The number of agents whose commands a thread applies at a time.
 constexpr std::size_t kAgentsAtOnce = 128;
 
-// How many agents ahead data of commands is loaded into the cache, in two stages.
+// While an agent's command is applied, data of later agents is loaded into the cache: the commands
+// of the agent kAgentsAhead places later, and the drive of the agent kDrivesAhead places later.
 constexpr std::size_t kAgentsAhead = 8, kDrivesAhead = 4;
 
 // How often a thread tries to lock a mutex before it sleeps.
@@ -371,7 +372,7 @@ void StepLoop::ApplyCommands() {
   std::vector<RobotAgent*>& commanded = parts_.shared->commanded;
   parts_.team->ParallelFor(
       commanded.size(), kAgentsAtOnce, [&](std::size_t begin, std::size_t end) {
-        simulation_mutex.AssertHeld();  // held by the stepping thread, which waits here
+        simulation_mutex.AssertHeld();  // the stepping thread holds the mutex, and waits here
         for (std::size_t i = begin; i < end; ++i) {
           if (i + kAgentsAhead < end) commanded[i + kAgentsAhead]->PrefetchCommands();
           if (i + kDrivesAhead < end) commanded[i + kDrivesAhead]->PrefetchDrive(state);
