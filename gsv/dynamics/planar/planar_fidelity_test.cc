@@ -156,7 +156,8 @@ TEST(PlanarFidelity, SlippingRobotDriftsOutOfItsArc) {
 }
 
 // The drift is that of SlippingRobotDriftsOutOfItsArc. The wheels of Gazebo's WheelSlip have a
-// constant load instead of their share of the weight, so the compliances are scaled by this ratio.
+// constant load instead of their share of the weight, so the compliances are divided by the ratio
+// of both loads.
 TEST(PlanarFidelity, WheelsOfGazebosWheelSlipDriftByTheirOwnCompliance) {
   const double speed = 1.5, rate = 0.8, lateral = 2, mass = 12, load_ratio = 1.25;
   auto robot = TwoWheeled(1, 1);

@@ -32,7 +32,8 @@ double SpinRadius(const Footprint& footprint, double reference_x) {
                              : std::sqrt(Dot(piece.centre, piece.centre)) + piece.radius;
     radius = std::max(radius, reach);
   }
-  // When a base rotates about its reference point, the model's origin moves as well.
+  // When a base rotates about its reference point, the model's origin moves as well. The bound
+  // includes this motion.
   return radius + 2 * std::abs(reference_x);
 }
 

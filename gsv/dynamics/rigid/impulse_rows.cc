@@ -278,9 +278,10 @@ double ImpulseRows::ChangeOfEnergy() const {
 }
 
 int ImpulseRows::Solve(int max_iterations, double tolerance) {
-  // Number of iterations between two direct solutions, which are cheap for few rows. Other rows may
-  // reach their bounds, so that a direct solution leads away from the result. It is then undone,
-  // and the next one is tried later. The first direct solution distributes loads.
+  // A direct solution of at most kFew rows is cheap, so it follows each iteration, and otherwise
+  // every sixth. If it makes other rows reach their bounds, it may lead away from the result. It is
+  // then undone, and the next direct solution is tried later. The first direct solution distributes
+  // loads.
   constexpr std::size_t kFew = 60;
   const int sweeps = rows_.size() <= kFew ? 1 : 6;
   Trim();

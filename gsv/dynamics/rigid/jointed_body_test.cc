@@ -137,7 +137,7 @@ TEST(JointedBody, FallingLinkRespectsItsVelocityLimit) {
 
 TEST(JointedBody, FrictionHoldsAJoint) {
   auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
-  model->joints[0].friction = 9.9;  // the link weighs 9.8 N
+  model->joints[0].friction = 9.9;  // N, more than the link's weight of 9.8 N
   TestWorld world(MakeWorldEngine());
   world.AddRigid("slider", model, At(0, 0, 5));
   ASSERT_TRUE(world.Start());

@@ -282,7 +282,8 @@ void MovingBody::AfterSubstep(std::span<const double> velocities, bool is_touche
   std::copy(velocities.begin(), velocities.end(), tree_.velocities().begin());
   tree_.Move(velocities, seconds);
   if (!tree_.is_single() || !tree_.is_moved_base() || is_touched) return;
-  // Under a constant force, the mean of the velocities at the start and at the end is exact.
+  // Moves the body back by half of the effect of the acceleration. So it moves at the mean of its
+  // velocities at the start and at the end, which is exact under a constant force.
   tree_.Shift((-seconds * seconds / 2) * outer_acceleration_, {});
 }
 

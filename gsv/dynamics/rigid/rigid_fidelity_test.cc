@@ -259,7 +259,8 @@ TEST(RigidFidelity, ACollisionKeepsMomentum) {
     world.Run(1, kStep);
     const double va = world.body("a").linear_velocity.x, vb = world.body("b").linear_velocity.x;
     EXPECT_WITHIN(mass * va + vb, mass * speed, 1e-9, "kg m/s") << mass;
-    // The tolerance is the depth at which resting bodies overlap, in one substep.
+    // The tolerance, 0.01 m/s, is the overlap of resting bodies (10 µm) divided by a substep (1
+    // ms).
     EXPECT_WITHIN(vb - va, e * speed, 0.0101, "m/s") << mass;
     EXPECT_EQ(world.body("a").collisions, 1u) << mass;
     table.Row({mass, va, vb, speed * (mass - e) / (mass + 1), speed * mass * (1 + e) / (mass + 1)});
@@ -380,7 +381,8 @@ TEST(RigidFidelity, EnergyNeverGrows) {
     world.Step(kStep);
     const double now = EnergyOf(world);
     if (i % 5 == 0) table.Row({kStep * (i + 1), now});
-    // The tolerance covers the rounding of a rotation in a substep, and the slop of a contact.
+    // The tolerance covers the error of a rotation in a substep, and the small overlap that
+    // contacts permit.
     ASSERT_WITHIN(100 * std::max(now - energy, 0.0) / most, 0, 0.02, "% a step") << i;
     energy = now;
   }

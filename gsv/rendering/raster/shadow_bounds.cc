@@ -60,7 +60,8 @@ ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stri
                   (depth(kEnd, 0) + depth(kEnd, kEnd) - depth(0, 0) - depth(0, kEnd)) / (2 * kEnd),
               by_y =
                   (depth(0, kEnd) + depth(kEnd, kEnd) - depth(0, 0) - depth(kEnd, 0)) / (2 * kEnd);
-  F8 above = Splat(-1e30f);  // the largest heights of depths above a plane with these slopes
+  F8 above =
+      Splat(-1e30f);  // the greatest difference between the depths and a plane with these slopes
   for_each([&](F8 depths, int column, int row) {
     const F8 dx = Splat(static_cast<float>(column - x0) + 0.5f) + Steps();
     const float dy = static_cast<float>(row - y0) + 0.5f;

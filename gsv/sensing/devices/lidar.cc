@@ -21,7 +21,7 @@ using messages::gsv_msgs::LidarScan;
 using messages::sensor_msgs::LaserScan;
 using messages::sensor_msgs::PointCloud2;
 
-// Directions in the sensor's frame, in the order of the values.
+// Returns the direction of each beam in the sensor's frame, in the order of the reading's values.
 std::vector<Vector3> Directions(const LidarSettings& settings) {
   std::vector<Vector3> directions;
   directions.reserve(std::size_t(settings.horizontal.count) * settings.vertical.count);

@@ -160,7 +160,8 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
                                      std::span<const std::optional<Hit>> hits, double max_distance,
                                      std::vector<Echo>& echoes) const {
   constexpr double kOffTheSurface = 1e-6;
-  // angle from the normal, rad; below it the first echo is detected
+  // Angle between the sound and the normal, rad. Below it, the first echo returns to the sonar, so
+  // no second reflection is needed.
   constexpr double kOblique = 0.2;
   std::vector<Ray> mirrored;
   std::vector<std::size_t> places;

@@ -35,7 +35,7 @@ class RayPairs {
   static constexpr std::size_t kMax = 8;
   using Lanes = std::array<double, kMax>;
 
-  // Whether this processor is fast at pairs. Otherwise they must not be used.
+  // Whether this processor has AVX2. Without it, RayPairs must not be used.
   static bool AreFast();
 
   std::size_t count() const { return count_; }

@@ -81,7 +81,7 @@ class Arguments {
 // A command for a simulation, such as "pause".
 struct Command {
   std::string_view name;     // lower_case
-  std::string_view summary;  // an imperative, as in docs/api.yaml
+  std::string_view summary;  // an imperative that describes the command
   std::vector<Parameter> parameters{};
   // Applies the command. It may block, because a reset calls behaviours.
   base::Status (*apply)(Simulation& simulation, const Arguments& arguments) = nullptr;

@@ -27,7 +27,7 @@ constexpr std::size_t kAgentsAhead = 8, kDrivesAhead = 4;
 // How often a thread tries to lock a mutex before it sleeps.
 constexpr int kTries = 200;
 
-// The reason of a pause that nobody requested.
+// The reason in the event of a pause at the end of Step(), RunUntil() or RunThrough().
 constexpr const char* kReachedTarget = "the requested time is reached";
 
 // Raises the priority of the calling thread above that of behaviours, which all want to run at the
