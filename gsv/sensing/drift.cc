@@ -23,7 +23,7 @@ double DriftAt(base::SimTime time, double correlation_time, std::uint64_t seed,
   double first = draw(block, 0), last = draw(block + 1, 0);
   double place = blocks - block;  // position in the interval, as a fraction in [0, 1)
   double length = kBlock;         // length of the interval, in correlation times
-  std::uint64_t node = 1;         // number of the interval, in the order of a heap
+  std::uint64_t node = 1;         // number of the interval, as of a node in a binary heap
   for (int i = 0; i < kHalvings; ++i) {
     length /= 2;
     const double rho = std::exp(-length);

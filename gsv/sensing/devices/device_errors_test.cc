@@ -165,9 +165,10 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
       if (range > 2.2 && range < 3.8) ++between;
     }
   }
-  // There are two edges with a beam on either side. In half of the cases, the beam's range is mixed
-  // with that of the edge's side. The beam covers the edge with the probability divergence / step =
-  // 0.6.
+  // Each of the two edges is between two beams, so four beams are beside an edge. In half of the
+  // scans, the errors of a beam concern the side of the edge. The beam then covers the edge with
+  // the probability divergence / step = 0.6. Of the mixed ranges, the fraction 0.8 is between 2.2
+  // and 3.8 m.
   const double expected = 4 * 0.5 * 0.6 * 0.8 * scans;
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }

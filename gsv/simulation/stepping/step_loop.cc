@@ -201,7 +201,8 @@ void StepLoop::TakePiece(std::size_t begin, std::size_t end) {
   ApplyUsualTurns(begin, end);
 }
 
-// Another thread holds the mutex for a microsecond, so that sleeping would take longer.
+// Another thread holds the mutex for at most about a microsecond. Sleeping would take longer, so
+// this thread first tries several times to lock it.
 void StepLoop::WakeForTurns(std::size_t begin, std::size_t end) {
   base::Mutex& mutex = parts_.shared->mutex;
   int tries = 0;
