@@ -63,7 +63,8 @@ TEST_F(RealFilesTest, EveryWorldLoads) {
   }
 }
 
-// The folder also has meshes of other models (turtlebot3_common) and a light (sun).
+// The models are listed by name, because the folder also contains a light (sun) and the meshes of
+// other models (turtlebot3_common).
 TEST_F(RealFilesTest, EveryModelLoads) {
   for (const char* name : {"gazebo_models/bookshelf",
                            "gazebo_models/cafe",

@@ -11,7 +11,8 @@ namespace gsv::gateway {
 namespace {
 
 constexpr std::size_t kReaderThreads = 2, kCommanderThreads = 2;
-constexpr std::size_t kRelayReaderThreads = 4;  // these threads wait for the other instance
+// A relay has more threads, because they wait for the responses of the other instance.
+constexpr std::size_t kRelayReaderThreads = 4;
 
 class LocalGateway final : public Gateway, private Handler {
  public:

@@ -19,7 +19,8 @@ namespace {
 constexpr const char* kSocket = "/ws";
 constexpr std::size_t kMaxStreams = 64;
 constexpr std::chrono::seconds kProbeTime{5};
-// The limit is long, because a reset waits for behaviours, and a large model must be written.
+// Time limit for a request to the other instance. It is long, because a reset waits for behaviours,
+// and writing a large model takes long.
 constexpr std::chrono::seconds kRequestTime{60};
 
 base::Status Probe(const upstream::Address& address) {
@@ -145,7 +146,7 @@ class RelayRoutes final : public RouteSet {
       return base::Fail(base::ErrorCode::kUnavailable,
                         "too many simulations are open through this relay; restart it");
     }
-    // A replay session is controlled over HTTP.
+    // Viewers control a replay over HTTP, so the stream of a replay has no operations.
     auto operations = socket == kSocket ? std::make_shared<upstream::RelayedOperations>(
                                               address_, name, commanders_)
                                         : nullptr;

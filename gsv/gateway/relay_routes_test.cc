@@ -81,7 +81,7 @@ class RelayTest : public ::testing::Test {
   std::string authority_;
 };
 
-// The other instance uses HTTPS.
+// A relay of an instance that uses HTTPS.
 class SecureRelayTest : public RelayTest {
  protected:
   void SetUp() override {

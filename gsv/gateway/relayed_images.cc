@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kThreads = 4;
 constexpr std::chrono::seconds kImageTime{30};
-// Maximum time between two checks of a stream whether the relay has ended.
+// A waiting stream checks at this interval whether the relay has been stopped.
 constexpr std::chrono::milliseconds kMaxWait{500};
 
 std::string TimeOf(const Response& image) {

@@ -34,7 +34,8 @@ class RelayedImages {
   boost::asio::io_context& io_;
   const upstream::Address address_;
   const std::shared_ptr<WorkerPool> pool_;
-  const std::shared_ptr<int> seats_ = std::make_shared<int>(0);  // each open stream holds a copy
+  // Each open stream has a copy, so use_count() counts the open streams.
+  const std::shared_ptr<int> seats_ = std::make_shared<int>(0);
 };
 
 }  // namespace gsv::gateway

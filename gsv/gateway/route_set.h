@@ -25,8 +25,8 @@ class RouteSet {
   virtual void Stop() {}
 };
 
-// Make the routes of each kind of gateway. `commanders` runs the commands that come over
-// WebSockets, and must outlive the set.
+// These functions make the routes of each kind of gateway. `commanders` runs the commands that come
+// over WebSockets, and must outlive the set.
 std::unique_ptr<RouteSet> MakeLiveRoutes(const GatewayOptions& options,
                                          std::shared_ptr<SimulationDirectory> directory,
                                          WorkerPool& commanders);

@@ -330,8 +330,7 @@ base::Result<fs::path> ModelFileIn(const fs::path& folder) {
       const char* name = sdf->GetText();
       const int version = VersionNumber(sdf->Attribute("version"));
       if (name == nullptr || ClimbsOut(name) || version < kOldest) continue;
-      // A version that is newer than all versions known to this program is used only if there is no
-      // other.
+      // A file of a version newer than kNewest is used only if there is no older file.
       const int rank = version <= kNewest ? version : 1;
       if (rank > best_version && Exists(folder / name)) {
         best_version = rank;

@@ -76,8 +76,8 @@ class DoctypeReader {
     return text_.substr(begin, (end == std::string_view::npos ? text_.size() : end) - begin);
   }
 
-  // <!ENTITY name "value"> or <!ENTITY name SYSTEM "file">; with a % before the name for a
-  // parameter entity.
+  // Reads a declaration: <!ENTITY name "value"> or <!ENTITY name SYSTEM "file">. A % before the
+  // name declares a parameter entity.
   void TakeEntity() {
     at_ += std::string_view("<!ENTITY").size();
     SkipSpace();

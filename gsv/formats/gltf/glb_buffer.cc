@@ -57,7 +57,8 @@ int GlbBuffer::AddVectors(std::span<const float> values, int components) {
 }
 
 int GlbBuffer::AddIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count) {
-  if (vertex_count <= 0xffff) {  // 16-bit index 0xffff means primitive restart
+  // The 16-bit index 0xffff means primitive restart, so no vertex may have it.
+  if (vertex_count <= 0xffff) {
     const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
     return AddAccessor(AddView(std::span<const std::uint16_t>(narrow), kElementArrayBuffer),
                        kUnsignedShort, indices.size(), "SCALAR");

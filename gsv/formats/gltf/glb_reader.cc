@@ -23,10 +23,10 @@ using geometry::Vector3;
 constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
 constexpr std::int64_t kGlbFloat = 5126, kGlbShort = 5123, kGlbInt = 5125;
 // Maximum number of values in all meshes of a model together. The size of the file does not limit
-// it, because many meshes can use the same accessor.
+// this number, because many meshes can use the same accessor.
 constexpr std::size_t kMaxGlbNumbers = 200'000'000;
 
-// Thrown and caught in this file only, if the file was not written by WriteGlb().
+// The exception for bytes that WriteGlb() has not written. This source file throws and catches it.
 struct Flaw {
   std::string what;
 };

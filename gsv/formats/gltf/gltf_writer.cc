@@ -241,7 +241,7 @@ class Writer {
       }
     };
     set_map(material.base_colour_map, "baseColorTexture", true, pbr);
-    // The map was combined from several files, so no single file contains it.
+    // The map was combined from several files, so no original file can be used.
     set_map(material.metallic_roughness_map, "metallicRoughnessTexture", false, pbr);
     json["pbrMetallicRoughness"] = std::move(pbr);
     set_map(material.normal_map, "normalTexture", true, json);

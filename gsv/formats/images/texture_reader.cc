@@ -12,7 +12,8 @@
 #include "gsv/formats/images/stb_copy.h"
 #include "gsv/formats/images/tiff_reader.h"
 
-// Other parts of the program may decode images: this copy is private to this file.
+// Libraries that the program links may contain stb_image, too. STB_IMAGE_STATIC makes the functions
+// of this copy private to this source file.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_NO_STDIO

@@ -7,7 +7,7 @@
 
 #include "gsv/formats/images/stb_copy.h"
 
-// This copy is private to this file.
+// The functions of stb_image_write are private to this source file (STB_IMAGE_WRITE_STATIC).
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"

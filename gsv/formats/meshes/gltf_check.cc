@@ -15,7 +15,8 @@ namespace {
 using base::ErrorCode;
 
 constexpr int kMaxJsonDepth = 64;  // glTF itself has about ten levels; "extras" may have more
-constexpr std::size_t kMaxNodeDepth = 512;  // assimp descends by recursion
+// assimp visits nodes recursively, so deeper nodes could exhaust the stack.
+constexpr std::size_t kMaxNodeDepth = 512;
 constexpr std::size_t kMaxNodes =
     1'000'000;  // counts a node once for each of its parents, because assimp copies it
 
@@ -134,7 +135,8 @@ class DeclaredSizeChecker : public nlohmann::json_sax<nlohmann::json> {
 
  private:
   static constexpr std::size_t kNoSizeLimit = SIZE_MAX;
-  static constexpr int kInRoot = 1, kInElement = 3;  // depths: an object in an array of the root
+  // Nesting depths of a key: in the root object, and in an object of one of the root's arrays.
+  static constexpr int kInRoot = 1, kInElement = 3;
 
   bool Take(bool is_allowed) {
     if (!is_allowed) wrong = "the mesh claims more values than the limits allow";

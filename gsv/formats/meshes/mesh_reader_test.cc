@@ -173,7 +173,8 @@ TEST_F(MeshReaderTest, WarnsOfMissingTextures) {
 // A TGA of one red pixel whose alpha is zero.
 const std::string kSeeThrough{"\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x28\0\0\xff\0", 22};
 
-// Gazebo's model of the Create has an image whose alpha is zero nearly everywhere.
+// Gazebo's model of the Create has an image whose alpha is zero nearly everywhere. The robot must
+// still be opaque, because its material does not use the alpha.
 TEST_F(MeshReaderTest, TheAlphaOfAnImageCountsIfTheMaterialUsesIt) {
   folder_.Write("red.tga", kSeeThrough);
   folder_.Write("a.mtl", "newmtl green\nmap_Kd red.tga\n");

@@ -292,7 +292,8 @@ void IntoFrame(const Pose& root_from_bone, double scale, TriangleMesh& mesh) {
   Vector3 spare;
   for (const auto& corners : mesh.triangles) spare = mesh.positions[corners[0]];
   for (Vector3& position : mesh.positions) {
-    if (!geometry::IsFinite(position)) position = spare;  // no triangle uses this vertex
+    // No triangle uses a vertex that is not finite, so any finite position can replace it.
+    if (!geometry::IsFinite(position)) position = spare;
     position = scale * (bone_from_root * position);
   }
   for (Vector3& normal : mesh.normals) normal = bone_from_root.orientation * normal;

@@ -30,8 +30,8 @@ constexpr std::size_t kMaxMessageLength = 300;
 // maximum number of schemas that are kept
 constexpr std::size_t kMaxSchemas = 8;
 
-// libsdformat names text that is not from a file "<data-string>" or "<urdf-string>", and does not
-// number the lines of the latter.
+// Whether an error of libsdformat has no file. libsdformat calls text that is not from a file
+// "<data-string>" or "<urdf-string>".
 bool IsNoFile(const std::string& file) { return file.empty() || file.front() == '<'; }
 
 // Stores the errors of urdfdom: libsdformat does not pass them on.
@@ -72,8 +72,8 @@ struct Reading {
   }
 };
 
-// Below the first include, libsdformat 12 uses the global configuration instead of the one that the
-// caller passed.
+// Changes libsdformat's global configuration so that included files come from `server`. libsdformat
+// 12 uses the caller's own configuration only for the main file, and not for included files.
 void ConfigureBy(IncludedFileServer& server) {
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   config.SetFindCallback([&server](const std::string& uri) { return server.Find(uri); });

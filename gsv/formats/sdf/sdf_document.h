@@ -37,7 +37,8 @@ void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 // because making it takes longer than reading a small file. It must not be changed.
 sdf::ElementPtr SdfSchema() GSV_REQUIRES(SdformatMutex());
 
-// Return the file that contains an element, and "file:line: element path" for messages about it.
+// These functions return the file that contains an element, and "file:line: element path" for
+// messages about it.
 std::filesystem::path FileOf(const sdf::Element& element, const std::filesystem::path& source);
 std::string PlaceOf(const sdf::Element& element, const std::filesystem::path& source);
 

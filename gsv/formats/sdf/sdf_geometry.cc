@@ -70,7 +70,7 @@ std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
       layer.min_height = heightmap.BlendByIndex(i - 1)->MinHeight();
       layer.fade_distance = heightmap.BlendByIndex(i - 1)->FadeDistance();
     } else if (i > 0) {
-      break;  // the height at which the next texture begins is missing
+      break;  // without a <blend>, the height at which the texture begins is unknown
     }
     const std::string place = texture.Element() == nullptr
                                   ? context.source.string()

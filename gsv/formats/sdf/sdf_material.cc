@@ -107,7 +107,7 @@ class MaterialOfVisual {
   // GSV's meshes have one set of texture coordinates, so only set 0 can be used.
   void ReadLightMap(const sdf::PbrWorkflow& flow) {
     if (flow.LightMap().empty()) return;
-    if (flow.LightMapTexCoordSet() != 0) return;  // the element audit warns
+    if (flow.LightMapTexCoordSet() != 0) return;  // element_audit.h adds a warning
     material_.light_map = Texture(flow.LightMap());
   }
 

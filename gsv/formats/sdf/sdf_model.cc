@@ -425,7 +425,7 @@ class ModelReader {
   struct Gearbox {
     const sdf::Joint* source;
     Joint joint;
-    int reference;  // link index, or -1
+    int reference;  // index of <gearbox_reference_body>, or -1
     std::string place;
   };
 

@@ -21,7 +21,7 @@ using base::Problem;
 using tinyxml2::XMLElement;
 
 constexpr int kOldestVersion = 103;
-constexpr int kNewestVersion = 109;  // the newest version that libsdformat supports
+constexpr int kNewestVersion = 109;  // SDFormat 1.9, the newest version of libsdformat 12
 constexpr int kNewestKnownMinor = 12;
 constexpr int kNewestKnown = 100 + kNewestKnownMinor;
 

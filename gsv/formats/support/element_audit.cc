@@ -115,7 +115,7 @@ class ElementAudit {
         ReportUnknown(*child, *file_.root, root);
       } else if (child == taken) {
         Visit(*child, *known);
-      } else if (name != "world" && taken != nullptr) {  // the reader reports a second world
+      } else if (name != "world" && taken != nullptr) {  // world_reader.cc reports a second world
         Report(Tag(name) + " beside a " + Tag(taken->Name()) + " is ignored" +
                    (std::string_view(taken->Name()) == "world" ? ". It belongs in <world>."
                                                                : "; a file may contain one model"),
@@ -256,7 +256,7 @@ class ElementAudit {
 
   void VisitKnown(const XMLElement& element, const ElementSupport& support) {
     if (support.support == Support::kNoEffect) return;
-    // An element with a name is an object of its own, even if it contains no values.
+    // An unsupported element with a name is an object, so it is reported even without any values.
     const bool is_thing = support.support == Support::kNone && element.Attribute("name") != nullptr;
     if (support.support != Support::kFull && (is_thing || !HasOnlyDefaults(element, support))) {
       Report(

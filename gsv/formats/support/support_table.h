@@ -35,7 +35,8 @@ struct ElementSupport {
 
   using ByName = std::map<std::string, std::unique_ptr<ElementSupport>, std::less<>>;
   ByName children, attributes;
-  const ElementSupport* definition = nullptr;  // the definition that lists more content
+  // The definition whose elements and attributes are also allowed here; null if there is none.
+  const ElementSupport* definition = nullptr;
 
   // Other definitions whose elements are also allowed here (for URDF's <gazebo>).
   std::vector<const ElementSupport*> borrowed;

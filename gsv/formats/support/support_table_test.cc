@@ -45,8 +45,8 @@ TEST(SupportTable, KnowsPluginsByFileOrClass) {
   EXPECT_EQ(table.Plugin("libmine.so", "mine"), nullptr);
 }
 
-// The description files of libsdformat. Each element and attribute of each version must be in the
-// table, and each default in the table must equal the default in the description.
+// Reads the description files of libsdformat. Each element and attribute of each version must be in
+// the table, and each default in the table must equal the default in the description.
 class InstalledSchemaTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
@@ -73,7 +73,7 @@ class InstalledSchemaTest : public testing::TestWithParam<int> {
          include = include->NextSiblingElement("include")) {
       tinyxml2::XMLDocument part;
       const fs::path file = folder_ / include->Attribute("filename");
-      // Some of the files are not installed.
+      // The schemas include some files that libsdformat does not install.
       if (part.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) continue;
       const std::string name = part.RootElement()->Attribute("name");
       CompareOne(*part.RootElement(), support.Child(name), path + "/" + name);
@@ -87,7 +87,7 @@ class InstalledSchemaTest : public testing::TestWithParam<int> {
     EXPECT_LE(known->since, GetParam()) << path;
     EXPECT_TRUE(known->until == 0 || known->until >= GetParam()) << path;
     const char* otherwise = described.Attribute("default");
-    // GSV's spot lights fall off linearly, as with <falloff> 1.
+    // GSV's spot lights fall off linearly, so GSV's default is 1, unlike SDFormat's.
     if (path == "light/spot/falloff") return;
     if (GetParam() == 9 && known->otherwise && otherwise != nullptr) {
       EXPECT_TRUE(HasSameMeaning(*known->otherwise, otherwise)) << path << ": " << otherwise;

@@ -25,7 +25,7 @@ void AppendVector(const geometry::Vector3& v, std::string& out) {
 }  // namespace
 
 std::string WriteStl(const geometry::TriangleMesh& mesh, std::size_t first, std::size_t count) {
-  std::string stl = "binary STL, metres";  // "solid" at the beginning would mean text
+  std::string stl = "binary STL, metres";  // a file that begins with "solid" is an ASCII STL
   stl.reserve(kHeader + 4 + count * kTriangle);
   stl.resize(kHeader, ' ');
   AppendValue(static_cast<std::uint32_t>(count), stl);

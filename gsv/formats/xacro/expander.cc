@@ -348,7 +348,7 @@ base::Status Expander::OnInsertBlock(const NodePtr& node, Node& parent, Context&
   if (!name) return base::Fail(name.error());
   const Block* const found = context.scope.FindBlock(*name);
   if (found == nullptr) return InvalidXacro("there is no block \"" + *name + "\"");
-  const Block block = *found;  // the expansion may define another block of that name
+  const Block block = *found;  // a copy, because the expansion may replace the block
   if (block.is_expanded) {
     steps_ += static_cast<int>(block.nodes.size());
     parent.children.insert(parent.children.end(), block.nodes.begin(), block.nodes.end());
@@ -390,7 +390,7 @@ base::Status Expander::OnAttribute(const NodePtr& node, Node& parent, Context& c
 
 base::Status Expander::CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
                                  Context& context) {
-  const NodePtr definition = macro.definition;  // the body may redefine the macro
+  const NodePtr definition = macro.definition;  // a copy, because the body may redefine it
   Scope inner(&home == &main_ || &home == &context.space ? &context.scope : &home.scope, resolve_);
   if (auto ok = BindValues(macro, node, context, inner); !ok) return ok;
   if (auto ok = BindBlocks(macro, node, context, inner); !ok) return ok;

@@ -31,7 +31,7 @@ class Expander {
   };
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
 
-  // Expand nodes, and append the results to `parent`.
+  // These functions expand nodes, and append the results to `parent`.
   base::Status Children(const Node& of, Node& parent, Context& context);
   base::Status One(const NodePtr& node, Node& parent, Context& context);
   base::Status Element(const NodePtr& node, Node& parent, Context& context);
@@ -42,7 +42,7 @@ class Expander {
   // Appends an element that is not an element of xacro, with its attributes and content expanded.
   base::Status Plain(const std::string& name, const Node& node, Node& parent, Context& context);
 
-  // Each expands one kind of xacro element, such as <xacro:property>.
+  // Each of these functions expands one kind of xacro element, such as <xacro:property>.
   base::Status OnProperty(const NodePtr& node, Node& parent, Context& context);
   base::Status OnMacro(const NodePtr& node, Node& parent, Context& context);
   base::Status OnArgument(const NodePtr& node, Node& parent, Context& context);
@@ -57,7 +57,7 @@ class Expander {
 
   base::Status CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
                          Context& context);
-  // Set the parameters of a macro in the scope of its body.
+  // These functions set the parameters of a macro in the scope of its body.
   base::Status BindValues(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
   base::Status BindDefault(const Parameter& parameter, const NodePtr& node, Context& context,
                            Scope& inner);

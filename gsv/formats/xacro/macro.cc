@@ -53,7 +53,7 @@ std::vector<Parameter> ParseParameters(const std::string& text) {
       SkipBlanks(text, at);
       ReadDefault(ReadWord(text, at), parameter);
     } else if (at < text.size() && !IsBlank(text[at])) {
-      ++at;  // a colon without "="
+      ++at;  // skips a colon without "="
     }
     for (; parameter.name.starts_with('*'); parameter.name.erase(0, 1)) {
       parameter.kind = parameter.kind == Parameter::Kind::kValue ? Parameter::Kind::kBlock

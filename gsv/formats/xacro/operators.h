@@ -13,7 +13,7 @@ namespace gsv::formats::xacro {
 // Applies one of + - * / // % **
 base::Result<Value> Apply(const std::string& sign, const Value& a, const Value& b);
 base::Result<Value> Negative(const Value& value);
-// Compares by one of == != < <= > >= in, not in
+// Compares two values. `word` is ==, !=, <, <=, >, >=, "in" or "not in".
 base::Result<bool> Compare(const std::string& word, const Value& a, const Value& b);
 base::Result<Value> Index(const Value& of, const Value& index);
 base::Result<Value> Slice(const Value& of, const Value& from, const Value& to);

@@ -42,7 +42,7 @@ AccessRule::AccessRule(std::string_view host, std::uint16_t port,
   names.insert(names.end(), more_hosts.begin(), more_hosts.end());
   for (const std::string& name : names) {
     hosts_.push_back(LowerCase(Authority(name, port)));
-    // Browsers omit the default port.
+    // Browsers omit the default port from the Host header, so the name alone is allowed as well.
     if (port == usual_port_) hosts_.push_back(hosts_.back().substr(0, hosts_.back().rfind(':')));
   }
   for (const std::string& allowed : hosts_) origins_.push_back(scheme_ + allowed);

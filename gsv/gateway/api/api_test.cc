@@ -163,7 +163,7 @@ TEST_F(ApiTest, SetsTheRealTimeFactor) {
   }
   EXPECT_EQ(simulation_->real_time_factor(), 2.5);
   EXPECT_EQ(Ask("GET", path).allow, "POST");
-  // The deprecated names of the route and of its parameter.
+  // The deprecated route /factor, with its parameter `factor`, still works.
   EXPECT_EQ(AskJson("POST", path_ + "/factor", 200, R"({"factor":0.5})")["target_factor"], 0.5);
 }
 

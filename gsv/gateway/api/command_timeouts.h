@@ -26,7 +26,7 @@ class CommandTimeouts {
   CommandTimeouts(const CommandTimeouts&) = delete;
   CommandTimeouts& operator=(const CommandTimeouts&) = delete;
 
-  // Runs `stop` after this time. Replaces the pending function of the same key.
+  // Calls `stop` after `timeout`. Replaces the pending function of the same key.
   void Set(const std::string& key, std::chrono::nanoseconds timeout, std::function<void()> stop);
   void Cancel(const std::string& key);
 

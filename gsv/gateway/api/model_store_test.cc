@@ -39,7 +39,7 @@ TEST(ModelIdentity, DependsOnTheVisualsOnly) {
   with_map.links[0].visuals[0].materials[0].base_colour_map = map;
   EXPECT_NE(ModelIdentity(with_map), id);
 
-  // Parts that collide but are invisible do not matter.
+  // Mass and collision shapes are not drawn, so they do not change the identifier.
   model::Model heavier = testing::CrateModel();
   heavier.links[0].inertial.mass = 100;
   heavier.links[0].collisions.clear();
@@ -115,7 +115,8 @@ TEST(ModelStore, WritesTheCollisionShapes) {
   EXPECT_NE(id, store.Identify(model));
   ASSERT_TRUE(store.Glb(id));
   ASSERT_EQ(written.size(), 1u);
-  ASSERT_EQ(written[0].links[0].visuals.size(), 1u);  // a plane is infinite
+  // The plane is left out, because it is infinite.
+  ASSERT_EQ(written[0].links[0].visuals.size(), 1u);
   const model::Visual& shown = written[0].links[0].visuals[0];
   EXPECT_EQ(std::get<geometry::Sphere>(shown.shape).radius, 0.25);
   EXPECT_EQ(shown.link_from_visual.position.z, 0.5);

@@ -85,7 +85,7 @@ curves::CurveRequest CurveRequestOf(const Target& target) {
     const auto parsed =
         std::from_chars(value.data(), value.data() + value.size(), request.max_points);
     const bool is_number = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
-    // The value 0 is refused, like other values out of range.
+    // 0 is out of range, so the request is refused later.
     if (!is_number) request.max_points = 0;
   }
   return request;

@@ -27,7 +27,8 @@ FieldResult<ScenarioJson> ParseRequestObject(std::string_view body) {
   return json;
 }
 
-// Removes a boolean member and returns its value. The scenario's reader would refuse the member.
+// Removes a boolean member of a request and returns its value. The member must be removed, because
+// the parser of scenarios does not know it.
 FieldResult<bool> TakeFlag(ScenarioJson& json, const char* name) {
   const ScenarioJson value = json.value(name, ScenarioJson());
   json.erase(name);

@@ -254,7 +254,7 @@ void PushedViews::ChooseDetail(Watched& watched, double slow_rate, std::size_t b
   }
   if (detail == watched.detail) return;
   watched.detail = detail;
-  watched.seat = nullptr;  // the next image has another size
+  watched.seat = nullptr;  // the next image has another size and needs a new Seat
   watched.last = 0;
 }
 

@@ -30,8 +30,9 @@
 namespace gsv::gateway::drawing {
 
 inline constexpr std::size_t kMaxViewsOfClient = 4;
-// sequence (4 bytes), number (8), microseconds since 1970 when the state was first seen (8); little
-// endian.
+// Size in bytes of the header before each image. It contains, in little endian: the sequence (4
+// bytes), the number of the image (8), and the time at which the drawer first saw this state, in
+// microseconds since 1970 (8).
 inline constexpr std::size_t kImageHeaderSize = 20;
 
 class PushedViews final : public Views, public std::enable_shared_from_this<PushedViews> {

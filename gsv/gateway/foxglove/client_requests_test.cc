@@ -183,7 +183,7 @@ TEST_F(ClientRequestsTest, ReportsAtMostTenErrorsOfARequest) {
 
 TEST_F(ClientRequestsTest, APlaybackIsControlledAndAllClientsGetItsState) {
   const auto client = Join(), other = Join();
-  // Play, at speed 2, from 3 ns.
+  // The message requests to play at speed 2, from the time 3 ns on.
   EXPECT_TRUE(hub_.ReceiveBytes(
       client.get(), std::string("\x03\0\0\0\0\x40\x01\x03\0\0\0\0\0\0\0\x01\0\0\0q", 20)));
   EXPECT_EQ(operations_->speed, 2);
@@ -221,7 +221,7 @@ TEST_F(ClientRequestsTest, TheConnectionGraphListsPublishersSubscribersAndServic
   SetDriveState(*watcher, {{"op", "unsubscribeConnectionGraph"}});
   hub_.Unadvertise(std::vector{channels[0]});
   hub_.PublishChanges();
-  EXPECT_EQ(watcher->texts().size(), told + 1);  // the new message is about the topic itself
+  EXPECT_EQ(watcher->texts().size(), told + 1);  // "unadvertise", and no graph update
 }
 
 // Tests commands by name, and the conversion of requests to their services.

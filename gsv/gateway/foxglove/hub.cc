@@ -47,7 +47,7 @@ std::shared_ptr<Views> Hub::views() const {
 }
 
 void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
-  // The older protocol has no playbacks.
+  // The older subprotocol has no playbacks, so its clients do not get the playback's state.
   const bool knows_playback = subprotocol == foxglove::kSubprotocols.front();
   {
     const base::MutexLock lock(mutex_);

@@ -39,7 +39,8 @@ class Hub {
   // The name of the simulation in the server info; empty: none.
   const std::string& simulation() const { return simulation_; }
 
-  // Adds a client, which gets the server info and the channels. After Close(), closes it instead.
+  // Adds a client, which gets the server info and the channels. After Close(), disconnects the
+  // client instead.
   void Add(std::shared_ptr<Client> client,
            std::string_view subprotocol = foxglove::kSubprotocols.front());
   void Remove(Client* client);
@@ -47,7 +48,7 @@ class Hub {
   base::Status Receive(Client* client, std::string_view text);
   base::Status ReceiveBytes(Client* client, std::string_view bytes);
 
-  // For publishers. Advertise() gives each channel a unique number.
+  // Publishers call these functions. Advertise() gives each channel a unique number.
   std::vector<foxglove::ChannelId> Advertise(std::vector<foxglove::Channel> channels);
   void Unadvertise(std::span<const foxglove::ChannelId> channels);
 

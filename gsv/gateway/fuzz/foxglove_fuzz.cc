@@ -16,7 +16,7 @@ using namespace gsv::gateway;
 
 namespace {
 
-// Counts its messages, and checks that a viewer could read them.
+// A client that counts the bytes of the messages to it, and checks the size of their headers.
 class CountingClient final : public Client {
  public:
   void SendText(SharedBytes text) override { bytes += text.size(); }
@@ -27,7 +27,7 @@ class CountingClient final : public Client {
   }
   void Close(CloseCode, std::string) override {}
 
-  std::atomic<std::size_t> bytes = 0;  // services answer from their own thread
+  std::atomic<std::size_t> bytes = 0;  // atomic, because services answer from another thread
 };
 
 std::string Unescaped(std::string_view line) {

@@ -17,8 +17,8 @@ namespace gsv::gateway::history {
 
 class HistoryApi {
  public:
-  // `histories` and `sessions` may be null, but only both. Then no history is kept, and only the
-  // events and notes are served. All objects must outlive this one.
+  // If no history is kept, `histories` and `sessions` are both null. Then only the events and notes
+  // are served. All arguments must outlive this object.
   HistoryApi(std::shared_ptr<SimulationDirectory> directory, Histories* histories,
              recordings::ReplaySessions* sessions, ModelStore& models)
       : directory_(std::move(directory)),

@@ -45,7 +45,7 @@ struct Route {
   // Used instead of `handler` for responses that come later. The server's thread calls it, so it
   // must return at once.
   std::function<void(const Request&, const Respond&)> later{};
-  // Whether the query may have the token, as for a WebSocket: an image in a page has no headers.
+  // Whether the query may contain the token. A page that shows an image (<img>) cannot set headers.
   bool accepts_token_in_query = false;
 };
 

@@ -12,7 +12,7 @@ namespace gsv::gateway {
 namespace fs = std::filesystem;
 namespace {
 
-// The viewer's files are far smaller; a larger file is there by mistake.
+// Larger files are not served. The viewer's own files are far smaller.
 constexpr std::uintmax_t kMaxFileBytes = 256u << 20;
 
 constexpr auto kContentTypes = std::to_array<std::pair<std::string_view, std::string_view>>({

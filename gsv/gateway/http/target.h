@@ -10,7 +10,8 @@
 
 namespace gsv::gateway {
 
-// "/api/simulations/a%20b?x=1" is {"api", "simulations", "a b"} and {"x": "1"}. Segments may
+// A parsed target. For example, "/api/simulations/a%20b?x=1" has the segments {"api",
+// "simulations", "a b"} and the query {"x": "1"}. Segments may
 // contain any bytes, also '/' and "..", so code that uses them as file names must check them.
 struct Target {
   std::vector<std::string> segments;  // "/" has no segments; a '/' at the end adds none

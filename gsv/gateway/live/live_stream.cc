@@ -83,7 +83,7 @@ void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::S
     layout_ = snapshot.layout;
     pose_list_ = presentation::PoseListOf(*layout_);
   }
-  // Sensors can be mounted without changing the layout.
+  // Sensors can be mounted without changing the layout, so they are searched for once per second.
   if (!is_new && !sensors_->has_requests() && !refresh_pacing_.IsDue(now)) return;
   sensors_->Refresh(simulation, snapshot);
   refresh_pacing_.Done(now);

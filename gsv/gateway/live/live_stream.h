@@ -30,8 +30,8 @@ inline constexpr double kContactsRate = 15;
 inline constexpr double kMinContactsRate = 2;
 inline constexpr double kMaxPackedBytesPerSecond = 350'000;
 
-// The rate of rounds for a stream with clients, and the highest rate of poses, in Hz of wall-clock
-// time.
+// The rate at which Round() is called for a stream with clients, and the highest rate of poses. In
+// Hz of wall-clock time.
 inline constexpr double kPublishRate = 30;
 
 class LiveStream {
@@ -59,7 +59,8 @@ class LiveStream {
     foxglove::ChannelId channel = 0;
     SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
     double rate = kPublishRate;
-    double min_rate = kPublishRate;  // minimum rate in Hz if bytes per second limit it
+    // The limit of bytes per second does not reduce the rate below this value, in Hz.
+    double min_rate = kPublishRate;
     Pacing pacing{rate};
     std::weak_ptr<const world::Snapshot> published;
     Hub::Message latest;

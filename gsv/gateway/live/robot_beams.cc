@@ -21,7 +21,7 @@ struct RobotBeams::Robot {
   Pacing pacing{kRobotBeamsRate};
   std::weak_ptr<const world::Snapshot> published;
   std::atomic<bool> is_busy{false};
-  presentation::BeamMarkers markers;  // used only by the job
+  presentation::BeamMarkers markers;  // used only by the job that reads the beams
 };
 
 std::set<std::string> RobotBeams::SubscribedRobots() const {

@@ -42,8 +42,8 @@ struct SensorTopics::Sensor {
   const sensing::SensorMessages messages;
   const Made made;  // encodes the sensor's messages
   std::string frame() const { return presentation::FrameOf(robot, description.name); }
-  // Whether each reading also has a message of the companion topic. If not, each new subscriber
-  // gets one companion message.
+  // A companion topic belongs to the topic of readings, such as camera_info to the images. Returns
+  // whether each reading has a companion message. If not, each new subscriber gets one message.
   bool has_companion_of_readings() const {
     return messages.companion && messages.companion->of_readings;
   }
@@ -280,7 +280,8 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
 
 void SensorTopics::ReadSensor(simulation::Simulation& simulation, Sensor& sensor) {
   const auto refuse = [&](const base::Error& error) {
-    hub_->Welcome(sensor.channel, {});  // otherwise each call would request it again
+    // The new subscribers now count as established, so that the next call does not read again.
+    hub_->Welcome(sensor.channel, {});
     if (sensor.has_companion_of_readings()) hub_->Welcome(sensor.companion_channel, {});
     if (sensor.has_complained.exchange(true)) return;
     hub_->SendStatus(foxglove::StatusLevel::kWarning, error.Sentence());

@@ -82,7 +82,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   const std::shared_ptr<Hub> hub_;
   WorkerPool& workers_;
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
-  std::optional<sensing::SensorSet> made_;  // set when the first simulation is known
+  std::optional<sensing::SensorSet> made_;  // set by the first Refresh()
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
   std::size_t topics_ = 0;  // number of channels of sensors that were not requested
@@ -91,7 +91,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   bool transforms_changed_ = true;
   std::shared_ptr<const SensorList> beam_sensors_;
   Pacing beams_pacing_;
-  std::weak_ptr<const world::Snapshot> beams_of_;  // the last snapshot with beams
+  std::weak_ptr<const world::Snapshot> beams_of_;  // snapshot of the last read beams
   std::atomic<bool> beams_busy_{false};
   presentation::BeamMarkers beam_markers_;  // used by the job of the beams only
   RobotBeams robot_beams_;

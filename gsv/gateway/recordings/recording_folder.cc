@@ -20,8 +20,8 @@ constexpr std::size_t kMaxListed = 1000;
 constexpr std::size_t kMaxTextBytes = 1000;
 constexpr const char* kFailuresFolder = "gsv-failures";
 
-// Whether the recording was finished, that is, whether the file ends with the magic bytes. An
-// unfinished file would have to be read completely.
+// Whether the recording was finished: whether the file ends with the magic bytes. The content of an
+// unfinished file is not listed, because the whole file would have to be read.
 bool IsFinished(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::array<char, recording::kMagic.size()> end{};

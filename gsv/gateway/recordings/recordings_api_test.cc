@@ -164,7 +164,8 @@ TEST_F(RecordingsApiTest, AReplayWithoutViewersEnds) {
   EXPECT_TRUE(sessions.FindHub(watched));
   sessions.Stop();
   EXPECT_FALSE(sessions.Open(file, "run.mcap"));
-  hub->Remove(nullptr);  // the replay still exists for a viewer that disconnects late
+  // A viewer may disconnect after Stop(). The hub keeps the replay alive until then.
+  hub->Remove(nullptr);
 }
 
 TEST_F(RecordingsApiTest, ReplaySessionsAreLimited) {
@@ -193,7 +194,7 @@ TEST_F(RecordingsApiTest, StoresNotesBesideTheRecording) {
   EXPECT_EQ(testing::Fetch(gateway_->port(), "DELETE", notes + "/" + id).status, 404);
   EXPECT_EQ(testing::Fetch(gateway_->port(), "DELETE", notes + "/x").status, 404);
   EXPECT_EQ(Get("/api/recordings/gone.mcap/notes").status, 404);
-  // The file is not a recording.
+  // The file with the notes is not listed as a recording.
   EXPECT_EQ(json::parse(Get("/api/recordings").body)["recordings"].size(), 1u);
 }
 

@@ -85,7 +85,8 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
           *reader_, name_, [this] { Wake(); }, std::make_shared<ReplayOperations>(*this)) {
   problems_.insert(problems_.end(), scene_.problems().begin(), scene_.problems().end());
   ReadMetadata();
-  // The first request must already get the robots, before the replay plays.
+  // Reads the messages at the start now, because a request may ask for the robots before the replay
+  // plays.
   stream_.JumpTo(clock_.position());
   thread_ = std::thread([this] { Run(); });
 }

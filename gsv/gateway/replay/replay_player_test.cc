@@ -68,7 +68,7 @@ TEST_F(ReplayGatewayTest, StepsAndPauses) {
 TEST_F(ReplayGatewayTest, SendsTheStatusAfterEachSeekWhilePaused) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/status");
-  // These times differ by less than the period of the status.
+  // A playing replay limits the rate of its status. A paused replay sends it after each seek.
   for (const double time : {1.5, 0.25, 1.0, 0.5}) {
     Post("seek", json{{"time_s", time}}.dump());
     SimulationStatus status;
@@ -183,7 +183,7 @@ TEST_F(ReplayGatewayTest, AppliesFoxglovesPlaybackControl) {
   EXPECT_FALSE(state.did_seek);
   do {
     state = ReceiveState(viewer);
-  } while (state.status != 3);  // until the end, which no request caused
+  } while (state.status != 3);  // until the playback reaches its end
   EXPECT_EQ(state.time_ns, 2'000'000'000u);
   EXPECT_EQ(state.request, "");
 

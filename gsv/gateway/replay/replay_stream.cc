@@ -27,8 +27,8 @@ foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& s
       foxglove::TimeRange{base::NanosecondsOf(summary.start), base::NanosecondsOf(summary.end)}};
 }
 
-// Whether the topic is of the whole simulation. These topics come first, so that the limit does not
-// exclude them.
+// Whether the topic concerns the whole simulation, not one robot. These topics are advertised
+// first, so that the limit on topics does not exclude them.
 bool IsCommon(const std::string& topic) {
   return topic.starts_with("/gsv/") || presentation::FindTopic(topic) != nullptr;
 }

@@ -94,7 +94,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     is_head_ = false;
     parser_.emplace();
     parser_->header_limit(limits().header_bytes);
-    // OnHeader() sets the limit. Boost 1.74 takes boost::none for zero.
+    // OnHeader() sets the limit later. The maximum means "no limit", because Boost 1.74 treats
+    // boost::none as 0.
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
     tcp().expires_after(limits().request_time);
     is_idle_ = true;

@@ -7,7 +7,8 @@
 namespace gsv::gateway {
 namespace {
 
-// Opcode and subscription of a message, or only the opcode if it has no subscription.
+// Returns the opcode and the subscription of a message, or only the opcode if it has no
+// subscription. A newer message with the same bytes replaces an older one.
 std::span<const std::uint8_t> StreamOf(const foxglove::BinaryHeader& header) {
   const bool has_subscription = header.size == header.bytes.size();
   return std::span(header.bytes).first(has_subscription ? 5 : 1);

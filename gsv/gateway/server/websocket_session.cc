@@ -73,8 +73,8 @@ class WebSocketSession final : public Client,
     stream_.control_callback([this](websocket::frame_type type, beast::string_view content) {
       if (type == websocket::frame_type::pong) OnPong({content.data(), content.size()});
     });
-    stream_.read_message_max(0);  // the stream itself has no limit, because OnRead() checks it and
-                                  // sends a sentence
+    // 0: the stream has no limit. OnRead() checks the size, and sends the reason for a refusal.
+    stream_.read_message_max(0);
     stream_.async_accept(request_, [self = shared_from_this()](error_code error) {
       if (!error) self->OnAccepted();
     });

@@ -104,7 +104,7 @@ TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
 TEST_F(ServerTest, AStalledClientLosesOldDataAndDoesNotDelayOthers) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
-  // the client reads nothing, so it does not answer pings
+  // The stalled client reads no pings, so a shorter limit would disconnect it.
   options.limits.idle_time = std::chrono::minutes(10);
   Start(options);
   Viewer stalled(port()), healthy(port());
@@ -165,7 +165,8 @@ TEST_F(ServerTest, AReaderThatConfirmsNothingGetsOneWindowAndThenContinues) {
 TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
-  options.limits.idle_time = std::chrono::minutes(10);  // the client does not read pings either
+  // The stalled client reads no pings, so a shorter limit would disconnect it.
+  options.limits.idle_time = std::chrono::minutes(10);
   Start(options);
   // The client subscribes, and then does not read any more.
   Viewer stalled(port());
@@ -175,7 +176,8 @@ TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {
     others.push_back(std::make_unique<Viewer>(port()));
     others.back()->Subscribe(1, "/numbers");
     others.back()->SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
-    others.back()->ReceiveText("status");  // earlier messages were sent to this client, too
+    // The answer comes after the subscription, so the client gets all messages from now on.
+    others.back()->ReceiveText("status");
   }
   constexpr std::uint64_t kMessages = 60;
   const SharedBytes ballast(std::string(256 << 10, 'x'));

@@ -59,7 +59,7 @@ struct Attempt {
   WebSocket socket;
   websocket::response_type answer;  // the answer to the handshake
   beast::flat_buffer incoming;
-  std::deque<std::string> outgoing;  // the first message is being written
+  std::deque<std::string> outgoing;  // messages to send; the first one is being written
 };
 using AttemptPointer = std::shared_ptr<Attempt>;
 
@@ -202,7 +202,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   }
 
   void OnMessage() {
-    const AttemptPointer attempt = attempt_;  // handling the message may end the attempt
+    const AttemptPointer attempt = attempt_;  // a copy, because a message may end the attempt
     const auto data = attempt->incoming.cdata();
     const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
     const base::Status taken = attempt->socket.got_text() ? TakeText(bytes) : TakeData(bytes);
