@@ -149,7 +149,7 @@ TEST_F(SdfRobotTest, ReadsTheOtherDrives) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
-TEST_F(SdfRobotTest, GuessesInsteadOfADriveThatCannotWork) {
+TEST_F(SdfRobotTest, GuessesTheDriveIfThePluginNamesNoUsableWheels) {
   const auto wrong =
       DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive",
                      "<left_joint>nowhere</left_joint><right_joint>fr_joint</right_joint>"
@@ -182,7 +182,7 @@ TEST_F(SdfRobotTest, MeasuresTheWheelsInsteadOfUsingImpossibleNumbers) {
   }
 }
 
-TEST_F(SdfRobotTest, TakesASteeringOnlyPluginWithoutWheels) {
+TEST_F(SdfRobotTest, ASteeringOnlyPluginWithoutWheelsGivesNoDrive) {
   const auto model = Read(
       "<sdf version='1.9'><model name='car'><link name='base'/><link name='ball'><pose>1 0 0 0 0 "
       "0</pose><collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>"
@@ -213,7 +213,7 @@ TEST_F(SdfRobotTest, ReadsATrackedVehicleAsADifferentialDriveWithoutWheels) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
-TEST_F(SdfRobotTest, GuessesADriveInsteadOfOneWithoutAWheelBase) {
+TEST_F(SdfRobotTest, GuessesTheDriveIfTheWheelBaseIsUnknown) {
   const auto model = Read(Robot(Plugin("libgazebo_ros_ackermann_drive.so", "car",
                                        "<front_left_joint>fl_joint</front_left_joint>"
                                        "<front_right_joint>fr_joint</front_right_joint>")));

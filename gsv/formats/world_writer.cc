@@ -340,11 +340,12 @@ class WorldWriter {
     }
     std::error_code ignored;
     if (source.empty() || !fs::exists(xacro::FilePart(source), ignored)) {
-      Warn("is not saved: its model has no file", placed.name);
+      Warn("the model is not saved, because it has no file", placed.name);
       return nullptr;
     }
     if (xacro::FilePart(source) != source) {
-      Warn("Gazebo cannot read the file of its model: it has arguments for xacro", placed.name);
+      Warn("Gazebo cannot read the model: the name of its file has arguments for xacro",
+           placed.name);
     }
     XMLElement* const include = file_.document->NewElement("include");
     SetText(*include, "uri", UriOfFile(source));

@@ -237,8 +237,13 @@ std::vector<std::string> ResourceFinder::ModelNames() const {
 base::Result<fs::path> ResourceFinder::Find(std::string_view name,
                                             const fs::path& naming_file) const {
   std::string path = Trimmed(name);
-  if (path.empty() || path.size() > kMaxNameLength || path.find('\0') != std::string::npos) {
-    return Fail(ErrorCode::kNotFound, "the file name is empty or too long");
+  if (path.empty()) return Fail(ErrorCode::kNotFound, "the file name is empty");
+  if (path.size() > kMaxNameLength) {
+    return Fail(ErrorCode::kNotFound,
+                "the file name is longer than " + std::to_string(kMaxNameLength) + " bytes");
+  }
+  if (path.find('\0') != std::string::npos) {
+    return Fail(ErrorCode::kNotFound, "the file name contains a zero byte");
   }
   if (IsWebAddress(path)) {
     const std::string model = ModelOfWebAddress(path);

@@ -187,7 +187,7 @@ std::optional<XmlFault> FindXmlFault(std::string_view text) {
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
     const auto line = std::count(text.begin(), text.begin() + static_cast<long>(zero), '\n') + 1;
     return XmlFault{static_cast<int>(line), 1,
-                    "the line contains a byte 0, so this is not a text file. Remove it"};
+                    "the line contains a zero byte, so this is not a text file. Remove the byte"};
   }
   return FaultFinder(text).Find();
 }

@@ -66,12 +66,15 @@ constexpr std::int64_t kMaxPixelsBeforeScaling = 128 << 20;
 base::Status CheckSize(int width, int height, const std::string& source, const ReadLimits& limits) {
   const bool is_small = width <= limits.texture_side && height <= limits.texture_side;
   const std::int64_t pixels = static_cast<std::int64_t>(width) * height;
-  if (width > 0 && height > 0 && (is_small || pixels <= kMaxPixelsBeforeScaling)) return {};
+  const bool is_empty = width <= 0 || height <= 0;
+  if (!is_empty && (is_small || pixels <= kMaxPixelsBeforeScaling)) return {};
+  const std::string wrong =
+      is_empty ? "both must be above 0"
+               : "with a side above " + std::to_string(limits.texture_side) + ", the limit is " +
+                     std::to_string(kMaxPixelsBeforeScaling) + " pixels in all";
   return Fail(ErrorCode::kBadModel,
               "the image declares " + std::to_string(width) + " x " + std::to_string(height) +
-                  " pixels; the limit is " + std::to_string(limits.texture_side) +
-                  " a side; larger images are scaled down, up to " +
-                  std::to_string(kMaxPixelsBeforeScaling >> 20) + " million",
+                  " pixels; " + wrong,
               source);
 }
 

@@ -102,7 +102,7 @@ class NodeGraph {
     const auto contents = contents_.find(node);
     if (contents == contents_.end() || fault_ != nullptr) return 1;
     if (depth == kMaxInstanceDepth || !open_.insert(node).second) {
-      fault_ = depth == kMaxInstanceDepth ? "its nodes are nested too deep"
+      fault_ = depth == kMaxInstanceDepth ? "its nodes are nested deeper than 64 levels"
                                           : "one of its nodes contains itself";
       return 1;
     }

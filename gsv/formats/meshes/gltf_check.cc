@@ -71,8 +71,9 @@ const char* FaultOf(const Children& children) {
   for (std::size_t next = 0; next < order.size(); ++next) {
     const Node node = nodes[order[next]];
     copies += node.copies;
-    if (copies > kMaxNodes) return "the mesh has more nodes than the limits allow";
-    if (node.depth > kMaxNodeDepth) return "the mesh cannot be read: its nodes are nested too deep";
+    if (copies > kMaxNodes) return "the mesh has more than 1000000 nodes";
+    if (node.depth > kMaxNodeDepth)
+      return "the mesh cannot be read: its nodes are nested deeper than 512 levels";
     for (const std::size_t child : children[order[next]]) {
       nodes[child].depth = std::max(nodes[child].depth, node.depth + 1);
       nodes[child].copies = std::min(nodes[child].copies + node.copies, kMaxNodes + 1);
@@ -139,12 +140,16 @@ class DeclaredSizeChecker : public nlohmann::json_sax<nlohmann::json> {
   static constexpr int kInRoot = 1, kInElement = 3;
 
   bool Take(bool is_allowed) {
-    if (!is_allowed) wrong = "the mesh claims more values than the limits allow";
+    if (!is_allowed)
+      wrong =
+          "the mesh declares more bytes or values than the limits mesh_bytes, mesh_vertices and "
+          "mesh_triangles allow";
     max_number_ = kNoSizeLimit;
     return is_allowed;
   }
   bool Enter() {
-    if (++depth_ > kMaxJsonDepth) wrong = "the mesh cannot be read: its JSON is nested too deeply";
+    if (++depth_ > kMaxJsonDepth)
+      wrong = "the mesh cannot be read: its JSON is nested deeper than 64 levels";
     if (is_nodes_ && depth_ == kInElement) children_.emplace_back();
     return Take(true) && wrong == nullptr;
   }

@@ -131,7 +131,7 @@ double TwiceSignedArea(const Outline& outline) {
 base::Result<std::vector<std::array<std::uint32_t, 3>>> Triangulate(
     const Outline& outer, const std::vector<Outline>& holes) {
   const auto crossed = [] {
-    return Fail(base::ErrorCode::kBadModel, "the outline crosses itself or another");
+    return Fail(base::ErrorCode::kBadModel, "an outline crosses itself or another outline");
   };
   Ring ring = ToRing(outer, 0);
   std::vector<Ring> hole_rings;

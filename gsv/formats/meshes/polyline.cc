@@ -128,9 +128,10 @@ base::Result<TriangleMesh> ExtrudeOutlines(const std::vector<Outline>& outlines,
       return Fail(ErrorCode::kBadModel, "a polyline needs three points that bound an area");
     }
   }
-  if (cleaned.empty() || points > kMaxPoints) {
-    return Fail(ErrorCode::kBadModel,
-                "a polyline needs points, at most " + std::to_string(kMaxPoints));
+  if (cleaned.empty()) return Fail(ErrorCode::kBadModel, "a polyline needs points");
+  if (points > kMaxPoints) {
+    return Fail(ErrorCode::kBadModel, "a polyline has " + std::to_string(points) +
+                                          " points; the limit is " + std::to_string(kMaxPoints));
   }
   TriangleMesh mesh;
   for (const Region& region : ToRegions(cleaned)) {

@@ -326,7 +326,9 @@ base::Result<SkinnedMesh> ReadSkinnedMesh(const std::filesystem::path& skin,
   BoneCutter cutter(*scene->scene, skeleton, limits);
   const std::vector<aiMatrix4x4> rest = skeleton.PosesAt(0);
   if (!cutter.Cut(rest)) {
-    return Fail(ErrorCode::kBadModel, "the mesh has more triangles or vertices than the limit",
+    return Fail(ErrorCode::kBadModel,
+                "the mesh has more than the limit of " + std::to_string(limits.mesh_triangles) +
+                    " triangles, or of " + std::to_string(limits.mesh_vertices) + " vertices",
                 skin.string());
   }
   if (!cutter.has_bones()) {

@@ -104,8 +104,8 @@ base::Result<std::string> IncludeScan::TextOf(XmlFile& file) {
     const XMLElement* content = file.root->FirstChildElement();
     return Fail(ErrorCode::kBadModel,
                 content == nullptr ? std::string("the file contains no model")
-                                   : "it holds <" + std::string(content->Name()) +
-                                         ">, and only a model can be part of a model",
+                                   : "it contains <" + std::string(content->Name()) +
+                                         ">, but only a model can be part of a model",
                 file.path.string());
   }
   RepairValues(*model, file.path, problems_);

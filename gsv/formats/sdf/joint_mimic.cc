@@ -62,10 +62,16 @@ class MimicReader {
     const int leader =
         leader_name == nullptr ? -1 : model::FindJoint(model_.joints, scope + leader_name);
     if (follower < 0 || leader < 0 || leader == follower) {
+      std::string why;
+      if (leader_name == nullptr) {
+        why = "it names no joint";
+      } else if (leader < 0) {
+        why = "it names " + Quoted(leader_name) + ", which is not a movable joint";
+      } else {
+        why = leader == follower ? "a joint cannot follow itself" : "the joint cannot move";
+      }
       problems_.push_back({base::Problem::Severity::kWarning,
-                           "<mimic> needs a joint that moves, and the name of another one; the "
-                           "joint \"" +
-                               scope + name + "\" moves independently",
+                           "the <mimic> of the joint \"" + scope + name + "\" is ignored: " + why,
                            PlaceOf(file_, *mimic)});
       return;
     }

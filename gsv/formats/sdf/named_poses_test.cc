@@ -16,7 +16,7 @@ std::vector<NamedPose> PosesIn(const char* xml) {
   return NamedPosesIn(*document.RootElement(), world);
 }
 
-TEST(NamedPoses, FollowModelsAndEachOther) {
+TEST(NamedPoses, MayBeRelativeToModelsAndToEachOther) {
   const auto poses = PosesIn(
       "<world><frame name='charge' attached_to='dock'><pose>1 0 0 0 0 0</pose></frame>"
       "<frame name='wait'><pose relative_to='charge'>0 3 0 0 0 0</pose></frame>"

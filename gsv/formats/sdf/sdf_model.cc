@@ -81,7 +81,7 @@ class ModelReader {
   void AddParts(const sdf::Model& source, const std::string& scope, const Pose& root_from_model,
                 int levels_left, bool is_in_static) {
     if (levels_left == 0) {
-      context_.Warn("models are nested too deep; this one is ignored",
+      context_.Warn("models are nested deeper than 32 levels; this model is ignored",
                     PlaceOfElement(source.Element()));
       return;
     }

@@ -346,7 +346,7 @@ class UrdfPartRepair {
         if (text == nullptr || is_flag) continue;
         const std::vector<std::string> words = WordsOf(text);
         if (!words.empty() && LeadingNumberOf(words.front()).is_number) continue;
-        LeaveOut(*child, "it holds " + Quoted(text) + ", which is not a number");
+        LeaveOut(*child, "its value is " + Quoted(text) + ", which is not a number");
         child = nullptr;
         break;
       }

@@ -94,7 +94,8 @@ base::Result<Pose> WorldFrames::Follow(const std::string& name, int links_left) 
   const std::size_t scope = it == entries_.end() ? name.find("::") : std::string::npos;
   if (scope != std::string::npos) it = entries_.find(name.substr(0, scope));
   if (it == entries_.end()) {
-    return Fail(ErrorCode::kBadModel, "there is no frame \"" + name + "\" to be relative to");
+    return Fail(ErrorCode::kBadModel,
+                "the pose is relative to the frame \"" + name + "\", which does not exist");
   }
   const Entry& entry = it->second;
   auto world_from_base = Follow(entry.at.relative_to, links_left - 1);
@@ -105,7 +106,8 @@ base::Result<Pose> WorldFrames::Follow(const std::string& name, int links_left) 
     const auto inner = entry.inner_frames->find(name.substr(scope + 2));
     if (inner != entry.inner_frames->end()) return world_from_entry * inner->second;
   }
-  return Fail(ErrorCode::kBadModel, "there is no frame \"" + name + "\" to be relative to");
+  return Fail(ErrorCode::kBadModel,
+              "the pose is relative to the frame \"" + name + "\", which does not exist");
 }
 
 }  // namespace gsv::formats

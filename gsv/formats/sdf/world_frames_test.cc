@@ -63,7 +63,7 @@ TEST(WorldFrames, RefusesCyclesAndUnknownNames) {
   frames.Add("a", {{}, "b"});
   frames.Add("b", {{}, "a"});
   EXPECT_THAT(frames.WorldFrom("a").error().message, testing::HasSubstr("cycle"));
-  EXPECT_THAT(frames.WorldFrom("c").error().message, testing::HasSubstr("no frame \"c\""));
+  EXPECT_THAT(frames.WorldFrom("c").error().message, testing::HasSubstr("frame \"c\", which"));
 }
 
 }  // namespace

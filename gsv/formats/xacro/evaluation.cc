@@ -146,7 +146,7 @@ class Evaluator {
     auto arguments = All(node, 1);
     if (!arguments) return base::Fail(arguments.error());
     if (function.kind == Kind::kName) return CallNamed(function.text, node, *arguments);
-    if (function.kind != Kind::kMember) return Refuse("this cannot be called");
+    if (function.kind != Kind::kMember) return Refuse("only functions and methods can be called");
     if (IsModule(*function.parts[0])) return CallNamed(function.text, node, *arguments);
     const auto of = Of(*function.parts[0]);
     return of ? CallMethod(*of, function.text, *arguments) : of;
@@ -235,7 +235,8 @@ base::Result<Value> Evaluate(const std::string& expression, const EvaluationCont
   auto value = Evaluator(context).Of(**parsed);
   std::size_t room = kMaxValues;
   if (value && !Fits(*value, room)) {
-    return base::Fail(base::ErrorCode::kBadModel, "a list or dictionary is too large");
+    return base::Fail(base::ErrorCode::kBadModel, "a list or dictionary has more than " +
+                                                      std::to_string(kMaxValues) + " values");
   }
   return value;
 }

@@ -134,7 +134,7 @@ TEST(Evaluation, KnowsProperties) {
   EXPECT_EQ(TextOf("1 if True else unknown"), "1");
 }
 
-TEST(Evaluation, RejectsInvalidExpressionsWithASentence) {
+TEST(Evaluation, RejectsInvalidExpressionsWithTheReason) {
   const std::pair<const char*, const char*> cases[] = {
       {"unknown + 1", "\"unknown\" is not defined"},
       {"1 / 0", "division by zero"},
@@ -169,11 +169,11 @@ TEST(Evaluation, RejectsInvalidExpressionsWithASentence) {
 TEST(Evaluation, RefusesExpressionsNestedTooDeeply) {
   const std::string brackets(5000, '(');
   EXPECT_THAT(TextOf(brackets + "1"), HasSubstr("refused"));
-  EXPECT_THAT(TextOf(std::string(3000, '-') + "1"), HasSubstr("nested too deep"));
+  EXPECT_THAT(TextOf(std::string(3000, '-') + "1"), HasSubstr("nested deeper than 64"));
   EXPECT_THAT(TextOf(std::string(3000, '[') + std::string(3000, ']')), HasSubstr("refused"));
   std::string powers = "1";
   for (int i = 0; i < 1000; ++i) powers += "**1";
-  EXPECT_THAT(TextOf(powers), HasSubstr("nested too deep"));
+  EXPECT_THAT(TextOf(powers), HasSubstr("nested deeper than 64"));
 }
 
 TEST(Evaluation, ReadsLiteralsAsXacroDoes) {

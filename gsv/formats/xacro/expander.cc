@@ -472,11 +472,15 @@ base::Status Expander::BindBlocks(const Macro& macro, const NodePtr& node, Conte
 
 base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, Scope& scope) {
   if (text.find('$') == std::string::npos) return Value{text};
-  if (++steps_ > kMaxSteps) return InvalidXacro("the file takes too many steps to expand");
+  if (++steps_ > kMaxSteps) {
+    return InvalidXacro("the file takes more than " + std::to_string(kMaxSteps) +
+                        " steps to expand");
+  }
   const Level level(levels_);
   if (levels_ > kMaxLevels)
-    return InvalidXacro(
-        "macros or properties are nested too deep. A macro may call itself without an end");
+    return InvalidXacro("macros and properties are nested deeper than " +
+                        std::to_string(kMaxLevels) +
+                        ". Check for a macro that always calls itself");
   EvaluationContext evaluation;
   evaluation.property = [&](const std::string& name) { return scope.Find(name); };
   evaluation.load_yaml = [&](const std::string& name) { return files_.ReadYaml(name, *at.file); };

@@ -13,6 +13,7 @@ using ParsedPtr = std::unique_ptr<Expression>;
 
 constexpr int kMaxExpressionDepth = 64;
 constexpr std::size_t kMaxTokens = 4096;
+constexpr const char* kTooDeep = "the expression is nested deeper than 64 levels";
 
 struct Token {
   enum class Kind { kEnd, kName, kNumber, kString, kSymbol };
@@ -36,7 +37,9 @@ class Lexer {
       if (!token) return base::Fail(token.error());
       tokens.push_back(*std::move(token));
       if (tokens.back().kind == Token::Kind::kEnd) return tokens;
-      if (tokens.size() > kMaxTokens) return Refuse("the expression is too long");
+      if (tokens.size() > kMaxTokens)
+        return Refuse("the expression has more than " + std::to_string(kMaxTokens) +
+                      " names, numbers and signs");
     }
   }
 
@@ -184,7 +187,7 @@ class Parser {
   }
 
   ParsedPtr Ternary() {
-    if (++depth_ > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
+    if (++depth_ > kMaxExpressionDepth) return Refuse(kTooDeep);
     if (Is("lambda")) return Refuse("lambda is not supported in an expression");
     ParsedPtr then = Or();
     if (Take("if")) {
@@ -218,7 +221,7 @@ class Parser {
   }
 
   ParsedPtr Unary(const char* sign, ParsedPtr (Parser::*operand)()) {
-    if (++depth_ > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
+    if (++depth_ > kMaxExpressionDepth) return Refuse(kTooDeep);
     ParsedPtr node = Make(Kind::kUnary, sign);
     node->parts.push_back((this->*operand)());
     --depth_;
@@ -274,7 +277,7 @@ class Parser {
     if (Take("+")) return Unary("+", &Parser::Signed);
     ParsedPtr base = Postfix();
     if (!Take("**")) return base;
-    if (++depth_ > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
+    if (++depth_ > kMaxExpressionDepth) return Refuse(kTooDeep);
     base = Pair(Kind::kBinary, "**", std::move(base), Signed());
     --depth_;
     return base;
@@ -283,7 +286,7 @@ class Parser {
   ParsedPtr Postfix() {
     ParsedPtr node = Atom();
     for (int links = 0;; ++links) {
-      if (links > kMaxExpressionDepth) return Refuse("the expression is nested too deep");
+      if (links > kMaxExpressionDepth) return Refuse(kTooDeep);
       if (Take(".")) {
         if (Now().kind != Token::Kind::kName) return Refuse("a name is missing after \".\"");
         ParsedPtr member = Make(Kind::kMember, tokens_[at_++].text);
@@ -310,7 +313,7 @@ class Parser {
         call->words.push_back(Now().text);
         at_ += 2;
       } else if (!call->words.empty()) {
-        return Refuse("an argument without a name follows one with a name");
+        return Refuse("an argument without a name follows an argument with a name");
       }
       call->parts.push_back(Ternary());
       if (!Take(",")) break;

@@ -93,7 +93,7 @@ base::Result<Value> Round(const Arguments& a) {
   if (a.size() == 1) return Whole(std::nearbyint(Real(a[0])));
   const auto* digits = a[1].as<std::int64_t>();
   if (digits == nullptr || *digits < -300 || *digits > 300) {
-    return InvalidCall("round() takes a number of digits");
+    return InvalidCall("the second argument of round() must be a whole number from -300 to 300");
   }
   // Uses the decimal text, as Python does, so that 2.675 becomes 2.67.
   if (*digits >= 0 && a[0].as<double>() != nullptr && std::abs(Real(a[0])) < 1e17) {

@@ -32,8 +32,13 @@ class YamlReader {
   explicit YamlReader(const std::filesystem::path& file) : file_(file) {}
 
   base::Result<Value> Read(const YAML::Node& node, int depth) {
-    if (depth > kMaxYamlDepth || ++nodes_ > kMaxYamlNodes) {
-      return Refuse("the YAML is too large or nested too deep", node.Mark());
+    if (depth > kMaxYamlDepth) {
+      return Refuse("the YAML is nested deeper than " + std::to_string(kMaxYamlDepth) + " levels",
+                    node.Mark());
+    }
+    if (++nodes_ > kMaxYamlNodes) {
+      return Refuse("the YAML has more than " + std::to_string(kMaxYamlNodes) + " values",
+                    node.Mark());
     }
     if (node.IsSequence()) {
       List items;
@@ -100,7 +105,10 @@ base::Result<Value> LoadYaml(const std::filesystem::path& file, std::size_t max_
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return refuse("there is no such file");
   const auto size = std::filesystem::file_size(file, error);
-  if (error || size > max_bytes) return refuse("the file is too large");
+  if (error) return refuse("the file cannot be read: " + error.message());
+  if (size > max_bytes) {
+    return refuse("the file is larger than the limit of " + std::to_string(max_bytes) + " bytes");
+  }
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   YamlReader reader(file);

@@ -19,7 +19,7 @@ using testing::Viewer;
 constexpr const char* kControl = "control-token-0123456789";
 constexpr const char* kWatch = "watching-token-0123456789";
 
-TEST(Tokens, AreComparedCompletely) {
+TEST(Tokens, AreEqualOnlyIfAllCharactersAreEqual) {
   EXPECT_TRUE(EqualsSecret("abc", "abc"));
   for (const char* other : {"", "ab", "abd", "abcd", "Abc"})
     EXPECT_FALSE(EqualsSecret(other, "abc"));
@@ -150,7 +150,7 @@ TEST_F(AccessTest, WithoutATokenTheServerListensOnlyOnThisMachine) {
   }
 }
 
-TEST_F(AccessTest, WatchingIsFreeOnThisMachineAndControlNeedsTheToken) {
+TEST_F(AccessTest, WatchingNeedsNoTokenOnThisMachineButControlDoes) {
   Start({kControl, ""});
   EXPECT_EQ(Send("GET", "/api/simulations").status, 200);
   const HttpReply missing = Send("POST", "/api/simulations/arena/start");
@@ -254,7 +254,7 @@ TEST_F(AccessTest, ANewViewerReceivesTheHolderOfControlAtOnce) {
   EXPECT_EQ(told.find(ada), std::string::npos);  // keys are secret
 }
 
-TEST_F(AccessTest, AnInvalidRequestIsRefusedWithASentence) {
+TEST_F(AccessTest, InvalidRequestsAboutViewersAreRefused) {
   Start({});
   const std::string ada = Enter("Ada");
   for (const char* body : {"", "[]", "{}", R"({"name":1})", "{"}) {

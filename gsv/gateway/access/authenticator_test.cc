@@ -68,7 +68,7 @@ class AuthenticatorTest : public testing::ServerTest {
   }
 };
 
-TEST_F(AuthenticatorTest, OnlyRequestsThatNeedTheAnswerWaitForIt) {
+TEST_F(AuthenticatorTest, RequestsThatNeedNoPermissionDoNotWaitForTheAuthenticator) {
   const auto registry = std::make_shared<PendingAuthenticator>();
   StartWith(registry);
   HttpConnection waiting(port());
@@ -81,7 +81,7 @@ TEST_F(AuthenticatorTest, OnlyRequestsThatNeedTheAnswerWaitForIt) {
   EXPECT_EQ(reply->body, "PUT /api/simulations abc");
 }
 
-TEST_F(AuthenticatorTest, ARefusedRequestGetsItsSentence) {
+TEST_F(AuthenticatorTest, ARefusedRequestGetsTheReason) {
   const auto registry = std::make_shared<PendingAuthenticator>();
   StartWith(registry);
   for (const bool showed_credentials : {true, false}) {
@@ -95,7 +95,7 @@ TEST_F(AuthenticatorTest, ARefusedRequestGetsItsSentence) {
   }
 }
 
-TEST_F(AuthenticatorTest, AFileIsNotReadBeforeItsAnswer) {
+TEST_F(AuthenticatorTest, AnUploadIsReadAfterTheAuthenticatorHasAnswered) {
   const auto registry = std::make_shared<PendingAuthenticator>();
   StartWith(registry);
   HttpConnection connection(port());
@@ -106,7 +106,7 @@ TEST_F(AuthenticatorTest, AFileIsNotReadBeforeItsAnswer) {
   EXPECT_EQ(connection.Receive()->body, "PUT /api/uploads/1/a abc");
 }
 
-TEST_F(AuthenticatorTest, AStreamEndsWithThePermission) {
+TEST_F(AuthenticatorTest, AWebSocketIsClosedWhenThePermissionExpires) {
   StartWith(std::make_shared<ExpiringAuthenticator>());
   Viewer viewer(port());
   while (viewer.Receive()) {

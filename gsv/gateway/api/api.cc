@@ -61,7 +61,7 @@ std::vector<Route> Api::Routes() {
          return OfRobot(*of_name, request,
                         [&](const std::string& robot) { return HealthJson(*of_name, robot); });
        }),
-       "Get what each robot does and why, and the expectations"},
+       "Get what each robot does and why, and which expectations are met"},
       {"GET", simulation + "/output", kWatch, false, kReaders,
        of([](const auto& of_name, const Request& request) {
          return OfRobot(*of_name, request,

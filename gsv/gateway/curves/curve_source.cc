@@ -175,18 +175,21 @@ base::Result<std::unique_ptr<CurveSource>> MakeRobotSource(const recording::Mcap
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
                                                            const CurveRequest& request) {
-  const bool names_both = !request.topic.empty() && !request.robot.empty();
-  if (names_both || request.key.empty() || request.key.size() > kMaxKeyLength) {
+  if (!request.topic.empty() && !request.robot.empty()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "name a curve by 'key', of at most 200 characters, with 'topic' or 'robot' "
-                      "or neither");
+                      "a curve has 'topic' or 'robot', not both; remove one of them");
+  }
+  if (request.key.empty() || request.key.size() > kMaxKeyLength) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "a curve needs 'key', with 1 to 200 characters, but it has " +
+                          std::to_string(request.key.size()));
   }
   if (!request.topic.empty()) return MakeFieldSource(reader, request);
   if (!request.robot.empty()) return MakeRobotSource(reader, scene, request);
   if (request.key != "real_time_factor" && request.key != "late_steps") {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the simulation's 'key' is real_time_factor or late_steps; give 'robot' or "
-                      "'topic' for others");
+                      "'topic' for other curves");
   }
   ChannelIds channels = ChannelsNamed(reader, presentation::topics::kStatus.name);
   if (channels.empty()) return NoSuchTopic(presentation::topics::kStatus.name);

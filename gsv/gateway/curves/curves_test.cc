@@ -41,7 +41,7 @@ TEST(CurvePoints, KeepsSpikesWhenThereIsNoSpace) {
   for (std::size_t i = 1; i < kept.size(); ++i) EXPECT_LT(kept[i - 1].time, kept[i].time);
 }
 
-TEST(CurvePoints, KeepsAPointOfBinsWithoutAFiniteSample) {
+TEST(CurvePoints, KeepsOnePointOfABinWithoutFiniteSamples) {
   CurvePoints points(0ms, 100ms, 4);
   for (int i = 0; i < 100; ++i) points.Add(i * 1ms, i < 50 ? 2 : kInfinity);
   const std::vector<Point> expected{{0ms, 2}, {50ms, kInfinity}};

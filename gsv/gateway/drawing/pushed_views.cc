@@ -50,7 +50,8 @@ void AppendNumber(Number value, std::string& bytes) {
 base::Result<ViewQuery> QueryOf(const foxglove::WatchView& request) {
   const auto target = ParseTarget("/view.mjpeg?" + request.camera);
   if (target) return ParseViewQuery(*target, true);
-  return base::Fail(ErrorCode::kInvalidArgument, "the camera of a view has the wrong form");
+  return base::Fail(ErrorCode::kInvalidArgument,
+                    "cannot read the camera of a view: " + target.error().message);
 }
 
 }  // namespace

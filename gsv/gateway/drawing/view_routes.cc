@@ -80,7 +80,7 @@ base::Status SetParameter(const std::string& name, const std::string& value, dou
     query.after = WholeText<std::uint64_t>(value);
     if (query.after) return {};
     return Fail(ErrorCode::kInvalidArgument,
-                "the parameter after must be the number in the ETag of an image");
+                "the parameter 'after' must be the number in the ETag of an image");
   }
   return SetCamera(name, value, query.view.camera);
 }

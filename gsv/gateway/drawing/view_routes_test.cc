@@ -104,7 +104,7 @@ TEST_F(ViewRoutesTest, DrawsTheSimulation) {
   EXPECT_EQ(same.body, "");
 }
 
-TEST_F(ViewRoutesTest, BadRequestsHaveAStatusAndASentence) {
+TEST_F(ViewRoutesTest, InvalidRequestsGetAnErrorStatusAndTheReason) {
   const auto check = [this](const std::string& query, int status, const std::string& sentence) {
     for (const char* path : {"/view.jpg?", "/view.mjpeg?"}) {
       const HttpReply reply = Get(path + query);

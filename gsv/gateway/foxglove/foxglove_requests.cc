@@ -185,9 +185,14 @@ base::Result<ClientMessage> ParsePlaybackControl(BytesReader reader) {
   const bool has_seek = reader.Take<std::uint8_t>() != 0;
   const auto seek = reader.Take<std::uint64_t>();
   message.request = reader.Take(reader.Take<std::uint32_t>());
-  const bool is_whole = !reader.is_short() && reader.rest().empty();
-  if (!is_whole || command > 1 || message.request.size() > kMaxRequestLength) {
-    return Malformed("a playback request has the wrong form");
+  if (reader.is_short()) return Malformed("a playback request ends too early");
+  if (!reader.rest().empty()) return Malformed("a playback request has bytes after its end");
+  if (command > 1) {
+    return Malformed("the command of a playback request must be 0 (play) or 1 (pause), not " +
+                     std::to_string(command));
+  }
+  if (message.request.size() > kMaxRequestLength) {
+    return Malformed("the id of a playback request must have at most 256 bytes");
   }
   message.play = command == 0;
   if (has_seek) message.seek_ns = seek;

@@ -99,7 +99,7 @@ TEST_F(LiveOperationsTest, SetsTheRealTimeFactor) {
   EXPECT_TRUE(operations.Set({"/gsv/factor", 2.5}));
 }
 
-TEST_F(LiveOperationsTest, AnInvalidParameterIsRefusedWithASentence) {
+TEST_F(LiveOperationsTest, AnInvalidParameterIsRefusedWithTheReason) {
   LiveOperations operations(simulation_, workers_, nullptr);
   EXPECT_EQ(Refusal(operations, {"/gsv/real_time_factor", std::string("fast")}),
             "the parameter '/gsv/real_time_factor' must be a number");

@@ -29,7 +29,7 @@ TEST(Pacing, KeepsTheMeanRateForAnyPollingRate) {
   EXPECT_EQ(CountIn(std::chrono::seconds(10), milliseconds(250), start), 40);
 }
 
-TEST(Pacing, DoesNotCatchUp) {
+TEST(Pacing, SendsNoBurstAfterAPause) {
   Pacing pacing(10);
   const WallTime start = WallTime{} + std::chrono::hours(5);
   pacing.Done(start);

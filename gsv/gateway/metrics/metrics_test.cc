@@ -63,7 +63,7 @@ std::map<std::string, Family> ParseStrictly(const std::string& text) {
   return families;
 }
 
-TEST(Exposition, EscapesWhatTheFormatEscapes) {
+TEST(Exposition, EscapesNewlinesBackslashesAndQuotes) {
   Exposition out;
   out.Begin("a_metric", Exposition::Kind::kGauge, "one\nline \\ and \"quotes\"");
   out.Add(0.25, {{"label", "a \"b\" \\ \n"}});

@@ -63,9 +63,13 @@ base::Result<std::vector<Note>> NoteFile::Read() const {
   std::vector<Note> notes;
   for (const nlohmann::json& each : json["notes"]) {
     const std::optional<Note> note = NoteOf(each);
-    if (!note || notes.size() == kMaxNotes) {
+    if (!note) {
       return fail("note " + std::to_string(notes.size() + 1) +
-                  " is not valid, or exceeds the limit");
+                  " needs 'id' (above 0), 'time_s' and 'text' (at most " +
+                  std::to_string(kMaxTextLength) + " bytes)");
+    }
+    if (notes.size() == kMaxNotes) {
+      return fail("it has more than " + std::to_string(kMaxNotes) + " notes");
     }
     notes.push_back(*note);
   }
@@ -80,7 +84,7 @@ base::Result<std::int64_t> NoteFile::Add(double time_s, const std::string& text,
   if (!notes) return base::Fail(notes.error());
   if (notes->size() == kMaxNotes) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "a recording holds 1,000 notes at most; remove some");
+                      "a recording can have at most 1,000 notes; remove some");
   }
   std::int64_t id = 1;
   for (const Note& note : *notes) id = std::max(id, note.id + 1);

@@ -125,7 +125,7 @@ base::Result<std::string> RecordingFolder::Find(const std::string& name) const {
   }
   return base::Fail(base::ErrorCode::kNotFound,
                     "there is no recording '" + name.substr(0, 200) +
-                        "' here: it was moved or deleted, or belongs to another server");
+                        "' in this server's folder; open the list of recordings again");
 }
 
 RecordingLine RecordingFolder::Describe(const std::string& name, const fs::path& file) {

@@ -20,7 +20,7 @@ TEST(ReplayClock, AdvancesByTheSpeedTimesWallClockTime) {
   EXPECT_EQ(clock.position(), 1600ms);
 }
 
-TEST(ReplayClock, ALateUpdateSlowsItDown) {
+TEST(ReplayClock, ALateUpdateMakesTheReplaySlower) {
   ReplayClock clock(0s, 10s, 1, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);

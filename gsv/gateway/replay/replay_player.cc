@@ -124,7 +124,10 @@ base::Status ReplayPlayer::Resume() {
 
 base::Status ReplayPlayer::Step(std::int64_t count) {
   if (count < 1 || count > base::SimTime::max() / step_) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "too many steps at once; take fewer");
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the number of steps must be from 1 to " +
+                          std::to_string(base::SimTime::max() / step_) + ", not " +
+                          std::to_string(count));
   }
   return Command([&](ReplayClock& clock)
                      GSV_REQUIRES(mutex_) { return clock.Step(count * step_); });

@@ -190,7 +190,7 @@ TEST(SendWindow, WantsAnotherPingIfMessagesFollowedTheFirst) {
   EXPECT_TRUE(window.WantsPing(Time{}));
 }
 
-TEST(SendWindow, ControlMessagesDoNotCloseIt) {
+TEST(SendWindow, ControlMessagesDoNotCloseTheWindow) {
   SendWindow window;
   window.Sent(SendWindow::kMaxBytes, false, Time{});
   EXPECT_TRUE(window.is_open());
@@ -211,7 +211,7 @@ TEST(SendWindow, ConnectionIsSlowIfAllPongsAreLate) {
   EXPECT_NEAR(*window.slow_rate(), SendWindow::kMinBytes / 10.0, 100);
 }
 
-TEST(SendWindow, APongWithoutANumberOpensIt) {
+TEST(SendWindow, APongWithoutANumberOpensTheWindow) {
   SendWindow window;
   window.Sent(SendWindow::kMaxBytes, true, Time{});
   window.Ping(Time{}, Time{});

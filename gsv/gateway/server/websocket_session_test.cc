@@ -39,7 +39,7 @@ TEST_F(ServerTest, DataReachesASubscriber) {
   EXPECT_EQ(data.payload, "seven");
 }
 
-TEST_F(ServerTest, ClosesWithASentenceOnInvalidMessages) {
+TEST_F(ServerTest, ClosesTheConnectionWithTheReasonOnInvalidMessages) {
   Start();
   Viewer talker(port());
   talker.SendText("hello");
@@ -67,7 +67,7 @@ TEST_F(ServerTest, PublishingIsRefusedAndTheConnectionStays) {
             "this server offers neither services nor parameters");
 }
 
-TEST_F(ServerTest, ClosesWithASentenceOnMessagesThatAreTooLong) {
+TEST_F(ServerTest, ClosesTheConnectionWithTheReasonOnMessagesThatAreTooLong) {
   ServerOptions options;
   options.limits.message_bytes = 1000;
   Start(options);
@@ -133,7 +133,7 @@ TEST_F(ServerTest, AStalledClientLosesOldDataAndDoesNotDelayOthers) {
   EXPECT_LT(seen.size(), kMessages);
 }
 
-TEST_F(ServerTest, AReaderThatConfirmsNothingGetsOneWindowAndThenContinues) {
+TEST_F(ServerTest, AClientThatAnswersNoPingsGetsOneWindowUntilItReadsAgain) {
   ServerOptions options;
   options.traffic = std::make_shared<metrics::Traffic>();
   Start(options);

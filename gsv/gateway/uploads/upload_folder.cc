@@ -1,7 +1,9 @@
 #include "gsv/gateway/uploads/upload_folder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <fstream>
 
 namespace gsv::gateway::uploads {
@@ -49,14 +51,16 @@ base::Result<fs::path> UploadFolder::Put(const std::string& set,
     return base::Fail(base::ErrorCode::kNotFound,
                       "this upload does not exist any more; upload the files again");
   }
-  const bool is_usable = !path.empty() && path.size() <= limits_.depth &&
-                         std::all_of(path.begin(), path.end(), IsName);
-  if (!is_usable) {
-    return base::Fail(
-        base::ErrorCode::kInvalidArgument,
-        "this file name cannot be used: names of files and folders must have at most 200 "
-        "characters and not begin with a dot, and a path can have at most " +
-            std::to_string(limits_.depth) + " names");
+  if (path.empty() || path.size() > limits_.depth) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the path of a file must have 1 to " + std::to_string(limits_.depth) +
+                          " names, but it has " + std::to_string(path.size()));
+  }
+  if (const auto bad = std::find_if_not(path.begin(), path.end(), IsName); bad != path.end()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the name '" + bad->substr(0, kMaxFileNameLength) +
+                          "' cannot be used: a name must have 1 to 200 characters, none of them a "
+                          "slash or a control character, and must not begin with a dot");
   }
   if (files_ >= limits_.files || content.size() > limits_.bytes - bytes_) {
     return base::Fail(base::ErrorCode::kUnavailable,
@@ -71,7 +75,8 @@ base::Result<fs::path> UploadFolder::Put(const std::string& set,
   out.close();
   if (error || !out) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "cannot write the file: the disk is full, or the name is in use");
+                      "cannot write the file " + file.filename().string() + ": " +
+                          (error ? error.message() : std::strerror(errno)));
   }
   files_ += 1;
   bytes_ += content.size();

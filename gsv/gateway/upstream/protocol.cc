@@ -94,7 +94,8 @@ base::Result<ServerData> ParseServerData(std::string_view bytes) {
       return MessageData{Read<std::uint32_t>(bytes, 1), Read<std::uint64_t>(bytes, 5),
                          bytes.substr(kDataHeader)};
     case 2:
-      if (bytes.size() < kTimeHeader) return Malformed("a time ends too early");
+      if (bytes.size() < kTimeHeader)
+        return Malformed("a time message is shorter than its 9 bytes");
       return Time{Read<std::uint64_t>(bytes, 1)};
     default:
       return Other{};
