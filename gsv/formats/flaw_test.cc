@@ -156,7 +156,7 @@ TEST_F(FlawTest, DanglingReferenceIsIgnored) {
       {"<link name='b'/><joint name='j' type='fixed'><parent>a</parent><child>nope</child></joint>",
        "\"j\" is ignored: it names nope"},
       {"<link name='b'/><joint name='j' type='fixed'><parent>a</parent><child>a</child></joint>",
-       "\"j\" is ignored: its parent is its child"},
+       "\"j\" is ignored: its parent and its child are the same"},
       {"<link name='b'/><joint name='j' type='fixed'><child>b</child></joint>", "has no <parent>"},
       {"<link name='b'/><joint name='j' type='hinge'><parent>a</parent><child>b</child></joint>",
        "unknown type \"hinge\"; fixed is used"},

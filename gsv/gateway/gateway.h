@@ -27,6 +27,7 @@
 
 namespace gsv::gateway {
 
+// Options for all kinds of gateways.
 struct GatewayOptions : ServerOptions {
   std::string version;  // version of the program, for /metrics
   // If null, /metrics has no numbers of the broker.

@@ -1,7 +1,7 @@
 // RelayedImages serves streams of images (view.mjpeg) through a relay. It requests one image after
 // another from the other instance, and sends them as its own stream.
 //
-// Threads  any; requests to the other instance are made by a pool of its own.
+// Threads  any. This object's own thread pool makes the requests to the other instance.
 // Bounded  kMaxImageStreams streams.
 #pragma once
 

@@ -9,6 +9,7 @@
 
 namespace gsv::formats {
 
+// The limits on files. Sizes are in bytes, depths in levels.
 struct ReadLimits {
   std::size_t xml_bytes = 64u << 20;
   int xml_depth = 64;

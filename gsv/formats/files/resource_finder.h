@@ -4,7 +4,7 @@
 // on the web. A relative path is searched beside the file that names it. `model://NAME/REST` is
 // searched in this order:
 //   1. beside the naming file, in each of its parent folders (five up), and in the `models` folder
-//      of each of these;
+//      of each of these folders;
 //   2. on the search path of the caller;
 //   3. on GZ_SIM_RESOURCE_PATH, SDF_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH;
 //   4. among the built-in models;

@@ -8,11 +8,13 @@
 
 namespace gsv::formats {
 
+// An entity that a <!DOCTYPE> declares: a name for a text.
 struct XmlEntity {
   std::string value;         // text of the entity, which may refer to other entities
   bool is_external = false;  // declared with SYSTEM or PUBLIC: its text is in another file
 };
 
+// The content of a <!DOCTYPE>: its general entities, by name.
 struct XmlDoctype {
   std::map<std::string, XmlEntity, std::less<>> entities;
   bool has_parameters =

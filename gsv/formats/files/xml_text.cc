@@ -266,7 +266,7 @@ class XmlPreparation {
   const std::string_view text_;
   std::string out_;
   bool in_tag_ = false;
-  char quote_ = '\0';  // the quote of the attribute at this place; '\0' outside of attributes
+  char quote_ = '\0';  // the quotation mark of the current attribute; '\0' outside of attributes
   XmlDoctype doctype_;
   std::vector<std::string_view> open_;  // the entities that are being expanded
   std::set<std::string> named_;         // the entities that have a warning

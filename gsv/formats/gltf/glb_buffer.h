@@ -15,7 +15,8 @@ using Json = nlohmann::ordered_json;
 
 class GlbBuffer {
  public:
-  // Each of these returns the index by which other parts of the file refer to the added data.
+  // Each of these functions returns the index by which other parts of the file refer to the added
+  // data.
   int AddBytes(std::span<const std::uint8_t> bytes);  // a buffer view
   int AddPositions(std::span<const float> xyz);       // an accessor with min and max
   int AddVectors(std::span<const float> values, int components);

@@ -68,13 +68,13 @@ base::Status CheckSize(int width, int height, const std::string& source, const R
   const std::int64_t pixels = static_cast<std::int64_t>(width) * height;
   const bool is_empty = width <= 0 || height <= 0;
   if (!is_empty && (is_small || pixels <= kMaxPixelsBeforeScaling)) return {};
-  const std::string wrong =
-      is_empty ? "both must be above 0"
-               : "with a side above " + std::to_string(limits.texture_side) + ", the limit is " +
-                     std::to_string(kMaxPixelsBeforeScaling) + " pixels in all";
+  const std::string declared =
+      "the image declares " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  if (is_empty) return Fail(ErrorCode::kBadModel, declared + "; it must have one or more", source);
   return Fail(ErrorCode::kBadModel,
-              "the image declares " + std::to_string(width) + " x " + std::to_string(height) +
-                  " pixels; " + wrong,
+              declared + "; the limit for an image with a side above " +
+                  std::to_string(limits.texture_side) + " is " +
+                  std::to_string(kMaxPixelsBeforeScaling) + " pixels in all",
               source);
 }
 

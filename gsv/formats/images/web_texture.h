@@ -9,6 +9,7 @@
 
 namespace gsv::formats {
 
+// An image file that a browser can read.
 struct WebTexture {
   std::string mime_type;  // "image/png" or "image/jpeg"; empty: the image cannot be encoded
   std::vector<std::uint8_t> bytes;

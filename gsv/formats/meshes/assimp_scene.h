@@ -16,6 +16,7 @@
 
 namespace gsv::formats {
 
+// The content of a mesh file, as assimp has read it.
 struct AssimpScene {
   std::unique_ptr<Assimp::Importer> importer;  // owns the scene
   const aiScene* scene = nullptr;              // triangles only, never null

@@ -25,6 +25,7 @@
 
 namespace gsv::formats {
 
+// The content of a mesh file, or of one of its submeshes.
 struct MeshFile {
   std::shared_ptr<const geometry::TriangleMesh> triangles;
   std::vector<model::Material> materials;  // materials of the mesh's parts, by index

@@ -24,6 +24,7 @@
 
 namespace gsv::formats {
 
+// A skin as rigid parts (bones), with the poses of the bones in each frame of its animation.
 struct SkinnedMesh {
   struct Bone {
     std::string name;

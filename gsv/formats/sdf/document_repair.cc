@@ -151,9 +151,9 @@ class DocumentRepair {
     } else if (names.size() >= 3 && says("rame with name[") && says("specified by joint")) {
       LeaveOutJoint(names[1], "it names " + names[0] + ", which does not exist");
     } else if (names.size() >= 2 && says("Joint with name[") && says("must specify different")) {
-      LeaveOutJoint(names[0], "its parent is its child");
+      LeaveOutJoint(names[0], "its parent and its child are the same");
     } else if (names.size() >= 4 && says("joint with name[") && says("both resolve to")) {
-      LeaveOutJoint(names[0], "its parent is its child");
+      LeaveOutJoint(names[0], "its parent and its child are the same");
     } else if (names.size() >= 2 && says("canonical_link with name[")) {
       DropCanonicalLink(names[1], names[0]);
     } else if (names.size() == 1 && says(" with name[") && says("already exists")) {

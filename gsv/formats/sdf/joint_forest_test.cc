@@ -48,7 +48,7 @@ TEST(JointForest, ReversesAChain) {
 }
 
 // The joints are 0 -> 1 and world -> 2 -> 1. A joint to the world cannot be reversed, so the other
-// joint is.
+// joint is reversed.
 TEST(JointForest, KeepsTheWorldAsTheRoot) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("w", -1, 2), Between("b", 2, 1)};
   EXPECT_THAT(MakeForest(3, joints), IsEmpty());

@@ -51,7 +51,7 @@ std::optional<Colour> ColourFrom(const std::vector<std::string>& words) {
   return Colour{values[0], values[1], values[2], values.size() > 3 ? values[3] : 1.0};
 }
 
-// Reads "specular R G B [A] SHININESS": the last of five numbers, or of four without alpha.
+// Reads "specular R G B [A] SHININESS". The last of the four or five numbers is the shininess.
 void ReadSpecular(std::vector<std::string> words, OgreMaterial& material) {
   if (words.size() >= 5) {
     material.shininess = Number(words.back()).value_or(0);

@@ -16,6 +16,7 @@ namespace gsv::formats {
 // Checks a sensor. Returns an error for invalid parameters, and kNotFound for an unknown type.
 using SensorCheck = std::function<base::Status(const model::SensorDescription&)>;
 
+// Options of a ModelLibrary.
 struct ReadOptions {
   std::vector<std::filesystem::path> model_path;  // see --model-path
   bool allow_absolute_paths = true;               // whether names in files may be absolute paths
@@ -24,7 +25,7 @@ struct ReadOptions {
   std::map<std::string, std::string> drives;
   ReadLimits limits;
   // Whether to add an error for each of SDFormat's rules on names and references that a named file
-  // breaks, see gsv/formats/support/naming_rules.h. Reading repairs these files in any case.
+  // breaks, see gsv/formats/support/naming_rules.h. The files are repaired in both cases.
   bool check_rules = false;
   SensorCheck check_sensor;  // if it is empty, sensors are not checked
 };

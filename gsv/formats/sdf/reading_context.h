@@ -18,6 +18,7 @@
 
 namespace gsv::formats {
 
+// The objects that the readers of one file share, and the list to which they add problems.
 struct ReadingContext {
   const ResourceFinder& finder;
   const ReadLimits& limits;

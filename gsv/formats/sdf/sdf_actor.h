@@ -18,6 +18,7 @@
 
 namespace gsv::formats {
 
+// The parts of an <actor> that a <model> cannot have.
 struct ActorParts {
   std::shared_ptr<const model::Script> script;  // never null; has no animation yet
   std::shared_ptr<const SkinnedMesh> skin;      // null: no skin, or a skin without animation

@@ -11,6 +11,7 @@
 
 namespace gsv::formats {
 
+// The shape in a <geometry>, with its pose in the visual or collision.
 struct SdfShape {
   geometry::Shape shape;
   geometry::Pose visual_from_shape;        // the pose of a heightmap is its <pos>

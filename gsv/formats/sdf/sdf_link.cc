@@ -120,7 +120,7 @@ bool LimitGreatestMoment(const ignition::math::MassMatrix3d& source, model::Iner
   return false;
 }
 
-// Reads the inertia. It is not checked for a link that never moves, because it is not used there.
+// Reads the inertia. The inertia of a link that never moves is not used, so it is not checked.
 model::Inertial ReadInertial(const sdf::Link& link, bool is_static, const ReadingContext& context) {
   model::Inertial inertial;
   const sdf::ElementPtr element = link.Element();

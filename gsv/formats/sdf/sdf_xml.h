@@ -15,8 +15,10 @@
 
 namespace gsv::formats {
 
+// The format of an XML file: SDFormat or URDF.
 enum class XmlDialect { kSdf, kUrdf };
 
+// The XML of a model or world file, ready for libsdformat.
 struct XmlFile {
   std::filesystem::path path;
   std::filesystem::path named;  // the name as given to ReadXml(), with the arguments for xacro

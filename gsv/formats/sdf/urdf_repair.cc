@@ -310,7 +310,7 @@ class UrdfRepair {
   base::Problems& problems_;
   std::map<std::string, XMLElement*> links_;
   std::vector<UrdfJoint> joints_;
-  std::map<std::string, std::size_t> above_;  // the joint above each link, by the link
+  std::map<std::string, std::size_t> above_;  // index of the joint above a link, by its name
 };
 
 }  // namespace

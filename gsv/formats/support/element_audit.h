@@ -20,6 +20,7 @@
 
 namespace gsv::formats {
 
+// A file whose elements are checked.
 struct AuditedFile {
   std::filesystem::path path;
   const tinyxml2::XMLElement* root;  // the element <sdf> or <robot>

@@ -13,6 +13,7 @@
 
 namespace gsv::formats {
 
+// How well GSV supports an element, an attribute or a plugin.
 enum class Support {
   kFull,
   kPartial,
@@ -42,6 +43,7 @@ struct ElementSupport {
   std::vector<const ElementSupport*> borrowed;
 };
 
+// A row of the plugin table: GSV's support of one plugin of Gazebo.
 struct PluginSupport {
   Support support;
   std::string_view part;  // part of the file or class name, lower case, no "-" and "_"

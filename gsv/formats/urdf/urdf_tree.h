@@ -1,10 +1,10 @@
 // Converts a model's links and joints to a single tree, as URDF requires.
 //
 // Frames  URDF has no separate frame for a joint: a joint is at the frame of its child link. If the
-//         joint's motion stays the same there, only its frame changes. If not (an axis that does
-//         not pass through the child's origin), an empty link is added at the joint's frame, and
-//         the child is fixed to it. So every link keeps its frame. libsdformat merges the two
-//         links, and uses the empty link's name.
+//         joint moves its child in the same way from this frame, only the joint's frame changes. If
+//         not (the axis does not pass through the child's origin), an empty link is added at the
+//         joint's frame, and the child is fixed to it. So every link keeps its frame. libsdformat
+//         merges the two links, and uses the empty link's name.
 #pragma once
 
 #include <string>
@@ -15,6 +15,7 @@
 
 namespace gsv::formats {
 
+// A joint as URDF describes it.
 struct UrdfJoint {
   std::string name, type;  // "fixed", "revolute", "continuous", "prismatic", "floating"
   std::string parent, child;
@@ -24,6 +25,7 @@ struct UrdfJoint {
   const model::Joint* source = nullptr;
 };
 
+// The joints of a model as one tree, and the links that were added for it.
 struct UrdfTree {
   std::vector<std::string> empty_links;  // names of added links, which the model does not have
   std::vector<UrdfJoint> joints;

@@ -20,11 +20,13 @@
 
 namespace gsv::formats {
 
+// A mesh file to which a URDF refers.
 struct UrdfMesh {
   std::string file;  // "mesh_0.stl"
   std::string stl;   // content of the STL file
 };
 
+// A model as URDF: the XML, and the mesh files to which it refers.
 struct Urdf {
   std::string text;
   std::vector<UrdfMesh> meshes;

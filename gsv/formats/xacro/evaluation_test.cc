@@ -158,8 +158,8 @@ TEST(Evaluation, RejectsInvalidExpressionsWithTheReason) {
       {"1 2", "\"2\" is not expected here"},
       {"", "ends too early"},
       {"1 & 2", "\"&\" is not supported"},
-      {"'a' * 10000000", "a string is too long"},
-      {"[0] * 10000000", "a list is too long"},
+      {"'a' * 10000000", "a string is longer than 1 MiB"},
+      {"[0] * 10000000", "a list has more than 10000 values"},
   };
   for (const auto& [expression, expected] : cases) {
     EXPECT_THAT(TextOf(expression), HasSubstr(expected)) << expression;

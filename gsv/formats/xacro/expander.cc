@@ -443,7 +443,7 @@ base::Status Expander::BindDefault(const Parameter& parameter, const NodePtr& no
   if (!parameter.otherwise) {
     return InvalidXacro("the call lacks the parameter \"" + parameter.name + "\"");
   }
-  // A default of a macro in a namespace may use the properties there.
+  // The default of a parameter may use the properties of the macro's namespace.
   const auto value = Evaluate(*parameter.otherwise, *node, *inner.parent());
   if (!value) return base::Fail(value.error());
   inner.Set(parameter.name, *value, node, false);

@@ -16,6 +16,7 @@
 
 namespace gsv::formats::xacro {
 
+// A node of an expression's syntax tree. The comments at the kinds list the members that they use.
 struct Expression {
   enum class Kind {
     kLiteral,  // value

@@ -81,7 +81,7 @@ base::Result<NodePtr> FileAccess::ReadIncluded(const std::string& name, const fs
     return base::Fail(status.error());
   }
   if (document.RootElement() == nullptr) {
-    return NoFile("the file contains no element", file->string());
+    return NoFile("the file contains no XML element", file->string());
   }
   return known = ToNode(*document.RootElement(), std::make_shared<const fs::path>(*file));
 }

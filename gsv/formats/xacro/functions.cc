@@ -249,7 +249,7 @@ base::Result<Value> Replaced(const std::string& text, const std::string& what,
     if (at == std::string::npos) return Value{replaced};
     replaced += by;
     from = at + what.size();
-    if (replaced.size() > kMaxResultLength) return InvalidCall("a string is too long");
+    if (replaced.size() > kMaxResultLength) return InvalidCall("a string is longer than 1 MiB");
   }
 }
 
@@ -259,7 +259,7 @@ base::Result<Value> Join(const std::string& text, const List& parts) {
     const auto* part = parts[i].as<std::string>();
     if (part == nullptr) return InvalidCall("join() takes a list of strings");
     joined += (i == 0 ? "" : text) + *part;
-    if (joined.size() > kMaxResultLength) return InvalidCall("a string is too long");
+    if (joined.size() > kMaxResultLength) return InvalidCall("a string is longer than 1 MiB");
   }
   return Value{joined};
 }

@@ -9,6 +9,7 @@
 
 namespace gsv::formats::xacro {
 
+// A parameter in the attribute `params` of <xacro:macro>.
 struct Parameter {
   enum class Kind {
     kValue,
@@ -25,6 +26,7 @@ struct Parameter {
 // Parses "a b:=1 c:=^|'x y' *block". Blanks outside of quotes and ${…} separate parameters.
 std::vector<Parameter> ParseParameters(const std::string& text);
 
+// A macro: its element <xacro:macro>, and its parameters.
 struct Macro {
   NodePtr definition;
   std::vector<Parameter> parameters;

@@ -90,12 +90,13 @@ base::Result<Value> Repeated(const Value& sequence, std::int64_t times) {
   const auto count =
       static_cast<std::size_t>(std::clamp<std::int64_t>(times, 0, kMaxTextLength + 1));
   if (const auto* text = sequence.as<std::string>()) {
-    if (text->size() * count > kMaxTextLength) return WrongOperand("a string is too long");
+    if (text->size() * count > kMaxTextLength) return WrongOperand("a string is longer than 1 MiB");
     std::string repeated;
     for (std::size_t i = 0; i < count; ++i) repeated += *text;
     return Value{repeated};
   }
-  if (sequence.items()->size() * count > kMaxListLength) return WrongOperand("a list is too long");
+  if (sequence.items()->size() * count > kMaxListLength)
+    return WrongOperand("a list has more than 10000 values");
   List repeated;
   for (std::size_t i = 0; i < count; ++i) {
     repeated.insert(repeated.end(), sequence.items()->begin(), sequence.items()->end());
@@ -110,13 +111,13 @@ bool IsSequence(const Value& value) {
 base::Result<Value> Joined(const Value& a, const Value& b) {
   if (const auto* text = a.as<std::string>()) {
     if (text->size() + b.as<std::string>()->size() > kMaxTextLength) {
-      return WrongOperand("a string is too long");
+      return WrongOperand("a string is longer than 1 MiB");
     }
     return Value{*text + *b.as<std::string>()};
   }
   List joined = *a.items();
   joined.insert(joined.end(), b.items()->begin(), b.items()->end());
-  if (joined.size() > kMaxListLength) return WrongOperand("a list is too long");
+  if (joined.size() > kMaxListLength) return WrongOperand("a list has more than 10000 values");
   return a.as<Tuple>() != nullptr ? MakeTuple(joined) : MakeList(joined);
 }
 
@@ -259,7 +260,7 @@ base::Result<Value> Formatted(const std::string& format, const Value& value) {
         return base::Fail(status.error());
       }
     }
-    if (text.size() > kMaxTextLength) return WrongOperand("a string is too long");
+    if (text.size() > kMaxTextLength) return WrongOperand("a string is longer than 1 MiB");
   }
   if (!values.is_used_up()) return WrongOperand("the format string has fewer fields than values");
   return Value{text};

@@ -11,7 +11,7 @@ namespace gsv::formats::xacro {
 
 // Returns the folder that `finder` finds as package://NAME. Otherwise searches for a folder whose
 // package.xml has this name: the naming file's folder, the four folders above it, and the
-// subfolders of each of these.
+// subfolders of each of these folders.
 base::Result<std::filesystem::path> FindPackage(const std::string& name,
                                                 const std::filesystem::path& naming_file,
                                                 const ResourceFinder& finder);

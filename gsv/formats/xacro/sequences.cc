@@ -31,7 +31,7 @@ base::Result<Value> Range(const List& a) {
     return InvalidList("range() takes integers");
   List items;
   for (std::int64_t i = from; step > 0 ? i < to : i > to; i += step) {
-    if (items.size() == kMaxSequence) return InvalidList("a list is too long");
+    if (items.size() == kMaxSequence) return InvalidList("a list has more than 10000 values");
     items.push_back({i});
   }
   return MakeList(std::move(items));
@@ -148,7 +148,7 @@ base::Result<Value> Formatted(const std::string& text, const List& arguments) {
           Field(arguments[index], colon < field.size() ? field.substr(colon + 1) : "");
       if (!value) return base::Fail(value.error());
       formatted += *value;
-      if (formatted.size() > (1u << 20)) return InvalidList("a string is too long");
+      if (formatted.size() > (1u << 20)) return InvalidList("a string is longer than 1 MiB");
       at = end;
     }
   }

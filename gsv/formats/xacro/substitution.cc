@@ -35,12 +35,13 @@ class Substitution {
       : context_(context), command_(command) {}
 
   base::Result<Value> Of(const std::string& text, int depth) {
-    if (depth > kMaxSubstitutionDepth) return Refuse("${…} and $(…) are nested too deep");
+    if (depth > kMaxSubstitutionDepth)
+      return Refuse("${…} and $(…) are nested deeper than 8 levels");
     std::string joined;
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t dollar = text.find('$', at);
       joined += text.substr(at, dollar - at);
-      if (joined.size() > kMaxSubstitutionLength) return Refuse("a string is too long");
+      if (joined.size() > kMaxSubstitutionLength) return Refuse("a string is longer than 1 MiB");
       if (dollar == std::string::npos) break;
       std::size_t bracket = text.find_first_not_of('$', dollar);
       const bool has_bracket =

@@ -1,6 +1,6 @@
 // Substitutes ${expression} and $(command argument) in texts of attributes and properties.
 //
-// "$${" and "$$(" stand for "${" and "$(".
+// "$${" and "$$(" become the texts "${" and "$(".
 #pragma once
 
 #include <functional>

@@ -23,6 +23,7 @@ class Names {
   virtual std::optional<Value> Member(const std::string& name) const = 0;
 };
 
+// A tuple of Python: a list that cannot be changed.
 struct Tuple {
   std::shared_ptr<const List> items;
 };

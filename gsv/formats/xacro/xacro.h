@@ -29,12 +29,14 @@ namespace gsv::formats::xacro {
 // Whether a file must be expanded: its name ends in .xacro, or it has elements of xacro.
 bool NeedsExpansion(const tinyxml2::XMLElement& root, const std::filesystem::path& file);
 
+// Options of Expand().
 struct ExpandOptions {
   const ResourceFinder& finder;
   const ReadLimits& limits;
   std::map<std::string, std::string> arguments;  // values that override the defaults of <xacro:arg>
 };
 
+// The result of Expand().
 struct Expansion {
   // The expanded XML. An element is on the line of the main file from which it came. An element of
   // a macro or of an included file is on the line of the call.

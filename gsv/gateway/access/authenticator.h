@@ -18,6 +18,7 @@ struct Credentials {
   std::string token;
 };
 
+// The sender of a request: the permission, and how long it lasts.
 struct Principal {
   Permission permission = Permission::kNone;
   // Whether the request had credentials. If so, a refusal has status 403, otherwise 401.

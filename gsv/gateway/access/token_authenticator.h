@@ -17,6 +17,7 @@
 
 namespace gsv::gateway::access {
 
+// The tokens that clients of a server can use: one for control, one for watching.
 struct Tokens {
   std::string control, watch;  // empty: there is no such token
 

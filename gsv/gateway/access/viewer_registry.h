@@ -22,6 +22,7 @@
 
 namespace gsv::gateway::access {
 
+// Time limits after which a viewer loses its registration, or the control of a simulation.
 struct ControlLimits {
   std::chrono::milliseconds absence{8'000};  // a viewer that is silent for this long expires
   std::chrono::milliseconds answer{20'000};  // time limit for the answer to a request for control

@@ -111,8 +111,8 @@ TEST_F(ViewerRegistryTest, EachSimulationHasItsOwnHolder) {
 TEST_F(ViewerRegistryTest, AHolderWhoSelectsAnotherSimulationReleasesControl) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
-  ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "arena", now_));  // Ada already views this
-                                                                     // simulation
+  // Ada already views this simulation, so she keeps control.
+  ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "arena", now_));
   EXPECT_EQ(Holder(), ada_.number);
   ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "", now_));
   EXPECT_EQ(Holder(), bob_.number);

@@ -26,6 +26,7 @@ std::string CommandsJson();
 
 // The maximum of `timeout_s`, in seconds of wall-clock time.
 inline constexpr double kMaxDriveTimeout = 60;
+// A drive command that ends after a time.
 struct TimedDriveCommand {
   world::DriveCommand command;
   // s of wall-clock time until the robot stops. nullopt: it does not stop by itself.

@@ -18,6 +18,7 @@
 
 namespace gsv::gateway {
 
+// A replay that the API serves.
 struct Replay {
   std::shared_ptr<ReplayPlayer> player;
   std::string recording;  // name for opening the recording again; empty: none

@@ -16,6 +16,7 @@ namespace gsv::gateway {
 // required.
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 
+// A request to add a robot or an avatar.
 struct RobotToAdd {
   scenario::RobotEntry robot;
   bool is_avatar = false;

@@ -10,8 +10,8 @@
 
 namespace gsv::gateway {
 
-// Returns the complete status. The status of a replay has the member "replay" (see ReplayJson()),
-// and no health.
+// Returns the complete status of a simulation or of a replay. A replay's status has the member
+// "replay" (see ReplayJson()), but not the health of robots.
 std::string StatusJson(const simulation::SimulationStatus& status);
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
 // Returns {"start_s", "end_s", "time_s", "speed", "loop"}.

@@ -10,6 +10,7 @@
 
 namespace gsv::gateway::curves {
 
+// A point of a curve: a value at a simulated time.
 struct Point {
   base::SimTime time{};
   double value = 0;  // may be infinite or NaN, for example without an echo

@@ -191,7 +191,7 @@ TEST_F(RecordedCurvesTest, RefusesMissingTopicsAndValues) {
   };
   using enum base::ErrorCode;
   EXPECT_EQ(code({"/other", "", "range", 10}), kNotFound);
-  EXPECT_EQ(code({"", "robot", "x", 10}), kNotFound);  // the recording has no scene
+  EXPECT_EQ(code({"", "robot", "x", 10}), kNotFound);  // no scene, so no robots
   EXPECT_EQ(code({"", "robot", "mood", 10}), kInvalidArgument);
   EXPECT_EQ(code({"", "", "mood", 10}), kInvalidArgument);
   EXPECT_EQ(code({"", "", "late_steps", 10}), kNotFound);

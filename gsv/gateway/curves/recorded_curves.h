@@ -19,6 +19,7 @@ namespace gsv::gateway::curves {
 
 inline constexpr std::size_t kMaxCurvePoints = 100'000;
 
+// The points of a curve that were read so far, and how far reading has come.
 struct Curve {
   std::vector<Point> points;  // by time
   std::size_t samples = 0;    // number of samples that were read so far

@@ -178,8 +178,8 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   if (seat == nullptr) {
     auto taken = drawer_.Take(view);
     if (!taken && detail > 0) {
-      // A smaller image counts as a further view, and there are too many views. The full size may
-      // be shared with other viewers, so it is tried next.
+      // A smaller image is a further view, and the limit on views is reached. Another viewer may
+      // have this view in full size, so that both can share it. So the full size is tried next.
       {
         const base::MutexLock lock(mutex_);
         watched->detail = 0;

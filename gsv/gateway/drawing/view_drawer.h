@@ -25,6 +25,7 @@
 
 namespace gsv::gateway::drawing {
 
+// Limits on the work of a ViewDrawer.
 struct DrawingLimits {
   std::size_t views = 8;              // number of different cameras at the same time
   std::size_t viewers = 64;           // number of requests and streams at the same time
@@ -42,6 +43,7 @@ struct ViewRequest {
   friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
 };
 
+// An encoded image, and the state of the world that it shows.
 struct DrawnImage {
   SharedBytes bytes;
   std::uint64_t number = 0;  // increases with each change of the world

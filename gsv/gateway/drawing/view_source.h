@@ -14,6 +14,7 @@
 
 namespace gsv::gateway::drawing {
 
+// The state of a world at one instant, ready to render.
 struct ViewInstant {
   // The current snapshot. If anything has changed, this is another object than before.
   std::shared_ptr<const world::Snapshot> snapshot;

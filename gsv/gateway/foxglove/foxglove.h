@@ -29,6 +29,7 @@ std::string_view ChooseSubprotocol(std::string_view offered);
 using ChannelId = std::uint32_t;
 using SubscriptionId = std::uint32_t;
 
+// A channel of the protocol: a topic with its message type.
 struct Channel {
   ChannelId id = 0;
   std::string topic;            // "/gsv/poses"
@@ -43,6 +44,7 @@ struct TimeRange {
   std::uint64_t start_ns = 0, end_ns = 0;
 };
 
+// The first message that a client receives.
 struct ServerInfo {
   std::string name;
   std::vector<std::string> capabilities;

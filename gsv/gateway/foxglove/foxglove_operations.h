@@ -22,6 +22,7 @@ struct ServiceMessage {
   std::string schema_name;  // "std_srvs/srv/Trigger_Response"
   std::string schema;       // in the format ros2msg; the messages are CDR
 };
+// A service that clients can call.
 struct Service {
   std::uint32_t id = 0;
   std::string name;  // "/gsv/pause"

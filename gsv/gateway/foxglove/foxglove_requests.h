@@ -16,6 +16,7 @@
 
 namespace gsv::gateway::foxglove {
 
+// The messages of clients, and their parts.
 struct Subscription {
   SubscriptionId id = 0;
   ChannelId channel = 0;
@@ -34,19 +35,23 @@ struct SetParameters {
   std::vector<Parameter> parameters;
   std::string request;
 };
+// Starts or ends to watch parameters: the client gets each change.
 struct WatchParameters {
   std::vector<std::string> names;  // empty: all parameters
   bool is_end = false;             // whether the client stops watching
 };
+// Starts or ends to watch the connection graph.
 struct WatchGraph {
   bool is_end = false;
 };
+// A call of a service; `call` identifies its response.
 struct ServiceCall {
   std::uint32_t service = 0;
   std::uint32_t call = 0;
   std::string encoding;
   std::string request;  // bytes
 };
+// A request to play or pause a replay, with a speed and perhaps a time to seek to.
 struct PlaybackControl {
   bool play = false;  // true for play, false for pause
   float speed = 1;
@@ -60,6 +65,7 @@ struct WatchView {
   std::string camera;          // parameters as in the query of /view.mjpeg
   std::uint32_t sequence = 0;  // returned with each image for this camera
 };
+// Ends a view.
 struct UnwatchView {
   SubscriptionId id = 0;
 };

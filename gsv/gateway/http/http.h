@@ -16,6 +16,7 @@
 
 namespace gsv::gateway {
 
+// An HTTP request with its complete body.
 struct Request {
   // "GET" or "POST". A HEAD request arrives as GET, and its response is sent without the body.
   std::string method;
@@ -32,6 +33,7 @@ struct Request {
   const std::string& Parameter(std::string_view name) const;
 };
 
+// An HTTP response: a body, or a stream.
 struct Response {
   int status = 200;
   std::string content_type;

@@ -30,8 +30,8 @@ struct Route {
   std::string pattern;
   Permission permission = Permission::kWatch;
   // Whether the request is refused while another viewer holds control of the simulation {name}. For
-  // a WebSocket: commands of its client are refused in the same case, and need
-  // Permission::kControl. Connecting needs only `permission`.
+  // a WebSocket: commands of its client are then refused, too, and need Permission::kControl.
+  // Connecting needs only `permission`.
   bool needs_control = false;
   Pool pool = Pool::kReaders;
   Handler handler;

@@ -62,7 +62,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   void EvictUnsubscribed(Sensors& found);
   std::set<std::string> SubscribedRobots() const;
   // Advertises the topics of sensors without a channel, up to kMaxSensorTopics. Sensors of
-  // requested robots are advertised in any case.
+  // requested robots are advertised even beyond this limit.
   void Advertise(Sensors& found);
 
   void PublishTransforms(const world::Snapshot& snapshot);

@@ -1,7 +1,7 @@
-// WantedRobots stores the robots whose sensor topics viewers have requested, beyond the topics that
-// the stream advertises anyway.
+// WantedRobots stores the robots whose sensor topics viewers have requested. A stream advertises
+// these topics even beyond its limit on topics.
 //
-// Threads  Want() and has_requests() from any; the others from one thread.
+// Threads  Want() and has_requests() from any; the other functions from one thread.
 #pragma once
 
 #include <cstddef>

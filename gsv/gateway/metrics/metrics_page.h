@@ -22,6 +22,7 @@ struct BrokerCalls {
   std::uint64_t failed = 0;
 };
 
+// The objects from which GET /metrics reads its numbers.
 struct MetricsSources {
   std::string version;
   // Each source is optional.

@@ -5,6 +5,7 @@
 
 namespace gsv::gateway::metrics {
 
+// The resource usage of this process.
 struct ProcessUsage {
   std::uint64_t resident_bytes = 0;
   std::uint64_t allocated_bytes = 0;  // memory allocated by malloc, without its cached memory

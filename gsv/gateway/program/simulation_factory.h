@@ -17,6 +17,7 @@
 
 namespace gsv::gateway {
 
+// An error, and the field of the request that caused it (empty: no single field).
 struct FieldError {
   base::Error error;
   std::string field;
@@ -27,6 +28,7 @@ inline tl::unexpected<FieldError> WrongField(std::string field, base::Error erro
   return tl::make_unexpected(FieldError{std::move(error), std::move(field)});
 }
 
+// A request to create a simulation.
 struct SimulationRequest {
   scenario::Scenario scenario;
   bool record = false;  // whether to record to a file that the server chooses
@@ -68,6 +70,7 @@ class SimulationFactory {
     std::string reach;      // the ROS domain, and which machines can be reached in it
     std::string published;  // the simulation that is published now; empty: none
   };
+  // A world at its start, for a preview on the page.
   struct Preview {
     std::shared_ptr<simulation::Simulation> simulation;  // is not listed and never runs
     std::vector<std::string> warnings;                   // problems of the files
@@ -76,7 +79,7 @@ class SimulationFactory {
   // The present state of a world, and a scenario with what a world file cannot have: behaviours,
   // avatars, seed, faults.
   struct SavedWorld {
-    std::string sdf, scenario;          // the texts of both files
+    std::string sdf, scenario;          // the texts of the world file and of the scenario file
     std::vector<std::string> warnings;  // the parts that are not saved
   };
 

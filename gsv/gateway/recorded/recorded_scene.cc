@@ -68,7 +68,10 @@ RecordedScene::RecordedScene(const recording::McapReader& reader, ModelSource mo
 
 base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
   if (index.data_size > kMaxSceneBytes) {
-    return base::Fail(base::ErrorCode::kCorrupt, "the scene is too large", index.name);
+    return base::Fail(
+        base::ErrorCode::kCorrupt,
+        "the scene is larger than the limit of " + std::to_string(kMaxSceneBytes) + " bytes",
+        index.name);
   }
   const auto attachment = reader_.Read(index);
   if (!attachment) return base::Fail(attachment.error());
@@ -118,7 +121,9 @@ base::Result<SharedBytes> RecordedScene::Model(const std::string& id) const {
                       "the recording has no model '" + id.substr(0, 64) + "'");
   }
   if (found->second.data_size > kMaxModelBytes) {
-    return base::Fail(base::ErrorCode::kCorrupt, "the model is too large", id);
+    return base::Fail(
+        base::ErrorCode::kCorrupt,
+        "the model is larger than the limit of " + std::to_string(kMaxModelBytes) + " bytes", id);
   }
   auto attachment = reader_.Read(found->second);
   if (!attachment) return base::Fail(attachment.error());

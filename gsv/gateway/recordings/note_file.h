@@ -16,6 +16,7 @@ namespace gsv::gateway::recordings {
 
 inline constexpr std::size_t kMaxNotes = 1000;
 
+// A note of a viewer on an instant of a recording.
 struct Note {
   std::int64_t id = 0;  // positive, unique in the file
   double time_s = 0;    // simulated time

@@ -23,6 +23,7 @@
 
 namespace gsv::gateway::recordings {
 
+// A line of the list of recordings: what the index of the recording says about it.
 struct RecordingLine {
   enum class State {
     kComplete,

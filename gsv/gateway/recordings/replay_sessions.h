@@ -20,6 +20,7 @@
 
 namespace gsv::gateway::recordings {
 
+// The maximum number of open replays, and the time after which a replay without viewers ends.
 struct SessionLimits {
   std::size_t sessions = 32;
   std::chrono::milliseconds unwatched{30'000};

@@ -35,7 +35,7 @@ class ReplayClock {
   base::Status Resume();
   // Advances by `time` and pauses.
   base::Status Step(base::SimTime time);
-  void Rewind();  // Returns to the start, paused.
+  void Rewind();  // Returns to the start, in the phase kCreated.
   // Moves within the recording, and continues playing if it played.
   void Seek(base::SimTime time);
   // Moves within the recording and pauses.

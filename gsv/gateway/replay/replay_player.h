@@ -19,6 +19,7 @@
 
 namespace gsv::gateway {
 
+// How a replay plays.
 struct ReplayOptions {
   double speed = 1;   // simulated seconds per second of wall-clock time, > 0
   bool loop = false;  // restart at the end
@@ -59,7 +60,7 @@ class ReplayPlayer {
   base::Status Resume();
   // Advances by `count` steps of the simulation and pauses.
   base::Status Step(std::int64_t count);
-  // Returns to the start and pauses.
+  // Returns to the start, in the phase kCreated.
   void Rewind();
   // Moves to the instant, limited to the recording, and continues playing if it played.
   void Seek(base::SimTime time);

@@ -4,7 +4,7 @@
 // call. After a seek, earlier events are not sent. /clock and /gsv/status are made from the
 // replay's own time and status.
 //
-// Threads  JumpTo(), PlayTo() and Publish() from one thread; the others from any.
+// Threads  JumpTo(), PlayTo() and Publish() from one thread; the other functions from any.
 #pragma once
 
 #include <cstdint>

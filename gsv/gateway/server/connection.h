@@ -12,6 +12,7 @@
 
 namespace gsv::gateway {
 
+// The objects that all connections of a server use.
 struct ServerContext {
   ServerOptions options;
   AccessRule access;

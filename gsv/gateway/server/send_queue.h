@@ -23,12 +23,14 @@
 
 namespace gsv::gateway {
 
+// The limits of a SendQueue.
 struct SendLimits {
   std::size_t control_bytes = 32u << 20;
   std::size_t data_bytes = 16u << 20;
   std::size_t data_messages = 256;
 };
 
+// A message in a SendQueue.
 struct Outgoing {
   using Time = std::chrono::steady_clock::time_point;
 

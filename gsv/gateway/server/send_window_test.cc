@@ -93,7 +93,7 @@ class Link {
 };
 
 TEST(SendWindow, SendsAllMessagesOnAFastConnection) {
-  Link link(10e6, milliseconds(1), 10'000);  // 1 MB/s is offered
+  Link link(10e6, milliseconds(1), 10'000);  // the sender produces 1 MB/s
   link.Run(milliseconds(1000));
   link.TakeReceived();
   link.Run(milliseconds(10'000));
@@ -111,7 +111,7 @@ TEST(SendWindow, GrowsUntilItFillsAConnectionWithALongDelay) {
 }
 
 TEST(SendWindow, BoundsTheDelayOfASlowConnectionAndUsesItsRate) {
-  Link link(25'000, milliseconds(20), 1'000);            // 100 kB/s is offered
+  Link link(25'000, milliseconds(20), 1'000);            // the sender produces 100 kB/s
   EXPECT_LT(link.Run(milliseconds(2000)).count(), 0.8);  // the first window
   link.TakeReceived();
   EXPECT_LT(link.Run(milliseconds(10'000)).count(), 0.5);
@@ -122,7 +122,7 @@ TEST(SendWindow, BoundsTheDelayOfASlowConnectionAndUsesItsRate) {
 }
 
 TEST(SendWindow, FollowsAConnectionThatBecomesSlowAndFastAgain) {
-  Link link(10e6, milliseconds(1), 5'000);  // 500 kB/s is offered
+  Link link(10e6, milliseconds(1), 5'000);  // the sender produces 500 kB/s
   link.Run(milliseconds(5000));
   link.set_rate(50'000);
   link.Run(milliseconds(10'000));
@@ -138,7 +138,7 @@ TEST(SendWindow, FollowsAConnectionThatBecomesSlowAndFastAgain) {
 
 TEST(SendWindow, AConnectionWhoseDelayIncreasesIsNotSlowForever) {
   for (const milliseconds delay : {milliseconds(450), milliseconds(1200)}) {
-    Link link(10e6, milliseconds(20), 5'000);  // 500 kB/s is offered
+    Link link(10e6, milliseconds(20), 5'000);  // the sender produces 500 kB/s
     link.Run(milliseconds(10'000));
     link.set_delay(delay);
     link.Run(milliseconds(10'000));
@@ -157,7 +157,7 @@ TEST(SendWindow, AConnectionWhoseDelayIncreasesIsNotSlowForever) {
 }
 
 TEST(SendWindow, AConnectionOfALowRateStaysSlowWhenTheMinimumDelayIsMeasuredAgain) {
-  Link link(25'000, milliseconds(20), 1'000);  // 100 kB/s is offered
+  Link link(25'000, milliseconds(20), 1'000);  // the sender produces 100 kB/s
   link.Run(milliseconds(5000));
   for (int i = 0; i < 10; ++i) {
     EXPECT_LT(link.Run(milliseconds(20'000)).count(), 0.6);

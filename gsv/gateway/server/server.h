@@ -20,6 +20,7 @@
 
 namespace gsv::gateway {
 
+// Limits that protect a server from its clients. Sizes are in bytes.
 struct ServerLimits {
   std::size_t connections = 256;
   std::uint32_t header_bytes = 16u << 10;
@@ -41,6 +42,7 @@ struct TlsFiles {
   bool empty() const { return certificate.empty() && key.empty(); }
 };
 
+// The address, permissions and limits of a Server.
 struct ServerOptions {
   std::string host = "127.0.0.1";          // an address of this machine, or "localhost"
   std::uint16_t port = 0;                  // 0 if the system chooses

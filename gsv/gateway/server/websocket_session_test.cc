@@ -89,7 +89,8 @@ TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
   while (liar.Receive()) {
   }
   EXPECT_EQ(liar.close_code(), 1009);
-  // An unmasked frame, which only servers may send; a reserved opcode; a reserved bit.
+  // Each frame is invalid: it is not masked, as only a server's frame may be, or it has a reserved
+  // opcode or a reserved bit.
   for (const std::string& bytes :
        {std::string("\x81\x01x"), std::string("\x83\x80mask"), std::string("\xf1\x80mask")}) {
     Viewer breaker(port());

@@ -13,6 +13,7 @@
 
 namespace gsv::gateway::testing {
 
+// A binary message that a client has received, parsed.
 struct ReceivedData {
   int opcode = 0;
   foxglove::SubscriptionId subscription = 0;  // opcode 1

@@ -12,6 +12,7 @@
 
 namespace gsv::gateway::testing {
 
+// A response that a test has received.
 struct HttpReply {
   int status = 0;
   std::map<std::string, std::string> headers;  // names in lower case

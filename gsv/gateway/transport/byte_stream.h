@@ -47,7 +47,7 @@ class ByteStream {
   // Enables TLS. Call Handshake() afterwards. `context` must outlive the stream.
   Tls& StartTls(boost::asio::ssl::context& context);
   // Call StartTls() first. `already_read` has bytes that were read from the connection before.
-  // `then` gets the number of these that the handshake used.
+  // `then` gets the number of these bytes that the handshake used.
   void Handshake(boost::asio::ssl::stream_base::handshake_type type,
                  boost::asio::const_buffer already_read, Completion then);
   // Shuts TLS down. Without TLS, calls then() at once.

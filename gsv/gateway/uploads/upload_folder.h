@@ -18,6 +18,7 @@
 
 namespace gsv::gateway::uploads {
 
+// The limits of an UploadFolder.
 struct UploadLimits {
   std::size_t files = 5'000;                     // maximum number of files of all sets
   std::uint64_t bytes = std::uint64_t{1} << 30;  // maximum size of all sets

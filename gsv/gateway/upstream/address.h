@@ -11,6 +11,7 @@
 
 namespace gsv::gateway::upstream {
 
+// The address of another instance, and the credentials for it.
 struct Address {
   std::string host;     // a name or an address; IPv6 without brackets
   std::string port;     // digits

@@ -13,6 +13,7 @@
 
 namespace gsv::gateway::upstream {
 
+// The text messages of a server.
 struct Advertise {
   std::vector<foxglove::Channel> channels;
 };
@@ -29,6 +30,7 @@ using ServerText = std::variant<Advertise, Unadvertise, StatusMessage, Other>;
 // Fails with kCorrupt for invalid messages.
 base::Result<ServerText> ParseServerText(std::string_view text);
 
+// The binary messages of a server.
 struct MessageData {
   foxglove::SubscriptionId subscription = 0;
   std::uint64_t time_ns = 0;
