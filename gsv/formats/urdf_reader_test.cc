@@ -10,7 +10,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-TEST_F(SdfReaderTest, ReadsUrdfWithItsFixedJointsLumped) {
+TEST_F(SdfReaderTest, MergesLinksThatAFixedJointConnectsInUrdf) {
   folder_.Write("robot.urdf", R"(<?xml version='1.0'?>
 <robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:arg name='ns' default=''/><xacro:property name='p' value='$(arg ns)'/>
 <link name='${p}base'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>

@@ -276,7 +276,8 @@ class WorldWriter {
     if (found == elements_.end() || original == nullptr) return false;
     if (!IsSameModel(*original->model, *placed.model)) return false;
     const bool stands = original->world_from_model == placed.world_from_model;
-    const bool is_actor = placed.model->script != nullptr;  // its script sets its pose
+    const bool is_actor =
+        placed.model->script != nullptr;  // a script sets its pose, so <pose> stays
     if ((!stands || IsRelative(*found->second)) && !is_actor) {
       SetPose(*found->second, placed.world_from_model);
     }

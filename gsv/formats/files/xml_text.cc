@@ -206,7 +206,7 @@ class XmlPreparation {
     } else if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
       Refuse("the entity &" + std::string(name) + "; contains itself");
     } else if (open_.size() == kMaxEntityDepth) {
-      Refuse("the entities are nested deeper than " + std::to_string(kMaxEntityDepth));
+      Refuse("the entities are nested deeper than " + std::to_string(kMaxEntityDepth) + " levels");
     } else if (++expansions_ > kMaxExpansions) {
       Refuse("the file needs more than " + std::to_string(kMaxExpansions) +
              " expansions of entities");

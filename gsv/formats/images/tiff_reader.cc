@@ -244,7 +244,7 @@ base::Result<std::shared_ptr<model::Image>> DecodeTiff(const unsigned char* data
   std::vector<std::uint32_t> raster(count);
   if (TIFFReadRGBAImageOriented(tiff.get(), pixels->width, pixels->height, raster.data(),
                                 ORIENTATION_TOPLEFT, 0) != 1) {
-    return Fail(ErrorCode::kBadModel, "the TIFF file is damaged, or its format is not supported",
+    return Fail(ErrorCode::kBadModel, "the TIFF image cannot be decoded; convert it to PNG",
                 source);
   }
   const bool is_opaque = std::all_of(raster.begin(), raster.end(),

@@ -173,7 +173,7 @@ class BoneCutter {
   struct Piece {
     const aiMesh* mesh;
     aiMatrix4x4 offset;
-    int node;  // index of the node of `offset`
+    int node;  // index of the bone's node, to which `offset` belongs
     std::vector<unsigned> faces;
   };
 

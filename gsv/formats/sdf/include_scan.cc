@@ -81,9 +81,10 @@ base::Result<std::string> IncludeScan::ReadIncluded(const fs::path& file) {
   }
   if (const auto known = done_.find(path); known != done_.end()) return known->second;
   if (open_.size() > static_cast<std::size_t>(limits_.include_depth)) {
-    return Fail(ErrorCode::kBadModel,
-                "files include each other deeper than " + std::to_string(limits_.include_depth),
-                path.string());
+    return Fail(
+        ErrorCode::kBadModel,
+        "files include each other deeper than " + std::to_string(limits_.include_depth) + " levels",
+        path.string());
   }
   auto xml = ReadXml(path, finder_, limits_, problems_);
   if (xml) ReportUnsupported(*xml, problems_);

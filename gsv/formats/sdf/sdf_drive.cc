@@ -131,7 +131,7 @@ class DriveReader {
       const double value = std::strtod(text.c_str(), &end);
       if (end != text.c_str() && std::isfinite(value)) return value;
       context_.Warn(std::string("<") + name + "> must be a number, not \"" + text +
-                        "\"; it is measured, or its default is used",
+                        "\"; it is ignored, as if it were missing",
                     Place());
     }
     return std::nullopt;
@@ -142,7 +142,7 @@ class DriveReader {
     if (!value) return otherwise;
     if (*value > 0) return *value;
     context_.Warn(std::string("<") + *names.begin() +
-                      "> must be above zero; it is measured, or its default is used",
+                      "> must be above zero; it is ignored, as if it were missing",
                   Place());
     return otherwise;
   }

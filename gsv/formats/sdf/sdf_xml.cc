@@ -162,7 +162,7 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   }
   if (Depth(*file.root, limits.xml_depth) > limits.xml_depth) {
     return Fail(ErrorCode::kBadModel,
-                "elements are nested deeper than " + std::to_string(limits.xml_depth),
+                "elements are nested deeper than " + std::to_string(limits.xml_depth) + " levels",
                 path.string());
   }
   file.dialect = root == "sdf" ? XmlDialect::kSdf : XmlDialect::kUrdf;

@@ -16,14 +16,14 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kBallRadius = 0.05;     // m
-constexpr char kNoUrdfLimit[] = "1e16";  // the limit that SDFormat writes for "no limit"
+constexpr char kNoUrdfLimit[] = "1e16";  // the value that SDFormat writes for "no limit"
 
 // An attribute whose value urdfdom checks, and the value that replaces an invalid one.
 struct Attribute {
   const char* element;
   const char* name;
   const char* type;       // see value_text.h
-  const char* otherwise;  // null if the element requires the attribute
+  const char* otherwise;  // the replacement; null if the element requires the attribute
 };
 
 constexpr Attribute kAttributes[] = {

@@ -153,7 +153,7 @@ class UrdfText {
     out_.CloseElement();
   }
 
-  // Writes a visual for each material of a mesh that has several.
+  // Writes a mesh with several materials as one visual for each material.
   void WriteVisual(const model::Visual& visual) {
     const auto* mesh = std::get_if<geometry::Mesh>(&visual.shape);
     if (mesh == nullptr || visual.materials.size() < 2 || mesh->triangles->parts.size() < 2) {

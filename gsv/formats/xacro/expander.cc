@@ -103,8 +103,8 @@ base::Status Expander::One(const NodePtr& node, Node& parent, Context& context) 
     status =
         InvalidXacro("the file takes more than " + std::to_string(kMaxSteps) + " steps to expand");
   } else if (levels_ > kMaxLevels) {
-    status =
-        InvalidXacro("macros and elements are nested deeper than " + std::to_string(kMaxLevels));
+    status = InvalidXacro("macros and elements are nested deeper than " +
+                          std::to_string(kMaxLevels) + " levels");
   } else if (node->is_element) {
     status = Element(node, parent, context);
   } else if (const auto text = TextOf(node->text, *node, context.scope)) {
@@ -331,7 +331,8 @@ base::Status Expander::Include(const std::string& name, bool is_optional, const 
 
 base::Status Expander::OnCondition(const NodePtr& node, Node& parent, Context& context) {
   const std::string* text = node->attribute("value");
-  if (text == nullptr) return InvalidXacro("the condition has no value");
+  if (text == nullptr)
+    return InvalidXacro("<xacro:if> and <xacro:unless> need the attribute value");
   const auto value = Evaluate(*text, *node, context.scope);
   if (!value) return base::Fail(value.error());
   const auto condition = ConditionOf(*value);
@@ -480,7 +481,7 @@ base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, 
   if (levels_ > kMaxLevels)
     return InvalidXacro("macros and properties are nested deeper than " +
                         std::to_string(kMaxLevels) +
-                        ". Check for a macro that always calls itself");
+                        " levels. Check for a macro that always calls itself");
   EvaluationContext evaluation;
   evaluation.property = [&](const std::string& name) { return scope.Find(name); };
   evaluation.load_yaml = [&](const std::string& name) { return files_.ReadYaml(name, *at.file); };

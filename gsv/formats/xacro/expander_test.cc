@@ -60,7 +60,7 @@ TEST_F(ExpanderTest, RejectsRecursiveProperties) {
               HasSubstr("robot.xacro:1: the property \"a\" is defined by itself"));
 }
 
-TEST_F(ExpanderTest, EscapesDoubledDollars) {
+TEST_F(ExpanderTest, ReadsADoubledDollarAsOneDollar) {
   EXPECT_EQ(Expanded("<a b='$${x}' c='$$${x}' d='$$(cwd)' e='$' f='a $ b'/>"),
             "<a b=\"${x}\" c=\"$${x}\" d=\"$(cwd)\" e=\"$\" f=\"a $ b\"/>");
 }

@@ -77,7 +77,7 @@ base::Result<Value> Absolute(const Arguments& a) {
 base::Result<Value> Extreme(const Arguments& given, const char* word) {
   const bool is_one = given.size() == 1 && given[0].items() != nullptr;
   const List& items = is_one ? *given[0].items() : given;
-  if (items.empty()) return InvalidCall("min() and max() take one value at least");
+  if (items.empty()) return InvalidCall("min() and max() need at least one value");
   const Value* best = &items[0];
   for (const Value& item : items) {
     const auto is_better = Compare(word, item, *best);

@@ -48,7 +48,7 @@ struct DrawnImage {
   SharedBytes bytes;
   std::uint64_t number = 0;  // increases with each change of the world
   base::SimTime time{};
-  std::chrono::system_clock::time_point seen{};  // when the drawer first saw this state
+  std::chrono::system_clock::time_point seen{};  // when the drawer first saw the shown state
 };
 
 class ViewDrawer {

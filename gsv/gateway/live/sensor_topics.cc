@@ -155,7 +155,7 @@ void SensorTopics::EvictUnsubscribed(Sensors& found) {
     for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
       if (channel != 0) gone.push_back(channel);
     }
-    // Makes a new object, because a worker may still use the old object.
+    // A new object replaces the old one, because a worker may still use the old one.
     sensor =
         std::make_shared<Sensor>(sensor->robot, sensor->description, sensor->type, sensor->made);
   }

@@ -11,7 +11,7 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr double kDiagnosticsRate = 1;  // the rate of ROS's own publishers
+constexpr double kDiagnosticsRate = 1;  // Hz; ROS's own nodes publish diagnostics at this rate
 
 SharedBytes EncodedStatus(const simulation::SimulationStatus& status) {
   return Encoded(presentation::StatusMessage(status));

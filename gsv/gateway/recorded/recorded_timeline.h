@@ -35,7 +35,7 @@ RecordedEvent CollisionEvent(base::SimTime time, const std::string& first,
 
 class RecordedTimeline {
  public:
-  // Both must outlive this.
+  // `reader` and `scene` must outlive this.
   RecordedTimeline(const recording::McapReader& reader, const RecordedScene& scene);
 
   // Returns the time of the `count`th recorded pose after `time`, or before it if `count` is

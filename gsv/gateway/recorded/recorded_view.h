@@ -25,7 +25,7 @@ class RecordedView {
     const view::DrawnScene* scene = nullptr;  // valid during the lifetime of the RecordedView
   };
 
-  // Both must outlive this.
+  // `reader` and `scene` must outlive this.
   RecordedView(const recording::McapReader& reader, const RecordedScene& scene)
       : reader_(reader), scene_(scene) {}
 

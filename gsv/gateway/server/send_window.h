@@ -94,7 +94,7 @@ class SendWindow {
 
   // Notes that a message that was sent or queued at `began` was late.
   void NoteLate(Time began, Time now);
-  // Whether the ping without a pong is late already.
+  // Whether the last ping has waited too long for its pong.
   bool IsOverdue(Time now) const;
   // Updates the minimum delay with the delay of this pong.
   void TakeMinDelay(const Mark& mark, Time now);

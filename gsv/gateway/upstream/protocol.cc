@@ -49,7 +49,7 @@ base::Result<ServerText> ParseUnadvertise(const Json& json) {
   Unadvertise message;
   for (const Json& entry : *list) {
     const std::optional<std::uint32_t> id = ChannelIdOf(entry);
-    if (!id) return Malformed("a channel's number is invalid");
+    if (!id) return Malformed("a channel's 'id' must be a whole number from 0 to 4294967295");
     message.channels.push_back(*id);
   }
   return message;
