@@ -11,7 +11,7 @@ namespace gsv::formats {
 // An entity that a <!DOCTYPE> declares: a name for a text.
 struct XmlEntity {
   std::string value;         // text of the entity, which may refer to other entities
-  bool is_external = false;  // declared with SYSTEM or PUBLIC: its text is in another file
+  bool is_external = false;  // whether its text is in another file (SYSTEM, PUBLIC)
 };
 
 // The content of a <!DOCTYPE>: its general entities, by name.

@@ -14,7 +14,8 @@ namespace {
 
 using base::ErrorCode;
 
-constexpr int kMaxJsonDepth = 64;  // glTF itself has about ten levels; "extras" may have more
+// Maximum nesting of the JSON. glTF itself has about ten levels, but "extras" may have more.
+constexpr int kMaxJsonDepth = 64;
 // assimp visits nodes recursively, so deeper nodes could exhaust the stack.
 constexpr std::size_t kMaxNodeDepth = 512;
 constexpr std::size_t kMaxNodes =
@@ -161,7 +162,8 @@ class DeclaredSizeChecker : public nlohmann::json_sax<nlohmann::json> {
   const std::size_t max_bytes_, max_values_;
   std::size_t max_number_ = kNoSizeLimit;  // limit of the next number
   int depth_ = 0;
-  bool claims_ = false, is_sparse_ = false;  // state of the parser
+  // Whether the parser is in an array whose elements declare sizes, and in a "sparse" object.
+  bool claims_ = false, is_sparse_ = false;
   bool is_nodes_ = false, is_children_ = false;
   Children children_;
 };

@@ -18,7 +18,7 @@ using geometry::TriangleMesh;
 using geometry::Vector3;
 
 constexpr int kMaxBoneDepth = 128;
-constexpr double kMaxAnimationTime = 600;  // s
+constexpr double kMaxAnimationTime = 600;  // maximum length of an animation, s
 
 Vector3 PointOf(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};

@@ -21,8 +21,8 @@ using geometry::Pose;
 using geometry::Vector3;
 using tinyxml2::XMLElement;
 
-constexpr double kMaxScriptTime = 1e8;  // s
-constexpr int kFreedoms = 6;            // joints of a bone, one for each degree of freedom
+constexpr double kMaxScriptTime = 1e8;  // maximum time in a script, s
+constexpr int kFreedoms = 6;  // number of joints of a bone, one for each degree of freedom
 
 std::string TextOf(const XMLElement* element) {
   return element == nullptr || element->GetText() == nullptr ? "" : element->GetText();

@@ -14,7 +14,7 @@ namespace {
 using model::Joint;
 using model::JointKind;
 
-constexpr double kNoLimit = 1e15;  // SDFormat writes 1e16 for "none"
+constexpr double kNoLimit = 1e15;  // larger values mean "no limit": SDFormat writes 1e16
 
 double LimitOrInfinity(double value) {
   return std::abs(value) >= kNoLimit ? std::copysign(INFINITY, value) : value;

@@ -23,7 +23,7 @@ struct Property {
   Value value;
   NodePtr defined_at;
   bool is_lazy = false;
-  bool is_resolving = false;  // used to detect properties that refer to themselves
+  bool is_resolving = false;  // whether its text is being evaluated; shows cycles
 };
 
 // The nodes that <xacro:insert_block> inserts.

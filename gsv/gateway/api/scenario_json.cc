@@ -14,7 +14,7 @@ namespace {
 using ScenarioJson = nlohmann::json;
 
 constexpr std::size_t kMaxRobots = 1000;
-constexpr double kMaxAngle = 1e3;  // rad
+constexpr double kMaxAngle = 1e3;  // maximum magnitude of an angle in a request, rad
 
 tl::unexpected<FieldError> Refused(std::string field, std::string sentence) {
   return tl::make_unexpected(

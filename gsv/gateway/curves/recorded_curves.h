@@ -24,7 +24,7 @@ struct Curve {
   std::vector<Point> points;  // by time
   std::size_t samples = 0;    // number of samples that were read so far
   bool is_whole = true;       // whether every sample is a point
-  bool is_done = false;       // the end was reached, or reading was ended early
+  bool is_done = false;       // whether reading has ended, at the end or earlier
   base::SimTime read_to{};    // time up to which the recording was read
   std::string problem;        // reason for missing parts; empty: none
 };

@@ -9,8 +9,8 @@ namespace {
 using foxglove::Parameter;
 using foxglove::StatusLevel;
 
-constexpr int kMaxCalls = 8;              // calls in progress, per client
-constexpr std::size_t kMaxProblems = 10;  // problems reported for one request
+constexpr int kMaxCalls = 8;              // maximum number of calls in progress, per client
+constexpr std::size_t kMaxProblems = 10;  // maximum number of problems reported for one request
 // The number of updates that were dropped for the client. Each client gets its own value.
 constexpr const char* kDroppedUpdates = "/gsv/dropped_updates";
 

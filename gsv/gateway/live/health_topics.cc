@@ -10,7 +10,7 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr double kHealthRate = 2;  // Hz, of wall-clock time
+constexpr double kHealthRate = 2;  // maximum rate of messages, Hz of wall-clock time
 
 bool AreSame(const messages::gsv_msgs::Expectations& a, const messages::gsv_msgs::Expectations& b) {
   const auto is_same = [](const auto& x, const auto& y) {

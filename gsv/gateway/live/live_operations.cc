@@ -11,7 +11,7 @@ namespace {
 using simulation::Simulation;
 
 constexpr const char* kFactor = "/gsv/real_time_factor";
-constexpr const char* kFormerFactor = "/gsv/factor";  // still accepted
+constexpr const char* kFormerFactor = "/gsv/factor";  // deprecated name of the real-time factor
 
 base::Result<std::string> Gone() {
   return base::Fail(base::ErrorCode::kEnded, "the simulation was removed");

@@ -19,7 +19,7 @@ using messages::gsv_msgs::StepCost;
 using messages::gsv_msgs::StepCosts;
 using simulation::StepTimes;
 
-constexpr double kStepCostRate = 2;  // Hz, of wall-clock time
+constexpr double kStepCostRate = 2;  // rate of messages, Hz of wall-clock time
 constexpr std::size_t kMaxKnownHoldUps = 4096;
 
 double SecondsOf(std::chrono::nanoseconds duration) {

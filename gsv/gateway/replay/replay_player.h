@@ -22,7 +22,7 @@ namespace gsv::gateway {
 // How a replay plays.
 struct ReplayOptions {
   double speed = 1;   // simulated seconds per second of wall-clock time, > 0
-  bool loop = false;  // restart at the end
+  bool loop = false;  // whether to restart at the end
 };
 
 class ReplayPlayer {

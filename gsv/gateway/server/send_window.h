@@ -109,7 +109,7 @@ class SendWindow {
   std::optional<Time> first_started_;  // start of the first message after the last ping
   std::optional<Clock::duration> min_delay_;
   Time min_measured_{};      // when min_delay_ was measured
-  bool measures_ = false;    // the minimum delay is being measured again
+  bool measures_ = false;    // whether the minimum delay is being measured again
   bool holds_back_ = false;  // whether a message had to wait since the last pong
   bool is_slow_ = false;
   std::optional<double> rate_;

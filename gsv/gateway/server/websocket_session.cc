@@ -321,13 +321,13 @@ class WebSocketSession final : public Client,
   SendWindow::Time write_started_{};
   std::optional<websocket::close_reason> close_reason_;
   std::atomic<bool> is_woken_{false};
-  bool is_open_ = false;  // the connection was accepted, and no close frame was sent
+  bool is_open_ = false;  // whether the connection was accepted, and no close frame was sent
   bool is_writing_ = false;
-  bool is_pinging_ = false;  // a ping is being written
+  bool is_pinging_ = false;  // whether a ping is being written
   bool is_slow_ = false;     // whether the client has the status message about its slow connection
   std::atomic<double> slow_rate_{0};
   bool has_left_ = false;
-  bool is_counted_ = false;  // the session counts as a viewer
+  bool is_counted_ = false;  // whether the session counts as a viewer
 };
 
 }  // namespace

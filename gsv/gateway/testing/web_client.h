@@ -29,7 +29,7 @@ class HttpConnection {
   // Receives the next response; nullopt at the connection's end. `has_body`: false for a HEAD
   // request.
   std::optional<HttpReply> Receive(bool has_body = true);
-  bool IsClosed();  // waits for data or for the connection's end
+  bool IsClosed();  // waits for data (false) or for the connection's end (true)
 
  private:
   struct Impl;
