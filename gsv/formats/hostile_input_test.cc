@@ -112,7 +112,7 @@ TEST_F(HostileInputTest, TruncatedUrdfIsRejected) {
 }
 
 std::string Gltf(const std::string& index_bytes, int byte_length) {
-  // Three corners as floats, then three indices.
+  // The buffer contains three corners as floats, and then three indices.
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)"
          R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
@@ -185,7 +185,7 @@ TEST_F(HostileInputTest, GltfThatDeclaresMoreThanTheLimitsIsRejected) {
     ASSERT_FALSE(mesh.has_value()) << claim;
     EXPECT_THAT(mesh.error().message, HasSubstr("more bytes or values than the limits")) << claim;
   }
-  // Numbers in "extras" may be anything.
+  // Any numbers are valid in "extras", because glTF gives them no meaning.
   EXPECT_TRUE(Mesh("extras.glb", Glb(TriangleJson(R"(,"extras":{"count":-1})",
                                                   R"({"count":1e300,"byteLength":-7})"),
                                      TriangleData()))

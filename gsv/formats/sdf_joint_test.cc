@@ -97,7 +97,7 @@ TEST_F(SdfJointTest, ABallJointBecomesThreeJoints) {
 }
 
 TEST_F(SdfJointTest, AScrewHasItsPitchInMetresPerRadian) {
-  // The older element is 4 rad/m of a left-handed thread.
+  // The older element is in rad/m and of a left-handed thread, so 4 means -1/4 m/rad.
   const auto old =
       ReadJoint("screw", "<thread_pitch>4</thread_pitch><axis><xyz>0 0 1</xyz></axis>");
   EXPECT_EQ(old->joints.at(0).kind, JointKind::kScrew);

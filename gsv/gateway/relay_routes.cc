@@ -59,7 +59,7 @@ class RelayRoutes final : public RouteSet {
       base::Result<Response> answer = upstream::Fetch(address_, request, kRequestTime);
       return answer ? *std::move(answer) : ErrorResponse(answer.error());
     };
-    // The other instance checks whether another viewer holds control.
+    // These routes do not check whether another viewer holds control: the other instance does.
     std::vector<Route> routes{
         {"GET", "/api/{path...}", kWatch, false, kReaders, forward},
         {"POST", "/api/{path...}", kControl, false, kCommanders, forward},

@@ -33,7 +33,7 @@ std::vector<float> Flat(const std::vector<Vector3>& vectors) {
   return values;
 }
 
-// glTF has (0, 0) in the upper left corner.
+// Returns u and v of each vertex. v is flipped, because glTF has (0, 0) in the upper left corner.
 std::vector<float> FlatTextureCoordinates(const TriangleMesh& mesh) {
   std::vector<float> values;
   values.reserve(mesh.texture_coordinates.size() * 2);

@@ -35,7 +35,7 @@ TEST(TextureReader, ReadsPixelsFromTheTopAndKeepsTheFile) {
   EXPECT_EQ(reader.Read(path).value(), *image);
 }
 
-// The format allows empty chunks.
+// PNG allows an empty IDAT chunk, for which stb copies zero bytes to a null pointer (stb_copy.h).
 TEST(TextureReader, ReadsAPngWithAnEmptyChunk) {
   const auto chunk = [](const std::string& type, const std::string& data) {
     return std::string(3, '\0') + static_cast<char>(data.size()) + type + data + "sum?";

@@ -99,7 +99,7 @@ base::Result<Size> SizeOf(TIFF* tiff, const std::string& source, const ReadLimit
   return size;
 }
 
-// The encoding of a height.
+// How a TIFF file encodes the height of a sample.
 struct Sample {
   std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT, per_pixel = 1, layout = PLANARCONFIG_CONTIG;
 

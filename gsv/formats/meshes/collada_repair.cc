@@ -61,7 +61,7 @@ class ColladaText {
     }
   }
 
-  // <ph><p>outline</p><h>hole</h></ph> becomes <p>outline</p>.
+  // Removes the holes of a polygon: <ph><p>outline</p><h>hole</h></ph> becomes <p>outline</p>.
   void CloseHoles(XMLElement& polygon) {
     XMLNode* parent = polygon.Parent();
     if (XMLElement* outline = polygon.FirstChildElement("p")) {

@@ -184,7 +184,8 @@ base::Status CheckGltf(const std::string& bytes, bool is_binary, const ReadLimit
     }
     json = *chunk;
   }
-  // Some writers pad the chunk with zeros, where assimp's reader stops.
+  // Some writers pad the JSON with zeros. assimp's reader stops at the first zero, so this check
+  // stops there, too.
   json = json.substr(0, json.find('\0'));
   DeclaredSizeChecker checker(limits);
   nlohmann::json::sax_parse(json, &checker);

@@ -51,7 +51,7 @@ geometry::TriangleMesh MeshOf(const HeightGrid& grid, const Vector3& size, doubl
   };
   for (int row = 0; row + 1 < rows; ++row) {
     for (int column = 0; column + 1 < columns; ++column) {
-      // Rows go towards -y: this order is counter-clockwise from above.
+      // Rows go towards -y, so this order of the corners is counter-clockwise from above.
       mesh.triangles.push_back({at(column, row), at(column, row + 1), at(column + 1, row)});
       mesh.triangles.push_back({at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)});
     }

@@ -36,7 +36,7 @@ class MaterialReader {
     ReadGloss(source, material);
     material.base_colour_map = FirstMap(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
     if (material.base_colour_map != nullptr && !IsGltf(source)) {
-      // An image replaces the diffuse colour.
+      // The image replaces the diffuse colour, so the colour must not tint the image.
       material.base_colour = {1, 1, 1, material.base_colour.a};
     }
     ReadSeeThrough(source, material);
@@ -96,7 +96,7 @@ class MaterialReader {
           {aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS, aiTextureType_UNKNOWN});
       int set = 0;  // only the first set of texture coordinates is read
       source.Get(AI_MATKEY_UVWSRC(aiTextureType_LIGHTMAP, 0), set);
-      // Assimp calls glTF's occlusion texture a light map.
+      // assimp returns glTF's occlusion texture as a light map.
       if (set == 0) material.occlusion_map = FirstMap(source, {aiTextureType_LIGHTMAP});
       return;
     }

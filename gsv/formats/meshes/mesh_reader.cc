@@ -98,7 +98,7 @@ class MeshMerger {
   }
 
   void AddVertices(const aiMesh& part, const aiMatrix4x4& root_from_node) {
-    // Normals transform by the inverse transpose.
+    // Normals are transformed by the inverse transpose of the matrix for positions.
     aiMatrix3x3 normal_matrix(root_from_node);
     normal_matrix.Inverse().Transpose();
     all_have_normals_ = all_have_normals_ && part.HasNormals();

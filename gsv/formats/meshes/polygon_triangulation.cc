@@ -61,7 +61,7 @@ Hit FirstHit(const Ring& ring, const Vector2& eye) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::size_t next = (i + 1) % ring.size();
     const Vector2 &a = ring[i].point, &b = ring[next].point;
-    // The interior is on the left of an edge.
+    // The interior is to the left of an edge, so the ray leaves it through an edge towards +y.
     if (!(a.y <= eye.y && b.y >= eye.y) || a.y == b.y) continue;
     const double x = a.x + (eye.y - a.y) / (b.y - a.y) * (b.x - a.x);
     if (x >= eye.x && x < hit.x) hit = {x, a.x > b.x ? i : next};

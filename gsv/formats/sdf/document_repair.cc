@@ -374,7 +374,8 @@ bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& in
 
 namespace {
 
-// Plugins have names such as gz::sim::systems::Physics.
+// Whether the element is in a <plugin>. Names such as gz::sim::systems::Physics stay unchanged
+// there.
 bool IsInPlugin(const XMLElement& element) {
   for (const tinyxml2::XMLNode* at = &element; at != nullptr; at = at->Parent()) {
     if (at->ToElement() != nullptr && std::strcmp(at->Value(), "plugin") == 0) return true;

@@ -95,7 +95,7 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   return surface;
 }
 
-// Checks by Sylvester's criterion.
+// Whether the matrix of inertia is positive definite, by Sylvester's criterion.
 bool IsPositiveDefinite(const model::Inertial& i) {
   const double second = i.ixx * i.iyy - i.ixy * i.ixy;
   const double determinant = i.ixx * (i.iyy * i.izz - i.iyz * i.iyz) -

@@ -27,7 +27,7 @@ struct Compiled {
   std::map<std::pair<std::string, unsigned>, Automaton> automata GSV_GUARDED_BY(mutex);
 };
 
-// Never destroyed: destructors of other files may still compile expressions.
+// The object is never destroyed, because destructors of other files may compile expressions.
 Compiled& AllCompiled() {
   static Compiled& compiled = *new Compiled;
   return compiled;

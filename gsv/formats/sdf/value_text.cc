@@ -52,7 +52,7 @@ RepairedText RepairFlag(const std::string& text, const std::string& otherwise) {
     lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (lower == "true" || lower == "false" || lower == "1" || lower == "0") return {text, ""};
-  // libsdformat writes the defaults of flags as 1 and 0.
+  // The default of a flag may be 1 or 0, because libsdformat writes it so.
   return {otherwise == "1" || otherwise == "true" ? "true" : "false", "true or false is expected"};
 }
 

@@ -35,7 +35,7 @@ base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element) {
   WrittenPose written;
   const tinyxml2::XMLElement* pose = element.FirstChildElement("pose");
   if (pose == nullptr) return written;
-  // The attribute was called `frame` until SDFormat 1.6.
+  // Both names are read, because the attribute was called `frame` until SDFormat 1.6.
   for (const char* attribute : {"frame", "relative_to"}) {
     if (const char* value = pose->Attribute(attribute)) written.relative_to = value;
   }

@@ -353,7 +353,7 @@ class WorldReader {
     });
     LineKeepingPrinter printer;
     printer.Text("<sdf version='" + file_.version + "'><world name=\"");
-    // libsdformat reserves these names.
+    // libsdformat reserves some names, so another name replaces them here.
     const bool reserved = world_.name == "world" || world_.name.find("::") != std::string::npos ||
                           world_.name.rfind("__", 0) == 0;
     printer.Escaped(reserved ? "unnamed" : world_.name.c_str());

@@ -63,7 +63,7 @@ class Expander {
                            Scope& inner);
   base::Status BindBlocks(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
 
-  // Substitute ${…} and $(…) in a text.
+  // These functions substitute ${…} and $(…) in a text.
   base::Result<Value> Evaluate(const std::string& text, const Node& at, Scope& scope);
   base::Result<std::string> TextOf(const std::string& text, const Node& at, Scope& scope);
   // Returns an attribute's value; kBadModel if it is missing.

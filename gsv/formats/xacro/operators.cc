@@ -243,7 +243,7 @@ base::Status AppendFormatted(const Field& field, const Value& value, std::string
   return {};
 }
 
-// Python's formatting, such as '%.2f' % 1.5.
+// Formats values like Python's operator %, as in '%.2f' % 1.5.
 base::Result<Value> Formatted(const std::string& format, const Value& value) {
   std::string text;
   FormatValues values(value);

@@ -299,7 +299,7 @@ TEST_F(ApiTest, TheSceneDescribesAllBodies) {
   EXPECT_EQ(robot["sensors"][0],
             json::parse(R"({"name":"front_sonar","type":"sonar","overlay":"lines","link":"base",
                             "pose":[0.25,0,0.2,0,0,0,1],"topic":"/robot_0/front_sonar","parameters":0,"units":{"range":"m"}})"));
-  // Equal parameters are stored once.
+  // Parameters that several sensors share are stored once.
   EXPECT_EQ(scene["sensor_parameters"], json::parse("[{}]"));
   EXPECT_EQ(robot["sensors"][3]["overlay"], "picture");
   EXPECT_EQ(scene["poses"].size(), 9u);

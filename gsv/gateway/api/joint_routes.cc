@@ -56,7 +56,7 @@ OrderedJson JointJson(const world::Snapshot& snapshot, const world::Body& body, 
     const char* const kind = NameOfCommand(command.kind);
     if (*kind != '\0') json["command"] = {{kind, command.value}};
   }
-  // A command to position 0 checks whether the joint accepts commands.
+  // This check does not move the joint: it returns why the joint accepts no commands.
   const auto takes = world::CheckJointCommand(body, number, {Kind::kPosition, 0});
   if (!takes) json["refusal"] = takes.error().message;
   return json;

@@ -42,7 +42,7 @@ FieldResult<double> TakeAngle(ScenarioJson& json, const char* name) {
   json.erase(name);
   if (value.is_null()) return 0;
   if (!value.is_number() || !(std::abs(value.get<double>()) <= kMaxAngle)) {
-    return Refused(name, "expected an angle in radians");
+    return Refused(name, "expected an angle from -1000 to 1000 rad");
   }
   return value.get<double>();
 }

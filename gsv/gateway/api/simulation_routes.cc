@@ -31,7 +31,7 @@ SimulationHandler Applying(const simulation::Command& command) {
   };
 }
 
-// Stops the robot, unless a behaviour controls it now.
+// Stops a robot that a user drives. Does nothing if a behaviour controls the robot now.
 void StopRobot(const std::weak_ptr<Simulation>& weak, const std::string& robot) {
   const SimulationPointer simulation = weak.lock();
   const auto agent = simulation ? simulation->agent(robot) : nullptr;

@@ -41,7 +41,7 @@ class RecordedCurves {
   // `request.max_points` is not from 2 to kMaxCurvePoints; kUnavailable after Stop().
   base::Result<Curve> Get(const CurveRequest& request);
 
-  // Stops reading and waits.
+  // Stops reading, and waits until the thread has ended.
   void Stop();
 
  private:

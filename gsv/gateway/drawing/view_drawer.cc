@@ -197,7 +197,7 @@ std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
 
 void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<Pending> due) {
   while (!due.empty()) {
-    // Take all requests for the same image out of `due`.
+    // Takes all requests for the same image out of `due`, because one image answers them all.
     const ViewRequest request = due.front().seat->request();
     const auto others = std::stable_partition(due.begin(), due.end(), [&](const Pending& each) {
       return each.seat->request() == request;

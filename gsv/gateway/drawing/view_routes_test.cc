@@ -96,7 +96,7 @@ TEST_F(ViewRoutesTest, DrawsTheSimulation) {
   EXPECT_EQ(image.headers.at("gsv-time"), "0.000000");
   EXPECT_EQ(SizeOf(image.body), std::pair(128, 96));
   EXPECT_EQ(Get("/view.png?size=64x48&simulation=arena").body.substr(1, 3), "PNG");
-  // The simulation is paused, so no other image follows.
+  // The simulation is paused, so a request for a newer image gets status 204, without an image.
   const std::string number =
       image.headers.at("etag").substr(1, image.headers.at("etag").size() - 2);
   const HttpReply same = Get("/view.jpg?size=64x48&after=" + number);
@@ -166,7 +166,7 @@ TEST_F(ViewRoutesTest, AcceptsTheTokenInTheQuery) {
   EXPECT_EQ(Get("/view.mjpeg?size=64x48").status, 401);
   EXPECT_EQ(Get("/view.jpg?size=64x48&token=another-token-of-letters").status, 403);
   EXPECT_EQ(Get("/view.jpg?size=64x48&token=a-token-of-sixteen-letters").status, 200);
-  // Other addresses do not accept the token in the query.
+  // Addresses without images do not accept the token in the query.
   EXPECT_EQ(Get("/api/simulations?token=a-token-of-sixteen-letters").status, 401);
 }
 

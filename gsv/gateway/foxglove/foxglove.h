@@ -56,7 +56,7 @@ struct ServerInfo {
 
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 
-// Server to client.
+// These functions write messages from the server to a client.
 std::string ServerInfoText(const ServerInfo& info);
 std::string AdvertiseText(std::span<const Channel> channels);
 std::string UnadvertiseText(std::span<const ChannelId> channels);

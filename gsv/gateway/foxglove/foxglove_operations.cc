@@ -55,7 +55,7 @@ Json Removed(const ConnectionGraph::Parties& before, const ConnectionGraph::Part
   return list;
 }
 
-// Numbers in little endian.
+// Appends numbers to bytes, in little endian.
 class BytesWriter {
  public:
   explicit BytesWriter(std::uint8_t opcode) { Put(opcode); }

@@ -55,7 +55,7 @@ struct PlaybackState {
   std::string request;  // id of the request to which this is the answer; empty if there is none
 };
 
-// Server to client.
+// These functions write messages from the server to a client.
 std::string AdvertiseServicesText(std::span<const Service> services);
 std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::string_view message);
 // Reports why the server cannot draw a view. The view has ended.

@@ -98,7 +98,7 @@ TEST(Foxglove, ReadsServiceCalls) {
 }
 
 TEST(Foxglove, ReadsPlaybackRequests) {
-  // A request to pause, at speed 1.5, at 1 s.
+  // The message requests to pause, to set the speed to 1.5, and to seek to 1 s.
   const std::string bytes("\x03\x01\0\0\xc0\x3f\x01\0\xca\x9a\x3b\0\0\0\0\x02\0\0\0id", 21);
   const auto message = ParseClientBytes(bytes);
   ASSERT_TRUE(message);

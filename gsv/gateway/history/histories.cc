@@ -7,7 +7,7 @@
 namespace gsv::gateway::history {
 namespace {
 
-// The periods of sampling, in wall-clock time.
+// The periods of sampling a simulation with and without viewers, in wall-clock time.
 constexpr std::chrono::milliseconds kWatchedRound{50};
 constexpr std::chrono::milliseconds kUnwatchedRound{250};
 

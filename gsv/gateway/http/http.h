@@ -56,7 +56,7 @@ using Respond = std::function<void(Response)>;
 Response JsonResponse(int status, std::string json);
 // {"error": sentence}
 Response ErrorResponse(int status, std::string_view sentence);
-// Chooses the status by the code of the error.
+// Returns a response with the error's sentence. The status depends on the code of the error.
 Response ErrorResponse(const base::Error& error);
 Response MethodNotAllowed(std::string allow);
 

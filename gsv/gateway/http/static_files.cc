@@ -146,7 +146,7 @@ Response StaticFiles::Get(const Request& request) const {
   }
   // Pages of other sites load this file to show the view (docs/viewer.md).
   found->allows_other_sites = segments == std::vector<std::string>{"gsv-view.js"};
-  // The names of files under assets/ change with their content.
+  // The names of files under assets/ change with their content, so browsers may cache them forever.
   if (found->status < 400 && !segments.empty() && segments.front() == "assets") {
     found->cache_control = "public, max-age=31536000, immutable";
   }
@@ -180,7 +180,7 @@ Response Documentation::Get(const Request& request) const {
   const std::string_view path =
       std::string_view(request.raw_target).substr(0, request.raw_target.find('?'));
   if (segments.empty() && !path.ends_with('/')) {
-    // Links in the pages are relative to "/docs/".
+    // Redirects to the address with a slash, because links in the pages are relative to "/docs/".
     return PageResponse(200, "<meta http-equiv=\"refresh\" content=\"0; url=docs/\">");
   }
   if (std::optional<Response> found = files_.Find(segments, request.if_none_match)) {

@@ -27,7 +27,7 @@ using testing::RecordingClient;
 
 TEST_F(LiveStreamTest, AdvertisesTheLiveTopicsOfTheTopicTable) {
   for (const presentation::Topic& topic : presentation::Topics()) {
-    // The viewers topic exists only if viewers can hold control.
+    // /gsv/viewers is not advertised, because this stream has no ViewerRegistry.
     const bool is_there = topic.is_live && topic.name != presentation::topics::kViewers.name;
     EXPECT_EQ(client_->ChannelOf(std::string(topic.name)) != 0, is_there) << topic.name;
   }
@@ -143,7 +143,7 @@ TEST_F(LiveStreamTest, ALargeStatusIsSentLessOftenWhileOnlyCountersChange) {
                                                             // this test shows nothing
   EXPECT_GE(static_cast<double>(count), kMinStatusRate * kSeconds);
   EXPECT_LE(static_cast<double>(count - 1) * size, kMaxStatusBytesPerSecond * kSeconds * 1.1);
-  // A change of a state is published at once.
+  // A change of a state is published at once, even if the status is large.
   ASSERT_TRUE(crowd->Start());
   round();
   EXPECT_EQ(viewer->data(1).size(), count + 1);

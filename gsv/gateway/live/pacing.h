@@ -12,7 +12,7 @@ class Pacing {
  public:
   explicit Pacing(double rate) { SetRate(rate); }  // `rate` is in Hz, > 0
 
-  // Applies from the next Done() on.
+  // The new rate applies from the next Done() on.
   void SetRate(double rate) {
     interval_ = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
   }

@@ -24,7 +24,7 @@ class Publisher {
 
   // Returns the hub of a simulation, which is created at the first call.
   std::shared_ptr<Hub> HubOf(const std::shared_ptr<simulation::Simulation>& simulation);
-  // See SensorTopics::Want().
+  // Requests the topics of a robot's sensors, see SensorTopics::Want().
   void WantSensorsOf(const std::shared_ptr<simulation::Simulation>& simulation,
                      const std::string& robot);
 

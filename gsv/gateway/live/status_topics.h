@@ -18,7 +18,8 @@
 
 namespace gsv::gateway {
 
-// In Hz of wall-clock time.
+// The highest and the lowest rate of /gsv/status, in Hz of wall-clock time, and the limit on its
+// bytes per second.
 inline constexpr double kStatusRate = 5;
 inline constexpr double kMinStatusRate = 0.5;
 inline constexpr double kMaxStatusBytesPerSecond = 40'000;

@@ -76,7 +76,7 @@ void PutBroker(const BrokerCalls& calls, Exposition& out) {
   out.Put("gsv_broker_errors_total", kCounter, "Calls to the broker that failed.", calls.failed);
 }
 
-// The names are those of Prometheus' own client libraries.
+// Adds the metrics of this process. Most names are those of Prometheus' own client libraries.
 void PutProcess(const MetricsSources& sources, Exposition& out) {
   const ProcessUsage usage = ReadProcessUsage();
   out.Begin("gsv_build_info", kGauge, "Always 1; the label is the version.");

@@ -25,7 +25,7 @@ struct BrokerCalls {
 // The objects from which GET /metrics reads its numbers.
 struct MetricsSources {
   std::string version;
-  // Each source is optional.
+  // Each source may be null. Its metrics are then left out.
   SimulationDirectory* directory = nullptr;
   RecordingSwitch* recordings = nullptr;
   std::function<BrokerCalls()> broker_calls{};

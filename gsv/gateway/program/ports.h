@@ -38,7 +38,7 @@ class RecordingSwitch {
   };
 
   virtual ~RecordingSwitch() = default;
-  // Records to a new file, whose name the program chooses.
+  // Starts to record to a new file, whose name the program chooses.
   virtual base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) = 0;
   virtual base::Status StopRecording(const std::string& simulation) = 0;
   virtual State RecordingOf(const std::string& simulation) = 0;

@@ -45,7 +45,7 @@ class RecordedViewTest : public ::testing::Test {
 
 TEST_F(RecordedViewTest, ShowsTheNewestPosesOfEachInstant) {
   EXPECT_DOUBLE_EQ(XAt(0ms), 0);
-  // Poses are recorded each 20 ms.
+  // Poses are recorded every 20 ms, so they may be up to 20 ms old, in which x changes by 0.01 m.
   EXPECT_NEAR(XAt(1000ms), 0.5, 0.011);
   EXPECT_DOUBLE_EQ(XAt(1019ms), XAt(1000ms));
   EXPECT_NEAR(XAt(1020ms) - XAt(1000ms), 0.01, 1e-9);

@@ -21,7 +21,7 @@ namespace websocket = beast::websocket;
 using boost::system::error_code;
 using HttpRequest = beast::http::request<beast::http::string_body>;
 
-// Bytes read from the socket at a time.
+// Maximum number of bytes that one read takes from the socket.
 constexpr std::size_t kReadSize = 16u << 10;
 // Time limit for a client to receive pending messages before the connection is closed.
 constexpr std::chrono::seconds kCloseTimeout{2};

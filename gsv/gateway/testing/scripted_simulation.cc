@@ -187,7 +187,7 @@ void ScriptedSimulation::SetDriveState(const std::string& robot, const world::Dr
   PublishSnapshot();
 }
 
-// Only observers get this contact.
+// Makes a snapshot with a contact that begins and a contact that lasts, and passes it to observers.
 void ScriptedSimulation::Meet(const std::string& first, const std::string& second) {
   Advance(specification_.world->max_step_size);
   const std::lock_guard lock(mutex_);

@@ -11,7 +11,7 @@
 namespace gsv::gateway::upstream {
 namespace {
 
-// A reset waits for behaviours.
+// Time limit for a request. It is long, because a reset waits for behaviours.
 constexpr std::chrono::seconds kRelayedRequestTime{60};
 
 base::Result<Response> Ask(const Address& address, const char* method, std::string target,

@@ -288,7 +288,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
                     : "the simulation '" + simulation_ + "' does not exist any more");
   }
 
-  // kPausing: waits until the next attempt. kIdle: there are no viewers.
+  // kIdle: not connected, because there are no viewers. kPausing: waits before the next attempt.
   enum class State { kIdle, kConnecting, kOpen, kPausing };
 
   asio::io_context& io_;

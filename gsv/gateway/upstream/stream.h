@@ -26,7 +26,7 @@ class Stream {
   virtual ~Stream() = default;
 
   virtual const std::shared_ptr<Hub>& hub() const = 0;
-  // Disconnects permanently. Any thread.
+  // Disconnects, and does not reconnect. Any thread may call it.
   virtual void Stop() = 0;
   // Whether the simulation has ended and viewers were notified. Any thread may call it.
   virtual bool has_ended() const = 0;
