@@ -54,6 +54,7 @@ class LineKeepingPrinter {
   std::string Take() { return std::move(out_); }
 
  private:
+  // Prints newlines up to the line.
   void AdvanceTo(int line);
 
   std::string out_;

@@ -48,6 +48,7 @@ class ModelStore {
     std::optional<base::Result<SharedBytes>> glb GSV_GUARDED_BY(writing);
   };
 
+  // Removes the identifiers and files of destroyed models.
   void ForgetDestroyed() GSV_REQUIRES(mutex_);
   std::shared_ptr<const model::Model> FindModel(const std::string& id) const GSV_REQUIRES(mutex_);
 

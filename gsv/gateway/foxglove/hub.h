@@ -84,16 +84,19 @@ class Hub {
   void Close(CloseCode code, const std::string& reason);
 
  private:
+  // A subscription to a topic; it is new until its first message.
   struct Listener {
     foxglove::SubscriptionId subscription = 0;
     bool is_new = true;
   };
+  // A client of the hub.
   struct Member {
     std::shared_ptr<Client> client;
     std::string name;  // name of the client in the graph
     bool watches_graph = false;
     std::map<foxglove::SubscriptionId, foxglove::ChannelId> subscriptions{};
   };
+  // A channel with its subscribers and publishers.
   struct Topic {
     foxglove::Channel channel;
     std::map<Client*, Listener> listeners;

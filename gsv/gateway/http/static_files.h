@@ -32,6 +32,7 @@ class StaticFiles {
   std::vector<Route> Routes() const;
 
  private:
+  // Returns a page that explains how to build the viewer's files.
   Response Explain() const;
 
   std::filesystem::path given_;  // the root as the user gave it

@@ -41,8 +41,10 @@ class Publisher {
     std::shared_ptr<LiveStream> stream;
   };
 
+  // Returns the live stream of a simulation, which is created at the first call.
   std::shared_ptr<LiveStream> StreamOf(const std::shared_ptr<simulation::Simulation>& simulation);
   void Run();
+  // Makes the thread run a round at once.
   void Wake();
   // Runs each stream with clients once. Returns false if there are no viewers.
   bool Round();

@@ -144,7 +144,6 @@ void SensorTopics::Withdraw(const Sensors& found) {
   hub_->Unadvertise(gone);
 }
 
-// Frees channels for the robots that are requested now.
 void SensorTopics::EvictUnsubscribed(Sensors& found) {
   const std::set<std::string> forgotten =
       wanted_.EvictUnsubscribed([this] { return SubscribedRobots(); });

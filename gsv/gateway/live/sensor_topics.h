@@ -59,6 +59,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   void Withdraw(const Sensors& found);
   // Returns the beam sensors of the requested robots.
   RobotBeams::Sources WantedBeams() const;
+  // If too many robots are requested, withdraws the topics of robots without subscribers.
   void EvictUnsubscribed(Sensors& found);
   std::set<std::string> SubscribedRobots() const;
   // Advertises the topics of sensors without a channel, up to kMaxSensorTopics. Sensors of

@@ -67,6 +67,7 @@ class RecordingFolder {
   base::Result<std::string> Find(const std::string& name) const;
 
  private:
+  // Whether a recording in this folder may have this name.
   bool IsName(const std::string& name) const;
   // Returns the file of a recording by its name; empty if there is none.
   std::filesystem::path FileOf(const std::filesystem::path& path) const;

@@ -81,6 +81,7 @@ class ReplayPlayer {
   void ReadMetadata();
   template <typename Change>
   auto Command(Change change);
+  // Makes the thread publish at once.
   void Wake();
   void Run();
 

@@ -64,7 +64,9 @@ class ReplayStream {
   static Kind KindOf(const std::string& topic);
   // Advertises the topics up to the limit, beginning with the topics of the whole simulation.
   void AdvertiseFirst();
+  // Advertises the sensor topics of robots that were requested since the last call.
   void AdvertiseWanted();
+  // If too many robots are requested, withdraws the topics of robots without subscribers.
   void EvictUnsubscribed();
   std::set<std::string> SubscribedRobots() const;
   const std::string& TopicOf(std::uint16_t id) const;

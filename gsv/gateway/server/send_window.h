@@ -62,6 +62,7 @@ class SendWindow {
   // Notes that a ping is sent after all messages so far, and returns its number. `started` is the
   // start of the last message if the ping follows it directly, else the present time.
   std::uint64_t Ping(Time now, Time started);
+  // Notes the pong of the ping with this number.
   void Pong(std::uint64_t number, Time now);
   // Notes a pong without a number, which answers a keep-alive ping. It also confirms an earlier
   // ping, because clients may answer only the last ping.
@@ -71,6 +72,7 @@ class SendWindow {
 
   // Notes that data were dropped because they had waited for too long.
   void LeftOut(Time now) { NoteLate(now, now); }
+  // Whether the connection counts as slow now, see kSlowAfter.
   bool IsSlow(Time now);
   // Whether a ping has no pong yet.
   bool is_pinging() const { return mark_.has_value(); }
