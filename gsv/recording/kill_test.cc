@@ -151,7 +151,7 @@ class Killing {
  public:
   explicit Killing(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Repeats attempts until kMoments were checked.
+  // Starts and kills programs until kMoments recordings were checked.
   void Run() {
     while (judged_ < kMoments && !testing::Test::HasFatalFailure()) {
       while (victims_.size() < kAtOnce && started_ - again_ < kMoments) Start();

@@ -110,7 +110,7 @@ TEST_F(SimulationRecorderTest, ImagesCanBePng) {
   EXPECT_EQ(images[0].format, "png");
   EXPECT_EQ(images[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
   EXPECT_EQ(images[0].header.frame_id, "robot/eye");
-  // Each image has a companion message at its instant.
+  // Each image has a companion message, a CameraInfo, of the same instant.
   const auto infos = Read<messages::sensor_msgs::CameraInfo>("/robot/eye/camera_info");
   ASSERT_EQ(infos.size(), images.size());
   EXPECT_EQ(infos.back().header.stamp.nanosec, images.back().header.stamp.nanosec);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxLines = 20;
 constexpr std::size_t kMaxValueLength = 300;
-constexpr std::size_t kNumbersAPose = 7;  // numbers of one pose in gsv_msgs/Poses
+constexpr std::size_t kNumbersAPose = 7;  // count of numbers in one pose of gsv_msgs/Poses
 
 // Returns the content of the last attachment with that name up to `time`, or else of the first one.
 // Empty if there is none.

@@ -57,7 +57,7 @@ TEST_F(RunHistoryTest, KeepsTheRunAsARecording) {
   EXPECT_EQ(reader->Read(reader->summary().metadata[0]).value().values.at("name"), "simulation");
   ASSERT_GE(reader->summary().attachments.size(), 1u);
   for (const auto& attachment : reader->summary().attachments) {
-    // Scenes are the only attachments; models come from elsewhere.
+    // Scenes are the only attachments, because a history contains no models.
     EXPECT_EQ(attachment.name, "scene.json");
   }
 }

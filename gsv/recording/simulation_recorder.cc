@@ -167,8 +167,8 @@ void SimulationRecorder::Record(const Occurrence& occurrence) {
 
 void SimulationRecorder::Record(const Observation& observation) {
   const world::Snapshot& snapshot = *observation.snapshot;
-  // The first and the last snapshot come from the simulation itself. The feed may deliver the same
-  // ones.
+  // The first and the last snapshot are read from the simulation itself. If the feed delivers them
+  // too, only their status is recorded here.
   if (latest_ && snapshot.state.step <= latest_->state.step) {
     RecordStatusOf(observation);
     return;

@@ -126,7 +126,8 @@ TEST_F(SimulationRecorderTest, AddedRobotGetsANewScene) {
   EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with the robot that was added
 }
 
-// `gsv replay --resimulate --commands` repeats the recorded commands.
+// `gsv replay --resimulate --commands` repeats the recorded commands. So a robot that is added
+// again must not have a recorded command of its earlier run.
 TEST_F(SimulationRecorderTest, RobotThatIsAddedAgainStartsWithoutACommand) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);

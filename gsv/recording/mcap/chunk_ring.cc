@@ -20,8 +20,8 @@ class ChunkRing::Sink final : public ByteSink {
   const std::shared_ptr<ChunkRing> ring_;
 };
 
-// The input of a reader: the kept pieces at their original offsets, with gaps where pieces were
-// dropped.
+// The input of a reader of the ring. A piece is the bytes of one write. Pieces are at their
+// original offsets in the recording, with gaps where pieces were dropped.
 class ChunkRing::Source final : public ByteSource {
  public:
   explicit Source(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {

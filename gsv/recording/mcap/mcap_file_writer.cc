@@ -160,8 +160,8 @@ base::Status McapFileWriter::Close() {
     WriteEnd();
     if (status_) status_ = sink_.Sync();
   } else if (ends_in_a_record_ && position_ > 0) {
-    // Truncating the failed record may free enough space for the summary. The first error stays the
-    // reported one.
+    // The truncation of the failed record may have freed enough space for the summary, so the
+    // writer still tries to write it. status() continues to return the first error.
     base::Status reason = std::exchange(status_, base::Status{});
     WriteEnd();
     status_ = std::move(reason);

@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
 
-// A disk that accepts only this number of bytes.
+// A disk that has space for `room` bytes only.
 class SmallDisk : public ByteSink {
  public:
   SmallDisk(Bytes& out, std::size_t room) : out_(out), room_(room) {}

@@ -54,7 +54,7 @@ class FixedBytes {
   std::size_t size_ = 0;
 };
 
-// Size of the fields of a message before its data.
+// Size of the fields of a message before its data, in bytes.
 constexpr std::size_t kMessageHeadSize = 2 + 4 + 8 + 8;
 
 template <typename Map, typename PutEntry>
@@ -266,7 +266,8 @@ void Append(Bytes& out, const DataEndRecord& record) {
   Put(out, record.data_crc);
 }
 
-// In a braced list, initialisers are evaluated in the order in which they are written.
+// The following functions read the fields of a record in a braced list, because C++ evaluates its
+// initialisers in the order in which they are written.
 
 template <>
 std::optional<HeaderRecord> Parse(std::span<const std::byte> content) {

@@ -18,8 +18,8 @@ class Window {
  public:
   explicit Window(const ByteSource& source) : source_(source) {}
 
-  // Returns bytes of the file, valid until the next call. They are empty if the file cannot be read
-  // there.
+  // Returns `length` bytes of the file from `offset` on, or no bytes if the file cannot be read
+  // there. The result is valid until the next call.
   std::span<const std::byte> Read(std::uint64_t offset, std::uint64_t length) {
     if (offset < start_ || offset + length > start_ + bytes_.size()) {
       const std::uint64_t left = source_.size() - offset;

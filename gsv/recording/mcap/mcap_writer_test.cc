@@ -106,7 +106,7 @@ TEST(McapWriter, FlushesWithoutBeingClosed) {
   std::promise<void> synced;
   McapWriter writer(std::make_unique<GatedSink>(bytes, Opened(), &synced), {});
   writer.Write(*writer.AddChannel("/clock", SchemaOf<Clock>()), 5ms, ClockMessage(5ms));
-  writer.FlushIfOlderThan(std::chrono::hours(1));  // no message is that old
+  writer.FlushIfOlderThan(std::chrono::hours(1));  // does nothing: no message is an hour old
   writer.FlushIfOlderThan(std::chrono::seconds(0));
   synced.get_future().wait();
   const Bytes on_disk = bytes;  // the writer's thread still waits for more messages
@@ -191,7 +191,7 @@ TEST(McapWriter, FullDiskEndsTheRecordingWithAnError) {
             "/dev/full: cannot write the recording: No space left on device; free some space and "
             "start another recording");
   EXPECT_TRUE((*writer)->failed());
-  const std::uint64_t accepted = (*writer)->progress().messages;  // either 0 or 1
+  const std::uint64_t accepted = (*writer)->progress().messages;  // 0 or 1
   (*writer)->Write(channel, 1ms, ClockMessage(1ms));              // discarded
   EXPECT_EQ((*writer)->progress().messages, accepted);
 }

@@ -53,8 +53,9 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
   return true;
 }
 
-// Reads the messages of one instant that are compared. A message is identified by its topic and its
-// number within the topic. If messages may be missing, the numbers start from 0 at each instant.
+// Reads the messages of a recording for a comparison, one instant at a time. A message is
+// identified by its topic and its number within the topic. If messages may be missing, the numbers
+// start from 0 at each instant.
 class InstantReader {
  public:
   InstantReader(const McapReader& reader, const Selection& selection, Gaps gaps)
@@ -90,8 +91,8 @@ class InstantReader {
     return base::Fail(base::ErrorCode::kNotFound, "there is no such topic", topic);
   }
 
-  // Removes the topics that do not have the same number of messages at this instant here and in
-  // `other`.
+  // Removes from both readers the topics for which they have different numbers of messages at this
+  // instant.
   void KeepCommon(InstantReader& other) {
     std::map<std::string, std::int64_t> more;
     for (const auto& [key, data] : messages) ++more[key.first];

@@ -66,8 +66,8 @@ class Copier {
                    message.data});
       ++recovery_.messages;
     }
-    // Problems are not added here: CopyMessages() reads the same blocks and reports each problem
-    // once.
+    // Problems in blocks are not added here, because CopyMessages() reads the same blocks and
+    // reports each problem once.
   }
 
   void CopyMessages(const MessageBlock& block) {

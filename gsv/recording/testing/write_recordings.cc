@@ -28,8 +28,8 @@ std::string TopicOf(const messages::Schema& schema) {
   return topic;
 }
 
-// Writes kRounds messages of each type. Those of one round have the time round · kPeriod, and
-// values that depend on `round`.
+// Writes kRounds messages of each type. Message number `round` of each type has the time round ·
+// kPeriod, and values that depend on `round`.
 base::Status WriteAtomically(const std::string& path) {
   auto writer = McapWriter::Create(path, {.when_full = WhenFull::kWait});
   if (!writer) return base::Fail(writer.error());

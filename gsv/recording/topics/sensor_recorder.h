@@ -67,7 +67,8 @@ class SensorRecorder {
     std::vector<std::uint8_t> message;    // empty if only the sensor's beams are recorded
     std::vector<std::uint8_t> companion;  // message such as CameraInfo; empty if there is none
   };
-  // The beams of one robot that were due together last.
+  // The sensors with beams of one robot that were last sampled together. The set is made again only
+  // if other sensors are due.
   struct RobotBeams {
     std::vector<const Sensor*> sensors;
     sensing::BeamSet set;
@@ -101,7 +102,7 @@ class SensorRecorder {
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // for slow sensors; null while there is none
   Sensors sensors_;
-  // The layout of Sensor::body and robot_beams_; null after SetSensors().
+  // The layout whose body indices Sensor::body and robot_beams_ use; null after SetSensors().
   std::shared_ptr<const world::Layout> layout_;
   std::vector<RobotBeams> robot_beams_;  // by body
   std::vector<const Sensor*> due_beams_;
