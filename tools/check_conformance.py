@@ -9,7 +9,8 @@ import pathlib
 import re
 import sys
 
-# CosTrading.idl, CosTradingRepos.idl and CosTradingDynamic.idl of formal/00-06-27.
+# Attributes of the interfaces of the OMG's Trading Object Service (formal/00-06-27: CosTrading.idl,
+# CosTradingRepos.idl and CosTradingDynamic.idl).
 ATTRIBUTES = {
     "TraderComponents": "lookup_if register_if link_if proxy_if admin_if",
     "SupportAttributes": "supports_modifiable_properties supports_dynamic_properties"

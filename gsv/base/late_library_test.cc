@@ -4,7 +4,7 @@
 
 namespace {
 
-// The C library exists on every machine.
+// This test loads libm, because every machine has it.
 TEST(LateLibrary, FindsAFunctionInALibrary) {
   const auto absolute =
       reinterpret_cast<double (*)(double)>(gsv_late_function("libm.so.6", "fabs"));

@@ -30,9 +30,9 @@ class ThreadTeam {
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  // Calls work(begin, end) for pieces of at most `grain` that cover [0, count), and returns when
-  // all calls have returned. If there is only one piece, the caller processes it and no worker is
-  // woken. `work` does not throw and calls no ParallelFor() itself.
+  // Calls work(begin, end) for pieces of [0, count) with at most `grain` indices each, and returns
+  // when all calls have returned. If there is only one piece, the caller processes it and no worker
+  // is woken. `work` does not throw and calls no ParallelFor() itself.
   template <class Work>
   void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
     if (count <= grain || workers_.empty()) {

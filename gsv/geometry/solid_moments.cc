@@ -86,7 +86,8 @@ SolidMoments Of(const Mesh& mesh) {
     AddTetrahedron(corner(0), corner(1), corner(2), sum);
   }
   if (sum.volume == 0) return {};
-  // The normals of the mesh point inwards, or it is mirrored.
+  // If the volume is negative, the normals of the mesh point inwards, or the mesh is mirrored. Then
+  // all integrals have the wrong sign.
   const double sign = sum.volume < 0 ? -1 : 1;
   const Vector3 c = 1 / sum.volume * sum.centroid;
   SolidMoments moments;
@@ -114,7 +115,8 @@ SolidMoments MomentsOf(const Shape& shape) {
 }
 
 VolumeBelow BelowHeight(const TriangleMesh& mesh, const Pose& world_from_mesh, double height) {
-  // Positions are relative to a point in the cutting plane.
+  // Positions are relative to a point in the cutting plane, because tetrahedra between that point
+  // and the cut face then have no volume.
   const Vector3 origin{world_from_mesh.position.x, world_from_mesh.position.y, height};
   VolumeBelow sum;
   for (const auto& triangle : mesh.triangles) {

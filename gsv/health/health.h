@@ -22,7 +22,7 @@ inline constexpr std::size_t kStates = 6;
 
 // "moving", "standing", "stuck", "contact", "late", "dead"
 const char* ToString(State state);
-// Returns the state of this name, or nothing.
+// Returns the state with this name, or nullopt if there is none.
 std::optional<State> StateOf(std::string_view name);
 
 // How serious a robot's state is.

@@ -111,7 +111,8 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
       field.kind = number->second.first;
       field.size = number->second.second;
     } else if (base == "string" || base == "wstring") {
-      if (base == "wstring") return Bad("wide strings are not read", type + "." + field.name);
+      if (base == "wstring")
+        return Bad("wide strings (wstring) are not supported", type + "." + field.name);
       field.kind = Kind::kString;
     } else {
       field.kind = Kind::kStruct;

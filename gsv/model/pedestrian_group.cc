@@ -52,7 +52,7 @@ base::Status Check(const PedestrianGroup& group) {
     }
   }
   if (!IsWithin(group.z, -kMaxGoalCoordinate, kMaxGoalCoordinate))
-    return refuse("z must be a number");
+    return refuse("z must be a number from -1e6 to 1e6");
   if (!IsWithin(group.speed, 0.01, 10)) return refuse("the speed must lie between 0.01 and 10 m/s");
   if (!IsWithin(group.speed_deviation, 0, 5)) {
     return refuse("the speed's deviation must lie between 0 and 5 m/s");

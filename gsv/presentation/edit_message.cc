@@ -19,7 +19,8 @@ constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edi
                               Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
                                   Edit::Moment::kAmidTurns};
-// This word is followed by a drive choice, see model/drive_choice.h.
+// In the field `movement` of an edit message, a drive choice (model/drive_choice.h) follows this
+// word.
 const std::string kDrive = " drive ";
 constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
 

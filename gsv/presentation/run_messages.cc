@@ -62,7 +62,7 @@ DiagnosticStatus Diagnosis(const simulation::SimulationStatus& status) {
       {"mode", simulation::ToString(status.mode)},
       {"step", std::to_string(status.step)},
       {"real-time factor", fmt::format("{:.4g}", status.real_time_factor)},
-      {"wanted factor", fmt::format("{:.4g}", status.target_factor)},
+      {"target real-time factor", fmt::format("{:.4g}", status.target_factor)},
       {"late steps", std::to_string(status.late_steps)},
       {"mean step (us)",
        fmt::format("{:.4g}", 1e-3 * static_cast<double>(status.mean_step_time.count()))},

@@ -166,8 +166,8 @@ bool IsFixed(const world::Layout& layout, const world::Body& body) {
          });
 }
 
-// Whether this body comes from the world file. If it is removed and added again, its model is
-// known.
+// Whether this body comes from the world file. After its removal, it can be added again by its
+// name, because its model is known.
 bool IsOfWorld(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
   return std::any_of(models.begin(), models.end(), [&](const model::PlacedModel& placed) {

@@ -29,8 +29,8 @@ void AppendSensorTransform(const world::Layout& layout, int body,
                            const model::SensorDescription& sensor, const sensing::SensorType& type,
                            base::SimTime time, messages::tf2_msgs::TFMessage& message);
 
-// Whether viewers draw lines for the readings. Viewers draw lines for sensor types with beams, and
-// for types with points if the file sets <visualize>.
+// Whether viewers draw lines for the sensor's readings. If the sensor type has beams, they always
+// do. If it has points, they do so only if the model file sets <visualize> for the sensor.
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
 // Collects the lines of all robots at one instant. The message has a marker for each robot, and a

@@ -139,8 +139,9 @@ struct Altimeter {
                       Value("reference", "m", &Altimeter::reference, "vertical_reference"));
 };
 
-// In the sensor's frame. The normal points from the robot to the other body. The force acts on the
-// robot: the mean over the last step. With planar kinematics, the force is zero.
+// One contact of a bumper, in the sensor's frame. The normal points from the robot to the other
+// body. The force acts on the robot: the mean over the last step. With planar kinematics, the force
+// is zero.
 struct Touch {
   std::string other;
   Vector point, normal;
@@ -168,7 +169,7 @@ struct ForceTorque {
                       Value("torque", "N m", &ForceTorque::torque, "wrench.torque"));
 };
 
-// Position in rad and velocity in rad/s; for prismatic joints in m and m/s.
+// The state of one joint: position in rad and velocity in rad/s; for prismatic joints in m and m/s.
 struct EncodedJoint {
   std::string name;
   double position = 0, velocity = 0;
@@ -279,7 +280,7 @@ struct Speaker {
       Value("left", "s", &Speaker::left, "left_s"));
 };
 
-// The image itself is not part of the values.
+// The reading of a camera has the size of the image. The image itself is not part of the values.
 struct Camera {
   static constexpr const char* kType = "camera";
   // The type of a camera with a wide-angle lens.
@@ -300,7 +301,8 @@ struct DepthImage {
   bool IsComplete() const { return depth.size() == std::size_t(1) * width * height; }
 };
 
-// Rows from the top. A pixel with label n shows names[n - 1]; label 0 is the background.
+// An image of labels; rows from the top. A pixel with label n shows names[n - 1]; label 0 is the
+// background.
 struct SegmentedImage {
   static constexpr const char* kType = "segmentation_camera";
   int width = 0, height = 0;
@@ -325,8 +327,8 @@ struct ThermalImage {
   bool IsComplete() const { return temperature.size() == std::size_t(1) * width * height; }
 };
 
-// Rows from the top. Each pixel has x, y, z in the sensor frame: the unit normal of the visible
-// surface, which points towards the camera. NaN where it is unknown.
+// An image of surface normals; rows from the top. Each pixel has x, y, z in the sensor frame: the
+// unit normal of the visible surface, which points towards the camera. NaN where it is unknown.
 struct NormalImage {
   static constexpr const char* kType = "normals_camera";
   int width = 0, height = 0;

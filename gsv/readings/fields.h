@@ -39,8 +39,8 @@ struct Field {
   const char* name;  // the name of the member
   const char* unit;  // such as "m" or "rad/s"; empty if it has none, or if its parts have units
   Member Struct::*member;
-  // The field's path in the message of the type; null if it is the name; empty if the parts have
-  // their own paths.
+  // The field's path in the sensor type's message. Null means that the path equals `name`. An empty
+  // path means that the parts have their own paths.
   const char* path;
   bool is_optional;  // whether the field may be missing if it is the last one
 };

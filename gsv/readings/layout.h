@@ -24,7 +24,8 @@ struct Place {
   std::string path;  // path in the message, such as "contacts.point.x"
   Multiplicity occurs = Multiplicity::kOnce;
 
-  // Returns the place of a member. If `path` is null, it is the name.
+  // Returns the place of a field of the struct at this place. If `field_path` is null, the field's
+  // path is its name.
   Place Inside(const char* field, const char* field_unit, const char* field_path) const;
 };
 

@@ -189,7 +189,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   result.series.push_back(std::move(residuals));
 }
 
-// Compares the readings of a device that stays where the log's robot was first.
+// Compares readings at rest: the simulated device stays at the first pose of the log's robot.
 void CompareAtRest(const Log& log, const model::WorldDescription& world,
                    const CompareOptions& options, const TimedPose& pose, Comparison& result) {
   const std::vector<double> real = RestDifferences(log.scans);

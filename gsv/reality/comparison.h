@@ -37,10 +37,10 @@ struct Comparison {
 };
 
 struct CompareOptions {
-  // If not set, a world is fitted to every other block of the log.
+  // The world of the log. If not set, a world is fitted to every other block of 4 s of the log.
   std::optional<model::WorldDescription> world;
-  // Whether the scans of every other block update the walls of the world. The update includes doors
-  // that are open and objects that have moved.
+  // Whether the scans of every other block of 4 s update the walls of the world, for example for
+  // open doors and for objects that have moved.
   bool update_world = false;
   std::string preset;            // the preset of the log's scanner or odometer
   model::Parameters parameters;  // parameters that override the preset
@@ -70,9 +70,9 @@ struct FittedDevice {
   std::vector<FittedParameter> parameters;
   std::string warning = {};  // as in Comparison
 };
-// Fits the parameters to the readings of the even blocks, or for odometry to all windows. For a
-// ring of sonars, returns one device for each beam, in their order. Fails with kInvalidArgument in
-// the same cases as Compare().
+// Fits the parameters to the readings of the log's even blocks (world_fit.h), or for odometry to
+// all windows. For a ring of sonars, returns one device for each beam, in their order. Fails with
+// kInvalidArgument in the same cases as Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 
 // Returns an SDFormat sensor for each device.

@@ -96,7 +96,8 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   const double scale = device.parameters.back().value;
   device.parameters.push_back(
       Estimated("short_probability", "", pairs, [scale](const std::vector<ScanPair>& some) {
-        // Some short readings are drawn that are beyond the surface. They have no effect.
+        // The simulation draws a random length for each short reading. A length beyond the surface
+        // has no effect, so the drawn fraction is larger than the observed one.
         double nearer = 0, beams = 0;
         for (const ScanPair& pair : some) {
           for (const double exact : pair.exact) {

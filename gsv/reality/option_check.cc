@@ -32,7 +32,7 @@ std::vector<std::string> ParametersOf(const std::string& type, const CompareOpti
   model::SensorDescription description;
   description.name = description.type = type;
   description.parameters = options.parameters;
-  // With a cone beam, a sonar has the most parameters.
+  // A sonar is created with a cone beam, because it then has all parameters of sonars.
   if (type == "sonar") description.parameters["beam"] = std::string("cone");
   const std::string preset = PresetOf(type, options);
   if (!preset.empty()) description.parameters["preset"] = preset;

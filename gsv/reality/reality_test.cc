@@ -153,7 +153,7 @@ TEST_F(Reality, ASonarDetectsAPanelOverTheAnglesOfAnHcSr04) {
     for (const double g : {0.9, 1.1, 1.3, 1.5, 1.7, 2.0, 2.4}) {
       const BeamTest tried(t, g);
       const double sheet = std::abs(tried.FurthestHeard(0.033, 0.038) / kSheet - 1);
-      // One degree has the same weight as a tenth of the range.
+      // In the cost, an error of one degree counts as much as an error of a tenth of the range.
       const double cost = Summarize(PanelErrors(tried, 0, 1)).mean + 10 * sheet;
       if (cost < best) best = cost, threshold = t, gain_range = g;
     }

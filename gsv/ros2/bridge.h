@@ -19,9 +19,9 @@ namespace gsv::ros2 {
 // The connection of one simulation to ROS 2. Its destructor ends it.
 class Bridge {
  public:
-  // `participant` and `services` must outlive the bridge; the participant watches endpoints. If
-  // `services` is null, the bridge makes its own, which add no models. The bridge does not keep the
-  // simulation alive.
+  // `participant` and `services` must outlive the bridge. The participant must have been made with
+  // ParticipantOptions::watches_endpoints. If `services` is null, the bridge makes services of its
+  // own, which add no models. The bridge does not keep the simulation alive.
   static std::unique_ptr<Bridge> Start(dds::Participant& participant, Options options,
                                        const std::shared_ptr<simulation::Simulation>& simulation,
                                        SimulationServices* services = nullptr);

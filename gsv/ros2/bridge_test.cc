@@ -71,7 +71,8 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
   EXPECT_EQ(range.header.frame_id, "robot/front");
 }
 
-// Creates more participants, one after the other, than discovery looks for on one machine.
+// Creates and destroys 40 participants, more than discovery looks for on one machine. Participants
+// that are created later must still find each other.
 TEST(Participant, IsFoundAfterManyOthers) {
   for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
   Peer one, other;

@@ -101,7 +101,8 @@ std::shared_ptr<const model::WorldDescription> DescriptionOf(const SceneJson& sc
   return description;
 }
 
-// The separator is a character that no body's name contains.
+// Returns the name of the separate body for a moving link. The separator is a character that no
+// body's name contains, so the result is no other body's name.
 std::string NameOfLink(const std::string& body, const std::string& link) {
   return body + '\x1f' + link;
 }

@@ -123,7 +123,8 @@ const DeviceState* FindDevice(const DeviceStates* devices, std::string_view robo
 // Returns the index of the device, or the index where it would be inserted.
 std::size_t PlaceOf(const DeviceStates& devices, std::string_view robot, std::string_view device);
 
-// Adds devices without commands first, and then devices with commands.
+// Adds the states of all devices to the hash: first devices without commands, then devices with
+// commands.
 void AddToHash(const DeviceStates& devices, base::Hash& hash);
 
 }  // namespace gsv::world

@@ -23,7 +23,8 @@ struct Pedestrian {
 Pedestrian DrawPedestrian(std::shared_ptr<const model::PedestrianGroup> group, std::uint64_t seed,
                           std::uint64_t stream);
 
-// Returns the next goal after `reached` goals: a point in the disc of goal leg + 1 + reached.
+// Returns the next goal after `reached` goals: a random point in the disc of the route's goal with
+// the index leg + 1 + reached. After the last goal, the route begins again.
 geometry::Vector2 GoalOf(const Pedestrian& pedestrian, std::uint32_t reached);
 
 // Returns a possible start on the way to the first goal. Each `attempt` gives another place.

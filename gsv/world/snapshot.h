@@ -38,9 +38,9 @@ struct Contact {
   // Whether the second body, static or planar, supports the first body from below, like the ground.
   // Such a contact is not a collision: only contact sensors report it.
   bool supports = false;
-  // All points of two rigid bodies, the deepest first, at the end of the last substep in which the
-  // bodies touched. The impulses of the points add up to the impulse of the whole step. Empty if
-  // the engine computes only the deepest point.
+  // All contact points of two rigid bodies, the deepest first, at the end of the last substep in
+  // which the bodies touched. The impulses of the points add up to the impulse of the whole step.
+  // Empty if the engine computes only the deepest point.
   std::vector<ContactPoint> points;
 };
 

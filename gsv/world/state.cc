@@ -108,7 +108,7 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
     const auto leader = static_cast<std::size_t>(which.mimic->leader);
     return base::Fail(
         ErrorCode::kInvalidArgument,
-        "this joint follows " + body.model->joints[leader].name + "; command that one instead",
+        "this joint follows " + body.model->joints[leader].name + "; command that joint instead",
         place);
   }
   if (body.is_rigid()) return {};

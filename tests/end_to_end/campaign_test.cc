@@ -83,12 +83,12 @@ TEST_F(CampaignCommand, SingleRunCanBeExecuted) {
 TEST_F(CampaignCommand, SharesOfAnotherQueueAreCollectedAndContinued) {
   EXPECT_EQ(Campaign("run", {"--shard", "1/3", "--jobs", "1"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 3);
-  // The share is executed again, as a queue does if it considers the share lost. No run is left to
-  // do.
+  // The share is executed again, as by a queue that considers the share lost. No run of the share
+  // is left to do.
   EXPECT_EQ(Campaign("run", {"--shard", "1/3"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("run", {"--shard", "3/3", "--jobs", "1"}).ending, "exit code 0");
   const Outcome report = Campaign("report", {"--by", "robots[0].x"});
-  // The shard has the runs 0, 2, 6; their values are 0, 3, 6, 2, 5.
+  // The shares 1 and 3 consist of the runs 0, 3, 6 and 2, 5. In 0, 2 and 3, x is 0.
   EXPECT_THAT(report.out, HasSubstr("0            3 "));
   const Outcome rest = Campaign("run", {"--json"});
   EXPECT_EQ(rest.ending, "exit code 1") << rest.err;

@@ -172,7 +172,7 @@ TEST_F(Control, KilledRunIsNoLongerListed) {
   EXPECT_EQ(outcome.ending, "exit code 0");
   EXPECT_EQ(outcome.out, "");
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "gsv"))
-    EXPECT_EQ(entry.path().extension(), ".socket");  // the next server removes it
+    EXPECT_EQ(entry.path().extension(), ".socket");  // the next server removes this file
 }
 
 TEST_F(Control, FinishedRunLeavesNoFile) {

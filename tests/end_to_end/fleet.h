@@ -14,7 +14,7 @@ inline constexpr double kFleetSeconds = 0.6;  // twelve control cycles
 
 // The disturbances of the programs.
 struct Handicap {
-  std::vector<std::string> wrapper;  // see the constructor of Running
+  std::vector<std::string> wrapper;  // command line such as {"nice"}; see class Running
   bool in_reverse_order = false;
 };
 

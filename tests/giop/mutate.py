@@ -166,7 +166,7 @@ def attack(laboratory, options, report):
     if options.prove:
         return []
     attack = Attack(world, options.seed)
-    attack.round(0)  # memory that is allocated once and kept
+    attack.round(0)  # so that memory that is allocated once does not count
     before = {name: footprint_of(process.pid) for name, process in processes_of(laboratory).items()}
     start = time.monotonic()
     number = 0

@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 
 GSV, PEER = sys.argv[1:3]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = str(140 + os.getpid() % 40)  # apart from others on this machine
+DOMAIN = str(140 + os.getpid() % 40)  # a domain that no other test on this machine uses
 
 WORLD = """<sdf version="1.9"><world name="room"><gravity>0 0 -9.8</gravity>
 <physics type="ode"><max_step_size>0.01</max_step_size></physics>

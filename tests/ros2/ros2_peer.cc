@@ -1,32 +1,35 @@
 // A ROS 2 peer that shares no code with GSV: Cyclone DDS, with types that its idlc generated from
 // IDL.
 //
-//   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each topic as JSON, one per
-//   line ros2_peer count --seconds S TYPE:TOPIC…      prints the time to the first sample of each
-//                                                topic, and the number of samples in the next S
-//                                                seconds (--reliable: for reliable readers;
-//                                                --receive-buffer BYTES: buffer of each socket)
-//   ros2_peer latency ROBOT                      sends --count commands to turn left and right, and
-//                                                prints after how many milliseconds ROBOT/imu
-//                                                showed each of them, and how late the sleeps
-//                                                before them ended
-//   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
-//   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its
-//                                                time, until S seconds of simulated time are over
-//   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel,
-//                                                NaN and infinities, and 20,000 commands from a
-//                                                second publisher, 10,000 a second
-//   ros2_peer call                               calls the services in the lines of its standard
-//   input (ros2_calls.h) ros2_peer call-many ENTITY                   calls get_entity_state
-//   --count times, --window at a time ros2_peer joint ROBOT position|velocity VALUE  commands the
-//                                                robot's only joint until joint_states shows the
-//                                                value; arrays without it come first
-//   ros2_peer malformed ROBOT                    sends truncated samples, and samples with huge
-//                                                counts, to its command topics and to a service of
-//                                                /gsv
-//   ros2_peer endpoints TOPIC…                   prints endpoints of other participants until each
-//                                                topic (rt/clock) was among them: topic, type, QoS,
-//                                                user data
+//   ros2_peer listen [--count N] TYPE:TOPIC…
+//       Prints N samples of each topic as JSON, one per line.
+//   ros2_peer count --seconds S [--reliable] [--receive-buffer BYTES] TYPE:TOPIC…
+//       Prints the time to the first sample of each topic, and the number of samples in the next S
+//       seconds. The readers are reliable with --reliable. BYTES is the buffer of each socket.
+//   ros2_peer latency [--count N] ROBOT
+//       Sends N commands to turn left and right. Prints after how many milliseconds ROBOT/imu showed
+//       each of them, and how late the sleeps before the commands ended.
+//   ros2_peer drive --distance M [--stamped] ROBOT
+//       Sends cmd_vel until ROBOT/odom shows M metres.
+//   ros2_peer step --seconds S [--speed V] ROBOT
+//       Answers each /clock with a TwistStamped of its time, until S seconds of simulated time are
+//       over.
+//   ros2_peer disturb ROBOT
+//       Publishes bad commands: another type on cmd_vel, NaN and infinities, and 20,000 commands from
+//       a second publisher, 10,000 per second.
+//   ros2_peer call
+//       Calls the services in the lines of its standard input (ros2_calls.h).
+//   ros2_peer call-many --count N --window W ENTITY
+//       Calls get_entity_state N times, with at most W calls in progress at a time.
+//   ros2_peer joint ROBOT position|velocity VALUE
+//       Commands the robot's only joint until joint_states shows the value. Before that, sends arrays
+//       that must not move the joint.
+//   ros2_peer malformed ROBOT
+//       Sends truncated samples, and samples with huge counts, to the robot's command topics and to a
+//       service of /gsv.
+//   ros2_peer endpoints TOPIC…
+//       Prints endpoints of other participants (topic, type, QoS, user data) until each topic, such
+//       as rt/clock, was among them.
 //
 // All commands take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves
 // Cyclone DDS its default settings; without this option, Cyclone DDS stays on loopback and uses no

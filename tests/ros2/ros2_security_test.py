@@ -17,7 +17,7 @@ import unittest
 
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = str(180 + os.getpid() % 40)  # apart from others on this machine
+DOMAIN = str(180 + os.getpid() % 40)  # a domain that no other test on this machine uses
 
 GOVERNANCE = """<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"

@@ -16,7 +16,7 @@ import unittest
 
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = str(100 + os.getpid() % 40)  # apart from others on this machine
+DOMAIN = str(100 + os.getpid() % 40)  # a domain that no other test on this machine uses
 EARLY_CALLS = 5  # starts of gsv with a call as soon as its services are found
 CALLS = "3400"  # of each client: 10,200 in all
 UNSUPPORTED, OK, NOT_FOUND, INCORRECT_STATE, FAILED = range(5)
@@ -243,11 +243,11 @@ class Services(unittest.TestCase):
             call = client.call
             client.await_state(PLAYING)
             self.assertEqual(call("send_goal 1 3"), {"accepted": True})
-            self.assertEqual(call("get_result 1")["status"], ABORTED)  # it was not paused
+            self.assertEqual(call("get_result 1")["status"], ABORTED)  # the simulation was not paused
             call(f"set_simulation_state {PAUSED}")
             client.await_state(PAUSED)
             self.assertEqual(call("send_goal 2 3"), {"accepted": True})
-            self.assertEqual(call("send_goal 2 3"), {"accepted": False})  # its id is known
+            self.assertEqual(call("send_goal 2 3"), {"accepted": False})  # there is a goal with this id already
             self.assertEqual(call("get_result 2"),
                              {"status": SUCCEEDED, "result": {"result": OK, "error_message": ""}})
             self.assertEqual(client.lines("feedback 3", 3),

@@ -21,7 +21,7 @@ GSV, PEER = sys.argv[1:3]
 # Fast DDS 2.9 deletes objects through a type of another size, for which AddressSanitizer would end
 # the program.
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
-DOMAIN = 60 + os.getpid() % 40  # apart from others on this machine
+DOMAIN = 60 + os.getpid() % 40  # a domain that no other test on this machine uses
 PUBLISHED = {  # type hashes that ROS 2's packages contain
     "sensor_msgs::msg::dds_::LaserScan_":
         "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",

@@ -74,7 +74,8 @@ TEST_F(Assets, B21rHas24SonarsACameraAndASynchroDrive) {
   ASSERT_TRUE(b21r->drive);
   EXPECT_EQ(b21r->drive->kind, model::DriveKind::kSynchro);
   EXPECT_EQ(b21r->drive->command_timeout, std::chrono::seconds(1));
-  // The box around the drum, whose corners are farther away.
+  // The radius of the drum is 0.263 m. FootprintRadius() reaches the corners of the box around the
+  // drum, which are farther away.
   EXPECT_NEAR(model::FootprintRadius(*b21r), 0.263, 0.12);
   EXPECT_NEAR(model::LowestPoint(*b21r), 0, 1e-9);
 }

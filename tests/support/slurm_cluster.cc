@@ -85,7 +85,8 @@ SlurmCluster::SlurmCluster(const Options& options) {
 SlurmCluster::~SlurmCluster() {
   controller_.reset();
   for (auto& node : nodes_) node.reset();
-  // Tasks and their supervisors are separate processes.
+  // Tasks and their supervisors are separate processes that may still run, so all processes of this
+  // cluster are killed.
   for (std::vector<pid_t> left;
        !(left = ProcessesWith("SLURM_CONF=" + configuration_, "")).empty();) {
     left.erase(std::remove(left.begin(), left.end(), munged_->process().pid()), left.end());
@@ -104,7 +105,7 @@ void SlurmCluster::WriteConfiguration(const Options& options) const {
   const std::vector<int> ports = FreePorts(options.nodes + 1);
   fs::create_directory(folder_.path() / "state");
   std::ofstream file(configuration_);
-  // A requeued task waits for the lifetime of credentials (cred_expire).
+  // The lifetime of credentials (cred_expire) is short, because a requeued task waits for its end.
   file << "ClusterName=test\nSlurmctldHost=" << host << "(127.0.0.1)\n"
        << "SlurmctldPort=" << ports[0] << "\n"
        << "AuthType=auth/munge\nCredType=cred/munge\nAuthInfo=socket=" << folder
@@ -161,7 +162,8 @@ void SlurmCluster::KillSlurmd(int node) {
 
 void SlurmCluster::LoseNode(int node) {
   KillSlurmd(node);
-  // slurmstepd has the environment of its slurmd, and a task has the environment of its job.
+  // The processes of a node are found by their environment: slurmstepd has the environment of its
+  // slurmd, and a task has that of its job.
   for (const std::string& variable :
        {"GSV_TEST_NODE=" + NodeName(node), "SLURMD_NODENAME=" + NodeName(node)}) {
     for (const pid_t process : ProcessesWith(variable, "")) kill(process, SIGKILL);

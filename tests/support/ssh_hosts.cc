@@ -151,7 +151,7 @@ void SshHosts::Lose(int host) {
   }
   auto& server = servers_[static_cast<std::size_t>(host)];
   if (server == nullptr) return;
-  // The server is stopped first, so that it starts no connection that would be missed.
+  // The server is stopped first, so that it starts no connection that KillConnections() would miss.
   server->process().Signal(SIGSTOP);
   KillConnections(server->process().pid());
   server->process().Signal(SIGKILL);

@@ -128,7 +128,9 @@ base::Status Save(const std::string& folder, const Images& images) {
                static_cast<std::streamsize>(jpeg->size()));
     if (!file.flush()) {
       return base::Fail(base::ErrorCode::kUnavailable,
-                        "cannot be written; choose an existing folder", path);
+                        "the image cannot be written; check that the folder exists and that its "
+                        "disk has free space",
+                        path);
     }
   }
   return {};

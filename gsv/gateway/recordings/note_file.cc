@@ -62,6 +62,9 @@ base::Result<std::vector<Note>> NoteFile::Read() const {
   if (json["version"] != kVersion) return fail("its version is not 1");
   std::vector<Note> notes;
   for (const nlohmann::json& each : json["notes"]) {
+    if (notes.size() == kMaxNotes) {
+      return fail("it has more than " + std::to_string(kMaxNotes) + " notes");
+    }
     const std::optional<Note> note = NoteOf(each);
     if (!note) {
       return fail("note " + std::to_string(notes.size() + 1) +

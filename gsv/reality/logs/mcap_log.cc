@@ -234,8 +234,8 @@ class McapLog {
   const std::filesystem::path path_;
   base::Problems& problems_;
   Log log_;
-  std::map<std::string, std::string> topics_;             // by kind of data
-  std::map<std::string, std::set<std::string>> ignored_;  // by kind of data
+  std::map<std::string, std::string> topics_;             // topics that are read, by kind of data
+  std::map<std::string, std::set<std::string>> ignored_;  // ignored topics, by kind of data
   std::size_t warnings_ = 0;
   std::optional<double> last_time_;
 };

@@ -12,7 +12,8 @@ namespace gsv::reality {
 
 std::vector<CellBox> BoxesOf(const OccupancyMap& map) {
   std::vector<CellBox> boxes;
-  // Boxes that end in the row below, by (x, width).
+  // Indices of the boxes that end in the previous row, by (x, width). A row with an equal run of
+  // cells extends its box.
   std::map<std::pair<int, int>, std::size_t> open;
   for (int y = 0; y < map.height; ++y) {
     std::map<std::pair<int, int>, std::size_t> here;

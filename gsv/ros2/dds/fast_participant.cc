@@ -201,8 +201,8 @@ class ParticipantIndex {
 
  private:
   static inline base::Mutex mutex_;
-  // The indices that this process has taken, by domain. Fast DDS may bind their ports a little
-  // later.
+  // The indices that this process has taken, by domain. They are listed here because Fast DDS may
+  // bind their ports a little later, and until then the ports look free.
   static inline std::map<std::uint32_t, std::set<int>> taken_ GSV_GUARDED_BY(mutex_);
   const std::uint32_t domain_;
   int value_ = -1;
@@ -247,8 +247,8 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   ~FastWriter() override {
     if (writer_ == nullptr) return;
     writer_->set_listener(nullptr);
-    // If the history holds samples, Fast DDS may wait forever for a heartbeat (its pull request
-    // 4076).
+    // The history is cleared first. If it holds samples, Fast DDS may wait forever for a heartbeat
+    // while it deletes the writer (pull request 4076 of Fast DDS).
     std::size_t removed = 0;
     (void)writer_->clear_history(&removed);
     publisher_.delete_datawriter(writer_);

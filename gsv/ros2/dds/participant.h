@@ -56,7 +56,7 @@ struct ParticipantOptions {
   std::vector<std::string> peers{};  // IPv4 addresses or host names
   std::string name = "gsv";          // name of the participant, which others see
   std::string user_data{};           // "enclave=/;"
-  bool watches_endpoints = false;    // endpoints() works
+  bool watches_endpoints = false;    // whether endpoints() works; else it returns an empty list
   // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty for no
   // security.
   std::string enclave_folder{};

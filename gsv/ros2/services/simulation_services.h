@@ -56,7 +56,8 @@ class ServedSimulation {
   messages::simulation_interfaces::Result NoSimulation() const;
   base::Status SetNamespaceOf(const std::string& robot, const std::string& name_space) const;
   bool loads_worlds() const { return spawner != nullptr && spawner->loads_worlds(); }
-  // Returns the names of entities that were added to the simulation. Used on the slow lane.
+  // Returns the names of entities that were added to the simulation. Call it only on the thread of
+  // ServiceHost::Lane::kSlow.
   std::set<std::string>& spawned();
 
   ServiceHost& host;
@@ -69,7 +70,7 @@ class ServedSimulation {
   SetNamespace set_namespace_ GSV_GUARDED_BY(mutex_);
   std::uint64_t count_ GSV_GUARDED_BY(mutex_) = 0;  // number of simulations so far
   std::set<std::string> spawned_;
-  std::uint64_t spawned_in_ = 0;  // the number of the simulation of spawned_
+  std::uint64_t spawned_in_ = 0;  // value of count_ for the simulation of spawned_
 };
 
 class StepAction;
