@@ -75,7 +75,7 @@ test("an added object is placed and selected", async () => {
   await press("Add");
   await shown("crate");
   assert.equal((await body("crate")).is_fixed, false);
-  await page.getByText("crate is chosen").waitFor();
+  await page.getByText("crate is selected").waitFor();
 });
 
 test("an object is rotated by a number, and by a key", async () => {
@@ -121,7 +121,7 @@ test("removal is undone, and all edits can be undone and redone", async () => {
   const stood = await place("can");
   await page.locator(".world-tree summary").click();
   await page.locator('[data-object="crate"]').click();
-  await page.getByText("crate is chosen").waitFor();
+  await page.getByText("crate is selected").waitFor();
   await page.keyboard.press("r");
   await settled(page);
   await keepPicture(page, "edit-objects");

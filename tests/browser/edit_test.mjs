@@ -45,7 +45,7 @@ test("editing pauses the simulation and explains what can be done", async () => 
   await phaseIs(page, "running");
   await press("Edit");
   await phaseIs(page, "paused");
-  await page.getByRole("region", { name: "Edit" }).getByText("Click a robot or an object to choose it").waitFor();
+  await page.getByRole("region", { name: "Edit" }).getByText("Click a robot or an object to select it").waitFor();
   await page.getByRole("region", { name: "Edit" }).locator("option", { hasText: "rover4" }).waitFor({ state: "attached" });
 });
 

@@ -298,7 +298,7 @@ test("several bodies are selected, moved, copied and removed together", async ()
   await page.locator('[data-object="wall"]').click({ modifiers: ["Shift"] });
   await chosenAre("box", "wall");
   assert.equal(await page.locator('[data-object="wall"]').getAttribute("aria-pressed"), "true");
-  await page.getByText("2 bodies are chosen").waitFor();
+  await page.getByText("2 bodies are selected").waitFor();
   await press("Duplicate");
   await page.waitForFunction(() => window.gsv.chosen.length === 2 && !window.gsv.chosen.includes("box"));
   await settled(page);

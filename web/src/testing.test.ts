@@ -37,7 +37,7 @@ describe("window.gsv.ready", () => {
     store.set({ modelsMissing: 0 });
     nextFrame();
     await Promise.resolve();
-    expect(isReady).toBe(false); // it has come, and is not drawn yet
+    expect(isReady).toBe(false); // the shape has arrived, but is not drawn yet
 
     world.frames += 1;
     nextFrame();

@@ -94,7 +94,7 @@ export function exposeForTests(store: Store<State>, world: () => World3D | null,
 
 function firstPicture(store: Store<State>, world: () => World3D | null): Promise<void> {
   return new Promise((resolve) => {
-    let framesThen: number | null = null; // when the last shape came; null while one is missing
+    let framesThen: number | null = null; // number of frames when the last shape arrived; null while a shape is missing
     const check = () => {
       if (framesThen === null) return;
       if ((world()?.frames ?? Infinity) <= framesThen) {

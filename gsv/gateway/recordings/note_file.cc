@@ -68,7 +68,7 @@ base::Result<std::vector<Note>> NoteFile::Read() const {
     const std::optional<Note> note = NoteOf(each);
     if (!note) {
       return fail("note " + std::to_string(notes.size() + 1) +
-                  " needs 'id' (above 0), 'time_s' and 'text' (at most " +
+                  " needs 'id' (an integer above 0), 'time_s' (a number), and 'text' (at most " +
                   std::to_string(kMaxTextLength) + " bytes)");
     }
     if (notes.size() == kMaxNotes) {

@@ -2,7 +2,7 @@
 // loaded. Each answer is used once, for the page's own request of the same address.
 import { simulationPath } from "./JsonServer";
 
-// An older answer is not used.
+// Maximum age of an early answer. An older answer is not used.
 const LONGEST_AGE_MS = 5000;
 
 interface Begun {
@@ -34,7 +34,7 @@ export class EarlyRequests {
         this.fetchPage(this.url(`api/models/${encodeURIComponent(model)}.glb`)).catch(() => {});
       }
     } catch {
-      // If an early request fails, the page only waits longer.
+      // Ignored: the page repeats a failed request, which only takes longer.
     }
   }
 

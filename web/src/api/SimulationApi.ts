@@ -39,7 +39,7 @@ export interface Drive {
 const ACTION_TIMEOUT_MS = 60_000;
 // Wall-clock seconds. The page repeats a drive command several times in this period.
 const DRIVE_TIMEOUT_S = 1;
-// The server reads both recordings completely.
+// The time limit is long, because the server reads both recordings completely.
 const DIFFERENCE_TIMEOUT_MS = 120_000;
 
 export class SimulationApi {

@@ -7,10 +7,10 @@ import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
 export interface Person {
   number: number;
   name: string;
-  simulation: string; // the simulation that they view; empty if there is none
+  simulation: string; // the simulation that this viewer sees; empty if there is none
   holds: boolean; // whether this viewer has control of the simulation
   asks: number; // position in the queue for control, from 1; 0 if not waiting
-  passesIn: number; // for the first in the queue: seconds until they get control without an answer
+  passesIn: number; // for the first in the queue: seconds until this viewer gets control if nobody answers
 }
 
 // All viewers of a server, and which of them is this page.

@@ -63,7 +63,7 @@ export class App {
     readonly store: Store<State>,
     readonly session: Session,
     private readonly api: SimulationApi,
-    private readonly world: () => World3D | null, // null until the browser draws in 3D, or if the browser cannot
+    private readonly world: () => World3D | null, // null until the browser draws in 3D, or if it cannot draw in 3D
   ) {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
     this.past = new PastControl(store, api, session, this.replay);

@@ -412,7 +412,7 @@ export class EditControl {
     return this.store.get().scene?.bodies.some(({ name }) => name === body) ?? false;
   }
 
-  // After an edit for which the simulation was paused. The offer ends when the simulation is no
+  // Offers to resume the simulation after an edit for which it was paused. The offer ends when the simulation is no
   // longer paused, or is edited again.
   private offerToResume(): void {
     const isStillPaused = ({ status, editing }: State) => status?.phase === "paused" && editing === null;

@@ -129,7 +129,7 @@ export class Session implements TopicSource, LiveViewSource {
     this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
     if (this.instant !== null) return;
-    // Neither request needs the stream.
+    // These two requests are sent before the stream opens, because they do not need it.
     void this.fetchStatus(name);
     void this.fetchScene(name, () => {}); // if the stream opens without the scene, the scene is fetched again
   }
@@ -343,7 +343,7 @@ export class Session implements TopicSource, LiveViewSource {
     this.instant = null;
     const { scene, status } = this.store.get();
     if (isFirst && instant === null && scene && status && status.phase !== "failed") {
-      // Both answers are new. The stream reports all changes after them.
+      // The scene and the status have just been fetched. The stream reports all later changes.
       this.newsSince = status.time;
       return this.topicRequests.lookSoon();
     }

@@ -61,7 +61,7 @@ export class SetUpControl {
     else this.session.start();
   }
 
-  // The last change may not have reached the server yet.
+  // Waits for the preview first, because the last change may not have reached the server yet.
   async create(): Promise<void> {
     await this.previewing;
     const { setUp } = this.store.get();

@@ -7,14 +7,14 @@
 const TICK_MS = 100;
 const WINDOW_MS = 8000; // the judgement follows from the ticks in this time
 const DECIDE_MS = 2000; // after this time there is a judgement
-const HOLD_MS = 10_000; // a slow page counts as slow for this time, as the server reports its recovery later
-const MIN_LATE_SHARE = 1 / 3; // fraction of the time by which ticks of a busy page are late
-const MIN_BYTES = 32 << 10; // received between two ticks of a busy page, on average
+const HOLD_MS = 10_000; // a slow page counts as slow for this time, because the server reports the recovery later
+const MIN_LATE_SHARE = 1 / 3; // delay of a busy page's ticks, as a fraction of the time
+const MIN_BYTES = 32 << 10; // bytes that a busy page receives between two ticks, on average
 
 interface Tick {
   at: number; // ms
   late: number; // ms
-  bytes: number; // received since the tick before
+  bytes: number; // bytes received since the previous tick
 }
 
 export class SlowPage {

@@ -165,7 +165,7 @@ export class GsvView extends HTMLElement {
   private failed(): void {
     if (!this.image.hasAttribute("src")) return;
     this.isLoading = false;
-    this.say(`The view of ${this.getAttribute("src")} cannot be loaded. It is tried again.`);
+    this.say(`The view of ${this.getAttribute("src")} cannot be loaded. The page tries again.`);
     clearTimeout(this.retry);
     this.retry = setTimeout(() => this.refresh(), RETRY_MS);
   }

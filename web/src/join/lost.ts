@@ -5,7 +5,7 @@ import { listAt, numberAt, objectAt, textAt, textOr } from "../api/json";
 
 // A simulation whose server crashed.
 export interface LostSimulation {
-  number: number; // the number with which it is dismissed
+  number: number; // number of this report; a request to dismiss it contains the number
   name: string;
   sentence: string;
   replay: string; // name of its recording in the server's folder; empty if there is none

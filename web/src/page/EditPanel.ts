@@ -102,7 +102,7 @@ function saveMenu(app: App): HTMLElement {
   };
   const menu: Menu = createWordedMenu(
     { label: "Save", picture: "save", word: "Save", title: "Save the edited world as a file" },
-    line("Save world", "An SDFormat file of the bodies as they stand now. Gazebo and GSV load it.", false),
+    line("Save world", "An SDFormat file of all bodies at their present poses. Gazebo and GSV load it.", false),
     line("Save scenario", "The same file, and a scenario (YAML) with the behaviours of the robots. gsv run starts it.", true),
   );
   return menu.element;
@@ -114,9 +114,9 @@ function hintOf(state: State): string {
   const all = allChosen(state);
   if (placing) return `Click the floor to place ${all[0]} there.`;
   if (editing?.wall) return `Click the floor where the wall ${editing.wall.from ? "ends" : "begins"}.`;
-  if (all.length > 1) return `${all.length} bodies are chosen. Drag the arrows of ${all[0]} to move them all.`;
-  if (all.length === 1) return `${all[0]} is chosen. Drag its arrows, or press Place and click the floor.`;
-  return "Click a robot or an object to choose it, or drag it over the floor. Choose several with Shift.";
+  if (all.length > 1) return `${all.length} bodies are selected. Drag the arrows of ${all[0]} to move them all.`;
+  if (all.length === 1) return `${all[0]} is selected. Drag its arrows, or press Place and click the floor.`;
+  return "Click a robot or an object to select it, or drag it over the floor. Select several with Shift.";
 }
 
 function button(label: string, onclick: () => void): HTMLButtonElement {

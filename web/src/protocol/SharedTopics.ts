@@ -22,7 +22,7 @@ export interface TopicSource {
 
 interface SharedTopic {
   handlers: Map<Handler, { newestOnly: boolean }>;
-  orElse: string | undefined; // as requested by its first reader
+  orElse: string | undefined; // the topic to read instead, as requested by the first reader
   newest: { message: unknown } | null;
   newestOnly: boolean; // the mode of the subscription at the server
   end(): void;

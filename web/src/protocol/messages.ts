@@ -32,7 +32,8 @@ export interface PosesMessage {
   poses: Float64Array;
 }
 
-// gsv_msgs/msg/PackedPoses: the same, rounded (gsv/messages/msg/gsv_msgs/PackedPoses.msg).
+// gsv_msgs/msg/PackedPoses: the poses of PosesMessage, rounded
+// (gsv/messages/msg/gsv_msgs/PackedPoses.msg).
 export interface PackedPosesMessage {
   stamp: Time;
   step: bigint;

@@ -3,7 +3,7 @@
 import type { PackedPosesMessage, PosesMessage } from "./messages";
 
 export const PACKED_POSES = "/gsv/packed_poses";
-export const POSES = "/gsv/poses"; // the topic of a replay or an older server
+export const POSES = "/gsv/poses"; // exact poses: the only topic of poses that replays and older servers offer
 
 const METRES = 1e-4;
 const HALF_SCALE = 16383.5;

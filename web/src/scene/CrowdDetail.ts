@@ -50,7 +50,7 @@ export class CrowdDetail {
     for (const crowd of this.crowds) crowd.isStale = true;
   }
 
-  // For a view with this height in pixels.
+  // Chooses the level of detail for a view with this height in pixels.
   choose(camera: PerspectiveCamera, height: number): void {
     const focal = height / 2 / Math.tan((camera.fov * Math.PI) / 360);
     for (const crowd of this.crowds) {

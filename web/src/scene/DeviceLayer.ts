@@ -41,7 +41,7 @@ export class DeviceLayer {
   readonly sounds = new Map<string, Sound>(); // by topic
   private readonly jaws = new Map<string, Jaws>(); // by topic
   private readonly glows = new Map<string, Glow>(); // by topic
-  private readonly lamps: Lamp[] = []; // reused, so there are as many as lamps were ever on at once
+  private readonly lamps: Lamp[] = []; // reused: their number is the maximum number of lamps that were on at once
   private readonly points: PointLight[] = [];
   private readonly spots: SpotLight[] = [];
   private readonly ball = new SphereGeometry(1, 16, 12);

@@ -116,7 +116,7 @@ export class Gizmo {
   handleAt(axis: "x" | "y" | "z"): ScreenPlace | null {
     if (!this.controls.object) return null;
     const origin = this.frame.getWorldPosition(new Vector3());
-    // The scale of TransformControlsGizmo for a perspective camera.
+    // TransformControlsGizmo draws its handles with this scale for a perspective camera.
     const distance = origin.distanceTo(this.camera.getWorldPosition(new Vector3()));
     const { fov, zoom } = this.camera as unknown as { fov: number; zoom: number };
     const scale = (distance * Math.min((1.9 * Math.tan((Math.PI * fov) / 360)) / zoom, 7) * SIZE) / 4;

@@ -12,7 +12,7 @@ function cart(): Object3D {
   chassis.position.set(0, 0, 0.5);
   chassis.add(new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial()));
   const wheel = new Object3D();
-  wheel.name = "wheelleft"; // as GLTFLoader cleans it
+  wheel.name = "wheelleft"; // GLTFLoader removes the colon from the name
   wheel.userData.name = "wheel:left";
   wheel.position.set(0, 0.3, 0);
   const tyre = new Mesh(new BoxGeometry(0.2, 0.2, 0.2), new MeshBasicMaterial());

@@ -118,7 +118,7 @@ test("if frames are slow, the next one begins after the page has reacted to a cl
   expect(drawnAfterPress(20)[0]).toBe(2); // the next frame is too fast to be noticed
 });
 
-test("an awaited picture is drawn when it is there", () => {
+test("while new content is awaited nothing is drawn, until hurry() is called", () => {
   const draw = vi.fn(() => false);
   const loop = new RenderLoop(draw, () => {});
   loop.await(1e9);
@@ -130,7 +130,7 @@ test("an awaited picture is drawn when it is there", () => {
   expect(draw).toHaveBeenCalledOnce();
 });
 
-test("a picture for which there is no time does not follow a rest", () => {
+test("after hurry() the next frame is drawn without a rest, even after a slow frame", () => {
   const loop = new RenderLoop(() => false, () => {});
   loop.request();
   frameAt(0);

@@ -54,8 +54,8 @@ export class Sky {
     this.geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
   }
 
-  // In the middle of the drawn depths, because the depths of a map begin many metres away from its
-  // camera.
+  // Moves the sky to the middle of the drawn depths, because the depths of a map begin many metres
+  // away from its camera.
   private stayAround(camera: PerspectiveCamera | OrthographicCamera): void {
     const radius = (camera.near + camera.far) / 2;
     const [x, y, z] = camera.matrixWorld.elements.slice(12) as [number, number, number];

@@ -35,7 +35,7 @@ function bake(geometry: BufferGeometry, frameFromPart: Matrix4): BufferGeometry 
   return copy;
 }
 
-// A mirrored triangle shows its back.
+// Reverses the triangles of a mirrored part, which would otherwise show their backs.
 function turnFaces(geometry: BufferGeometry): void {
   const vertices = geometry.getAttribute("position").count;
   if (!geometry.index) geometry.setIndex(Array.from({ length: vertices }, (_, i) => i));

@@ -20,7 +20,7 @@ const BAD = ["agent_dead", "agent_unresponsive", "failed", "expectation_violated
 
 const MOST_EVENTS = 3000;
 
-// The time range of a timeline: the recording, or the kept past of a run until now.
+// The time range of a timeline: the recording, or the stored past of a run until now.
 export type Span = Pick<Replay, "start" | "end">;
 
 export function spanOf(replay: Replay | null, kept: Kept | null, time: number): Span | null {

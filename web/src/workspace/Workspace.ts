@@ -116,7 +116,8 @@ export class Workspace {
     this.isApplying = true;
     try {
       const panels = panelsOf(layout).map((id) => ({ id, title: this.titleOf(id) }));
-      // A dock without a size cannot use the sizes of parts.
+      // Sets the size of the dock first, because a dock without a size cannot use the sizes of
+      // parts.
       this.api.layout(this.space.width, this.space.height, true);
       this.api.fromJSON(toDockview(layout, this.space, panels), { reuseExistingPanels: true });
       for (const panel of this.api.panels) this.constrain(panel);
@@ -194,7 +195,7 @@ export class Workspace {
     this.onChange(textOf(layout));
   }
 
-  // A change between narrow and wide closes nothing.
+  // Adapts the layout to a change between a narrow and a wide screen. No panel is closed.
   private changeWidth(): void {
     this.api.updateOptions({ disableDnd: this.isNarrow });
     const { openPanels } = this.of.ports.state.get();

@@ -61,7 +61,7 @@ export class ImagePainter {
   private async paint(image: CameraMessage, generation: number): Promise<string> {
     if ("point_step" in image) {
       const depths = depthImageOf(image);
-      if (!depths) return "The depth image cannot be read: its points are in no rows.";
+      if (!depths) return "The depth image cannot be read: its points are not arranged in rows.";
       this.paintValues(depths, image);
       return "";
     }

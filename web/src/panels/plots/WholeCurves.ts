@@ -1,5 +1,5 @@
 // Requests each plotted value over a whole recording, and passes on what the server has read so far
-// until it is complete. For a running simulation, does the same for the kept past; for a
+// until it is complete. For a running simulation, does the same for the stored past; for a
 // comparison, for the second recording.
 import type { CurveOf, WholeCurve } from "../../api/curve";
 import { MOST_SAMPLES } from "../../live/Series";
@@ -26,7 +26,7 @@ export interface CurveEvents {
 
 export class WholeCurves {
   private readonly known = new Set<string>(); // curves that are being read, or were read
-  private readonly compared = new Set<string>(); // the same for curves of the second recording
+  private readonly compared = new Set<string>(); // curves of the second recording that are being read, or were read
   private simulation: string | null = null;
   private isReplay = false;
   private other = ""; // the second recording
