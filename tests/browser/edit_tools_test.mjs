@@ -338,7 +338,7 @@ test("a rectangle selects the bodies inside it", async () => {
 
 test("the saved world is read again with the same bodies", async () => {
   await press("Save");
-  await edit().getByText("An SDFormat file of the bodies as they stand now. Gazebo and GSV load it.").waitFor();
+  await edit().getByText("An SDFormat file of all bodies at their present poses, for Gazebo and GSV.").waitFor();
   const [download] = await Promise.all([page.waitForEvent("download"), press("Save world")]);
   const file = path.join(folder, "saved.sdf");
   await download.saveAs(file);
