@@ -18,7 +18,7 @@ Quaternion FromRollPitchYaw(const RollPitchYaw& angles) {
 RollPitchYaw ToRollPitchYaw(const Quaternion& q) {
   const double sin_pitch = std::clamp(2 * (q.w * q.y - q.z * q.x), -1.0, 1.0);
   if (std::abs(sin_pitch) > 1.0 - 1e-12) {
-    // In gimbal lock, only yaw - roll (or yaw + roll) is determined.
+    // In gimbal lock, only yaw - roll (or yaw + roll) is determined, so the roll is set to 0.
     const double yaw = std::atan2(-2 * (q.x * q.y - q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z));
     return {0.0, std::copysign(std::numbers::pi / 2, sin_pitch), yaw};
   }

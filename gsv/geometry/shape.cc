@@ -191,7 +191,8 @@ struct Tessellator {
     mesh = *shape.triangles;
     const Vector3& s = shape.scale;
     const double mirrored = s.x * s.y * s.z < 0 ? -1 : 1;
-    // Normals are transformed with the cofactors of the scale matrix.
+    // Normals are transformed with the cofactors of the scale matrix, because they must stay
+    // perpendicular to a stretched surface.
     const Vector3 cofactors = mirrored * Vector3{s.y * s.z, s.x * s.z, s.x * s.y};
     for (Vector3& p : mesh.positions) p = Scaled(p, s);
     for (Vector3& n : mesh.normals) n = Normalized(Scaled(n, cofactors));

@@ -97,7 +97,7 @@ std::string ReasonOf(State state, const simulation::RobotStatus& robot,
   std::string reason = "commanded " + CommandText(motion.command);
   if (!has_command && robot.is_avatar) reason += " (an avatar)";
   if (!has_command && !robot.is_avatar && robot.behaviour.empty()) {
-    // Users and ROS 2 nodes may command a robot without a behaviour.
+    // A user or a ROS 2 node may command a robot without a behaviour, so the reason names both.
     reason = "it has no behaviour, and no command to move";
   }
   if (!motion.contact.empty()) reason += ", touches " + motion.contact;

@@ -70,7 +70,7 @@ std::size_t CdrReader::ReadCount(std::size_t element_size) {
 void CdrReader::Read(std::string& text) {
   text.clear();
   const std::size_t size = ReadCount(1);
-  // Some writers send an empty string without its NUL.
+  // A size of 0 is accepted, because some writers send an empty string without its NUL.
   if (size == 0) return;
   text.assign(reinterpret_cast<const char*>(bytes_.data() + position_), size - 1);
   if (bytes_[position_ + size - 1] != std::byte{0}) Fail("a string does not end in NUL");

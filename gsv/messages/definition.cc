@@ -169,7 +169,7 @@ class Decoder {
   bool ReadField(const Definition::Field& field, ordered_json& out) {
     if (field.shape == Shape::kSingle) return ReadOne(field, out);
     const std::size_t count = field.shape == Shape::kSequence ? in_.ULong() : field.length;
-    // Empty structs also count as values.
+    // Empty structs also count as values, so that their number is limited.
     if (!in_.ok() || count > kMaxValues || values_ + count > kMaxValues) return false;
     if (field.kind == Kind::kUnsigned && field.size == 1) {
       out = {{"bytes", count}};

@@ -142,7 +142,8 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
     }
   }
   Series ranges{"range", "m", {}, {}}, residuals{"residual", "m", {}, {}};
-  std::vector<double> real_mean, simulated_mean;  // mean difference of each scan
+  // The mean residual of each scan: measured minus exact range.
+  std::vector<double> real_mean, simulated_mean;
   for (const ScanPair& pair : pairs) {
     std::vector<double> of_real, of_simulated;
     for (std::size_t i = 0; i < std::min(pair.real.size(), pair.exact.size()); ++i) {

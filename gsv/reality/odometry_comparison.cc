@@ -167,7 +167,8 @@ sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows) {
   drift.linear_scale = std::max(Slope(true_ways, ways), 0.01);
   drift.angular_scale = std::max(Slope(true_turns, turns), 0.01);
   double metres = 0, way_squares = 0;
-  // The normal equations of squares = a metres + b radians.
+  // The sums of the normal equations of a least-squares fit of a and b:
+  // squared error of the rotation = a * metres + b * radians.
   double mm = 0, mr = 0, rr = 0, ms = 0, rs = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const MotionWindow& w = windows[i];

@@ -46,7 +46,7 @@ TEST_F(SimulationRecorderTest, BeamsCanBeRecordedWithoutReadings) {
   const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
   ASSERT_EQ(beams.size(), 11u);
   ASSERT_EQ(beams.back().markers.size(), 1u);
-  // The points are the ends of the beams of "front" and of "back".
+  // The four points are the ends of the beams of "front" and of "back".
   EXPECT_EQ(beams.back().markers[0].points.size(), 4u);
 }
 

@@ -16,7 +16,8 @@
 #include "gsv/ros2/testing/peer.h"
 #include "gsv/simulation/testing/test_simulation.h"
 
-// Fast DDS 2.9 deletes objects through a base type of another size, which AddressSanitizer reports.
+// Switches off a report of AddressSanitizer: Fast DDS 2.9 deletes objects through a base type of
+// another size.
 #if defined(__SANITIZE_ADDRESS__)
 extern "C" const char* __asan_default_options() { return "new_delete_type_mismatch=0"; }
 #endif

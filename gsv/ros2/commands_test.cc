@@ -48,7 +48,7 @@ TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
 TEST(CommandInput, RejectsNonFiniteCommands) {
   CommandedRobot robot;
   Twist twist;
-  // The drive ignores this component, but NaN is rejected nevertheless.
+  // The drive ignores this component, but a value that is not finite is rejected nevertheless.
   twist.linear.z = std::numeric_limits<double>::infinity();
   messages::Bytes sideways;
   messages::Encode(twist, sideways);

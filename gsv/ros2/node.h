@@ -15,7 +15,7 @@
 
 namespace gsv::ros2 {
 
-// QoS profiles by rmw/qos_profiles.h.
+// The QoS profiles that rmw/qos_profiles.h defines.
 inline constexpr dds::Qos kSensorDataQos{.is_reliable = false, .depth = 5};
 inline constexpr dds::Qos kLargeDataQos{.is_reliable = false, .depth = 5, .is_large = true};
 inline constexpr dds::Qos kDefaultQos{.depth = 10};

@@ -119,7 +119,7 @@ base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
   const auto range = RangeOf(environment);
   if (!range) return base::Fail(range.error());
   participant.range = range->value_or(dds::Range::kLocalhost);
-  // As in rcl, this variable rules out the peers too.
+  // As in rcl, this variable also excludes the peers of ROS_STATIC_PEERS.
   if (environment("ROS_LOCALHOST_ONLY") == "1") participant.peers.clear();
   std::erase_if(participant.peers, IsThisMachine);
   if (participant.range == dds::Range::kLocalhost && !participant.peers.empty()) {

@@ -71,7 +71,8 @@ class RobotTopics {
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
   std::vector<bool> is_optical_;  // whether each of sensors_ has an optical frame
-  // Declared before node_, whose readers call the sources.
+  // Declared before node_, whose readers call the sources, so that the sources are destroyed after
+  // it.
   std::vector<std::unique_ptr<Source>> sources_;
   Node node_;
   // Null after robot_description was sent, or if the participant refused the topic.

@@ -31,7 +31,7 @@ base::Result<bool> IsFirst(const Environment& environment, const char* variable,
 base::Result<std::string> FolderOf(const std::string& keystore, const std::string& enclave) {
   if (keystore.empty()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "is not set, but ROS_SECURITY_ENABLE is. Make a keystore with "
+                      "is not set, but ROS_SECURITY_ENABLE is true. Make a keystore with "
                       "`ros2 security create_keystore`",
                       kKeystore);
   }

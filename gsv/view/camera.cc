@@ -20,7 +20,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kDefaultFieldOfView = 45;  // degrees
 constexpr double kNear = 0.05, kFar = 5000;
 constexpr double kMaxCoordinate = 1e6;
-// The camera is behind a followed robot and above it.
+// The default eye and target for a followed robot, in its level frame, m: the camera is behind the
+// robot and above it.
 constexpr Vector3 kEyeBehind{-3, 0, 2}, kTargetAhead{0.5, 0, 0.3};
 
 std::optional<double> NumberOf(std::string_view text) {

@@ -14,7 +14,7 @@ void WheelOdometry::SetLayout(const Layout& layout) {
     const auto add = [&](const std::vector<int>& joints) {
       for (const int joint : joints) {
         const model::Joint& axle = body.model->joints[static_cast<std::size_t>(joint)];
-        // If the axle points to the left, a positive rotation rolls the wheel forwards.
+        // A positive rotation rolls the wheel forwards only if its axle points to the left.
         const bool backwards = (axle.model_from_joint.orientation * axle.axis).y < 0;
         const double radius = backwards ? -drive.wheel_radius : drive.wheel_radius;
         wheels_.push_back({body.first_joint + joint, radius / static_cast<double>(joints.size())});

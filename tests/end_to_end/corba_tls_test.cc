@@ -308,7 +308,8 @@ TEST_F(CorbaTls, GarbageEndsOnlyItsOwnConnection) {
     for (const int port : {broker.port(), service}) {
       const Peer peer(port);
       peer.Send(bytes);
-      // Some messages are shorter than a record. The server does not close those connections.
+      // In the other rounds, some messages are shorter than a record, and the server keeps their
+      // connections open.
       if (round % 3 == 0) (void)peer.AwaitEnd();
     }
   }
@@ -322,8 +323,8 @@ std::size_t DescriptorsOf(pid_t pid) {
       fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd"), fs::directory_iterator()));
 }
 
-// Regression: such connections had no address any more when the ORB requested the address, and
-// stayed open.
+// Regression: a connection that ended after its handshake had no address any more when the ORB
+// requested it, and stayed open.
 TEST_F(CorbaTls, DisconnectAfterTheHandshakeLeaksNothing) {
   BrokerByTls broker;
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
@@ -339,7 +340,8 @@ TEST_F(CorbaTls, DisconnectAfterTheHandshakeLeaksNothing) {
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
 }
 
-// Regression: omniORB's own transport crashes in this case.
+// Regression: omniORB's own transport crashes if the peer closes the connection during the
+// handshake.
 TEST_F(CorbaTls, CloseDuringTheHandshakeFailsOnlyThatCall) {
   const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address = broker::Loopback(0);

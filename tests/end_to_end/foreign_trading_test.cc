@@ -19,7 +19,7 @@ TEST(ForeignTrading, TclClientExportsQueriesLinksAndWithdraws) {
       std::string(std::getenv("GSV_SOURCE_DIR")) + "/tests/end_to_end/trading_client.tcl";
   const Outcome outcome = RunProgram(client, {near.reference(), far.reference()});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.out << outcome.err;
-  // These are all policies of the standard.
+  // These are all policies that the OMG Trading Service defines.
   for (const char* policy :
        {"search_card", "match_card", "return_card", "exact_type_match", "use_modifiable_properties",
         "use_dynamic_properties", "use_proxy_offers", "hop_count", "link_follow_rule",

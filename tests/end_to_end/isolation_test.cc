@@ -52,7 +52,7 @@ class Isolation : public Served {
     flooded->start();
     return flooded._retn();
   }
-  // A program that has died would send no calls.
+  // The flood shows that the program is alive, because a dead program sends no calls.
   void ExpectFloodContinues(sba::Simulation_ptr flooded) {
     const sba::SimulationState_var state = flooded->state();
     EXPECT_EQ(CountOf(state.in(), sba::AGENT_DEAD) + CountOf(state.in(), sba::AGENT_FINISHED), 0);

@@ -59,7 +59,7 @@ TEST_F(Scenario, FileEqualsOptions) {
 TEST_F(Scenario, ScenarioOfARecordingHasTheSameHash) {
   const std::string recording = folder_.path() / "run.mcap";
   const std::string file = folder_.path() / "again.yaml";
-  // Two robots have no place, and one has a behaviour with options.
+  // Two robots have no given pose, and one robot has a behaviour with options.
   const Outcome first =
       Run("playground",
           {"--lockstep", "--seed", "5", "--duration", "3", "--robot", "pebble", "--robot", "b21r",

@@ -168,7 +168,7 @@ TEST(Servers, PreferenceForLeastLoadSelectsTheIdleServer) {
                                 std::string("name == '") + busy + "'");
     ASSERT_TRUE(running) << running.error().Sentence();
     ASSERT_TRUE((*running)->Start());
-    // The broker caches a value for a second.
+    // The new values are awaited, because the broker caches each value for a second.
     const std::string is_seen =
         std::string("name == '") + busy + "' and load > 0 and simulations == 1";
     const std::string is_idle = "name == '" + other + "' and load == 0";

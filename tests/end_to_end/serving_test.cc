@@ -160,7 +160,7 @@ TEST(Metrics, AreServedByARealServer) {
   const auto deadline = std::chrono::steady_clock::now() + kProgramTimeout;
   while (server.Metric("gsv_steps_total") < 25 && std::chrono::steady_clock::now() < deadline) {
   }
-  // Viewers that have disconnected still count.
+  // The steps of a simulation count even after its deletion.
   ASSERT_EQ(server.Ask("DELETE", PathOf(name)).status, 200);
   EXPECT_EQ(server.Metric("gsv_steps_total"), 25);
   EXPECT_GT(server.Metric("process_resident_memory_bytes"), 1e6);

@@ -78,7 +78,8 @@ def test_nothing_installed_names_the_folders_it_was_made_in(prefix):
     made_in = [str(BUILD).encode(), str(SOURCE).encode()]
     for file in prefix.rglob("*"):
         if file.is_file() and file.suffix in ("", ".cmake", ".pc", ".py", ".so", ".0"):
-            # Messages of assertions in a program may contain paths of source files.
+            # Only the dynamic section of programs is checked, because messages of assertions may
+            # contain paths of source files.
             paths = run("readelf", "-d", file).encode() if file.read_bytes()[:4] == b"\x7fELF" \
                 else file.read_bytes()
             assert not any(place in paths for place in made_in), file

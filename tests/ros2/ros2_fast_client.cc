@@ -25,7 +25,7 @@ using messages::simulation_interfaces::GetEntityStateResponse;
 
 constexpr const char* kService = "/gsv/get_entity_state";
 constexpr const char* kType = "simulation_interfaces/srv/GetEntityState";
-// The reader also gets the replies to all other clients.
+// The history is long, because the reader also gets the replies to all other clients.
 constexpr dds::Qos kQos{.depth = 20'000, .heartbeat_ms = 20};
 constexpr int kPatience = 60;  // s
 

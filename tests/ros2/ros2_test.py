@@ -77,8 +77,8 @@ def captured(*fields):
             raise unittest.SkipTest("tshark has no permission to capture")
         rows = []
         yield rows
-        # The kernel hands packets over in blocks, some time later: this packet comes after all
-        # others.
+        # The kernel delivers captured packets in blocks, with a delay. This packet comes after all
+        # others, so it marks the end.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             sender.sendto(b"end", ("127.0.0.1", last))
         for line in tshark.stdout:
@@ -308,7 +308,7 @@ class ForeignPeer(unittest.TestCase):
         fields = ["ip.src", "ip.dst", "rtps.param.topicName", "rtps.param.typeName", "rtps.reliability_kind"]
         with captured(*fields) as rows, running_gsv():
             peer("listen", "nav_msgs/msg/Odometry:/pebble/odom")
-        # Linux sends nothing with this source to a network.
+        # All packets have this source address, and Linux sends no packet with it to a network.
         self.assertEqual({row[0] for row in rows}, {"127.0.0.1"})
         self.assertLessEqual({row[1] for row in rows}, {"127.0.0.1", "239.255.0.1"})
         # One packet may announce several endpoints: tshark then separates their values by commas.

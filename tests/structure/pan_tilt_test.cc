@@ -119,7 +119,7 @@ void TurnHead(model::Movement movement) {
   ASSERT_TRUE(reading) << reading.error().Sentence();
   const rendering::Blob ball = rendering::FindBlob(*reading->image, 0);
   EXPECT_GT(ball.pixels, 500);
-  // An angle of 0.02 rad is 5.5 pixels wide.
+  // The tolerance of 6 pixels corresponds to an angle of about 0.02 rad (5.5 pixels).
   EXPECT_NEAR(ball.u, 160, 6);
   EXPECT_NEAR(ball.v, 120, 6);
 }

@@ -40,7 +40,7 @@ def window(begin, end, bottom=0.9):
 
 
 PLAN = [
-    # Outside: north, south, west, east.
+    # The outer walls: north, south, west, east.
     Wall("x", 6.1, -8.2, 8.2, OUTER,
          (window(-7.2, -5.6), window(-5.0, -3.4), window(-1.2, 1.2), window(3.4, 5.0), window(5.6, 7.2))),
     Wall("x", -6.1, -8.2, 8.2, OUTER,

@@ -25,7 +25,7 @@ base::Result<std::string> GuessLogFormat(const std::filesystem::path& path);
 base::Result<Log> ReadLog(const std::filesystem::path& path, const std::string& format,
                           base::Problems& problems);
 
-// Read one format each. The other files of the log must be in the folder of `path`.
+// These functions read one format each. The other files of the log must be in the folder of `path`.
 base::Result<Log> ReadSonarRing(const std::filesystem::path& path, base::Problems& problems);
 base::Result<Log> ReadArena(const std::filesystem::path& path, base::Problems& problems);
 base::Result<Log> ReadMrclam(const std::filesystem::path& path, base::Problems& problems);

@@ -199,8 +199,12 @@ class McapLog {
 
   void AddScan(double time, const Json& scan) {
     const auto ranges = scan.find("ranges");
-    if (ranges == scan.end() || !ranges->is_array() || ranges->size() > kMaxScanBeams) {
-      return Warn(Where(time) + "the scan has no ranges, or too many");
+    if (ranges == scan.end() || !ranges->is_array()) {
+      return Warn(Where(time) + "the scan has no ranges");
+    }
+    if (ranges->size() > kMaxScanBeams) {
+      return Warn(Where(time) + fmt::format("the scan has {} ranges; at most {} are read",
+                                            ranges->size(), kMaxScanBeams));
     }
     const double first = NumberIn(scan, "angle_min"), step = NumberIn(scan, "angle_increment");
     const double max = NumberIn(scan, "range_max"), min = NumberIn(scan, "range_min");

@@ -73,7 +73,8 @@ TEST_F(ChunkRingTest, DropsTheOldestChunksBeyondItsCapacity) {
   const auto reader = ring_->Open().value();
   const auto times = TimesIn(*reader);
   EXPECT_EQ(times.errors, 0);
-  // A chunk has 200 bytes of data, and headers and indexes of less than 200 bytes.
+  // A chunk has 200 bytes of data, and headers and indexes of less than 200 bytes. So two to four
+  // chunks fit into the capacity of 1000 bytes.
   EXPECT_GE(times.times.size(), 2u);
   EXPECT_LE(times.times.size(), 4u);
   EXPECT_EQ(times.times.front(), extent.start);

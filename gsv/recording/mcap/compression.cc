@@ -30,7 +30,8 @@ std::span<const std::byte> ZstdCompressor::Compress(std::span<const std::byte> b
 }
 
 base::Result<Bytes> ZstdDecompress(std::span<const std::byte> bytes, std::size_t size) {
-  // Most damage is detected here, before memory is allocated.
+  // The size in the zstd frame is checked first, because this detects most damage before memory is
+  // allocated.
   const unsigned long long claimed = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   if (claimed != size && claimed != ZSTD_CONTENTSIZE_UNKNOWN) {
     return base::Fail(base::ErrorCode::kCorrupt, "its zstd frame and its size disagree");

@@ -113,7 +113,7 @@ struct Endpoint {
 // The program's membership in a DDS domain. Makes writers and readers.
 class Participant {
  public:
-  // Larger incoming samples are dropped.
+  // Maximum size of an incoming sample in bytes. Larger samples are dropped.
   static constexpr std::size_t kMaxSampleIn = 16 << 20;
 
   virtual ~Participant() = default;

@@ -34,7 +34,7 @@ constexpr std::size_t kCycloneHeader = 16;
 // that do not run for some seconds. If a client's socket had no space for a reply, it is sent again
 // after the next heartbeat.
 constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
-// Fewer replies are kept if they may be large, to bound the memory.
+// If replies may be large, fewer of them are kept, to limit the memory.
 constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
 
 std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const std::byte> middle,

@@ -29,7 +29,7 @@ TEST(TypeHash, MessagesHaveTheHashThatRosPublishes) {
        "RIHS01_cf43a306adff3337a0a47143d8f5689933bc70a30478f13b077dc1fe3bc5ad17"},
       {"simulation_interfaces/msg/SimulatorFeatures",
        "RIHS01_8b101c8529bc0ea3dcf056078254768f39832b9ef0adaf93bd5cea96c0de3305"},
-      // This type has a field that is a fixed array of char.
+      // Tests a field that is a fixed array of char.
       {"service_msgs/msg/ServiceEventInfo",
        "RIHS01_41bcbbe07a75c9b52bc96bfd5c24d7f0fc0a08c0cb7921b3373c5732345a6f45"},
   };

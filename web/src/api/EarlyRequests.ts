@@ -29,7 +29,7 @@ export class EarlyRequests {
       const path = simulationPath(chosen.name);
       this.ask(path).catch(() => {});
       const { bodies } = (await this.ask(`${path}/scene`)) as { bodies: { model: string }[] };
-      // The browser keeps models, which never change.
+      // Models are requested only to fill the browser's cache. They never change.
       for (const model of new Set(bodies.map((body) => body.model))) {
         this.fetchPage(this.url(`api/models/${encodeURIComponent(model)}.glb`)).catch(() => {});
       }

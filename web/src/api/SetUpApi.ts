@@ -74,7 +74,7 @@ export interface SavedWorld {
 
 const UPLOAD_TIMEOUT_MS = 300_000;
 
-// Reading a world and starting behaviours may take long.
+// The time limit of requests that read a world or start behaviours, which may take long.
 const LONG_TIMEOUT_MS = 60_000;
 
 export class SetUpApi {

@@ -37,7 +37,8 @@ export interface Drive {
 
 // The time limit is long, because stopping and resetting wait for the behaviours.
 const ACTION_TIMEOUT_MS = 60_000;
-// Wall-clock seconds. The page repeats a drive command several times in this period.
+// A robot stops this number of wall-clock seconds after its last drive command. The page repeats a
+// command several times in this period.
 const DRIVE_TIMEOUT_S = 1;
 // The time limit is long, because the server reads both recordings completely.
 const DIFFERENCE_TIMEOUT_MS = 120_000;

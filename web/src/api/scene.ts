@@ -228,7 +228,7 @@ function parseInertial(value: unknown, where: string): SceneInertial {
   };
 }
 
-// Numbers, flags and texts; the server writes nothing else.
+// A parameter is a number, a flag or a text. The server writes nothing else.
 function parseParameters(value: unknown): SceneSensor["parameters"] {
   const entries = typeof value === "object" && value !== null ? Object.entries(value) : [];
   return Object.fromEntries(entries.filter(([, each]) => ["number", "boolean", "string"].includes(typeof each)));

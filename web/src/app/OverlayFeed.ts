@@ -56,7 +56,7 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
   ];
 }
 
-// A recording contains only the beams of all robots together.
+// A recording has one topic with the beams of all robots, and no topic for each robot.
 function beamsToDraw(robots: readonly SceneBody[], selection: string | null, isReplay: boolean): string | null {
   if (robots.length <= MOST_ROBOTS_WITH_BEAMS) return BEAMS_TOPIC;
   if (!robots.some(({ name }) => name === selection)) return null;
@@ -98,7 +98,7 @@ export class OverlayFeed {
   }
 
   private listen(simulation: string | null, topics: string[]): void {
-    // In another simulation, a topic of the same name is another stream.
+    // In another simulation, a topic of the same name is another stream, so it is subscribed again.
     const kept = new Set(simulation === this.simulation ? topics : []);
     this.simulation = simulation;
     for (const [topic, end] of [...this.ends]) {

@@ -87,7 +87,8 @@ export class PastControl {
       const kept = await this.api.kept(simulation);
       if (!isWanted()) return;
       if (kept === null) return this.store.set({ kept });
-      // After a reset, simulated time starts at 0 again.
+      // After a reset, simulated time starts at 0 again, so the events of the earlier run are
+      // removed.
       if (kept.end < this.asked - OVERLAP_S) {
         this.asked = 0;
         this.store.set({ events: [] });

@@ -26,7 +26,8 @@ export class RecordControl {
       }),
       ({ simulation, isOpen }, before) => {
         clearTimeout(this.timer);
-        // After a server has ended, its last recording remains.
+        // The last recording is still shown after its server has ended. Only another simulation
+        // removes it.
         if (simulation !== before?.simulation) this.store.set({ recording: null });
         if (simulation !== null && isOpen) void this.ask(simulation);
       },

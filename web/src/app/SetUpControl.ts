@@ -48,7 +48,7 @@ export class SetUpControl {
     await this.hold(async () => {
       const [worlds, models] = await Promise.all([this.api.worlds(), this.api.models()]);
       const world = worlds.includes(FIRST_WORLD) ? FIRST_WORLD : (worlds[0] ?? "");
-      // The user may have dropped a world file during the request.
+      // The user may have dropped a world file during the request, so a chosen world is kept.
       this.patch(({ scenario }) => ({ worlds, models, scenario: { ...scenario, world: scenario.world || world } }));
     });
     await this.preview();
@@ -227,7 +227,7 @@ export class SetUpControl {
     this.patch(() => ({ isHeld: false }));
   }
 
-  // The offered behaviours may change while the form is open.
+  // The offered behaviours may change while the form is open, so they are requested repeatedly.
   private async lookForOffers(): Promise<void> {
     clearTimeout(this.offersTimer);
     const asked = [this.api.behaviours(), this.api.ros2()] as const;

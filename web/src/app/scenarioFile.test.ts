@@ -4,7 +4,7 @@ import { readScenario, scenarioFile, scenarioFileName } from "./scenarioFile";
 
 const HOUSE = { ...EMPTY_SCENARIO, name: "two rooms", world: "office", record: true };
 
-// jsdom's Blob has no text().
+// Response is used, because jsdom's Blob has no text().
 const textOf = (blob: Blob) => new Response(blob).text();
 
 test("a recording is saved with a name for gsv run, and loaded as a choice", async () => {

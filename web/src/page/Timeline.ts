@@ -158,7 +158,7 @@ function speedChoice(app: App): HTMLElement {
   app.store.watch(
     ({ replay }) => replay?.speed ?? 1,
     (speed) => {
-      // The replay may have a speed that is not in the list.
+      // The replay may have a speed that is not in the list, so this speed is added.
       const speeds = [...new Set([...SPEEDS, speed])].sort((a, b) => a - b);
       choice.replaceChildren(
         ...speeds.map((each) => new Option(`${each}×`, String(each), false, each === speed)),

@@ -198,5 +198,5 @@ function drawJaws(lines: LineLayer, worldFromSensor: Matrix4, { opening, reach, 
   }
 }
 
-// The lines of a sound's rings.
+// The number of lines that draw the rings of one sound.
 export const RING_LINES = RINGS * RING_SEGMENTS;

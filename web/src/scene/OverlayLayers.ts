@@ -59,7 +59,7 @@ export class OverlayLayers {
   private readonly boxes = new Map<SceneInertial, EquivalentBox>();
   private selection: string | null = null;
 
-  // Thin lines are used without a graphics card.
+  // `thin`: lines of one pixel, for browsers without a graphics card.
   constructor(mostBeams: number, thin = false) {
     this.beams = new BeamLayer(mostBeams, thin);
     this.lines = new LineLayer({ widthPx: 2, onTop: true, thin });

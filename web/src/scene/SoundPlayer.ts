@@ -39,7 +39,7 @@ export class SoundPlayer {
 
   private begin(topic: string, sound: Sound): void {
     this.context ??= this.makeContext();
-    // Browsers allow sound only after the user has interacted with the page.
+    // Browsers suspend audio until the user has interacted with the page.
     if (this.context.state === "suspended") void this.context.resume();
     const source = sourceOf(this.context, sound);
     const gain = this.context.createGain();

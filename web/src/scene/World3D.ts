@@ -123,7 +123,7 @@ export class World3D {
     this.stage = this.makeStage();
     this.drawer = this.makeDrawer();
     this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.follower.ring.mesh, this.arranger.handle.group, this.tools.group);
-    // The canvas is below the elements that lie over the image.
+    // The canvas comes first in the host, so that the other elements lie over the image.
     host.prepend(canvas, this.signs.labels.element);
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });

@@ -107,7 +107,7 @@ export function loadShown(storage: Pick<Storage, "getItem"> | null): Shown {
   try {
     kept = JSON.parse(storage?.getItem(KEY) ?? "null");
   } catch {
-    // The stored text was written by another program.
+    // Ignored: the stored text was written by another program.
   }
   const flags = (typeof kept === "object" && kept !== null ? kept : {}) as Record<string, unknown>;
   const shown = { ...FIRST_SHOWN };

@@ -26,7 +26,7 @@ export function loadChangedKeys(storage: Pick<Storage, "getItem"> | null): Chang
   try {
     kept = JSON.parse(storage?.getItem(CHANGED) ?? "null");
   } catch {
-    // The stored text was written by another program.
+    // Ignored: the stored text was written by another program.
   }
   if (typeof kept !== "object" || kept === null) return {};
   const isKey = (key: unknown): key is string => typeof key === "string" && [...key].length === 1;

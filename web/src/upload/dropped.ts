@@ -20,7 +20,7 @@ export function worldsFirst(files: readonly DroppedFile[]): Delivery {
   if (files.length === 1) return { files: [...files], worlds: 1 };
   const candidates = files.filter(({ path }) => rankOf(path) < NO_WORLD).sort(byLikelihood);
   if (candidates.length === 0) throw new Error("These files contain no world. Add a file whose name ends in .world or .sdf.");
-  // If there are worlds, the models are parts of them.
+  // If there are worlds, the models are parts of them, so no model can be chosen.
   const worlds = candidates.filter(({ path }) => rankOf(path) < A_MODEL);
   const front = new Set(worlds.length > 0 ? worlds : candidates.slice(0, 1));
   return { files: [...front, ...files.filter((each) => !front.has(each))], worlds: front.size };

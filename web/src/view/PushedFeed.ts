@@ -94,7 +94,7 @@ export class PushedFeed implements Feed {
   }
 }
 
-// A page in the background needs no images.
+// Resolves when the page is visible, because a page in the background needs no images.
 async function whenVisible(isHidden: () => boolean): Promise<void> {
   while (isHidden()) {
     await new Promise((resolve) => document.addEventListener("visibilitychange", resolve, { once: true }));

@@ -35,7 +35,7 @@ export interface ViewParts {
 
 export class Workspace {
   readonly element = element("main", { class: "workspace" });
-  // Called after a change by the user or a program; not on narrow screens.
+  // Called after the user or a program has changed the layout, but not on narrow screens.
   onChange: (layout: string) => void = () => {};
   private readonly api: DockviewApi;
   private readonly frames = new Map<string, Frame>();

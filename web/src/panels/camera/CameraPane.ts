@@ -123,7 +123,7 @@ export function mount(ports: Ports): MountedPanel {
       build();
     },
   );
-  // In another simulation, a topic of the same name is another stream.
+  // In another simulation, a topic of the same name is another stream, so it is subscribed again.
   state.watch(
     ({ simulation, view, replay }) => ({ simulation, isStarting: view === "starting", isRecorded: replay !== null }),
     listen,

@@ -18,7 +18,7 @@ const NOTHING_YET = "No data yet. The panel fills when the server responds.";
 export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "topics" | "server">): MountedPanel {
   const store = new Store<Diagnostics>(NO_DIAGNOSTICS);
   const feed = new DiagnosticsFeed(store, topics, server);
-  // The data of one simulation does not apply to another.
+  // The data of one simulation does not apply to another, so it is removed.
   state.watch(
     ({ simulation }) => simulation,
     () => store.set(NO_DIAGNOSTICS),

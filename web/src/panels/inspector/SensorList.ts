@@ -13,7 +13,7 @@ import { plotButton } from "./plotButton";
 type Ports = Pick<PanelPorts, "state" | "topics" | "cameras" | "plots">;
 
 const UPDATE_MS = 200; // period of updates, so that numbers can be read
-const LARGE_TYPES = ["depth_camera"]; // types whose readings are point clouds
+const LARGE_TYPES = ["depth_camera"]; // sensor types whose readings are point clouds
 
 export function createSensorList(ports: Ports): HTMLElement {
   const list = element("ul", { class: "sensors", "aria-label": "Sensors" });

@@ -41,7 +41,7 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
     steps.show(costs.longest(MAX_STEPS));
     holdUps.show(costs);
   };
-  // A server without this parameter sends no answer.
+  // A server without this parameter sends no answer, so the value stays unknown.
   const ask = async (key: keyof World, parameter: string) => {
     const value = await server.parameter(parameter).catch(() => null);
     if (typeof value !== "number") return;

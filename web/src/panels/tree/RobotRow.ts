@@ -94,7 +94,7 @@ export class RobotRow {
     const name = status.behaviour || "no behaviour";
     const behaviour = isAtWork ? name : `${name} · ${agent}`;
     if (kind === "robot") return behaviour;
-    // A recorded robot cannot be changed.
+    // A recorded avatar cannot be driven, so its keys are not shown.
     if (kind === "avatar") return this.ports.state.get().replay ? "avatar" : "avatar · W A S D";
     return status.behaviour ? `station · ${behaviour}` : "station";
   }

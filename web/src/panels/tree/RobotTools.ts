@@ -8,7 +8,7 @@ import type { PanelPorts } from "../contract/ports";
 
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
-// With fewer robots, no search is needed.
+// The number of robots from which the search field is shown.
 const FEWEST_ROBOTS = 6;
 
 const SORTING_LABELS: Record<Sorting, string> = {

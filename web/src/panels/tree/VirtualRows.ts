@@ -98,7 +98,8 @@ export class VirtualRows<Entry> {
       row.top = top;
       row.element.style.transform = `translateY(${top}px)`;
     }
-    // Keys move through the rows in their visible order.
+    // The elements have the order of the entries, because keyboard users move through them in this
+    // order.
     const there = this.list.children[nth];
     if (there !== row.element) this.list.insertBefore(row.element, there ?? null);
     setAttribute(row.element, "aria-setsize", String(this.entries.length));
