@@ -122,7 +122,8 @@ base::Result<Recovery> RecoverToFile(const std::string& input, const std::string
   std::error_code error;
   std::filesystem::rename(partial.path(), output, error);
   if (error) {
-    return Fail(ErrorCode::kUnavailable, "cannot name the new file: " + error.message(), output);
+    return Fail(ErrorCode::kUnavailable, "cannot rename the finished file: " + error.message(),
+                output);
   }
   return recovery;
 }
