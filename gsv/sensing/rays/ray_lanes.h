@@ -80,13 +80,13 @@ GSV_AVX2_INLINE Spans PipeSpans(const Vectors& origins, const Vectors& direction
   const __m256d square = radius * radius;
   const __m256d squared = square - (nx * nx + ny * ny + nz * nz);
   const __m256d half = _mm256_sqrt_pd(squared / speed);
-  const __m256d passes = _mm256_cmp_pd(squared, zero, _CMP_LT_OQ);
+  const __m256d misses = _mm256_cmp_pd(squared, zero, _CMP_LT_OQ);
   const __m256d is_upright = _mm256_cmp_pd(speed, zero, _CMP_EQ_OQ);
   const __m256d is_within = _mm256_cmp_pd(o.x * o.x + o.y * o.y + zero, square, _CMP_LE_OQ);
   const __m256d enter_if_upright = _mm256_blendv_pd(infinity, minus_infinity, is_within);
-  return {_mm256_blendv_pd(_mm256_blendv_pd(middle - half, infinity, passes), enter_if_upright,
+  return {_mm256_blendv_pd(_mm256_blendv_pd(middle - half, infinity, misses), enter_if_upright,
                            is_upright),
-          _mm256_blendv_pd(_mm256_blendv_pd(middle + half, minus_infinity, passes),
+          _mm256_blendv_pd(_mm256_blendv_pd(middle + half, minus_infinity, misses),
                            _mm256_xor_pd(enter_if_upright, sign), is_upright)};
 }
 
