@@ -80,7 +80,7 @@ std::vector<Route> HistoryApi::Routes() {
        "Get which part of the past of a simulation is kept"},
       {"POST", simulation + "/history", kWatch, false, kCommanders,
        of([this](const auto& of_name, const Request&) { return Open(of_name); }),
-       "Open the kept past of a simulation as your own replay"},
+       "Open the stored past of a simulation as your own replay"},
       {"GET", simulation + "/events", kWatch, false, kReaders,
        of([this](const auto& of_name, const Request& request) { return Events(of_name, request); }),
        "List the events so far, or those of a recording"},

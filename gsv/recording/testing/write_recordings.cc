@@ -30,7 +30,7 @@ std::string TopicOf(const messages::Schema& schema) {
 
 // Writes kRounds messages of each type. Message number `round` of each type has the time round ·
 // kPeriod, and values that depend on `round`.
-base::Status WriteAtomically(const std::string& path) {
+base::Status WriteSampleMessages(const std::string& path) {
   auto writer = McapWriter::Create(path, {.when_full = WhenFull::kWait});
   if (!writer) return base::Fail(writer.error());
   const std::string world = "<sdf version='1.9'/>";
@@ -66,7 +66,7 @@ base::Status WriteRun(const std::string& path) {
 base::Status Run(const std::filesystem::path& folder) {
   const std::string whole = folder / "whole.mcap";
   const std::string cut = folder / "cut.mcap";
-  if (base::Status status = WriteAtomically(whole); !status) return status;
+  if (base::Status status = WriteSampleMessages(whole); !status) return status;
   const auto info = ReadInfo(whole);
   if (!info) return base::Fail(info.error());
   std::filesystem::copy_file(whole, cut);
