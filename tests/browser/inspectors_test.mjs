@@ -9,7 +9,7 @@ import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
 import { keepPicture } from "./documentation.mjs";
 import { changedPixels, picture } from "./pixels.mjs";
-import { settled, until, viewClip } from "./viewing.mjs";
+import { phaseIs, settled, until, viewClip } from "./viewing.mjs";
 
 const box = (size) => `<geometry><box><size>${size}</size></box></geometry>`;
 const WORLD = `<?xml version="1.0"?>
@@ -126,18 +126,25 @@ test("the command palette finds objects and sensors", async () => {
   // The station with the sensor is selected in the list of robots.
   await until(async () => (await page.locator('[data-robot="post"]').count()) > 0, "the station in the list");
   // Long names of parameters leave room for the values.
-  const widths = await page.locator(".inspector-body .world-inspector dd").evaluateAll((all) => all.map((each) => each.clientWidth));
-  assert.ok(widths.length > 3 && widths.every((width) => width > 90), `${widths}`);
+  const values = page.locator(".inspector-body .world-inspector dd");
+  await until(async () => {
+    const widths = await values.evaluateAll((all) => all.map((each) => each.clientWidth));
+    return widths.length > 3 && widths.every((width) => width > 90);
+  }, "values wider than 90 pixels");
 });
 
 test("an arrow shows the force of the ground on the crate", async () => {
   const isPink = (r, g, b) => r > 150 && b > 120 && g < 0.6 * r;
+  await page.getByRole("button", { name: "Pause", exact: true }).click();
+  await phaseIs(page, "paused");
   const clip = await viewClip(page);
   await settled(page);
   const without = await picture(page, clip);
   await page.keyboard.press("3");
-  // The picture never settles, because each new state of the running simulation has contacts.
-  await until(async () => changedPixels(without, await picture(page, clip), isPink) > 40, "the contacts of the crate with the ground");
+  await until(async () => {
+    await settled(page);
+    return changedPixels(without, await picture(page, clip), isPink) > 40;
+  }, "the contacts of the crate with the ground");
   assert.ok((await page.evaluate(() => window.gsv.topics)).includes("/gsv/current_contacts"));
   await keepPicture(page, "contacts");
   await page.keyboard.press("3");
