@@ -119,7 +119,8 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   };
   if (real.size() <= 16) {
     for (std::size_t i = 0; i < real.size(); ++i) {
-      share(fmt::format("share of echoes at {:.1f}°", log.beam_angles[i] * 180 / geometry::kPi),
+      share(fmt::format("share of beams with an echo at {:.1f}°",
+                        log.beam_angles[i] * 180 / geometry::kPi),
             real[i], simulated[i], count);
     }
   } else {
@@ -134,8 +135,8 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
       std::size_t to = from + 1;
       const double first = log.beam_angles[from];
       while (to < real.size() && log.beam_angles[to] - first < kSector) ++to;
-      share(fmt::format("share of echoes from {:.0f} to {:.0f}°", first * 180 / geometry::kPi,
-                        log.beam_angles[to - 1] * 180 / geometry::kPi),
+      share(fmt::format("share of beams with an echo from {:.0f} to {:.0f}°",
+                        first * 180 / geometry::kPi, log.beam_angles[to - 1] * 180 / geometry::kPi),
             mean(real, from, to), mean(simulated, from, to),
             count * static_cast<double>(to - from));
       from = to;

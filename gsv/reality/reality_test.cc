@@ -136,7 +136,8 @@ constexpr PanelTest kPanels[] = {{.17, -24, 26},  {.32, -23, 27},  {.46, -23, 30
 // Maximum distances, in m, at which the sonar detects the rule and the sheet.
 constexpr double kRule = 2.45, kSheet = 1.68;
 
-// Returns the errors (degrees) at every second distance, beginning with `first`.
+// Returns the errors of the half angle, in degrees, for every second entry of kPanels, beginning
+// with entry `first`. `step` is the resolution of the measured half angle, in degrees.
 std::vector<double> PanelErrors(const BeamTest& test, std::size_t first, double step) {
   std::vector<double> errors;
   for (std::size_t i = first; i < std::size(kPanels); i += 2) {
@@ -260,7 +261,7 @@ TEST_F(RealLog, ASonarRingDetectsAsManyEchoesAsARealOne) {
   Plot(*comparison);
   for (const Row& row : comparison->rows) {
     std::printf("%s: %.3f %.3f\n", row.what.c_str(), row.real, row.simulated);
-    if (!row.what.starts_with("share of echoes")) continue;
+    if (!row.what.starts_with("share of beams with an echo")) continue;
     AddResult(row.what + " (within 0.1)", "", row.real, row.simulated, row.confidence,
               std::abs(row.real - row.simulated) <= 0.1);
     EXPECT_NEAR(row.simulated, row.real, 0.3) << row.what;

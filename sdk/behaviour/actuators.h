@@ -23,6 +23,7 @@ class Lamp : public Sensor {
   static constexpr const char* kType = readings::Lamp::kType;
   using Sensor::Sensor;
 
+  // The colour and brightness that the lamp has now.
   using Glow = readings::Lamp;
 
   base::Status Set(const Colour& colour, double brightness = 1) {

@@ -53,7 +53,7 @@ TEST_F(TestCommand, ReportsTheScenariosOfAFolder) {
   const std::string xml = TextOf(junit);
   EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"1\""));
   EXPECT_THAT(xml, HasSubstr("name=\"worse\""));
-  EXPECT_THAT(xml, HasSubstr("<error message=\"it ended with exit code 3\">"));
+  EXPECT_THAT(xml, HasSubstr("<error message=\"the run ended with exit code 3\">"));
 }
 
 TEST_F(TestCommand, FailureKeepsItsFiles) {

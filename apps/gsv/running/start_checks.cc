@@ -70,7 +70,9 @@ class StartCheck {
       : snapshot_(std::move(snapshot)) {
     const auto& bodies = snapshot_->layout->bodies;
     for (std::size_t body = 0; body < bodies.size(); ++body) {
-      if (!bodies[body].is_robot()) AddThings(*snapshot_, static_cast<int>(body), things_);
+      if (bodies[body].is_robot()) continue;
+      AddThings(*snapshot_, static_cast<int>(body), things_);
+      if (bodies[body].is_static()) AddThings(*snapshot_, static_cast<int>(body), walls_);
     }
   }
 
@@ -150,10 +152,12 @@ class StartCheck {
     return std::abs(down - 1) < 1e-3;
   }
 
+  // Whether walls surround the middle of the world. Bodies that can move are no walls.
   bool IsWorldEnclosed() {
+    if (walls_.is_empty()) return false;
     if (!is_enclosed_) {
-      const double x = (things_.min_x + things_.max_x) / 2;
-      const double y = (things_.min_y + things_.max_y) / 2;
+      const double x = (walls_.min_x + walls_.max_x) / 2;
+      const double y = (walls_.min_y + walls_.max_y) / 2;
       is_enclosed_ = !IsInSolid(x, y) && Walls(x, y, -1) >= kEnclosed;
     }
     return *is_enclosed_;
@@ -161,6 +165,7 @@ class StartCheck {
 
   const std::shared_ptr<const world::Snapshot> snapshot_;
   Extent things_;
+  Extent walls_;  // extent of the static bodies
   sensing::RaySceneCache rays_;
   std::shared_ptr<const sensing::RayScene> scene_;
   std::optional<bool> is_enclosed_;

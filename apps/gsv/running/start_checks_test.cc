@@ -60,6 +60,12 @@ std::vector<std::string> Warnings(std::vector<world::Body> bodies, double x, dou
   return sentences;
 }
 
+TEST(StartChecks, BodiesThatCanMoveAreNoWalls) {
+  std::vector<world::Body> bodies = Walls();
+  for (world::Body& body : bodies) body.kind = world::BodyKind::kRigidBody;
+  EXPECT_THAT(Warnings(std::move(bodies), 7, 0, 0), IsEmpty());
+}
+
 TEST(StartChecks, StartBetweenWallsIsNoProblem) {
   EXPECT_THAT(Warnings(Walls(), 3, -4, 3.1), IsEmpty());
 }

@@ -130,7 +130,7 @@ std::string Message(const ChildOutcome& outcome) {
   std::string message;
   for (const auto& [time, line] : lines) message += (message.empty() ? "" : "\n") + line;
   if (!message.empty() && outcome.ending == "exit code 1") return message;
-  message += (message.empty() ? "" : "\n") + ("it ended with " + outcome.ending);
+  message += (message.empty() ? "" : "\n") + ("the run ended with " + outcome.ending);
   return outcome.errors.empty() ? message : message + "\n" + outcome.errors;
 }
 

@@ -50,7 +50,8 @@ class ImpulseRows {
   // Removes all.
   void Clear();
 
-  // Adds a body with these changes of velocities so far. Returns the index at which they begin.
+  // Adds a body whose velocities earlier impulses have already changed by `velocities`. Returns the
+  // index of the body's first value.
   int AddBody(std::span<const double> velocities);
   std::span<const double> velocities(int first, int count) const;
 

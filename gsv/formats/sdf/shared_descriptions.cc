@@ -17,7 +17,8 @@ namespace {
 sdf::ParamPtr CloneFor(const sdf::ElementPtr& owner, const sdf::Param& original) {
   const sdf::ParamPtr clone = original.Clone();
   if (!clone->SetParentElement(owner)) {
-    throw std::logic_error("the copy of " + original.GetKey() + " has a value that cannot be read");
+    throw std::logic_error("internal error: the copied value of the SDFormat parameter " +
+                           original.GetKey() + " cannot be parsed");
   }
   return clone;
 }

@@ -108,9 +108,9 @@ class UrdfRepair {
       }
       const char* type = element->Attribute("type");
       if (type == nullptr || types.count(type) == 0) {
-        Warn(*element, what + " is of " +
+        Warn(*element, what + " has " +
                            (type == nullptr ? "no type" : "the unknown type " + Quoted(type)) +
-                           "; it is fixed");
+                           "; it is read as a fixed joint");
         element->SetAttribute("type", "fixed");
       }
       above_[joint.child] = joints_.size();

@@ -174,7 +174,8 @@ TEST_F(PushedViewsTest, AClientThatReportsNoImagesGetsFewImages) {
   const std::shared_ptr<ViewClient> other = std::make_shared<ViewClient>();
   hub_.Add(other);
   Send(Watch("size=32x24&fps=60", 1), other);
-  // The other client receives further images. `client_` reports none, and gets at most two.
+  // The other client reports each image as shown, and gets further images. `client_` reports no
+  // image as shown, so it gets at most two.
   for (int i = 0; i < 5; ++i) {
     Send(Shown(other->NextImage()), other);
     source_->Change();

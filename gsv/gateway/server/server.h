@@ -56,7 +56,8 @@ struct ServerOptions {
   std::shared_ptr<metrics::Traffic> traffic{};  // counters; null if nothing is counted
 };
 
-// Handles the requests of a server that have a route and permission.
+// Handles the requests that reach a server, after the server has found their route and checked
+// their permission.
 class Handler {
  public:
   virtual ~Handler() = default;

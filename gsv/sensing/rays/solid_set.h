@@ -113,8 +113,8 @@ class SolidSet {
   // Whether the set contains planes or triangles, which CastAtOthers() tests.
   bool HasOthers() const { return !planes_.empty() || !triangles_.empty(); }
 
-  // Adds the shapes within the reach of `candidates`, with numbers that contain the bits of `mark`.
-  // Returns false if there is no fast method.
+  // Adds to `candidates` the shapes within its reach, each with its number combined with `mark` by a
+  // bitwise OR. Returns false, and adds nothing, if this set has no fast search.
   bool Gather(CandidateSet& candidates, std::uint32_t mark) const;
 
   // Returns the normal, against the ray, at the point where the ray hits the solid of Nearest.

@@ -56,7 +56,7 @@ function stepsPart(app: App): HTMLElement {
     "Take steps",
   );
   const field = numberField(
-    "Steps (paused)",
+    "Single steps, while paused",
     null,
     (value) => {
       count = Math.max(1, Math.round(value ?? FIRST_STEPS));

@@ -16,7 +16,7 @@ export interface Path {
   points: [number[], number[]];
 }
 
-// The axes of the chart.
+// How the axes of the chart are drawn.
 export interface PathView {
   label: string; // label of the horizontal axis
   isEqual: boolean; // whether both axes have the same scale

@@ -22,7 +22,7 @@ function cart(): Object3D {
   return root;
 }
 
-test("each part knows its link by the original name", () => {
+test("each part has the name of its link as in the scene, even if the loader changes names", () => {
   const { parts } = makeTemplate(cart(), ["chassis", "wheel:left"]);
   expect(parts.map((part) => part.link)).toEqual(["chassis", "wheel:left"]);
 });

@@ -17,6 +17,7 @@ export interface SignsShown {
   states: boolean;
 }
 
+// The labels with the names, and the marks of the states.
 export class RobotSigns {
   readonly labels: LabelLayer;
   readonly marks = new StateMarks();
