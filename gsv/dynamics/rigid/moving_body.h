@@ -105,7 +105,7 @@ class MovingBody {
   geometry::Vector3 velocity_, angular_velocity_;  // velocities of a kinematic body
   geometry::Vector3 outer_acceleration_;  // m/s²: acceleration of a single body due to outer forces
   double resting_speed_before_ = 0;
-  double separating_speed_ = 0;  // m/s: the greatest of Separate() in this step
+  double separating_speed_ = 0;  // m/s: the greatest speed given to Separate() in this step
   bool is_held_ = false;         // kResting applies in this step
 };
 

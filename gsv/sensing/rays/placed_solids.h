@@ -62,8 +62,9 @@ class PlacedSolids final : public RayScene {
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
   // Finds the bounded solids within the fan's reach. Returns false if there are too many.
   bool FindShadings(const Fan& fan, int ignored_body, Shadings& shadings) const;
-  // Casts the rays of a packet at the solids whose spheres they touch. Sets only the distances of
-  // `nearest`, and the body to any that is not -1.
+  // Casts the rays of a packet at the solids whose spheres they touch. For each hit, sets the
+  // distance in `nearest`, and the body to some number other than -1. The other members of
+  // `nearest` may be wrong.
   void CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
                      const RayPacket& packet, int ignored_body, std::span<Nearest> nearest) const;
   // Casts a ray at everything that index() does not contain: planes, and the triangles of static
