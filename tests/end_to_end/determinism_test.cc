@@ -69,6 +69,34 @@ TEST(Promise, TheSameSeedGivesTheSameHash) {
   }
 }
 
+// The three robots with rigid-body dynamics, with the disturbances of the other tests combined.
+TEST(Determinism, RigidRobotsHaveTheSameHashInEveryRun) {
+  const std::vector<std::string> rigid{"--movement", "pebble=rigid"};
+  std::vector<std::string> hashes;
+  const auto run = [&](const Handicap& handicap, const std::vector<std::string>& more) {
+    const BrokerProcess broker;
+    const Fleet fleet(broker.reference(), handicap);
+    std::vector<std::string> arguments = rigid;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = RunProgram("gsv", FleetRun(broker.reference(), arguments));
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    const auto report = outcome.LastLine();
+    for (const auto& robot : report["robots"]) EXPECT_GT(robot["distance_m"], 0.02) << robot;
+    hashes.push_back(HashOf(report));
+  };
+  run({}, {"--threads", "1"});
+  EXPECT_EQ(hashes[0].size(), 16u);
+  EXPECT_NE(hashes[0], UndisturbedHash());
+  for (int round = 0; round < Rounds(); ++round) {
+    const std::string fault = "GSV_FAULT_DELAY=seed=" + std::to_string(round + 1) + ",max_ms=4";
+    run({.wrapper = {"env", fault, "nice", "-n", "19", "taskset", "-c", "0"},
+         .in_reverse_order = true},
+        {"--threads", "3"});
+    run({}, {"--in-process", "--threads", "2"});
+  }
+  for (const std::string& hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
 TEST(Determinism, RepeatedRunHasTheSameHash) {
   const std::string expected = UndisturbedHash();
   for (int run = 0; run < std::max(3, Rounds()); ++run) ASSERT_EQ(UndisturbedHash(), expected);
