@@ -18,7 +18,7 @@ namespace gsv::world {
 // How a body moves.
 enum class BodyKind : std::uint8_t {
   kStatic,      // never moves, such as a wall
-  kUnmoved,     // not static, but nothing moves it: it has no drive and no collisions
+  kUnmoved,     // not static, but nothing moves it: no drive, collisions or joint to the world
   kPlanarBase,  // planar kinematics, by its drive
   kAvatar,      // planar kinematics, driven by a user
   kRigidBody,   // rigid-body dynamics: it can fall, tip over and be pushed, and its joints move
