@@ -408,7 +408,7 @@ class WorldWriter {
              (paths.size() == 1 ? " file" : " files") + " by the path on this computer, such as " +
              *paths.begin() +
              ". To load it on another computer, put the folder that contains the model's folder on "
-             "the model path (--model-path, or GZ_SIM_RESOURCE_PATH) before you save it",
+             "the model path (--model-path, or GZ_SIM_RESOURCE_PATH) and save again",
          original_.source);
   }
 

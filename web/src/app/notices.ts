@@ -5,6 +5,7 @@ import type { Store } from "../state/Store";
 const LONGEST_LIST = 4;
 const NOTE_MS = 6000;
 const ERROR_MS = 12_000;
+const READING_MS = 60; // for each character: long messages stay as long as a slow reader needs
 
 let nextId = 1;
 
@@ -30,6 +31,7 @@ function post(store: Store<State>, kind: "error" | "note", sentence: string, act
       -LONGEST_LIST,
     ),
   }));
-  setTimeout(() => dismiss(store, id), kind === "error" || action ? ERROR_MS : NOTE_MS);
+  const least = kind === "error" || action ? ERROR_MS : NOTE_MS;
+  setTimeout(() => dismiss(store, id), Math.max(least, READING_MS * sentence.length));
   return id;
 }
