@@ -49,8 +49,8 @@ std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const s
 
 bool HasCycloneHeader(const dds::Request& request) {
   const dds::Guid& writer = request.writer;
-  // DDS Security sets the first bit of a GUID that it has hashed (1.1, 9.3.3). const bool is_hashed
-  // = (writer[0] & 0x80) != 0;
+  // DDS Security sets the first bit of a GUID that it has hashed (1.1, 9.3.3).
+  const bool is_hashed = (writer[0] & 0x80) != 0;
   if (is_hashed) return request.related.writer == dds::Guid{};
   return writer[0] == 0x01 && writer[1] == 0x10;
 }
