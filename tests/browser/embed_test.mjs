@@ -45,8 +45,6 @@ async function open(content) {
   return { page, faults };
 }
 
-const image = (page) => page.locator("gsv-view").evaluate((view) => new Promise((resolve) => view.addEventListener("image", resolve, { once: true })));
-
 async function shown(page) {
   const clip = await page.locator("gsv-view").boundingBox();
   let now;
@@ -83,8 +81,15 @@ test("the element follows a robot, and shows an error for an unknown one", async
   assert.equal(await view.locator("[role=img]").getAttribute("aria-label"), "Pebble at work");
   await view.evaluate((element) => element.setAttribute("follow", "nobody"));
   await view.getByText("cannot be loaded").waitFor();
-  await view.evaluate((element) => element.setAttribute("follow", "pebble"));
-  await withTimeout(image(page), 30_000, "the view again");
+  // The listener must exist before the change, because the image may arrive at once.
+  const again = view.evaluate(
+    (element) =>
+      new Promise((resolve) => {
+        element.addEventListener("image", () => resolve(), { once: true });
+        element.setAttribute("follow", "pebble");
+      }),
+  );
+  await withTimeout(again, 30_000, "the view again");
   await view.getByText("cannot be loaded").waitFor({ state: "hidden" });
   assert.deepEqual(faults, []);
   await page.close();
