@@ -411,7 +411,8 @@ TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
       {base + UrdfLink("arm", kMassive) +
            UrdfJoint("j", "revolute", "base", "arm", "<limit lower='-1' upper='1'/>"),
        "has no @effort"},
-      {base + UrdfLink("arm", kMassive) + UrdfJoint("j", "hinge", "base", "arm"), "it is read as a fixed joint"},
+      {base + UrdfLink("arm", kMassive) + UrdfJoint("j", "hinge", "base", "arm"),
+       "it is read as a fixed joint"},
       {base + UrdfLink("arm", kMassive) +
            UrdfJoint("j", "fixed", "base", "arm", "<origin xyz='0 nan 0'/>"),
        "finite numbers are expected; 0 0 0 is used"},

@@ -97,7 +97,7 @@ test("a link to a missing recording shows an error", async () => {
   // would cause errors of the browser.
   await page.close();
   ({ page, faults } = await openPage(browser, `${server.url}?recording=gone.mcap#t=3`));
-  await page.getByText("there is no recording 'gone.mcap' here").waitFor();
+  await page.getByText("there is no recording 'gone.mcap'").waitFor();
   await page.getByRole("link", { name: "All recordings" }).click();
   await item("first run.mcap").waitFor();
   fs.rmSync(path.join(folder, "first run.mcap"));
