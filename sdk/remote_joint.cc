@@ -27,15 +27,15 @@ class RemoteJoint final : public Joint {
 
   const JointTraits& traits() const override { return traits_; }
   void MoveTo(double position) override {
-    Check(position, "position");
+    CheckJoint(position, "position", traits_.name);
     robot_.Try([&] { joint_->move_to(position); });
   }
   void MoveAt(double velocity) override {
-    Check(velocity, "velocity");
+    CheckJoint(velocity, "velocity", traits_.name);
     robot_.Try([&] { joint_->move_at(velocity); });
   }
   void Apply(double effort) override {
-    Check(effort, "effort");
+    CheckJoint(effort, "effort", traits_.name);
     robot_.Try([&] { joint_->apply(effort); });
   }
   void Release() override {
@@ -51,10 +51,6 @@ class RemoteJoint final : public Joint {
   }
 
  private:
-  void Check(double value, const std::string& quantity) const {
-    (void)Finite(value, "the " + quantity + " of the joint \"" + traits_.name + "\"");
-  }
-
   RemoteRobot& robot_;
   sba::JointActuator_var joint_;
   const JointTraits traits_;

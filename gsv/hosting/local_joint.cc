@@ -23,15 +23,15 @@ class LocalJoint final : public Joint {
 
   const JointTraits& traits() const override { return traits_; }
   void MoveTo(double position) override {
-    Check(position, "position");
+    CheckJoint(position, "position", traits_.name);
     robot_.CommandJoint(joint_, {Kind::kPosition, position});
   }
   void MoveAt(double velocity) override {
-    Check(velocity, "velocity");
+    CheckJoint(velocity, "velocity", traits_.name);
     robot_.CommandJoint(joint_, {Kind::kVelocity, velocity});
   }
   void Apply(double effort) override {
-    Check(effort, "effort");
+    CheckJoint(effort, "effort", traits_.name);
     robot_.CommandJoint(joint_, {Kind::kEffort, effort});
   }
   void Release() override { robot_.CommandJoint(joint_, {}); }
@@ -41,10 +41,6 @@ class LocalJoint final : public Joint {
   }
 
  private:
-  void Check(double value, const std::string& quantity) const {
-    (void)Finite(value, "the " + quantity + " of the joint \"" + traits_.name + "\"");
-  }
-
   LocalRobot& robot_;
   const int joint_;
   const JointTraits traits_;

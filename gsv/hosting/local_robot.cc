@@ -251,10 +251,8 @@ base::Result<std::unique_ptr<SensorPort>> LocalRobot::CreatePort(SensorTraits tr
 
 void LocalRobot::Command(const DriveCommand& command) {
   if (!is_running_) return;
+  CheckDrive(command.linear, command.angular, command.lateral, name());
   const world::DriveCommand given{command.linear, command.lateral, command.angular};
-  if (!world::IsFinite(given)) {
-    CheckDrive(command.linear, command.angular, command.lateral, name());
-  }
   if (turn_ != nullptr) {
     turn_->Command(given);
   } else if (const auto ok = agent_->Command(given); !ok) {

@@ -173,8 +173,8 @@ friction/ode + 1.4-
 friction/ode/fdir1 + 1.4- =0 0 0
 friction/ode/mu + 1.4- =1
 friction/ode/mu2 + 1.4- =1
-friction/ode/slip1 - 1.4- =0.0 ; <gsv:slip> and the plugin WheelSlip let wheels slip
-friction/ode/slip2 - 1.4- =0.0 ; <gsv:slip> and the plugin WheelSlip let wheels slip
+friction/ode/slip1 - 1.4- =0.0 ; use <gsv:slip> or the plugin WheelSlip
+friction/ode/slip2 - 1.4- =0.0 ; use <gsv:slip> or the plugin WheelSlip
 friction/torsional - 1.5- ; a contact does not resist turning on the spot
 friction/torsional/coefficient - 1.5- =1.0
 friction/torsional/ode - 1.5-

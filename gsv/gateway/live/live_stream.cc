@@ -112,7 +112,7 @@ void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, 
 double LiveStream::RateFor(const SnapshotTopic& topic) {
   const double size = static_cast<double>(std::max<std::size_t>(1, topic.latest.payload.size()));
   const double lowest = std::min(topic.min_rate, topic.rate);
-  return std::clamp(kMaxPackedBytesPerSecond / size, lowest, topic.rate);
+  return std::clamp(kMaxSnapshotBytesPerSecond / size, lowest, topic.rate);
 }
 
 SharedBytes LiveStream::EncodeClock(const world::Snapshot& snapshot) const {

@@ -22,13 +22,13 @@
 
 namespace gsv::gateway {
 
-// The rate of packed poses, in Hz of wall-clock time. If there are many bodies, the limit of bytes
-// per second reduces it, but not below the lowest rate.
+// The rates of packed poses and of contacts, in Hz of wall-clock time. If there are many bodies or
+// contacts, the limit of bytes per second reduces the rate, but not below the lowest rate.
 inline constexpr double kPackedPosesRate = 20;
 inline constexpr double kMinPackedPosesRate = 8;
 inline constexpr double kContactsRate = 15;
 inline constexpr double kMinContactsRate = 2;
-inline constexpr double kMaxPackedBytesPerSecond = 350'000;
+inline constexpr double kMaxSnapshotBytesPerSecond = 350'000;
 
 // The rate at which Round() is called for a stream with clients, and the highest rate of poses. In
 // Hz of wall-clock time.

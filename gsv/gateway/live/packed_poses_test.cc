@@ -87,8 +87,8 @@ TEST_F(LiveStreamTest, PackedPosesOfACrowdStayBelowTheByteLimit) {
   }
   std::size_t bytes = 0;
   for (const auto& each : client_->data(1)) bytes += each.payload.size();
-  EXPECT_LT(bytes, 2 * kMaxPackedBytesPerSecond * 1.1);
-  EXPECT_GT(bytes, 2 * kMaxPackedBytesPerSecond * 0.8);
+  EXPECT_LT(bytes, 2 * kMaxSnapshotBytesPerSecond * 1.1);
+  EXPECT_GT(bytes, 2 * kMaxSnapshotBytesPerSecond * 0.8);
 }
 
 }  // namespace
