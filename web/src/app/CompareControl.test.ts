@@ -63,6 +63,35 @@ test("the second recording plays at the same speed, and seeks only if its time d
   expect(other.seek).toHaveBeenCalledTimes(seeks);
 });
 
+test("the second recording seeks again after a pause, because it played on before the pause", async () => {
+  const { store, other, control } = compare();
+  await control.with("yesterday.mcap");
+  await vi.waitFor(() => expect(other.seek).toHaveBeenCalled());
+  let phase: "running" | "paused" = "running";
+  const calls: string[] = [];
+  other.seek.mockImplementation(async (_, time) => (calls.push(`seek ${time}`), simulationStatus(phase, { time })));
+  other.act.mockImplementation(async (...[, action]: unknown[]) => {
+    calls.push(String(action));
+    phase = action === "pause" ? "paused" : "running";
+    return simulationStatus(phase);
+  });
+  store.set({ time: 20 });
+  await vi.waitFor(() => expect(calls).toEqual(["seek 20", "pause", "seek 20"]));
+});
+
+test("a change that comes while the second recording is moved is followed, also after a failed request", async () => {
+  const { store, other, control } = compare();
+  await control.with("yesterday.mcap");
+  await vi.waitFor(() => expect(other.seek).toHaveBeenCalledOnce());
+  let fail = (_: Error) => {};
+  other.seek.mockImplementationOnce(() => new Promise((_, reject) => (fail = reject)));
+  store.set({ time: 20 });
+  await vi.waitFor(() => expect(other.seek).toHaveBeenLastCalledWith("house", 20));
+  store.set({ time: 21 });
+  fail(new Error("no answer"));
+  await vi.waitFor(() => expect(other.seek).toHaveBeenLastCalledWith("house", 21));
+});
+
 test("the poses of the second recording are passed on until the comparison ends", async () => {
   const { store, control, client, send } = compare();
   const onPoses = vi.fn();

@@ -34,7 +34,7 @@ export class CompareControl {
   onPoses: (poses: GhostPoses) => void = () => {};
   private other: { api: SimulationApi; client: Client; simulation: string } | null = null;
   private stamp = 0; // current time of the second recording, simulated, s
-  private moving: Promise<void> | null = null;
+  private isMoving = false;
   private movesAgain = false;
 
   constructor(
@@ -144,28 +144,34 @@ export class CompareControl {
     const isPlaying = status?.phase === "running" && wishedTime === null;
     const isApart = Math.abs((wishedTime ?? time) - this.stamp) > FARTHEST_APART_S;
     if (!isChange && isPlaying && !isApart) return;
-    if (this.moving) this.movesAgain = true;
-    else this.moving = this.move().finally(() => (this.moving = null));
+    this.movesAgain = true;
+    if (!this.isMoving) void this.move();
   }
 
   private async move(): Promise<void> {
-    do {
+    this.isMoving = true;
+    while (this.movesAgain && this.other) {
       this.movesAgain = false;
       const { other } = this;
-      if (!other) return;
-      const { status, time, wishedTime, replay } = this.store.get();
-      const { api, simulation } = other;
       try {
-        if (replay) await api.changeReplay(simulation, { speed: replay.speed });
-        const { phase, time: there } = await api.seek(simulation, wishedTime ?? time);
-        this.stamp = there;
-        const plays = status?.phase === "running" && wishedTime === null;
-        if (plays && phase !== "running") await api.act(simulation, phase === "created" ? "start" : "resume");
-        else if (!plays && phase === "running") await api.act(simulation, "pause");
+        await this.moveOnce(other);
       } catch (error) {
         if (this.other === other) this.set({ problem: (error as Error).message });
-        return;
       }
-    } while (this.movesAgain);
+    }
+    this.isMoving = false;
+  }
+
+  private async moveOnce({ api, simulation }: NonNullable<CompareControl["other"]>): Promise<void> {
+    const { status, time, wishedTime, replay } = this.store.get();
+    if (replay) await api.changeReplay(simulation, { speed: replay.speed });
+    const { phase, time: there } = await api.seek(simulation, wishedTime ?? time);
+    this.stamp = there;
+    const plays = status?.phase === "running" && wishedTime === null;
+    if (plays && phase !== "running") await api.act(simulation, phase === "created" ? "start" : "resume");
+    else if (!plays && phase === "running") {
+      await api.act(simulation, "pause");
+      this.movesAgain = true; // it played on between the seek and the pause
+    }
   }
 }
