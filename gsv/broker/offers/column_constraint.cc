@@ -30,6 +30,7 @@ struct Operands {
   std::span<const std::uint64_t> bits{};
   // The kind of all operands that have a value, or nullopt if their kinds differ.
   std::optional<CellKind> sole_kind{};
+  bool has_missing = true;  // false if every operand has a value of the kind `sole_kind`
   std::vector<CellKind> own_kinds{};
   std::vector<std::uint64_t> own_bits{};
 
@@ -147,7 +148,8 @@ class Evaluation {
         return {.column = &column,
                 .kinds = column.kinds(),
                 .bits = column.bits(),
-                .sole_kind = column.sole_kind()};
+                .sole_kind = column.sole_kind(),
+                .has_missing = column.Has(CellKind::kNone) || column.Has(CellKind::kOffer)};
       }
       case Operator::kAdd:
       case Operator::kSubtract:
@@ -210,18 +212,27 @@ class Evaluation {
   Truths Comparisons(Operator op, const Operands& left, const Operands& right) const {
     Truths truths(offers_);
     const auto compare = [&](const auto& a, const auto& b) {
-      WithComparison(op, [&](const auto& holds) {
-        for (std::size_t i = 0; i < offers_; ++i) truths[i] = holds(a[i], b[i]) ? kTrue : kFalse;
-      });
+      WithComparison(op, [&](const auto& holds) { Compare(a, b, holds, truths); });
     };
     if (WithNumbers<double>(left, right, compare) ||
         WithNumbers<std::int64_t>(left, right, compare)) {
       for (const Operands* operands : {&left, &right}) OmitMissing(*operands, truths);
       return truths;
     }
-    const auto compute = [op](const Operand& a, const Operand& b) { return Compare(op, a, b); };
+    const auto compute = [op](const Operand& a, const Operand& b) {
+      return broker::Compare(op, a, b);
+    };
     if (auto by_text = ByDistinctTexts(left, right, compute)) return *by_text;
-    return ForEach([&](std::size_t i) { return Compare(op, left.At(i), right.At(i)); });
+    return ForEach([&](std::size_t i) { return broker::Compare(op, left.At(i), right.At(i)); });
+  }
+
+  // The parameters and the local variables let the compiler know that the stores do not change
+  // them, so that it compares several numbers in one instruction.
+  template <typename Left, typename Right, typename Holds>
+  static void Compare(Left a, Right b, const Holds& holds, Truths& truths) {
+    Truth* const results = truths.data();
+    const std::size_t count = truths.size();
+    for (std::size_t i = 0; i < count; ++i) results[i] = holds(a[i], b[i]) ? kTrue : kFalse;
   }
 
   // Computes the result once for each different text, if one operand is a literal and the other
@@ -248,7 +259,7 @@ class Evaluation {
 
   // Sets the result to kNoTruth for each offer whose operand has no value of the kind `sole_kind`.
   static void OmitMissing(const Operands& operands, Truths& truths) {
-    if (operands.literal != nullptr) return;
+    if (operands.literal != nullptr || !operands.has_missing) return;
     const CellKind kind = *operands.sole_kind;
     for (std::size_t i = 0; i < truths.size(); ++i) {
       truths[i] = operands.kinds[i] == kind ? truths[i] : kNoTruth;
@@ -281,7 +292,7 @@ class Evaluation {
   }
 
   static void OmitMissing(const Operands& operands, std::vector<CellKind>& kinds) {
-    if (operands.literal != nullptr) return;
+    if (operands.literal != nullptr || !operands.has_missing) return;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       if (operands.kinds[i] != *operands.sole_kind) kinds[i] = CellKind::kNone;
     }
@@ -327,6 +338,26 @@ class Evaluation {
   const std::size_t offers_;
 };
 
+std::vector<Choice> ToChoices(const Truths& truths) {
+  std::vector<Choice> choices(truths.size());
+  std::transform(truths.begin(), truths.end(), choices.begin(),
+                 [](Truth truth) { return truth == kTrue ? Choice::kYes : Choice::kNo; });
+  return choices;
+}
+
+void MarkUnknown(const PropertyColumn& column, std::vector<Choice>& choices) {
+  if (!column.Has(CellKind::kOffer)) return;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (column.kinds()[i] == CellKind::kOffer) choices[i] = Choice::kUnknown;
+  }
+}
+
+// Adds a term: sets each choice to the result of `and`.
+void Restrict(const std::vector<Choice>& term, std::vector<Choice>& choices) {
+  std::transform(term.begin(), term.end(), choices.begin(), choices.begin(),
+                 [](Choice a, Choice b) { return std::min(a, b); });
+}
+
 }  // namespace
 
 ColumnConstraint::ColumnConstraint(const Expression& constraint)
@@ -371,24 +402,15 @@ std::vector<Choice> ColumnConstraint::Choose(const Columns& columns, std::size_t
   std::vector<Choice> choices(offers, Choice::kYes);
   const Evaluation evaluation(constraint_, column_of_node_, columns, offers);
   for (const Term& term : terms_) {
-    std::vector<Choice> decided(offers, Choice::kYes);
-    for (const std::size_t property : term.properties) {
-      const PropertyColumn* column = columns[property].get();
-      for (std::size_t i = 0; i < offers; ++i) {
-        if (column == nullptr || column->kinds()[i] == CellKind::kOffer) {
-          decided[i] = Choice::kUnknown;
-        }
-      }
-    }
     const bool missing = std::any_of(term.properties.begin(), term.properties.end(),
                                      [&](std::size_t i) { return columns[i] == nullptr; });
-    const Truths truths = missing ? Truths(offers) : evaluation.TruthsOf(term.root);
-    for (std::size_t i = 0; i < offers; ++i) {
-      if (decided[i] == Choice::kYes && truths[i] != kTrue) decided[i] = Choice::kNo;
-      if (choices[i] != Choice::kNo) {
-        choices[i] = decided[i] == Choice::kYes ? choices[i] : decided[i];
-      }
+    if (missing) {
+      Restrict(std::vector<Choice>(offers, Choice::kUnknown), choices);
+      continue;
     }
+    std::vector<Choice> chosen = ToChoices(evaluation.TruthsOf(term.root));
+    for (const std::size_t property : term.properties) MarkUnknown(*columns[property], chosen);
+    Restrict(chosen, choices);
   }
   return choices;
 }

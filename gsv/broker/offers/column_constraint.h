@@ -14,11 +14,12 @@
 
 namespace gsv::broker {
 
-// The result of a constraint for an offer, as far as the columns determine it.
+// The result of a constraint for an offer, as far as the columns determine it. The result of `and`
+// is the smaller one of its operands' results.
 enum class Choice : std::uint8_t {
   kNo,       // the constraint is FALSE or has no value
-  kYes,      // the constraint is TRUE
   kUnknown,  // the constraint must be evaluated for the offer
+  kYes,      // the constraint is TRUE
 };
 
 class ColumnConstraint {

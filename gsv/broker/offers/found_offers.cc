@@ -14,6 +14,13 @@ constexpr std::size_t kKeptForOne = 4;
 FoundOffers::FoundOffers(std::vector<OfferView> views)
     : kept_(std::make_shared<KeptOffers>(KeptOffers{.views = std::move(views)})) {}
 
+void FoundOffers::Add(const Offers& chunk, std::span<const std::uint32_t> indices) {
+  const std::size_t before = places_.size();
+  places_.resize(before + indices.size());
+  const OfferPtr** place = places_.data() + before;
+  for (const std::uint32_t index : indices) *place++ = &chunk[index];
+}
+
 void FoundOffers::AddOther(OfferPtr offer) { Add(kept_->others.emplace_back(std::move(offer))); }
 
 void FoundOffers::Truncate(std::size_t size) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gsv/broker/offers/offer_column.h"
@@ -56,6 +57,8 @@ class FoundOffers {
 
   // `offer` is an element of one of the views.
   void Add(const OfferPtr& offer) { places_.push_back(&offer); }
+  // Adds the offers at these indices of a chunk of one of the views.
+  void Add(const Offers& chunk, std::span<const std::uint32_t> indices);
   void AddOther(OfferPtr offer);
   // Replaces the list by these offers, which are elements of the views.
   void SetPlaces(std::vector<const OfferPtr*> places) { places_ = std::move(places); }

@@ -74,10 +74,7 @@ class PropertyColumn::Builder {
   void AddCell(CellKind kind, std::uint64_t bits) {
     column_.kinds_.push_back(kind);
     column_.bits_.push_back(bits);
-    auto& sole = column_.sole_kind_;
-    if (kind == CellKind::kNone || kind == CellKind::kOffer || sole == kind) return;
-    sole = column_.has_values_ ? std::nullopt : std::optional(kind);
-    column_.has_values_ = true;
+    column_.present_ |= BitOf(kind);
   }
 
   void AddSequence(const Value::Sequence& sequence) {
@@ -107,6 +104,13 @@ PropertyColumn::PropertyColumn(const Offers& offers, std::string_view property) 
     }
   }
   builder.Finish();
+}
+
+std::optional<CellKind> PropertyColumn::sole_kind() const {
+  const unsigned values = present_ & ~(BitOf(CellKind::kNone) | BitOf(CellKind::kOffer));
+  if (values == 0) return CellKind::kNone;
+  if (!std::has_single_bit(values)) return std::nullopt;
+  return static_cast<CellKind>(std::countr_zero(values));
 }
 
 Operand PropertyColumn::ToOperand(CellKind kind, std::uint64_t bits) const {

@@ -35,9 +35,11 @@ class PropertyColumn {
   PropertyColumn(const Offers& offers, std::string_view property);
 
   std::span<const CellKind> kinds() const { return kinds_; }
+  // Whether a cell has this kind.
+  bool Has(CellKind kind) const { return (present_ & BitOf(kind)) != 0; }
   // The kind of all cells that are neither kNone nor kOffer, or nullopt if their kinds differ. The
   // kind is kNone if there are no such cells.
-  std::optional<CellKind> sole_kind() const { return sole_kind_; }
+  std::optional<CellKind> sole_kind() const;
   // The contents of the cells. A cell's kind determines its content: 0 or 1 for a boolean, an
   // integer, the bits of a real number, the index of a text in texts(), or a sequence for
   // ElementsOf(). The content is 0 for all other kinds.
@@ -57,11 +59,11 @@ class PropertyColumn {
  private:
   class Builder;
 
+  static constexpr unsigned BitOf(CellKind kind) { return 1u << static_cast<unsigned>(kind); }
   Operand ToOperand(CellKind kind, std::uint64_t bits) const;
 
   std::vector<CellKind> kinds_;
-  std::optional<CellKind> sole_kind_ = CellKind::kNone;
-  bool has_values_ = false;  // whether a cell is neither kNone nor kOffer
+  unsigned present_ = 0;  // the kinds of all cells, one bit for each kind
   std::vector<std::uint64_t> bits_;
   // The elements of all sequences, one sequence after the other.
   std::vector<CellKind> element_kinds_;

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
@@ -100,7 +102,8 @@ class Trader::Search {
     const auto order = ordered_by_ != nullptr ? chunk.ColumnOf(*ordered_by_) : nullptr;
     if (!choices.empty() && candidates_.with_modifiable && Room() >= choices.size() &&
         chunk.IsPlain() &&
-        std::find(choices.begin(), choices.end(), Choice::kUnknown) == choices.end()) {
+        std::memchr(choices.data(), static_cast<int>(Choice::kUnknown), choices.size()) ==
+            nullptr) {
       TakeChosen(chunk, choices, order.get());
       return true;
     }
@@ -128,23 +131,42 @@ class Trader::Search {
   // Adds the chosen offers of a plain chunk, without reading the offers. All of them are admitted.
   void TakeChosen(const OfferChunk& chunk, const std::vector<Choice>& choices,
                   const PropertyColumn* order) {
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      if (choices[i] != Choice::kYes) continue;
-      --left_;
-      if (order != nullptr) TakeNumber(NumberAt(*order, i));
-      matches_.offers.Add(chunk.offers()[i]);
+    chosen_.resize(choices.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < choices.size(); ++i) {  // without a branch, as it is unpredictable
+      chosen_[count] = static_cast<std::uint32_t>(i);
+      count += choices[i] == Choice::kYes ? 1 : 0;
+    }
+    chosen_.resize(count);
+    left_ -= count;
+    if (order != nullptr) TakeNumbers(*order);
+    matches_.offers.Add(chunk.offers(), chosen_);
+  }
+
+  // Adds the numbers of the chosen offers to `known`, up to the first unknown number.
+  void TakeNumbers(const PropertyColumn& order) {
+    if (matches_.known.size() != matches_.offers.size()) return;
+    for (const std::uint32_t index : chosen_) {
+      const auto number = NumberAt(order, index);
+      if (!number) return;
+      matches_.known.push_back(*number);
     }
   }
 
   // Returns the number by which min and max order the offer at `index`, or NaN if it has none.
   // Returns nullopt if the number must be read from the offer.
   static std::optional<double> NumberAt(const PropertyColumn& column, std::size_t index) {
-    if (column.kinds()[index] == CellKind::kOffer) return std::nullopt;
-    const Operand operand = column.At(index);
-    if (const auto* real = std::get_if<double>(&operand)) return *real;
-    const auto* integer = std::get_if<std::int64_t>(&operand);
-    if (integer == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    return ExactNumber(*integer);
+    const std::uint64_t bits = column.bits()[index];
+    switch (column.kinds()[index]) {
+      case CellKind::kReal:
+        return std::bit_cast<double>(bits);
+      case CellKind::kInteger:
+        return ExactNumber(static_cast<std::int64_t>(bits));
+      case CellKind::kOffer:
+        return std::nullopt;
+      default:
+        return std::numeric_limits<double>::quiet_NaN();
+    }
   }
 
   // If the number of one offer is unknown, the numbers of all later offers are computed by
@@ -171,6 +193,7 @@ class Trader::Search {
   DynamicValues& values_;
   MatchingOffers& matches_;
   std::size_t left_;
+  std::vector<std::uint32_t> chosen_;  // indices in the chunk that is being scanned
 };
 
 TradingResult<QueryResult> Trader::Find(const Query& query) const {
