@@ -75,7 +75,7 @@ void ThreadTeam::RunPieces(std::size_t self) {
     for (;;) {
       const std::size_t begin = part.next.fetch_add(job_.grain, std::memory_order_relaxed);
       if (begin >= part.end) break;
-      job_.call(job_.work, begin, std::min(begin + job_.grain, part.end));
+      job_.call(job_.work, begin, std::min(begin + job_.grain, part.end), self);
     }
   }
   // No piece is left. The first thread that notices this closes the job, so that no other thread

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include "gsv/base/mutex.h"
@@ -32,24 +33,34 @@ class ThreadTeam {
 
   // Calls work(begin, end) for pieces of [0, count) with at most `grain` indices each, and returns
   // when all calls have returned. If there is only one piece, the caller processes it and no worker
-  // is woken. `work` does not throw and calls no ParallelFor() itself.
+  // is woken. `work` does not throw and calls no ParallelFor() itself. It may have a third
+  // parameter: the index of the calling thread, from 0 to threads() - 1.
   template <class Work>
   void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
     if (count <= grain || workers_.empty()) {
-      if (count > 0) work(std::size_t{0}, count);
+      if (count > 0) Call<Work>(&work, 0, count, 0);
       return;
     }
-    Run({count, grain, &work, [](const void* of, std::size_t begin, std::size_t end) {
-           (*static_cast<const Work*>(of))(begin, end);
-         }});
+    Run({count, grain, &work, &Call<Work>});
   }
 
  private:
   struct Job {
     std::size_t count = 0, grain = 1;
     const void* work = nullptr;
-    void (*call)(const void* work, std::size_t begin, std::size_t end) = nullptr;
+    void (*call)(const void* work, std::size_t begin, std::size_t end,
+                 std::size_t thread) = nullptr;
   };
+
+  template <class Work>
+  static void Call(const void* of, std::size_t begin, std::size_t end, std::size_t thread) {
+    const Work& work = *static_cast<const Work*>(of);
+    if constexpr (std::is_invocable_v<Work, std::size_t, std::size_t, std::size_t>) {
+      work(begin, end, thread);
+    } else {
+      work(begin, end);
+    }
+  }
 
   void Run(const Job& job);
   void Work(std::size_t self);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <latch>
+#include <map>
 #include <set>
 #include <string>
 #include <thread>
@@ -40,6 +41,25 @@ TEST(ThreadTeam, PiecesAreAtMostAsLongAsTheGrain) {
     }
   });
   EXPECT_EQ(longest, 7u);
+}
+
+TEST(ThreadTeam, PassesADifferentIndexForEachThread) {
+  for (const int threads : {1, 3}) {
+    ThreadTeam team(threads);
+    Mutex mutex;
+    std::map<std::thread::id, std::size_t> index_of;
+    std::set<std::size_t> indices;
+    for (int job = 0; job < 1000; ++job) {
+      team.ParallelFor(12, 1, [&](std::size_t, std::size_t, std::size_t thread) {
+        const MutexLock lock(mutex);
+        EXPECT_EQ(index_of.try_emplace(std::this_thread::get_id(), thread).first->second, thread);
+        indices.insert(thread);
+      });
+    }
+    EXPECT_EQ(index_of.at(std::this_thread::get_id()), 0u) << "the index of the caller";
+    EXPECT_EQ(indices.size(), index_of.size());
+    EXPECT_LT(*indices.rbegin(), static_cast<std::size_t>(threads));
+  }
 }
 
 TEST(ThreadTeam, CallerDoesASinglePieceAlone) {

@@ -74,14 +74,16 @@ class MoverMotions {
   const PlanarScene& scene_;
 };
 
-// The following functions run for each mover in each step, so they are inline.
+// The following functions run for each mover in each step, so they are always inlined.
 
-inline void MoverMotions::Load(std::uint32_t mover, const world::State& state) {
+[[gnu::always_inline]] inline void MoverMotions::Load(std::uint32_t mover,
+                                                      const world::State& state) {
   positions[mover] = PositionOf(state.bodies[scene_.movers()[mover].body].world_from_model);
 }
 
-inline void MoverMotions::FollowCommand(std::uint32_t m, const world::State& state,
-                                        double seconds) {
+[[gnu::always_inline]] inline void MoverMotions::FollowCommand(std::uint32_t m,
+                                                               const world::State& state,
+                                                               double seconds) {
   const Mover& mover = scene_.movers()[m];
   const MoverKind& kind = scene_.kind(mover);
   drives[m] = seconds > 0
@@ -91,12 +93,14 @@ inline void MoverMotions::FollowCommand(std::uint32_t m, const world::State& sta
   reaches[m] = (SpeedOf(twists[m]) + std::abs(twists[m].angular) * kind.spin_radius) * seconds;
 }
 
-inline void MoverMotions::SetLeg(std::uint32_t m, const geometry::Twist& twist, double seconds) {
+[[gnu::always_inline]] inline void MoverMotions::SetLeg(std::uint32_t m,
+                                                        const geometry::Twist& twist,
+                                                        double seconds) {
   twists[m] = twist;
   times[m] = Moves(twist) ? seconds : 0;
 }
 
-inline void MoverMotions::RunLeg(std::uint32_t m, Journey& journey) {
+[[gnu::always_inline]] inline void MoverMotions::RunLeg(std::uint32_t m, Journey& journey) {
   const double time = times[m];
   if (time <= 0) return;
   const geometry::Twist& twist = twists[m];

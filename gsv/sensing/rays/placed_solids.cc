@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gsv/base/check.h"
+#include "gsv/base/each_processor.h"
 #include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/candidate_set.h"
 #include "gsv/sensing/rays/packet_bounds.h"
@@ -49,21 +50,30 @@ double DistanceOf(const Nearest& nearest) {
 }
 
 // Returns an upper bound of the distance from the place to the points of the packet's rays. It is
-// not finite if a ray or the place is invalid; see IsSound().
+// infinite if a ray or the place is invalid; see IsSound(). The loops have a fixed length, so that
+// the compiler uses vectors.
+GSV_FOR_EACH_PROCESSOR
 double ReachOf(const RayPacket& packet, const Vector3& place) {
-  double reach = 0, unsound = 0;
-  for (std::size_t i = 0; i < packet.count; ++i) {
+  RayPacket::Coordinates reaches;
+  std::array<std::int64_t, RayPacket::kMax> faults;
+  const auto count = static_cast<std::int64_t>(packet.count);
+  for (std::int64_t i = 0; i < std::int64_t{RayPacket::kMax}; ++i) {
     const double length = packet.max_distance[i];
     const double away = std::abs(packet.origin_x[i] - place.x) +
                         std::abs(packet.origin_y[i] - place.y) +
                         std::abs(packet.origin_z[i] - place.z);
-    reach = std::max(reach, away + length);
     // A product with zero is NaN for numbers that are not finite.
-    unsound += 0 * (away + length + std::abs(packet.direction_x[i]) +
-                    std::abs(packet.direction_y[i]) + std::abs(packet.direction_z[i]));
-    unsound += length >= 0 ? 0 : kInfinity;
+    const double zero = 0 * (away + length + std::abs(packet.direction_x[i]) +
+                             std::abs(packet.direction_y[i]) + std::abs(packet.direction_z[i]));
+    reaches[i] = i < count ? away + length : 0;
+    faults[i] = static_cast<std::int64_t>(i < count) &
+                (static_cast<std::int64_t>(zero != 0) | static_cast<std::int64_t>(!(length >= 0)));
   }
-  return reach + unsound;
+  std::int64_t fault = 0;
+  for (const std::int64_t each : faults) fault |= each;
+  double reach = 0;
+  for (const double each : reaches) reach = std::max(reach, each);
+  return fault != 0 ? kInfinity : reach;
 }
 
 Bounds Around(const Ray& ray) {
@@ -96,11 +106,35 @@ void ShortenRay(RayRow& row, std::size_t i, const Cast& cast) {
   if (nearest.body >= 0) row.SetRange(i, nearest.distance);
 }
 
-// Calls cast(i) for each ray i of a mask.
-template <class Cast>
-void ForRays(unsigned mask, const Cast& cast) {
-  for (; mask != 0; mask &= mask - 1) cast(static_cast<std::size_t>(std::countr_zero(mask)));
-}
+// Solids and the rays of a packet that are cast at them, at least one ray each.
+class CastList {
+ public:
+  // Adds a solid, or does nothing if there are no rays. This is branch-free, because the processor
+  // could hardly predict whether there are.
+  void Add(std::uint32_t number, unsigned rays) {
+    list_[count_] = {number, rays};
+    count_ += rays != 0;
+  }
+
+  // Calls cast(number, i) for each ray i of each solid. Uses one loop for both, because the
+  // processor could hardly predict the number of rays of each solid.
+  template <class Cast>
+  void ForEach(const Cast& cast) {
+    list_[count_] = {};
+    const TouchedSpheres::Touched* at = list_.data();
+    for (unsigned rays = at->rays; rays != 0;) {
+      cast(at->number, static_cast<std::size_t>(std::countr_zero(rays)));
+      rays &= rays - 1;
+      const bool is_last = rays == 0;
+      at += is_last;
+      rays = is_last ? at->rays : rays;
+    }
+  }
+
+ private:
+  std::array<TouchedSpheres::Touched, TouchedSpheres::kMax + 1> list_;
+  std::size_t count_ = 0;
+};
 
 // Casts rays of a packet at cylinders and boxes, several pairs at a time. For each hit, sets only
 // two members of `nearest`: the distance, and the body, which becomes 0 for any body.
@@ -109,17 +143,17 @@ class PacketCaster {
   PacketCaster(const RayPacket& packet, std::span<Nearest> nearest)
       : packet_(packet), nearest_(nearest) {}
 
-  // Casts the rays of a mask at a shape of a set, whose frame is that of a part, or the world if
-  // `part_from_world` is null. Returns false if this must be done for each ray alone.
-  bool Add(unsigned rays, const Pose* part_from_world, const SolidSet& set, std::uint32_t shape) {
+  // Casts ray i at a shape of a set, whose frame is that of a part, or the world if
+  // `part_from_world` is null. Returns false if the caller must do this.
+  bool Add(std::size_t i, const Pose* part_from_world, const SolidSet& set, std::uint32_t shape) {
     if (!is_fast_) return false;
     const geometry::Shape& at = set.ShapeAt(shape);
     const Pose& shape_from_set = set.ShapeFromSet(shape);
     if (const auto* const cylinder = std::get_if<geometry::Cylinder>(&at)) {
-      AddTo(part_from_world ? pairs_.moving_cylinders : pairs_.cylinders, rays, part_from_world,
+      AddTo(part_from_world ? pairs_.moving_cylinders : pairs_.cylinders, i, part_from_world,
             shape_from_set, *cylinder);
     } else if (const auto* const box = std::get_if<geometry::Box>(&at)) {
-      AddTo(part_from_world ? pairs_.moving_boxes : pairs_.boxes, rays, part_from_world,
+      AddTo(part_from_world ? pairs_.moving_boxes : pairs_.boxes, i, part_from_world,
             shape_from_set, *box);
     } else {
       return false;
@@ -141,14 +175,12 @@ class PacketCaster {
   };
 
   template <class Shape>
-  void AddTo(RayPairs& pairs, unsigned rays, const Pose* part_from_world,
+  void AddTo(RayPairs& pairs, std::size_t i, const Pose* part_from_world,
              const Pose& shape_from_set, const Shape& shape) {
-    ForRays(rays, [&](std::size_t i) {
-      if (pairs.is_full()) {
-        part_from_world != nullptr ? Cast<Shape, true>(pairs) : Cast<Shape, false>(pairs);
-      }
-      pairs.Add(packet_, i, part_from_world, shape_from_set, shape);
-    });
+    if (pairs.is_full()) {
+      part_from_world != nullptr ? Cast<Shape, true>(pairs) : Cast<Shape, false>(pairs);
+    }
+    pairs.Add(packet_, i, part_from_world, shape_from_set, shape);
   }
 
   template <class Shape, bool kHaveParts>
@@ -156,10 +188,11 @@ class PacketCaster {
     if (pairs.count() == 0) return;
     pairs.Cast<Shape, kHaveParts>();
     for (std::size_t k = 0; k < pairs.count(); ++k) {
+      // Branch-free, because the processor could hardly predict hits.
       Nearest& nearest = nearest_[pairs.ray(k)];
-      if (pairs.distance(k) > nearest.distance) continue;
-      nearest.distance = pairs.distance(k);
-      nearest.body = 0;
+      const bool is_hit = pairs.distance(k) <= nearest.distance;
+      nearest.distance = is_hit ? pairs.distance(k) : nearest.distance;
+      nearest.body = is_hit ? 0 : nearest.body;
     }
     pairs.Clear();
   }
@@ -467,28 +500,31 @@ void PlacedSolids::CastAtTouched(const TouchedSpheres& moving, const TouchedSphe
                                  const RayPacket& packet, int ignored_body,
                                  std::span<Nearest> nearest) const {
   PacketCaster caster(packet, nearest);
+  CastList at_parts, at_shapes;
   for (const TouchedSpheres::Touched& each : moving.all()) {
-    if (BodyOf(each.number) == ignored_body) continue;
-    const auto& [part_from_world, part] = parts_[each.number];
-    if (part->solids.ShapesAlone() == 1 && caster.Add(each.rays, &part_from_world, part->solids, 0))
-      continue;
-    ForRays(each.rays, [&](std::size_t i) { CastAtPart(each.number, packet.At(i), nearest[i]); });
+    at_parts.Add(each.number, BodyOf(each.number) != ignored_body ? each.rays : 0);
   }
+  at_parts.ForEach([&](std::uint32_t number, std::size_t i) {
+    const auto& [part_from_world, part] = parts_[number];
+    const bool is_single = part->solids.ShapesAlone() == 1;
+    if (is_single && caster.Add(i, &part_from_world, part->solids, 0)) return;
+    CastAtPart(number, packet.At(i), nearest[i]);
+  });
+  const SolidSet& set = solids_->standing;
   std::optional<PacketBounds> bounds;
   for (const TouchedSpheres::Touched& each : standing.all()) {
-    const SolidSet& set = solids_->standing;
-    if (set.BodyOfShape(each.number) == ignored_body) continue;
-    unsigned rays = each.rays;
+    unsigned rays = set.BodyOfShape(each.number) != ignored_body ? each.rays : 0;
     // Many rays pass the bounding sphere of a long shape, but not its bounding box.
     if (std::popcount(rays) > kMaxRaysOfCompact) {
       if (!bounds) bounds.emplace(packet);
       rays &= bounds->Touching(set.PaddedBoundsOf(each.number));
     }
-    if (rays == 0 || caster.Add(rays, nullptr, set, each.number)) continue;
-    ForRays(rays, [&](std::size_t i) {
-      set.CastAtShape(each.number, packet.At(i), ignored_body, nearest[i]);
-    });
+    at_shapes.Add(each.number, rays);
   }
+  at_shapes.ForEach([&](std::uint32_t number, std::size_t i) {
+    if (caster.Add(i, nullptr, set, number)) return;
+    set.CastAtShape(number, packet.At(i), ignored_body, nearest[i]);
+  });
   caster.Finish();
 }
 

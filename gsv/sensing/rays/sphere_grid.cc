@@ -53,12 +53,71 @@ struct Run {
   std::uint32_t first, end;
 };
 
-// The spheres of a grid, and the runs of those in reach. The arrays may be read beyond the last
-// sphere, in whole vectors of eight.
-struct NearSpheres {
+// The spheres of a grid, and the runs of those that may be in reach. The arrays may be read beyond
+// the last sphere, in whole vectors of eight.
+struct TestedSpheres {
   const float *x, *y, *z, *radius;
   const std::uint32_t* numbers;
   std::span<const Run> runs;
+};
+
+// For each mask of eight lanes, the indices of its lanes in ascending order.
+constexpr auto kLanesOfMask = [] {
+  std::array<std::array<std::uint8_t, kRead>, 1u << kRead> lanes{};
+  for (unsigned mask = 0; mask < lanes.size(); ++mask) {
+    std::size_t count = 0;
+    for (std::uint8_t lane = 0; lane < kRead; ++lane) {
+      if ((mask >> lane & 1) != 0) lanes[mask][count++] = lane;
+    }
+  }
+  return lanes;
+}();
+
+// The spheres within reach of the place, in their order; positions are relative to the place.
+class SpheresInReach {
+ public:
+  // Sets the spheres. No branch depends on which spheres are in reach, because the processor could
+  // hardly predict it.
+  __attribute__((target("avx2,fma,popcnt"))) void Find(const PacketRays& rays,
+                                                       const TestedSpheres& spheres) {
+    const __m256 place_x = _mm256_set1_ps(rays.place_x), place_y = _mm256_set1_ps(rays.place_y);
+    const __m256 place_z = _mm256_set1_ps(rays.place_z), rounding = _mm256_set1_ps(rays.rounding);
+    const __m256 reach = _mm256_set1_ps(rays.reach);
+    const __m256 reach_square = _mm256_set1_ps(2 * rays.reach * rays.reach);
+    count = 0;
+    for (const Run& run : spheres.runs) {
+      for (std::uint32_t first = run.first; first < run.end; first += kRead) {
+        const __m256 x_here = _mm256_loadu_ps(&spheres.x[first]) - place_x;
+        const __m256 y_here = _mm256_loadu_ps(&spheres.y[first]) - place_y;
+        const __m256 z_here = _mm256_loadu_ps(&spheres.z[first]) - place_z;
+        const __m256 radius = _mm256_loadu_ps(&spheres.radius[first]) + rounding;
+        const __m256 away = x_here * x_here + y_here * y_here + z_here * z_here;
+        const __m256 furthest = radius + reach;
+        const __m256 is_near = _mm256_cmp_ps(away, furthest * furthest, _CMP_LE_OQ);
+        const std::uint32_t in_run = std::min<std::uint32_t>(run.end - first, kRead);
+        const unsigned lanes =
+            static_cast<unsigned>(_mm256_movemask_ps(is_near)) & ((1u << in_run) - 1);
+        const __m256 error = _mm256_set1_ps(kSquareRounding) * (away + reach_square);
+        const __m256i order = _mm256_cvtepu8_epi32(
+            _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kLanesOfMask[lanes].data())));
+        _mm256_storeu_ps(&x[count], _mm256_permutevar8x32_ps(x_here, order));
+        _mm256_storeu_ps(&y[count], _mm256_permutevar8x32_ps(y_here, order));
+        _mm256_storeu_ps(&z[count], _mm256_permutevar8x32_ps(z_here, order));
+        _mm256_storeu_ps(&margin[count],
+                         _mm256_permutevar8x32_ps(radius * radius + error - away, order));
+        const auto* const from = reinterpret_cast<const __m256i*>(&spheres.numbers[first]);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(&number[count]),
+                            _mm256_permutevar8x32_epi32(_mm256_loadu_si256(from), order));
+        count += static_cast<std::size_t>(std::popcount(lanes));
+      }
+    }
+  }
+
+  using Floats = std::array<float, kMaxTested + kRead>;
+  std::size_t count = 0;
+  Floats x, y, z;
+  Floats margin;  // radius² - |c|², for the centre c, so that a gap is compared with few operations
+  std::array<std::uint32_t, kMaxTested + kRead> number;
 };
 
 // Appends the spheres that rays of the packet touch. Returns false if there are too many. With the
@@ -66,63 +125,39 @@ struct NearSpheres {
 //
 //   s = (c - o) d, limited to the ray's length: along;  |c - o - along d|² = |c - o|² - along (2 s -
 //   along)
-//
-// `margins` are radius² - |c|², so that a gap is compared with few operations.
-__attribute__((target("avx2,fma"))) bool TestByAvx2(const PacketRays& rays,
-                                                    const NearSpheres& spheres,
-                                                    TouchedSpheres& found) {
+__attribute__((target("avx2,fma,popcnt"))) bool TestByAvx2(const PacketRays& rays,
+                                                           const TestedSpheres& spheres,
+                                                           TouchedSpheres& found) {
+  SpheresInReach near;
+  near.Find(rays, spheres);
   const __m256 dx = _mm256_load_ps(rays.dx.data()), dy = _mm256_load_ps(rays.dy.data());
   const __m256 dz = _mm256_load_ps(rays.dz.data()), start = _mm256_load_ps(rays.start.data());
   const __m256 ox = _mm256_load_ps(rays.ox.data()), oy = _mm256_load_ps(rays.oy.data());
   const __m256 oz = _mm256_load_ps(rays.oz.data()), square = _mm256_load_ps(rays.square.data());
   const __m256 length = _mm256_load_ps(rays.length.data()), zero = _mm256_setzero_ps();
-  const __m256 place_x = _mm256_set1_ps(rays.place_x), place_y = _mm256_set1_ps(rays.place_y);
-  const __m256 place_z = _mm256_set1_ps(rays.place_z), rounding = _mm256_set1_ps(rays.rounding);
-  const __m256 reach = _mm256_set1_ps(rays.reach);
-  const __m256 reach_square = _mm256_set1_ps(2 * rays.reach * rays.reach);
-  alignas(32) std::array<float, 8> cx, cy, cz, margins;
   std::size_t touched = found.count;
-  const Run* run = spheres.runs.data();
-  const Run* const end_of_runs = run + spheres.runs.size();
-  for (std::uint32_t first = run->first; run != end_of_runs;) {
-    if (touched + 8 > TouchedSpheres::kMax) return false;
-    const __m256 x = _mm256_loadu_ps(&spheres.x[first]) - place_x;
-    const __m256 y = _mm256_loadu_ps(&spheres.y[first]) - place_y;
-    const __m256 z = _mm256_loadu_ps(&spheres.z[first]) - place_z;
-    const __m256 radius = _mm256_loadu_ps(&spheres.radius[first]) + rounding;
-    const __m256 away = x * x + y * y + z * z, furthest = radius + reach;
-    const __m256 is_near = _mm256_cmp_ps(away, furthest * furthest, _CMP_LE_OQ);
-    auto lanes = static_cast<unsigned>(_mm256_movemask_ps(is_near));
-    const std::uint32_t count = std::min(run->end - first, 8u);
-    lanes &= (1u << count) - 1;
-    _mm256_store_ps(cx.data(), x), _mm256_store_ps(cy.data(), y), _mm256_store_ps(cz.data(), z);
-    const __m256 error = _mm256_set1_ps(kSquareRounding) * (away + reach_square);
-    _mm256_store_ps(margins.data(), radius * radius + error - away);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const __m256 c_x = _mm256_set1_ps(cx[lane]), c_y = _mm256_set1_ps(cy[lane]);
-      const __m256 c_z = _mm256_set1_ps(cz[lane]);
-      const __m256 s =
-          _mm256_fmadd_ps(c_x, dx, _mm256_fmadd_ps(c_y, dy, _mm256_fmsub_ps(c_z, dz, start)));
-      const __m256 along = _mm256_min_ps(_mm256_max_ps(s, zero), length);
-      const __m256 apart =
-          _mm256_fmadd_ps(c_x, ox, _mm256_fmadd_ps(c_y, oy, _mm256_fmadd_ps(c_z, oz, square)));
-      const __m256 gap = _mm256_fnmadd_ps(along, s + s - along, apart);
-      const __m256 touches = _mm256_cmp_ps(gap, _mm256_set1_ps(margins[lane]), _CMP_LE_OQ);
-      const auto mask = static_cast<unsigned>(_mm256_movemask_ps(touches)) & rays.used;
-      // Each sphere is written, and the next sphere overwrites it if no ray touches it. This needs
-      // no branch, which the processor could hardly predict.
-      found.touched[touched] = {spheres.numbers[first + lane], mask};
-      touched += mask != 0;
-    }
-    first += count;
-    if (first == run->end && ++run != end_of_runs) first = run->first;
+  for (std::size_t i = 0; i < near.count; ++i) {
+    if (touched == TouchedSpheres::kMax) return false;
+    const __m256 c_x = _mm256_set1_ps(near.x[i]), c_y = _mm256_set1_ps(near.y[i]);
+    const __m256 c_z = _mm256_set1_ps(near.z[i]);
+    const __m256 s =
+        _mm256_fmadd_ps(c_x, dx, _mm256_fmadd_ps(c_y, dy, _mm256_fmsub_ps(c_z, dz, start)));
+    const __m256 along = _mm256_min_ps(_mm256_max_ps(s, zero), length);
+    const __m256 apart =
+        _mm256_fmadd_ps(c_x, ox, _mm256_fmadd_ps(c_y, oy, _mm256_fmadd_ps(c_z, oz, square)));
+    const __m256 gap = _mm256_fnmadd_ps(along, s + s - along, apart);
+    const __m256 touches = _mm256_cmp_ps(gap, _mm256_set1_ps(near.margin[i]), _CMP_LE_OQ);
+    const auto mask = static_cast<unsigned>(_mm256_movemask_ps(touches)) & rays.used;
+    // Each sphere is written, and the next sphere overwrites it if no ray touches it. So this is
+    // branch-free as well.
+    found.touched[touched] = {near.number[i], mask};
+    touched += mask != 0;
   }
   found.count = touched;
   return true;
 }
 
-bool TestBySse(const PacketRays& rays, const NearSpheres& spheres, TouchedSpheres& found) {
+bool TestBySse(const PacketRays& rays, const TestedSpheres& spheres, TouchedSpheres& found) {
   for (const Run& run : spheres.runs) {
     for (std::uint32_t at = run.first; at < run.end; ++at) {
       if (found.count == TouchedSpheres::kMax) return false;
@@ -204,7 +239,7 @@ bool SphereGrid::Divide(std::span<const BoundingSphere> spheres) {
 void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const Bounds> boxes) {
   GSV_CHECK(spheres.size() == boxes.size());
   large_.clear();
-  numbers_.clear();
+  count_ = 0;
   is_suitable_ = true;
   if (spheres.empty()) return;
   is_suitable_ = Divide(spheres);
@@ -234,7 +269,8 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) start = end += start;
   for (std::vector<float>* each : {&x_, &y_, &z_, &radius_}) each->resize(end + kRead);
-  numbers_.resize(end);
+  numbers_.resize(end + kRead);
+  count_ = end;
   for (auto i = static_cast<std::uint32_t>(spheres.size()); i-- > 0;) {
     if (cell_of_[i] == kNoCell) continue;
     const BoundingSphere& sphere = spheres[i];
@@ -268,8 +304,9 @@ bool SphereGrid::AddLarge(const PacketSearch& search, TouchedSpheres& found) con
 bool SphereGrid::FindTouched(const PacketSearch& search, TouchedSpheres& found) const {
   if (!is_suitable_) return false;
   if (!AddLarge(search, found)) return false;
-  if (numbers_.empty()) return true;
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (count_ == 0) return true;
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                               __builtin_cpu_supports("popcnt");
   const double reach = search.reach_ + max_radius_ + search.rays_.rounding;
   const Vector3& place = search.place_;
   const int left = ColumnOf(place.x - reach), right = ColumnOf(place.x + reach);
@@ -285,9 +322,10 @@ bool SphereGrid::FindTouched(const PacketSearch& search, TouchedSpheres& found) 
   }
   if (tested > kMaxTested) return false;
   if (run_count == 0) return true;
-  const NearSpheres near{x_.data(),      y_.data(),       z_.data(),
-                         radius_.data(), numbers_.data(), std::span(runs).first(run_count)};
-  return has_avx2 ? TestByAvx2(search.rays_, near, found) : TestBySse(search.rays_, near, found);
+  const TestedSpheres spheres{x_.data(),      y_.data(),       z_.data(),
+                              radius_.data(), numbers_.data(), std::span(runs).first(run_count)};
+  return has_avx2 ? TestByAvx2(search.rays_, spheres, found)
+                  : TestBySse(search.rays_, spheres, found);
 }
 
 }  // namespace gsv::sensing

@@ -97,6 +97,7 @@ class SphereGrid {
   // The first sphere of each cell, row by row, and the number of spheres.
   std::vector<std::uint32_t> starts_;
   std::vector<std::uint32_t> cell_of_;  // working memory of Build()
+  std::uint32_t count_ = 0;             // the number of spheres in cells
   // The spheres, ordered by cell. After the last sphere there is space for a whole vector.
   std::vector<float> x_, y_, z_, radius_;
   std::vector<std::uint32_t> numbers_;

@@ -43,6 +43,7 @@ void AgentPopulation::Remove(const std::string& name) {
   shared_->sleepers.Remove(agent);
   shared_->turn_sleepers.Remove(agent);
   std::erase(shared_->commanded, agent);
+  std::erase_if(shared_->drives, [&](const auto& drive) { return drive.agent == agent; });
   std::erase(shared_->ready, agent);
   std::erase(shared_->due, agent);
   if (const auto& behaviour = agent->behaviour(); behaviour != nullptr) {
@@ -104,6 +105,7 @@ void AgentPopulation::Reset() {
   shared_->sleepers.Clear();
   shared_->turn_sleepers.Clear();
   shared_->commanded.clear();
+  shared_->drives.clear();
   shared_->given_up.clear();
   shared_->ready.clear();
   shared_->due.clear();

@@ -8,7 +8,9 @@ void Turn::Instant::Prepare(base::ThreadTeam& team) {
 }
 
 sensing::Sampling Turn::Instant::MakeSampling() const {
-  return {snapshots.latest(), -1, seed, *rays};
+  sensing::Sampling sampling(snapshots.latest(), -1, seed, *rays);
+  if (scene != nullptr) (void)sampling.Rays();  // finds `scene`, so that turns need not
+  return sampling;
 }
 
 void Turn::Instant::NoteRays() const {

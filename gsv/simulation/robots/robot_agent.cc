@@ -451,7 +451,7 @@ void RobotAgent::TakeTurn(const Turn::Instant& instant,
                           sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);
   turn_.Begin(instant, sampling);
-  const WallTime began = WallNow();
+  const WallTime began = instant.is_timed ? WallNow() : CoarseWallNow();
   turn_began_.store(began, std::memory_order_release);
   local_->TakeTurn(turn_);
   turn_clock_ = local_->clock();
@@ -473,7 +473,10 @@ RobotAgent::UsualEnd RobotAgent::ApplyUsualTurn(SimTime now) {
   if (clocks_.count() != 1 || !clocks_.IsOpen(clock) || clocks_.IsWaiting(clock)) return {};
   UsualEnd end{.is_usual = true, .until = waiting->until};
   clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
-  if (!turn_.commands_.empty()) {
+  if (!is_commanded_ && turn_.commands_.has_only_drive()) {
+    end.has_drive = true;
+    end.drive = turn_.commands_.drive()->command;
+  } else if (!turn_.commands_.empty()) {
     MergeTurnCommands();
     end.has_command = !std::exchange(is_commanded_, true);
   }
@@ -512,12 +515,8 @@ std::function<void()> RobotAgent::ApplyTurn() {
 }
 
 bool RobotAgent::ApplyDriveCommand(world::State& state) {
-  if (!commands_.drive() || !commands_.joints().empty() || !commands_.devices().empty()) {
-    return false;
-  }
-  world::DriveState& driven = state.bodies[static_cast<std::size_t>(body_)].drive;
-  driven.command = has_motor_ ? commands_.drive()->command : world::DriveCommand{};
-  driven.command_time = state.time;
+  if (!commands_.has_only_drive()) return false;
+  ApplyDrive(commands_.drive()->command, state);
   commands_.drive().reset();
   is_commanded_ = false;
   return true;

@@ -134,9 +134,11 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   struct UsualEnd {
     bool is_usual = false;     // false: nothing was applied, and ApplyTurn() must be called
     bool has_command = false;  // whether the agent must be added to SharedState::commanded
+    bool has_drive = false;    // whether `drive` must be added to SharedState::drives
     bool was_counted = false;  // whether the agent no longer counts in SharedState::running
     SimTime until{0};          // the agent must be added to SharedState::turn_sleepers for this
                                // instant
+    world::DriveCommand drive;
   };
   // Applies the turn if it ended in a wait for a later instant, as almost all turns do. Changes
   // only this agent, so calls for different agents may run concurrently while the stepping thread
@@ -145,17 +147,27 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // If the agent's only command is for the drive, takes it, applies it to `state` and returns true.
   // Else does nothing and returns false. Concurrent calls are allowed as for ApplyUsualTurn().
   bool ApplyDriveCommand(world::State& state) GSV_REQUIRES(simulation_mutex);
+  // Applies a command of SharedState::drives to `state`. Concurrent calls are allowed as for
+  // ApplyUsualTurn().
+  void ApplyDrive(const world::DriveCommand& command, world::State& state) const
+      GSV_REQUIRES(simulation_mutex) {
+    world::DriveState& driven = state.bodies[static_cast<std::size_t>(body_)].drive;
+    driven.command = has_motor_ ? command : world::DriveCommand{};
+    driven.command_time = state.time;
+  }
   // Loads the agent's data into the cache, because a call for it follows soon.
   void Prefetch() const { PrefetchLines(&shared_, kPrefetchedLines); }
   // Load the data of a turn at `snapshot` into the cache, in two parts. For speed, call these
   // functions in this order, some time after Prefetch().
   void PrefetchBehaviour(const world::Snapshot& snapshot) const;
   void PrefetchTurn() const;
-  // Load the data of ApplyDriveCommand() into the cache, in two parts.
+  // Loads the first part of the data of ApplyDriveCommand() into the cache.
   void PrefetchCommands() const GSV_NO_THREAD_SAFETY_ANALYSIS {
-    PrefetchLines(&shared_, 1);
+    PrefetchBody();
     PrefetchLines(&commands_, 2);
   }
+  // Load the data of ApplyDrive() into the cache, in two parts.
+  void PrefetchBody() const { PrefetchLines(&shared_, 1); }
   void PrefetchDrive(const world::State& state) const GSV_REQUIRES(simulation_mutex) {
     PrefetchLines(&state.bodies[static_cast<std::size_t>(body_)].drive, 1);
   }
@@ -200,17 +212,14 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     }
   }
 
-  // The members that each turn uses come first and fill these cache lines.
+  // The members that each turn uses come first and fill these cache lines. Usual turns change no
+  // member of the first cache line, so that several threads can keep it in their caches.
   static constexpr std::size_t kPrefetchedLines = 6;
   alignas(64) const std::shared_ptr<SharedState> shared_;
   std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
   LocalBehaviour* local_ GSV_GUARDED_BY(simulation_mutex) = nullptr;  // behaviour_->local()
   int body_ GSV_GUARDED_BY(simulation_mutex) = -1;
   bool has_motor_ GSV_GUARDED_BY(simulation_mutex) = true;
-  // whether the agent counts in shared_->running
-  bool is_counted_ GSV_GUARDED_BY(simulation_mutex) = false;
-  // whether the agent is in shared_->commanded
-  bool is_commanded_ GSV_GUARDED_BY(simulation_mutex) = false;
   // Whether a local behaviour waits for slow work that it passed to Block().
   bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool started_ GSV_GUARDED_BY(simulation_mutex) = false;
@@ -219,8 +228,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Whether the behaviour has reported its own death. Its later calls are ignored.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
   Fate fate_ GSV_GUARDED_BY(simulation_mutex) = Fate::kAlive;
+  alignas(64) AgentClocks clocks_ GSV_GUARDED_BY(simulation_mutex);
+  // whether the agent counts in shared_->running
+  bool is_counted_ GSV_GUARDED_BY(simulation_mutex) = false;
+  // whether the agent is in shared_->commanded
+  bool is_commanded_ GSV_GUARDED_BY(simulation_mutex) = false;
   WallTime running_since_ GSV_GUARDED_BY(simulation_mutex){};
-  AgentClocks clocks_ GSV_GUARDED_BY(simulation_mutex);
   RobotCommands commands_ GSV_GUARDED_BY(simulation_mutex);
   Turn turn_;  // used by the stepping thread and, during a turn, by the thread of the turn
   ClockId turn_clock_ = 0;                        // the clock of the last turn; used like turn_

@@ -69,6 +69,7 @@ class RobotCommands {
   }
 
   bool empty() const { return !drive_ && joints_.empty() && devices_.empty(); }
+  bool has_only_drive() const { return drive_ && joints_.empty() && devices_.empty(); }
   std::optional<Drive>& drive() { return drive_; }
   // Commands of joints, by index in the robot's model. For each joint, the last command applies.
   const std::vector<std::pair<int, world::JointCommand>>& joints() const { return joints_; }

@@ -59,7 +59,14 @@ struct SharedState {
   // The agents of local behaviours with one clock that wait for an instant. The thread that
   // executes the turn of such an agent also wakes it.
   TimerQueue<RobotAgent> turn_sleepers GSV_GUARDED_BY(simulation_mutex);
-  // Agents with a command for the next step.
+  // Commands to drives for the next step, from the turns of local behaviours. At most one for each
+  // agent. They apply before the commands of agents in `commanded`.
+  struct DriveOrder {
+    RobotAgent* agent;
+    world::DriveCommand command;
+  };
+  std::vector<DriveOrder> drives GSV_GUARDED_BY(simulation_mutex);
+  // Agents with other commands for the next step.
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);
   // The local behaviours that have a turn now.
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);

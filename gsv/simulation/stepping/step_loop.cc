@@ -20,8 +20,8 @@ constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThrea
 // The number of agents whose commands a thread applies at a time.
 constexpr std::size_t kAgentsAtOnce = 128;
 
-// While an agent's command is applied, data of later agents is loaded into the cache: the commands
-// of the agent kAgentsAhead places later, and the drive of the agent kDrivesAhead places later.
+// While a command is applied, data of later commands is loaded into the cache: of the agent
+// kAgentsAhead places later, and of the drive kDrivesAhead places later.
 constexpr std::size_t kAgentsAhead = 8, kDrivesAhead = 4;
 
 // How often a thread tries to lock a mutex before it sleeps.
@@ -37,7 +37,10 @@ void RaiseThreadPriority() { (void)setpriority(PRIO_PROCESS, 0, -10); }
 
 }  // namespace
 
-StepLoop::StepLoop(Parts parts) : parts_(std::move(parts)), run_(parts_.life_cycle.run()) {
+StepLoop::StepLoop(Parts parts)
+    : parts_(std::move(parts)),
+      run_(parts_.life_cycle.run()),
+      turn_threads_(static_cast<std::size_t>(parts_.team->threads())) {
   instant_.rays = &parts_.shared->rays;
   instant_.seed = parts_.specification.seed;
   thread_ = std::jthread([this] { Run(); });
@@ -154,10 +157,18 @@ void StepLoop::TakeTurns() {
   instant_.Prepare(*parts_.team);
   usual_ends_.assign(turns_.size(), {});
   outcomes_.assign(turns_.size(), TurnOutcome::kTaken);
-  const std::size_t pieces = kPiecesOfAThread * static_cast<std::size_t>(parts_.team->threads());
+  // Each thread has its own sampling, so that threads do not write to the same counts of references.
+  for (TurnThread& thread : turn_threads_) {
+    thread.sampling.emplace(instant_.MakeSampling());
+    thread.begin = thread.end = 0;
+  }
+  const std::size_t pieces = kPiecesOfAThread * turn_threads_.size();
   const std::size_t a_piece = std::clamp(turns_.size() / pieces, kMinTurnsAPiece, kMaxTurnsAPiece);
   parts_.team->ParallelFor(turns_.size(), a_piece,
-                           [this](std::size_t begin, std::size_t end) { TakePiece(begin, end); });
+                           [this](std::size_t begin, std::size_t end, std::size_t thread) {
+                             TakePiece(begin, end, turn_threads_[thread]);
+                           });
+  for (TurnThread& thread : turn_threads_) thread.sampling.reset();
   const SimulationLock lock(shared);
   parts_.world.lock().SetStuck(false);  // the behaviour has finally returned
   const WallTime deadline = WallNow() - parts_.specification.deadline;
@@ -180,9 +191,9 @@ void StepLoop::TakeTurns() {
   turns_.clear();
 }
 
-void StepLoop::TakePiece(std::size_t begin, std::size_t end) {
+void StepLoop::TakePiece(std::size_t begin, std::size_t end, TurnThread& thread) {
   for (std::size_t i = begin; i < end; ++i) turns_[i]->Prefetch();
-  if (end > awake_) WakeForTurns(std::max(begin, awake_), end);
+  ApplyAndWake(std::max(begin, std::min(awake_, end)), end, thread);
   const auto prefetch_behaviour = [&](std::size_t i) {
     if (i < end) turns_[i]->PrefetchBehaviour(*instant_.snapshots.latest());
   };
@@ -192,18 +203,19 @@ void StepLoop::TakePiece(std::size_t begin, std::size_t end) {
   // Each stage finds its addresses in the data that the stage before it has loaded.
   for (std::size_t i = begin; i < begin + 4; ++i) prefetch_behaviour(i);
   for (std::size_t i = begin; i < begin + 2; ++i) prefetch_turn(i);
-  sensing::Sampling sampling = instant_.MakeSampling();
   for (std::size_t i = begin; i < end; ++i) {
     prefetch_behaviour(i + 4);
     prefetch_turn(i + 2);
-    if (outcomes_[i] == TurnOutcome::kTaken) turns_[i]->TakeTurn(instant_, sampling);
+    if (outcomes_[i] == TurnOutcome::kTaken) turns_[i]->TakeTurn(instant_, *thread.sampling);
   }
-  ApplyUsualTurns(begin, end);
+  thread.begin = begin, thread.end = end;
 }
 
-// Another thread holds the mutex for at most about a microsecond. Sleeping would take longer, so
-// this thread first tries several times to lock it.
-void StepLoop::WakeForTurns(std::size_t begin, std::size_t end) {
+// Locks the mutex once for two pieces, because another thread has usually locked it last. The agents
+// of the last piece are still in the cache. The stepping thread applies the last piece of each
+// thread. Another thread holds the mutex for at most about a microsecond. Sleeping would take
+// longer, so this thread first tries several times to lock it.
+void StepLoop::ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread) {
   base::Mutex& mutex = parts_.shared->mutex;
   int tries = 0;
   while (!mutex.try_lock()) {
@@ -215,9 +227,13 @@ void StepLoop::WakeForTurns(std::size_t begin, std::size_t end) {
     break;
   }
   simulation_mutex.AssertHeld();  // `mutex` is the simulation's mutex
+  const SimTime now = parts_.shared->now;
+  for (std::size_t i = thread.begin; i < thread.end; ++i) {
+    if (outcomes_[i] == TurnOutcome::kTaken) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
+  }
   const WallTime wall_now = WallNow();
   for (std::size_t i = begin; i < end; ++i) {
-    const RobotAgent::Woken woken = turns_[i]->WakeForTurn(parts_.shared->now, wall_now);
+    const RobotAgent::Woken woken = turns_[i]->WakeForTurn(now, wall_now);
     outcomes_[i] = woken.has_died     ? TurnOutcome::kDied
                    : woken.has_passed ? TurnOutcome::kTaken
                                       : TurnOutcome::kNone;
@@ -225,21 +241,9 @@ void StepLoop::WakeForTurns(std::size_t begin, std::size_t end) {
   mutex.unlock();
 }
 
-// The agents of these turns are still in the cache. The mutex is usually free. A thread does not
-// wait for it, because the stepping thread applies the other turns later.
-void StepLoop::ApplyUsualTurns(std::size_t begin, std::size_t end) {
-  base::Mutex& mutex = parts_.shared->mutex;
-  if (!mutex.try_lock()) return;
-  simulation_mutex.AssertHeld();  // `mutex` is the simulation's mutex
-  const SimTime now = parts_.shared->now;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (outcomes_[i] == TurnOutcome::kTaken) usual_ends_[i] = turns_[i]->ApplyUsualTurn(now);
-  }
-  mutex.unlock();
-}
-
 void StepLoop::Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) {
   SharedState& shared = *parts_.shared;
+  if (end.has_drive) shared.drives.push_back({&agent, end.drive});
   if (end.has_command) shared.commanded.push_back(&agent);
   shared.turn_sleepers.Add(end.until, &agent);
   if (end.was_counted) --shared.running;
@@ -370,6 +374,16 @@ bool StepLoop::BeginStep(WallTime start) {
 
 void StepLoop::ApplyCommands() {
   world::State& state = parts_.world.state();
+  std::vector<SharedState::DriveOrder>& drives = parts_.shared->drives;
+  parts_.team->ParallelFor(drives.size(), kAgentsAtOnce, [&](std::size_t begin, std::size_t end) {
+    simulation_mutex.AssertHeld();  // the stepping thread holds the mutex, and waits here
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + kAgentsAhead < end) drives[i + kAgentsAhead].agent->PrefetchBody();
+      if (i + kDrivesAhead < end) drives[i + kDrivesAhead].agent->PrefetchDrive(state);
+      drives[i].agent->ApplyDrive(drives[i].command, state);
+    }
+  });
+  drives.clear();
   std::vector<RobotAgent*>& commanded = parts_.shared->commanded;
   parts_.team->ParallelFor(
       commanded.size(), kAgentsAtOnce, [&](std::size_t begin, std::size_t end) {

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -60,13 +61,16 @@ class StepLoop {
   void FailIfRequired(const RobotAgent& dead) GSV_REQUIRES(simulation_mutex);
   // Executes the turns of local behaviours until all of them wait.
   void TakeTurns();
+  // The data of one thread of the team while it executes turns.
+  struct alignas(64) TurnThread {
+    std::optional<sensing::Sampling> sampling;  // at the instant of the turns
+    std::size_t begin = 0, end = 0;             // executed turns that are not yet applied
+  };
   // Any thread may call the next three functions, for different ranges of turns_.
-  void TakePiece(std::size_t begin, std::size_t end);
-  // Wakes the agents and sets outcomes_.
-  void WakeForTurns(std::size_t begin, std::size_t end);
-  // Applies those of the turns from `begin` to `end` that ended in a wait, and sets usual_ends_.
-  // Does nothing if the simulation's mutex is locked.
-  void ApplyUsualTurns(std::size_t begin, std::size_t end);
+  void TakePiece(std::size_t begin, std::size_t end, TurnThread& thread);
+  // Applies those of the thread's turns that ended in a wait, and sets usual_ends_. Then wakes the
+  // agents from `begin` to `end` and sets outcomes_.
+  void ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread);
   // Adds an agent whose turn has ended to the lists of SharedState.
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
   // Sets SharedState::held_up_by to the robot whose turn took the longest, unless another agent
@@ -103,6 +107,7 @@ class StepLoop {
   enum class TurnOutcome : std::uint8_t { kTaken, kDied, kNone };
   std::vector<TurnOutcome> outcomes_;
   std::vector<RobotAgent::UsualEnd> usual_ends_;  // the ends of the applied turns
+  std::vector<TurnThread> turn_threads_;          // one for each thread of the team
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events of the agents that were just woken
   bool is_timed_ = false;        // whether an observer requests the times of steps
