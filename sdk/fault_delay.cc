@@ -22,10 +22,14 @@ FaultDelay& Settings() {
   return settings;
 }
 
-template <typename Info>
-CORBA::Boolean Delay(Info&) {
+void Delay() {
   static std::atomic<std::uint64_t> number{0};
   std::this_thread::sleep_for(NthDelay(Settings(), number++));
+}
+
+template <typename Info>
+CORBA::Boolean Delay(Info&) {
+  Delay();
   return true;  // lets further interceptors run
 }
 
@@ -72,6 +76,10 @@ void DelayCalls(const FaultDelay& fault) {
   interceptors->clientSendRequest.add(&Delay<omni::omniInterceptors::clientSendRequest_T::info_T>);
   interceptors->clientReceiveReply.add(
       &Delay<omni::omniInterceptors::clientReceiveReply_T::info_T>);
+}
+
+void DelayOnce() {
+  if (Settings().max.count() > 0) Delay();
 }
 
 base::Status DelayCallsFromEnvironment() {

@@ -26,6 +26,10 @@ std::chrono::nanoseconds NthDelay(const FaultDelay& fault, std::uint64_t n);
 // first remote call.
 void DelayCalls(const FaultDelay& fault);
 
+// Delays the calling thread like a remote call, if calls are delayed. For exchanges by shared
+// memory, which do not use the ORB.
+void DelayOnce();
+
 // Calls DelayCalls() if GSV_FAULT_DELAY is set.
 base::Status DelayCallsFromEnvironment();
 

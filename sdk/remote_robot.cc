@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
+#include <string_view>
 
 #include "gsv/orb/orb.h"
 #include "idl/actuators.hh"
@@ -175,10 +177,43 @@ base::Status RemoteRobot::OpenClock() {
     orb::LimitCalls(clock_, kCallTimeout);
     batch_clock_ = sba::BatchClock::_narrow(clock_);
     if (!CORBA::is_nil(batch_clock_)) orb::LimitCalls(batch_clock_, kCallTimeout);
+    OpenMemory();
   });
 }
 
-void RemoteRobot::End() { running_ = false; }
+void RemoteRobot::OpenMemory() {
+  const char* const setting = std::getenv("GSV_SHARED_MEMORY");
+  if (setting != nullptr && std::string_view(setting) == "0") return;
+  const sba::SharedClock_var shared = sba::SharedClock::_narrow(clock_);
+  if (CORBA::is_nil(shared)) return;
+  orb::LimitCalls(shared, kCallTimeout);
+  const auto memory = [&]() -> base::Result<sba::CycleMemory> {
+    sba::CycleMemory answer{};
+    if (auto ok = orb::Call(name_, [&] { answer = shared->share_memory(); }); !ok) {
+      return base::Fail(ok.error());
+    }
+    return answer;
+  }();
+  if (!memory) return;  // without memory, cycles are calls
+  auto opened =
+      CycleClient::Open({memory->process, memory->descriptor}, memory->offset, memory->key);
+  if (opened) cycles_ = *std::move(opened);
+}
+
+void RemoteRobot::End() {
+  running_ = false;
+  if (cycles_ != nullptr) cycles_->Interrupt();
+}
+
+bool RemoteRobot::RunCycle(const exchange::CycleRequest& request,
+                           const std::vector<std::string>& sensors, CycleClient::Answer& answer,
+                           bool& is_applied) {
+  is_applied = false;
+  if (cycles_ == nullptr || !running_) return false;
+  const CycleClient::Outcome outcome = cycles_->Run(request, sensors, answer);
+  is_applied = outcome == CycleClient::Outcome::kRepeatApplied;
+  return outcome == CycleClient::Outcome::kAnswered;
+}
 
 void RemoteRobot::CloseClock() {
   Flush();
@@ -275,7 +310,15 @@ bool RemoteRobot::SleepUntil(SimTime instant) {
 bool RemoteRobot::SleepAndRead(SimTime instant) {
   const HeldInstant::Wait wait = held_.End();
   const DriveCommand command = wait.command.value_or(DriveCommand());
-  sba::BaseCommand given{wait.command.has_value(), command.linear, command.lateral,
+  bool is_applied = false;
+  CycleClient::Answer answer;
+  if (RunCycle({0, instant.count(), command.linear, command.lateral, command.angular,
+                wait.command.has_value(), 0},
+               wait.sensors, answer, is_applied)) {
+    held_.Begin(answer.reached, std::move(answer.readings));
+    return true;
+  }
+  sba::BaseCommand given{wait.command.has_value() && !is_applied, command.linear, command.lateral,
                          command.angular};
   sba::Strings sensors;
   sensors.length(static_cast<CORBA::ULong>(wait.sensors.size()));
@@ -310,6 +353,14 @@ bool RemoteRobot::Exchange(const DriveCommand& command, SimTime instant,
   Flush();
   (void)held_.End();
   ++cycle_;
+  bool is_applied = false;
+  answer_.readings.swap(readings);
+  const bool is_answered =
+      RunCycle({cycle_, instant.count(), command.linear, command.lateral, command.angular, 1, 0},
+               {}, answer_, is_applied);
+  answer_.readings.swap(readings);
+  if (is_answered) return true;
+  // A repeated cycle has the same number, so its command is not applied twice.
   sba::WaitOutcome outcome = sba::NOT_YET;
   while (outcome == sba::NOT_YET) {
     const bool ok = Try([&] {

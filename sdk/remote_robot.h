@@ -11,6 +11,7 @@
 #include "gsv/orb/errors.h"
 #include "idl/clocks.hh"
 #include "sdk/behaviour/robot.h"
+#include "sdk/cycle_client.h"
 #include "sdk/held_instant.h"
 
 namespace gsv::sdk {
@@ -82,7 +83,13 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   void SendCommand(const DriveCommand& command);
   // Sends a command that was delayed.
   void Flush();
+  // Opens the memory of the clock, if the simulation is on this host.
+  void OpenMemory();
   bool SleepAndRead(SimTime instant);
+  // Runs a cycle by the shared memory. Returns true if it was answered. Otherwise the caller makes
+  // the call; `is_applied` is whether the command must not be sent again.
+  bool RunCycle(const exchange::CycleRequest& request, const std::vector<std::string>& sensors,
+                CycleClient::Answer& answer, bool& is_applied);
 
   const std::string name_;
   sba::Hardware_var hardware_;
@@ -90,6 +97,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   sba::ActuatorProxy_var base_;
   sba::Clock_var clock_;
   sba::BatchClock_var batch_clock_;  // nil if the clock is no BatchClock, or does not hold the time
+  std::unique_ptr<CycleClient> cycles_;  // null: there is no shared memory
+  CycleClient::Answer answer_;           // used by Exchange()
   HeldInstant held_;
   double footprint_radius_ = 0;
   std::uint64_t cycle_ = 0;

@@ -122,7 +122,7 @@ class BaseServant final : public POA_sba::ActuatorProxy {
   const AgentPtr agent_;
 };
 
-class ClockServant final : public POA_sba::BatchClock {
+class ClockServant final : public POA_sba::SharedClock {
  public:
   ClockServant(AgentPtr agent, simulation::ClockId clock, GroupPtr group)
       : agent_(std::move(agent)), clock_(clock), group_(std::move(group)) {}
@@ -156,6 +156,11 @@ class ClockServant final : public POA_sba::BatchClock {
     holds_time = exchanged.holds_time;
     readings = ToIdl(exchanged.readings);
     return ToIdl(exchanged.wait);
+  }
+
+  sba::CycleMemory share_memory() override {
+    const simulation::CycleMemory memory = orb::ValueOrThrow(agent_->ShareMemory(clock_));
+    return {memory.file.process, memory.file.descriptor, memory.offset, memory.key};
   }
 
   void close() override {

@@ -19,6 +19,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/base/sim_time.h"
+#include "gsv/exchange/shared_file.h"
 #include "gsv/model/sensor_description.h"
 #include "gsv/sensing/reading.h"
 #include "gsv/world/snapshot.h"
@@ -65,6 +66,13 @@ inline JointReading JointReadingIn(const world::Snapshot& snapshot, int body, in
 
 class MountedSensor;
 
+// Where a client finds the memory of a clock, see gsv/exchange/cycle_memory.h.
+struct CycleMemory {
+  exchange::FileAddress file;
+  std::uint64_t offset = 0;  // position of the clock's slot
+  std::uint64_t key = 0;     // the bell's key
+};
+
 // The interface through which one robot's behaviour uses the simulation.
 class Agent {
  public:
@@ -96,6 +104,10 @@ class Agent {
                                            std::optional<world::DriveCommand> command,
                                            base::SimTime until,
                                            std::chrono::milliseconds lease) = 0;
+
+  // Makes memory by which a client on this host exchanges instead of calling Exchange() and
+  // SleepAndRead(). Fails if this system has no such memory.
+  virtual base::Result<CycleMemory> ShareMemory(ClockId clock) = 0;
 
   // Commands the base like Command(), waits, then reads those of `sensors` that are open. Leaves
   // out sensors that fail or take long. Reads no sensors unless simulated time stands still until

@@ -122,6 +122,10 @@ TEST(Determinism, HashDoesNotDependOnTheStartOrderOfBehaviours) {
   ExpectSameHash({.in_reverse_order = true});
 }
 
+TEST(Determinism, HashDoesNotDependOnSharedMemory) {
+  ExpectSameHash({.wrapper = {"env", "GSV_SHARED_MEMORY=0"}});
+}
+
 TEST(Determinism, HashDoesNotDependOnRandomCallDelays) {
   const std::string expected = UndisturbedHash();
   for (int round = 0; round < Rounds(); ++round) {

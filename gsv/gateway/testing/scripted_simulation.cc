@@ -62,6 +62,9 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
                                                    const std::set<std::string>&) override {
     return base::Fail(Refused().error());
   }
+  base::Result<simulation::CycleMemory> ShareMemory(simulation::ClockId) override {
+    return base::Fail(Refused().error());
+  }
   base::Status Command(const world::DriveCommand& command) override {
     const std::lock_guard lock(mutex_);
     command_ = command;

@@ -87,6 +87,7 @@ void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*ca
 
 void AgentPopulation::End(std::string reason, bool is_stuck) {
   shared_->end_reason = std::move(reason);
+  shared_->channels.CloseAll();
   for (const auto& [name, agent] : agents_) agent->wait_event()->Open();
   for (const AgentPtr& agent : WithBehaviour()) {
     // a behaviour that does not return from its turn would not return from this call either

@@ -16,7 +16,7 @@ namespace gsv::simulation {
 // A thread that signals wait events, and so wakes the calls of agents.
 class EventSignaler {
  public:
-  using Events = std::vector<std::shared_ptr<WaitEvent>>;
+  using Events = std::vector<std::shared_ptr<Wakeable>>;
 
   EventSignaler();
   EventSignaler(const EventSignaler&) = delete;

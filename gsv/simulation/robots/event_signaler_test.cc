@@ -23,7 +23,7 @@ TEST(WaitEvent, ReleasesOnlyEarlierWaiters) {
 class EventSignalerTest : public testing::TestWithParam<int> {};
 
 TEST_P(EventSignalerTest, SignalsEachEventOnce) {
-  EventSignaler::Events all;
+  std::vector<std::shared_ptr<WaitEvent>> all;
   for (int i = 0; i < GetParam(); ++i) all.push_back(std::make_shared<WaitEvent>());
   std::atomic<int> passed = 0;
   {
@@ -33,7 +33,7 @@ TEST_P(EventSignalerTest, SignalsEachEventOnce) {
           [wait_event, &passed] { passed += wait_event->WaitAfter(0, WallNow() + kLong); });
     }
     EventSignaler opener;
-    EventSignaler::Events events = all;
+    EventSignaler::Events events(all.begin(), all.end());
     opener.Open(events);
     EXPECT_TRUE(events.empty());
   }

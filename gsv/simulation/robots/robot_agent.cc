@@ -46,7 +46,9 @@ void RobotAgent::UpdateRunningCount() {
   is_counted_ = holds_up;
   shared_->running += holds_up ? 1 : -1;
   const bool is_waited_for = shared_->mode == Mode::kLockstep;
-  if (shared_->running > 0 || !is_waited_for) return;
+  // A client with a channel rings only if all others with a channel have posted, so the stepping
+  // thread looks again after each wait by a call.
+  if (!is_waited_for || (shared_->running > 0 && shared_->channels.empty())) return;
   if (shared_->is_timed) shared_->held_up_by = robot_;
   shared_->changed.notify_all();
 }
@@ -98,6 +100,7 @@ base::Status RobotAgent::CloseClock(ClockId clock) {
   // if the behaviour has given up, its clocks keep their state
   if (has_given_up_) return CheckAlive();
   clocks_.Close(clock);
+  shared_->channels.Close(*this, clock);
   wait_event_.Open();
   UpdateRunningCount();
   return {};
@@ -140,9 +143,11 @@ base::Result<Wait> RobotAgent::WaitOn(AgentCallLock& lock, ClockId clock, SimTim
   const WallTime lease_ends = WallNow() + lease;
   for (;;) {
     const std::uint64_t signals = wait_event_.signals();
+    ++waiting_calls_;
     lock.unlock();
     const bool was_opened = wait_event_.WaitAfter(signals, lease_ends);
     lock.lock();
+    --waiting_calls_;
     if (auto ok = CheckAlive(); !ok) return base::Fail(ok.error());
     if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
     if (!clocks_.IsWaiting(clock)) return Wait::kReached;
@@ -410,6 +415,7 @@ void RobotAgent::MarkUnresponsive(std::string detail) {
   detail_since_ = shared_->now;
   detail_ = std::move(detail);
   StopDriving();
+  shared_->channels.Close(*this);
   wait_event_.Open();
   UpdateRunningCount();
 }
@@ -542,11 +548,13 @@ void RobotAgent::LoseJoint(int joint) {
 
 void RobotAgent::MarkRemoved() {
   is_removed_ = true;
+  shared_->channels.Close(*this);
   wait_event_.Open();
   UpdateRunningCount();
 }
 
 void RobotAgent::ResetClocks() {
+  shared_->channels.Close(*this);
   clocks_ = AgentClocks();
   commands_ = {};
   is_commanded_ = false;

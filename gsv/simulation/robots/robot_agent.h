@@ -9,6 +9,7 @@
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/pace/wall_clock.h"
 #include "gsv/simulation/robots/agent_clocks.h"
+#include "gsv/simulation/robots/event_signaler.h"
 #include "gsv/simulation/robots/local_behaviour.h"
 #include "gsv/simulation/robots/robot_commands.h"
 #include "gsv/simulation/robots/shared_state.h"
@@ -57,6 +58,28 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                     std::string content) override;
   base::Status CommandDevice(const std::string& actuator, world::DeviceCommand command) override;
 
+  base::Result<CycleMemory> ShareMemory(ClockId clock) override;
+
+  struct Woken {
+    // whether the wait event must be signalled, preferably without holding a lock
+    bool has_passed = false;
+    bool has_died = false;  // whether a death that was reported now takes effect
+  };
+  // Begins the cycle that the client has posted to the channel, if there is one. If its wait is
+  // over already, the channel is added to `due`.
+  void BeginCycle(const std::shared_ptr<CycleChannel>& channel, EventSignaler::Events& due)
+      GSV_REQUIRES(simulation_mutex);
+  // Adds what must be opened after Wake() to `due`: the event of waiting calls, and channels.
+  void CollectWoken(const Woken& woken, EventSignaler::Events& due) GSV_REQUIRES(simulation_mutex);
+  // Whether the clock of the channel delays the next step.
+  bool IsAwaited(const CycleChannel& channel) const GSV_REQUIRES(simulation_mutex) {
+    return BlocksStep() && !clocks_.IsWaiting(channel.clock());
+  }
+  // Measures with the sensors of a cycle.
+  CycleChannel::Readings WriteReadings(const CycleChannel::Request& request,
+                                       exchange::ContentWriter& content);
+  void CloseChannel(ClockId clock);
+
   // Returns a reading for an observer.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
 
@@ -78,11 +101,6 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // agents.
   bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
   WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
-  struct Woken {
-    // whether the wait event must be signalled, preferably without holding a lock
-    bool has_passed = false;
-    bool has_died = false;  // whether a death that was reported now takes effect
-  };
   // Ends waits for instants up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
   // Like Wake(), but does not mark the local behaviour as ready. If the agent was woken and has not
@@ -178,6 +196,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   enum class Fate { kAlive, kUnresponsive, kDead };
 
   base::Status CheckCanCommand() const GSV_REQUIRES(simulation_mutex);
+  void SetDue(CycleChannel& channel) GSV_REQUIRES(simulation_mutex);
   base::Status OfferDrive(ClockId clock, const world::DriveCommand& command)
       GSV_REQUIRES(simulation_mutex);
   base::Status CheckAlive() const GSV_REQUIRES(simulation_mutex);
@@ -246,6 +265,10 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const bool is_avatar_;
   SensorRack rack_;
   WaitEvent wait_event_;
+  // The channels of its clocks, of which some may be closed.
+  std::vector<std::shared_ptr<CycleChannel>> channels_ GSV_GUARDED_BY(simulation_mutex);
+  // The number of calls that wait on wait_event_.
+  int waiting_calls_ GSV_GUARDED_BY(simulation_mutex) = 0;
   // The joints that no longer follow commands, because of a fault.
   std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
   // The reason why the agent is dead or unresponsive.

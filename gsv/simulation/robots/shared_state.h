@@ -8,7 +8,9 @@
 #include "gsv/base/mutex.h"
 #include "gsv/simulation/history/motion_history.h"
 #include "gsv/simulation/history/snapshot_history.h"
+#include "gsv/simulation/robots/cycle_channel.h"
 #include "gsv/simulation/robots/sensor_rack.h"
+#include "gsv/simulation/robots/step_signal.h"
 #include "gsv/simulation/robots/timer_queue.h"
 #include "gsv/simulation/types.h"
 
@@ -43,7 +45,7 @@ struct SharedState {
   base::Mutex mutex;
   // Notifies the stepping thread that the phase changed, that the last running agent waits, or that
   // a local behaviour can continue.
-  base::ConditionVariable changed;
+  StepSignal changed;
   // The reason why calls of agents end; empty while they may continue.
   std::string end_reason GSV_GUARDED_BY(simulation_mutex);
   SimTime now GSV_GUARDED_BY(simulation_mutex){0};
@@ -54,6 +56,8 @@ struct SharedState {
   //
   // The number of agents that block the next step.
   int running GSV_GUARDED_BY(simulation_mutex) = 0;
+  // The channels of clients that exchange by shared memory.
+  CycleChannels channels GSV_GUARDED_BY(simulation_mutex);
   // The agents that wait for an instant.
   TimerQueue<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
   // The agents of local behaviours with one clock that wait for an instant. The thread that

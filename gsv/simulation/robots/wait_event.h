@@ -11,8 +11,15 @@
 
 namespace gsv::simulation {
 
+// Something that a thread of the simulation opens at the end of an agent's wait.
+class Wakeable {
+ public:
+  virtual ~Wakeable() = default;
+  virtual void Open() = 0;
+};
+
 // An event on which threads wait, and which another thread signals.
-class WaitEvent {
+class WaitEvent final : public Wakeable {
  public:
   // The number of signals so far. A thread that reads it under the lock of its condition, and then
   // calls WaitAfter() with it, misses no signal.
@@ -22,7 +29,7 @@ class WaitEvent {
   }
 
   // Signals the event and so wakes all waiting threads. If there are any, this takes a system call.
-  void Open() {
+  void Open() override {
     {
       const base::MutexLock lock(mutex_);
       ++signals_;

@@ -24,6 +24,13 @@ constexpr std::size_t kAgentsAtOnce = 128;
 // kAgentsAhead places later, and of the drive kDrivesAhead places later.
 constexpr std::size_t kAgentsAhead = 8, kDrivesAhead = 4;
 
+// The `wanted` number of a bell that is not reached.
+constexpr std::uint32_t kNever = 1U << 30U;
+
+// In lockstep, the stepping thread looks for requests after this wall-clock time even if no client
+// has rung, because a client may have ended between posting and ringing.
+constexpr std::chrono::milliseconds kLongestRest{20};
+
 // How often a thread tries to lock a mutex before it sleeps.
 constexpr int kTries = 200;
 
@@ -61,9 +68,11 @@ void StepLoop::Run() {
   SimulationLock lock(shared);
   if (shared.mode == Mode::kRealTime) RaiseThreadPriority();
   while (!quit_) {
+    TakeCycles();
     if (!run_.is_running()) {
+      OpenWoken(lock);
       timer_.Interrupt();
-      shared.changed.wait(lock.inner());
+      shared.changed.wait(lock.inner(), mark_);
       continue;
     }
     parts_.life_cycle.pace().RestartIfResumed();
@@ -74,11 +83,7 @@ void StepLoop::Run() {
       continue;
     }
     WakeAgents();
-    if (!woken_.empty()) {
-      lock.unlock();
-      event_signaler_.Open(woken_);
-      lock.lock();
-    }
+    OpenWoken(lock);
     if (!run_.is_running()) continue;
     if (shared.has_turns()) {
       lock.unlock();
@@ -126,13 +131,44 @@ void StepLoop::WakeAgents() {
   const auto wake = [&](RobotAgent& agent) {
     simulation_mutex.AssertHeld();  // the calling function holds the mutex
     const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
-    if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.wait_event());
+    if (woken.has_passed && !agent.is_hosted()) agent.CollectWoken(woken, woken_);
     if (woken.has_died) FailIfRequired(agent);
   };
   shared.sleepers.TakeDue(shared.now, wake);
   if (!has_reported_deaths) return;
   shared.turn_sleepers.TakeDue(shared.now, wake);
   for (const auto& [name, agent] : parts_.agents.all()) wake(*agent);
+}
+
+// Takes the requests that clients have posted to their channels. Also decides which clients ring. In
+// lockstep, the last of those that the next step waits for rings. In real time, none does, because
+// the next step comes soon. In both modes, a client also rings if its instant has passed.
+void StepLoop::TakeCycles() {
+  SharedState& shared = *parts_.shared;
+  mark_ = shared.changed.mark();
+  if (shared.channels.empty()) return;
+  exchange::Bell& bell = *shared.channels.bell();
+  bell.now_ns.store(shared.now.count(), std::memory_order_relaxed);
+  const std::uint32_t posted =
+      bell.posted;  // before the requests, so that no client rings too late
+  std::uint32_t awaited = 0;
+  for (const CycleChannels::Channel& each : shared.channels.all()) {
+    each.agent->BeginCycle(each.channel, woken_);
+    awaited += each.channel->is_used() && each.agent->IsAwaited(*each.channel) ? 1 : 0;
+  }
+  if (!run_.is_running()) {
+    awaited = 0;
+  } else if (shared.mode == Mode::kRealTime) {
+    awaited = kNever;
+  }
+  bell.wanted = posted + awaited;
+}
+
+void StepLoop::OpenWoken(SimulationLock& lock) {
+  if (woken_.empty()) return;
+  lock.unlock();
+  event_signaler_.Open(woken_);
+  lock.lock();
 }
 
 void StepLoop::FailIfRequired(const RobotAgent& dead) {
@@ -272,6 +308,10 @@ void StepLoop::PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()
 bool StepLoop::AllWait(SimulationLock& lock) {
   SharedState& shared = *parts_.shared;
   if (shared.mode != Mode::kLockstep || shared.running == 0) return true;
+  if (!shared.channels.empty()) {
+    TakeCycles();  // the agents that WakeAgents() has woken are awaited now
+    if (shared.running == 0 || !woken_.empty()) return false;
+  }
   AgentPopulation::AgentPtr longest;
   for (const auto& [name, agent] : parts_.agents.all()) {
     if (!agent->BlocksStep()) continue;
@@ -282,7 +322,9 @@ bool StepLoop::AllWait(SimulationLock& lock) {
     return longest->running_since() + parts_.specification.deadline;
   };
   // Agents may be removed while the lock is released, so `longest` keeps this agent alive.
-  const std::cv_status status = shared.changed.wait_until(lock.inner(), deadline());
+  WallTime until = deadline();
+  if (!shared.channels.empty()) until = std::min(until, WallNow() + kLongestRest);
+  const std::cv_status status = shared.changed.wait_until(lock.inner(), until, mark_);
   if (status == std::cv_status::timeout && run_.is_running() && longest->BlocksStep() &&
       WallNow() >= deadline()) {
     GiveUpOn(*longest);
@@ -305,7 +347,7 @@ bool StepLoop::IsDue(SimulationLock& lock) {
   const WallTime due = parts_.life_cycle.pace().due();
   const WallTime now = WallNow();
   if (now >= due) return true;
-  parts_.shared->changed.wait_until(lock.inner(), due);
+  parts_.shared->changed.wait_until(lock.inner(), due, mark_);
   if (is_timed_) timer_.AddIdle(WallNow() - now);
   return false;
 }

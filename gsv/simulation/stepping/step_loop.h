@@ -57,6 +57,8 @@ class StepLoop {
   void Run();
   void ApplyFaults();
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
+  void TakeCycles() GSV_REQUIRES(simulation_mutex);
+  void OpenWoken(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   // Ends the run, if the death of a behaviour must end it.
   void FailIfRequired(const RobotAgent& dead) GSV_REQUIRES(simulation_mutex);
   // Executes the turns of local behaviours until all of them wait.
@@ -109,7 +111,8 @@ class StepLoop {
   std::vector<RobotAgent::UsualEnd> usual_ends_;  // the ends of the applied turns
   std::vector<TurnThread> turn_threads_;          // one for each thread of the team
   EventSignaler event_signaler_;
-  EventSignaler::Events woken_;  // wait events of the agents that were just woken
+  EventSignaler::Events woken_;  // wait events and channels of the agents that were just woken
+  std::uint32_t mark_ = 0;       // of the signal, at the last TakeCycles()
   bool is_timed_ = false;        // whether an observer requests the times of steps
   StepTimer timer_;
 

@@ -1,0 +1,93 @@
+// The layout of the memory by which a behaviour exchanges its control cycles with a simulation on
+// the same host. The memory replaces the calls Clock::exchange() and BatchClock::sleep_and_read().
+// It carries only what succeeds: after an error, or if the answer does not come, the client repeats
+// the cycle by the call (docs/adr/111-cycles-by-shared-memory.md).
+//
+// The memory is a shared file: first a Bell, from kSlotSize on one CycleSlot for each clock. A
+// client maps the bell and its own slot. Each side copies what the other side wrote before it
+// checks it, so a client that writes arbitrary bytes harms only its own cycles.
+//
+// Threads  the members that are no atomics belong to one side at a time, see CycleState.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "gsv/exchange/futex.h"
+
+namespace gsv::exchange {
+
+// The bell wakes the stepping thread. All clients of a simulation share it.
+struct Bell {
+  Word rings;                        // changes whenever the stepping thread must look
+  Word sleepers;                     // number of threads of the simulator that sleep on `rings`
+  Word posted;                       // number of requests that clients have posted
+  Word wanted;                       // a client rings if `posted` has reached this number
+  std::atomic<std::int64_t> now_ns;  // simulated time
+  std::atomic<std::uint64_t> key;    // the same number as in the reply of share_memory()
+};
+
+// Returns whether `posted` has reached `wanted`. Both wrap around.
+inline bool HasReached(std::uint32_t posted, std::uint32_t wanted) {
+  return static_cast<std::int32_t>(posted - wanted) >= 0;
+}
+
+// Wakes the stepping thread if it sleeps.
+inline void Ring(Bell& bell) {
+  bell.rings.fetch_add(1);
+  if (bell.sleepers.load() > 0) FutexWake(bell.rings);
+}
+
+// The state of a slot. The word CycleSlot::state contains a state and, above it, the number of the
+// request, so that a late change of an earlier request fails.
+enum class CycleState : std::uint32_t {
+  kNew,       // no client uses the slot yet
+  kIdle,      // the client may write a request
+  kPosted,    // the simulation may read the request
+  kTaken,     // the simulation has read the request and may write the answer
+  kAnswered,  // the client may read the answer
+  kRepeat,    // there is no answer; the client repeats this cycle by a call
+  kClosed,    // the slot is not used any more; the client uses calls
+};
+constexpr std::uint32_t kStateBits = 3;
+inline CycleState StateOf(std::uint32_t word) {
+  return static_cast<CycleState>(word & ((1U << kStateBits) - 1));
+}
+inline std::uint32_t WithState(std::uint32_t word, CycleState state) {
+  return (word >> kStateBits << kStateBits) | static_cast<std::uint32_t>(state);
+}
+
+// A request, see Clock::exchange() in idl/hardware.idl.
+struct CycleRequest {
+  // Cycle number of an exchange; 0 for sleep_and_read(), whose sensor names are in
+  // CycleSlot::content.
+  std::uint64_t cycle = 0;
+  std::int64_t instant_ns = 0;
+  double linear = 0, lateral = 0, angular = 0;  // m/s, m/s, rad/s
+  std::uint32_t has_command = 0;
+  std::uint32_t content_size = 0;  // bytes
+};
+
+struct CycleAnswer {
+  std::int64_t reached_ns = 0;
+  std::uint32_t holds_time = 0;
+  std::uint32_t content_size = 0;  // bytes
+};
+
+constexpr std::size_t kSlotSize = std::size_t{64} << 10U;
+constexpr std::size_t kContentSize = kSlotSize - 192;
+
+struct CycleSlot {
+  alignas(64) Word state;
+  // Whether the command of the request was applied. Set before the state becomes kTaken.
+  Word is_applied;
+  alignas(64) CycleRequest request;
+  alignas(64) CycleAnswer answer;
+  // The sensor names of the request, or the readings of the answer (content.h).
+  alignas(64) std::byte content[kContentSize];
+};
+static_assert(sizeof(CycleSlot) <= kSlotSize && std::is_standard_layout_v<CycleSlot>);
+static_assert(sizeof(Bell) <= 4096);
+
+}  // namespace gsv::exchange

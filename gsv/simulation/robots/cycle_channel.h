@@ -1,0 +1,117 @@
+// The simulation's side of a slot in shared memory (gsv/exchange/cycle_memory.h), by which the
+// behaviour of one clock exchanges its control cycles.
+//
+// Threads  Take(), SetDue() and Close() with the simulation's mutex held. Open() from any thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/base/sim_time.h"
+#include "gsv/exchange/content.h"
+#include "gsv/exchange/cycle_memory.h"
+#include "gsv/exchange/shared_file.h"
+#include "gsv/simulation/agent.h"
+#include "gsv/simulation/robots/wait_event.h"
+
+namespace gsv::simulation {
+
+class RobotAgent;
+
+class CycleChannel final : public Wakeable {
+ public:
+  struct Request {
+    exchange::CycleRequest cycle;
+    std::vector<std::string> sensors;  // names, for a cycle of sleep_and_read()
+  };
+  // How a cycle is answered.
+  enum class Readings {
+    kWritten,
+    kByCall,        // the client repeats this cycle by a call, which reports the error
+    kAlwaysByCall,  // the client makes all cycles by calls
+  };
+
+  CycleChannel(std::unique_ptr<exchange::Mapping> memory, ClockId clock,
+               std::weak_ptr<RobotAgent> agent);
+  ~CycleChannel() override { Close(); }
+
+  ClockId clock() const { return clock_; }
+  // Whether a client has opened the slot.
+  bool is_used() const { return exchange::StateOf(slot_.state) != exchange::CycleState::kNew; }
+  bool is_closed() const { return exchange::StateOf(slot_.state) == exchange::CycleState::kClosed; }
+  // Whether a client waits for the answer of a request that was taken.
+  bool is_waiting() const { return exchange::StateOf(slot_.state) == exchange::CycleState::kTaken; }
+
+  // Takes the request that the client has posted, if there is one. Then call Accept() or Refuse().
+  std::optional<Request> Take();
+  // The command of the request has been applied, and its wait has begun.
+  void Accept(Request request);
+  // The client repeats the cycle by a call.
+  void Refuse();
+  // The wait is over. The next Open() writes the answer.
+  void SetDue(base::SimTime reached, bool holds_time);
+  // Measures, and answers the client.
+  void Open() override;
+  // The client uses calls from now on.
+  void Close();
+
+ private:
+  struct Due {
+    std::uint32_t state = 0;  // the slot's state at SetDue()
+    exchange::CycleAnswer answer;
+  };
+  // Changes the state of the slot, unless the client has changed it, and wakes the client.
+  void Change(std::uint32_t from, exchange::CycleState to);
+
+  const std::unique_ptr<exchange::Mapping> memory_;
+  exchange::CycleSlot& slot_;
+  const ClockId clock_;
+  const std::weak_ptr<RobotAgent> agent_;
+  base::Mutex mutex_;
+  Request request_ GSV_GUARDED_BY(mutex_);
+  std::optional<Due> due_ GSV_GUARDED_BY(mutex_);
+};
+
+// All channels of a simulation, and their memory. The memory is made with the first channel.
+//
+// Threads  with the simulation's mutex held.
+class CycleChannels {
+ public:
+  struct Channel {
+    std::shared_ptr<CycleChannel> channel;
+    RobotAgent* agent = nullptr;
+  };
+
+  // Makes the memory, if there is none yet.
+  base::Status Prepare();
+  exchange::Bell* bell() const {
+    return bell_ != nullptr ? static_cast<exchange::Bell*>(bell_->data()) : nullptr;
+  }
+  struct Added {
+    std::shared_ptr<CycleChannel> channel;
+    CycleMemory memory;
+  };
+  base::Result<Added> Add(RobotAgent& agent, std::weak_ptr<RobotAgent> shared, ClockId clock);
+  // Closes the channel of a clock, if it has one.
+  void Close(const RobotAgent& agent, ClockId clock);
+  // Closes all channels of an agent.
+  void Close(const RobotAgent& agent);
+  void CloseAll();
+
+  const std::vector<Channel>& all() const { return channels_; }
+  bool empty() const { return channels_.empty(); }
+
+ private:
+  template <typename Predicate>
+  void CloseIf(Predicate predicate);
+
+  std::unique_ptr<exchange::SharedFile> file_;
+  std::unique_ptr<exchange::Mapping> bell_;
+  std::uint64_t size_ = 0;  // of the file; slots are not used twice
+  std::vector<Channel> channels_;
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,60 @@
+// The client's side of the memory that a simulation on the same host shares with a clock
+// (gsv/exchange/cycle_memory.h).
+//
+// Threads  Run() from the behaviour's thread, Interrupt() from any.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/exchange/cycle_memory.h"
+#include "gsv/exchange/shared_file.h"
+#include "sdk/behaviour/robot.h"
+
+namespace gsv::sdk {
+
+class CycleClient {
+ public:
+  // After this wall-clock time, a cycle is repeated by a call, which also detects whether the
+  // simulation still exists.
+  static constexpr std::chrono::milliseconds kLease{1000};
+
+  enum class Outcome {
+    kAnswered,
+    kRepeat,         // repeat the cycle by a call
+    kRepeatApplied,  // repeat the cycle by a call; its command has been applied
+  };
+  struct Answer {
+    SimTime reached{0};
+    bool holds_time = false;
+    std::vector<Reading> readings;
+  };
+
+  // Opens the memory. Fails if this process cannot reach it.
+  static base::Result<std::unique_ptr<CycleClient>> Open(const exchange::FileAddress& file,
+                                                         std::uint64_t offset, std::uint64_t key);
+
+  // Runs a cycle and waits for its answer. `sensors` are those of a cycle of sleep_and_read().
+  // Changes `answer` only if the outcome is kAnswered.
+  Outcome Run(exchange::CycleRequest request, const std::vector<std::string>& sensors,
+              Answer& answer);
+  // Lets a waiting Run() return kRepeat or kRepeatApplied.
+  void Interrupt();
+  // Whether the simulation does not use the memory any more.
+  bool is_closed() const { return exchange::StateOf(slot_.state) == exchange::CycleState::kClosed; }
+
+ private:
+  CycleClient(std::unique_ptr<exchange::Mapping> bell, std::unique_ptr<exchange::Mapping> slot);
+  bool Post(exchange::CycleRequest request, const std::vector<std::string>& sensors);
+  // Waits until the simulation has answered. Gives up after kLease.
+  exchange::CycleState Await();
+  bool Read(Answer& answer);
+
+  const std::unique_ptr<exchange::Mapping> bell_memory_, slot_memory_;
+  exchange::Bell& bell_;
+  exchange::CycleSlot& slot_;
+};
+
+}  // namespace gsv::sdk
