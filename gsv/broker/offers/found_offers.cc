@@ -5,8 +5,8 @@
 namespace gsv::broker {
 namespace {
 
-// From() shares the views if they have at most this number of offers for each remaining offer.
-// Otherwise it copies the remaining offers, so that the memory of the other offers can be freed.
+// A list keeps its views alive if they have at most this number of offers for each offer of the
+// list. Otherwise ReleaseViews() copies the offers, so that the memory of the others can be freed.
 constexpr std::size_t kKeptForOne = 4;
 
 }  // namespace
@@ -27,17 +27,13 @@ void FoundOffers::Truncate(std::size_t size) {
   if (size < places_.size()) places_.resize(size);
 }
 
-FoundOffers FoundOffers::From(std::size_t first) const {
+void FoundOffers::ReleaseViews() {
   std::size_t kept = kept_->others.size();
   for (const OfferView& view : kept_->views) kept += view.size();
-  FoundOffers rest;
-  if (kept > kKeptForOne * (size() - first)) {
-    for (std::size_t i = first; i < size(); ++i) rest.AddOther((*this)[i]);
-    return rest;
-  }
-  rest.kept_ = kept_;
-  rest.places_.assign(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
-  return rest;
+  if (kept <= kKeptForOne * size()) return;
+  FoundOffers copies;
+  for (const OfferPtr& offer : *this) copies.AddOther(offer);
+  *this = std::move(copies);
 }
 
 }  // namespace gsv::broker

@@ -63,9 +63,10 @@ class FoundOffers {
   // Replaces the list by these offers, which are elements of the views.
   void SetPlaces(std::vector<const OfferPtr*> places) { places_ = std::move(places); }
   void Truncate(std::size_t size);
-  // Returns the offers from index `first` on. If these are only a small part of the views' offers,
-  // the result keeps only these offers alive, and not the views.
-  FoundOffers From(std::size_t first) const;
+  // If the offers of this list are only a small part of the views' offers,
+  // keeps only these offers alive, and not the views. Earlier pointers to the
+  // offers are then invalid.
+  void ReleaseViews();
 
  private:
   std::shared_ptr<KeptOffers> kept_;

@@ -83,6 +83,42 @@ std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers) {
   return IndicesOf(entries);
 }
 
+std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers, std::size_t count) {
+  // With more, sorting all numbers is as fast.
+  constexpr std::size_t kMaxPart = 8;
+  if (count > numbers.size() / kMaxPart) {
+    std::vector<std::uint32_t> order = AscendingOrder(numbers);
+    order.resize(std::min(count, order.size()));
+    return order;
+  }
+  if (count == 0) return {};
+  // Collects the numbers that may be among the first ones. When there are twice
+  // as many as needed, the larger half is removed. Its smallest key is a bound
+  // for all later numbers.
+  const auto is_before = [](const Keyed& a, const Keyed& b) {
+    return a.key != b.key ? a.key < b.key : a.index < b.index;
+  };
+  std::vector<Keyed> first;
+  first.reserve(2 * count);
+  const auto remove_larger = [&] {
+    const auto end = first.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(first.begin(), end - 1, first.end(), is_before);
+    first.erase(end, first.end());
+    return first.back().key;
+  };
+  std::uint64_t bound = std::numeric_limits<std::uint64_t>::max();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::uint64_t key = KeyOf(numbers[i]);
+    // A later number that equals the bound comes after it.
+    if (key >= bound && first.size() >= count) continue;
+    first.push_back({key, static_cast<std::uint32_t>(i)});
+    if (first.size() == 2 * count) bound = remove_larger();
+  }
+  remove_larger();
+  std::sort(first.begin(), first.end(), is_before);
+  return IndicesOf(first);
+}
+
 std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& numbers) {
   std::vector<Keyed> entries;
   entries.reserve(numbers.size());

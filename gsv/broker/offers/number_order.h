@@ -1,6 +1,7 @@
 // Sorts large arrays of numbers, for the preferences `min` and `max`.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,5 +12,8 @@ namespace gsv::broker {
 // order. A long double holds every int64 and double exactly.
 std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& numbers);
 std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers);
+// Returns the first `count` elements of AscendingOrder(numbers), without
+// sorting the other numbers.
+std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers, std::size_t count);
 
 }  // namespace gsv::broker

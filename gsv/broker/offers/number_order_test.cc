@@ -30,6 +30,24 @@ TEST(NumberOrder, DistinguishesIntegersThatAreEqualAsDoubles) {
   EXPECT_EQ(AscendingOrder({large, large - 2, large - 1, large - 2, 1}), (Order{4, 1, 3, 2, 0}));
 }
 
+TEST(NumberOrder, FirstNumbersAreThoseOfTheWholeOrder) {
+  std::mt19937_64 random(3);
+  for (const std::size_t size : {0u, 1u, 9u, 100u, 3000u}) {
+    for (const unsigned values : {2u, 50u, 1u << 30}) {  // few values make many numbers equal
+      std::vector<double> numbers(size);
+      for (double& number : numbers) {
+        const auto value = static_cast<double>(random() % values);
+        number = random() % 20 == 0 ? static_cast<double>(kNone) : value - values / 2.0;
+      }
+      const Order all = AscendingOrder(std::span<const double>(numbers));
+      for (const std::size_t count : {0u, 1u, 3u, 10u, 370u, 5000u}) {
+        const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(count, size));
+        EXPECT_EQ(AscendingOrder(numbers, count), Order(all.begin(), end)) << size << " " << count;
+      }
+    }
+  }
+}
+
 // The expected order is that of the standard library's sort.
 TEST(NumberOrder, EqualsStandardSortForManyNumbers) {
   std::mt19937_64 random(7);

@@ -20,9 +20,39 @@ namespace gsv::broker {
 // property.
 const std::string* PropertyToOrderBy(const Preference& preference);
 
+// Found offers that are sorted as far as they are needed. A client often reads
+// only the first few of many offers.
+//
+// Threads  any thread may call const members.
+class RankedOffers {
+ public:
+  RankedOffers() = default;
+  // The offers are in order.
+  explicit RankedOffers(FoundOffers offers);
+  // Offers with smaller ranks come first, those with NaN last. `ranks` has one
+  // rank per offer.
+  RankedOffers(FoundOffers offers, std::vector<double> ranks);
+
+  std::size_t size() const { return size_; }
+  // Removes the offers after the first `size`.
+  void Truncate(std::size_t size);
+  // Returns the first `count` offers in order, or all if there are fewer.
+  // Invalid after ReleaseViews() and Sorted().
+  std::vector<const OfferPtr*> First(std::size_t count) const;
+  // See FoundOffers.
+  void ReleaseViews() { offers_.ReleaseViews(); }
+  // Returns all offers in order.
+  FoundOffers Sorted() &&;
+
+ private:
+  FoundOffers offers_;
+  std::vector<double> ranks_;  // empty if the offers are in order
+  std::size_t size_ = 0;
+};
+
 // Orders `offers`. `seed` is the seed of the preference `random`. If min or max orders by a
 // property, `known` has the numbers of the first few offers, or NaN for an offer without a number.
-void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
-             DynamicValues& values, FoundOffers& offers);
+RankedOffers Rank(const Preference& preference, std::uint64_t seed, std::vector<double> known,
+                  DynamicValues& values, FoundOffers offers);
 
 }  // namespace gsv::broker

@@ -133,7 +133,7 @@ void LookupServant::query(const char* type, const char* constr, const char* pref
                        .policies = policies,
                        .desired = desired,
                        .request_id = import.request_id.value_or(objects_.NewRequestId())};
-  QueryResult result;
+  RankedResult result;
   if (objects_.requests.Remember(query.request_id)) {
     MatchingOffers matches = ValueOrRaise(objects_.trader.FindMatching(query.query, values));
     AddFederatedAnswers(objects_, query, matches, values);
@@ -141,17 +141,16 @@ void LookupServant::query(const char* type, const char* constr, const char* pref
   }
 
   const std::size_t count = std::min(how_many, objects_.trader.attributes().max_list);
-  const auto& places = result.offers.places();
+  const std::vector<const OfferPtr*> first = result.offers.First(count);
   const std::size_t fitting = CountFitting(
-      places, 0, count, kReplyBytes,
+      first, 0, count, kReplyBytes,
       [&](const OfferPtr* offer) { return EncodedSize(**offer, desired, dynamic.value_bytes); });
   CosTrading::OfferSeq_var first_offers = ToCorba(
-      objects_.orb, std::span<const OfferPtr* const>(places).first(fitting), desired, values);
+      objects_.orb, std::span<const OfferPtr* const>(first).first(fitting), desired, values);
   CosTrading::OfferIterator_var rest;
-  if (fitting != places.size()) {
-    const FoundOffers remaining = result.offers.From(fitting);
+  if (fitting != result.offers.size()) {
     const std::uint64_t key =
-        objects_.offer_cursors.Open(remaining.places(), {desired, remaining.kept()});
+        objects_.offer_cursors.Open(RemainingOffers(std::move(result.offers), fitting), desired);
     const CORBA::Object_var iterator =
         IteratorReference(objects_.offer_iterators, key, CosTrading::OfferIterator::_PD_repoId);
     rest = CosTrading::OfferIterator::_unchecked_narrow(iterator);
@@ -170,14 +169,19 @@ CORBA::ULong OfferIteratorServant::max_left() {
 CORBA::Boolean OfferIteratorServant::next_n(CORBA::ULong n, CosTrading::OfferSeq_out offers) {
   const std::size_t count = std::min(n, objects_.trader.attributes().max_list);
   const DynamicLimits& dynamic = objects_.trader.limits().dynamic;
+  const std::uint64_t key = CurrentIterator(objects_.orb);
+  // Keeps the offers alive, and sorts them before Take(), so that other
+  // iterators need not wait.
+  const auto remaining = objects_.offer_cursors.EntriesOf(key);
+  if (!remaining) throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
+  remaining->Sorted();
   const auto batch = objects_.offer_cursors.Take(
-      CurrentIterator(objects_.orb), count, kReplyBytes,
-      [&](const OfferPtr* offer, const OfferCursorContext& context) {
-        return EncodedSize(**offer, context.desired, dynamic.value_bytes);
+      key, count, kReplyBytes, [&](const OfferPtr* offer, const DesiredProperties& desired) {
+        return EncodedSize(**offer, desired, dynamic.value_bytes);
       });
   if (!batch) throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
   DynamicValues values(&objects_.dynamic, dynamic.query_budget);
-  offers = ToCorba(objects_.orb, batch->entries, batch->context.desired, values);
+  offers = ToCorba(objects_.orb, batch->entries, batch->context, values);
   return batch->more;
 }
 

@@ -1,5 +1,7 @@
 #include "gsv/broker/service/trading_objects.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace gsv::broker {
@@ -12,6 +14,20 @@ CursorLimits LimitsOfCursors(const TraderLimits& limits) {
 }
 
 }  // namespace
+
+RemainingOffers::RemainingOffers(RankedOffers offers, std::size_t replied)
+    : first_(replied), size_(offers.size() - replied), shared_(std::make_shared<Shared>()) {
+  offers.ReleaseViews();
+  shared_->offers = std::move(offers);
+}
+
+const FoundOffers& RemainingOffers::Sorted() const {
+  std::call_once(shared_->once, [&] {
+    shared_->sorted = std::move(shared_->offers).Sorted();
+    shared_->offers = {};
+  });
+  return shared_->sorted;
+}
 
 TradingObjects::TradingObjects(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed)
     : trader(limits, stem, seed),

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,35 @@ namespace gsv::broker {
 // of 64 KiB.
 constexpr std::size_t kReplyBytes = 48 * 1024;
 
-// The properties that the client requests, and the memory of the cursor's offers.
-struct OfferCursorContext {
-  DesiredProperties desired{};
-  std::shared_ptr<const KeptOffers> kept{};
+// The offers of a query after the first reply. The first use of operator[]
+// sorts them. Copies share the offers.
+//
+// Threads  any.
+class RemainingOffers {
+ public:
+  // Omits the first `replied` offers.
+  RemainingOffers(RankedOffers offers, std::size_t replied);
+
+  std::size_t size() const { return size_; }
+  const OfferPtr* operator[](std::size_t index) const { return Sorted().places()[first_ + index]; }
+  // Sorts the offers, if it has not been done.
+  const FoundOffers& Sorted() const;
+
+ private:
+  struct Shared {
+    std::once_flag once{};
+    RankedOffers offers{};
+    FoundOffers sorted{};
+  };
+
+  std::size_t first_;
+  std::size_t size_;
+  std::shared_ptr<Shared> shared_;
 };
-using OfferCursors = CursorTable<const OfferPtr*, OfferCursorContext>;
+
+using OfferCursors = CursorTable<RemainingOffers, DesiredProperties>;
 struct NoContext {};
-using OfferIdCursors = CursorTable<std::string, NoContext>;
+using OfferIdCursors = CursorTable<std::vector<std::string>, NoContext>;
 
 struct TradingObjects {
   explicit TradingObjects(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);

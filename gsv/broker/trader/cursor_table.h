@@ -1,5 +1,7 @@
 // The cursors behind iterators. A cursor holds results that a client fetches in several calls.
 //
+// `Entries` is a list of results in order, with size() and operator[].
+//
 // The number of cursors, the number of stored entries, and the time since the last use are limited.
 // The least recently used cursor is removed first.
 //
@@ -13,6 +15,8 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gsv/base/mutex.h"
@@ -28,8 +32,8 @@ struct CursorLimits {
 // Returns the number of entries from `next` on that fit into one answer: at most `count` entries,
 // with a total size (by `size_of`) of at most `bytes`. Returns at least 1 if entries remain and
 // `count` is not 0.
-template <typename Entry, typename SizeOf>
-std::size_t CountFitting(const std::vector<Entry>& entries, std::size_t next, std::size_t count,
+template <typename Entries, typename SizeOf>
+std::size_t CountFitting(const Entries& entries, std::size_t next, std::size_t count,
                          std::size_t bytes, const SizeOf& size_of) {
   const std::size_t max_taken = std::min(count, entries.size() - next);
   std::size_t taken_bytes = 0;
@@ -40,9 +44,10 @@ std::size_t CountFitting(const std::vector<Entry>& entries, std::size_t next, st
   return max_taken;
 }
 
-template <typename Entry, typename Context>
+template <typename Entries, typename Context>
 class CursorTable {
  public:
+  using Entry = std::decay_t<decltype(std::declval<const Entries&>()[0])>;
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
   using SizeOf = std::function<std::size_t(const Entry&, const Context&)>;
 
@@ -56,7 +61,7 @@ class CursorTable {
       : limits_(limits), clock_(std::move(clock)) {}
 
   // Opens a cursor. `entries` has at most limits.entries elements.
-  std::uint64_t Open(std::vector<Entry> entries, Context context) {
+  std::uint64_t Open(Entries entries, Context context) {
     const base::MutexLock lock(mutex_);
     RemoveExpired();
     while (!cursors_.empty() &&
@@ -78,12 +83,21 @@ class CursorTable {
     const std::size_t taken =
         CountFitting(cursor->entries, cursor->next, count, bytes,
                      [&](const Entry& entry) { return size_of(entry, cursor->context); });
-    const auto first = cursor->entries.begin() + static_cast<std::ptrdiff_t>(cursor->next);
     Batch batch{{}, cursor->context, false};
-    std::move(first, first + static_cast<std::ptrdiff_t>(taken), std::back_inserter(batch.entries));
-    cursor->next += taken;
+    batch.entries.reserve(taken);
+    for (std::size_t i = 0; i < taken; ++i) {
+      batch.entries.push_back(cursor->entries[cursor->next++]);
+    }
     batch.more = cursor->next < cursor->entries.size();
     return batch;
+  }
+
+  // Returns a copy of all entries of the cursor. Returns nullopt if there is no such cursor.
+  std::optional<Entries> EntriesOf(std::uint64_t key) {
+    const base::MutexLock lock(mutex_);
+    const Cursor* cursor = Use(key);
+    if (cursor == nullptr) return std::nullopt;
+    return cursor->entries;
   }
 
   // Returns the number of entries that are not fetched yet. Returns nullopt if there is no such
@@ -118,7 +132,7 @@ class CursorTable {
  private:
   // The results of one iterator that are not fetched yet: `entries` from `next` on.
   struct Cursor {
-    std::vector<Entry> entries;
+    Entries entries;
     std::size_t next = 0;
     Context context;
     std::chrono::steady_clock::time_point used;

@@ -7,7 +7,7 @@
 namespace gsv::broker {
 namespace {
 
-using Table = CursorTable<int, std::string>;
+using Table = CursorTable<std::vector<int>, std::string>;
 using std::chrono::seconds;
 
 class CursorTableTest : public testing::Test {

@@ -24,6 +24,7 @@
 #include "gsv/broker/offers/found_offers.h"
 #include "gsv/broker/offers/import_policies.h"
 #include "gsv/broker/offers/offer_store.h"
+#include "gsv/broker/offers/preference_order.h"
 #include "gsv/broker/offers/scan_slots.h"
 #include "gsv/broker/offers/trading_error.h"
 #include "gsv/broker/trader/journal.h"
@@ -44,7 +45,7 @@ struct MatchingOffers {
   FoundOffers offers{};
   Offers proxies{};  // proxies of traders that may have offers for the query
   Preference preference{};
-  std::vector<double> known{};  // see OrderBy()
+  std::vector<double> known{};  // see broker::Rank()
   Cardinalities cardinalities{};
   std::vector<std::string> limits_applied{};
 };
@@ -53,6 +54,11 @@ struct MatchingOffers {
 struct QueryResult {
   FoundOffers offers{};
   // The names of the policies that limited the result.
+  std::vector<std::string> limits_applied{};
+};
+// The same, with offers that are sorted as far as they are needed.
+struct RankedResult {
+  RankedOffers offers{};
   std::vector<std::string> limits_applied{};
 };
 
@@ -145,7 +151,7 @@ class Trader {
   // orders and limits them. Find() calls both functions. A caller may call FindMatching() and
   // Rank() separately, and add offers of other traders in between.
   TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
-  QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
+  RankedResult Rank(MatchingOffers matches, DynamicValues& values) const;
   TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;
   // Runs a query in which dynamic properties have no value.
   TradingResult<QueryResult> Find(const Query& query) const;

@@ -204,7 +204,8 @@ TradingResult<QueryResult> Trader::Find(const Query& query) const {
 TradingResult<QueryResult> Trader::Find(const Query& query, DynamicValues& values) const {
   auto matches = FindMatching(query, values);
   if (!matches) return Refuse(matches.error());
-  return Rank(std::move(*matches), values);
+  RankedResult ranked = Rank(std::move(*matches), values);
+  return QueryResult{std::move(ranked.offers).Sorted(), std::move(ranked.limits_applied)};
 }
 
 TradingResult<MatchingOffers> Trader::FindMatching(const Query& query,
@@ -235,13 +236,15 @@ std::size_t Trader::Candidates::Steps(const Expression& constraint) const {
   return offers * constraint.nodes.size();
 }
 
-QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
-  OrderBy(matches.preference, seed_++, matches.known, values, matches.offers);
-  if (matches.offers.size() > matches.cardinalities.returned) {
-    matches.offers.Truncate(matches.cardinalities.returned);
-    matches.limits_applied.emplace_back("return_card");
+RankedResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
+  RankedResult result{broker::Rank(matches.preference, seed_++, std::move(matches.known), values,
+                                   std::move(matches.offers)),
+                      std::move(matches.limits_applied)};
+  if (result.offers.size() > matches.cardinalities.returned) {
+    result.offers.Truncate(matches.cardinalities.returned);
+    result.limits_applied.emplace_back("return_card");
   }
-  return {std::move(matches.offers), std::move(matches.limits_applied)};
+  return result;
 }
 
 Trader::Candidates Trader::SelectCandidates(const Query& query,
