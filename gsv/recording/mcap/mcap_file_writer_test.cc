@@ -41,6 +41,20 @@ TEST(Crc32, EqualsTheCrcOfZipAndPng) {
   EXPECT_EQ(Crc32({}, 5), 5U);
 }
 
+// Long pieces are computed in another way than single bytes.
+TEST(Crc32, OfLongPiecesEqualsThatOfTheirBytes) {
+  Bytes bytes;
+  for (unsigned i = 0; i < 400; ++i) bytes.push_back(static_cast<std::byte>(i * i * 31 + (i >> 3)));
+  const std::span<const std::byte> all(bytes);
+  for (std::size_t begin = 0; begin < 5; ++begin) {
+    std::uint32_t expected = 12345;
+    for (std::size_t size = 0; begin + size < all.size(); ++size) {
+      ASSERT_EQ(Crc32(all.subspan(begin, size), 12345), expected) << begin << " " << size;
+      expected = Crc32(all.subspan(begin + size, 1), expected);
+    }
+  }
+}
+
 TEST(McapFileWriter, BeginsWithTheMagicAndAHeader) {
   Bytes bytes;
   MemorySink sink(bytes);

@@ -145,7 +145,8 @@ void Append(Bytes& out, const ChannelRecord& record) {
   PutStrings(out, record.metadata);
 }
 
-// Optimised, because nearly all records of a file are messages: `out` grows once for all fields.
+// Optimised, because nearly all records of a file are messages: `out` grows once for all fields, and
+// its new bytes are not set to zero first.
 void Append(Bytes& out, const MessageRecord& record) {
   FixedBytes<kRecordHeaderSize + kMessageHeadSize> head;
   head.Put(static_cast<std::uint8_t>(Opcode::kMessage));
@@ -154,11 +155,8 @@ void Append(Bytes& out, const MessageRecord& record) {
   head.Put(record.sequence);
   head.PutTime(record.log_time);
   head.PutTime(record.publish_time);
-  const std::size_t start = out.size();
-  out.resize(start + head.size() + record.data.size());
-  std::memcpy(out.data() + start, head.data(), head.size());
-  if (record.data.empty()) return;
-  std::memcpy(out.data() + start + head.size(), record.data.data(), record.data.size());
+  out.insert(out.end(), head.data(), head.data() + head.size());
+  PutBytes(out, record.data);
 }
 
 MessageHead ReadMessageHead(std::span<const std::byte> content) {
