@@ -75,13 +75,9 @@ const colours = () =>
       }),
     );
 
-test("three cameras are seen at once", async () => {
-  await page.keyboard.press("Control+k");
-  await page.getByRole("combobox", { name: "Command, robot, topic or panel" }).fill("show all cameras");
-  await page.keyboard.press("Enter");
+test("three cameras are seen at once, by a button in the panel", async () => {
+  await press("Show all cameras");
   await until(async () => (await camera().locator("option:checked").textContent()) === "All cameras (6)", "all cameras");
-  await press("Arrange images");
-  await press("Maximise");
   await until(async () => {
     const found = await colours();
     return found.length === 6 && found.every((number) => number > 5);
@@ -91,6 +87,18 @@ test("three cameras are seen at once", async () => {
   // The images fill the panel in rows and columns.
   assert.deepEqual([new Set(boxes.map(([x]) => Math.round(x))).size, new Set(boxes.map(([, y]) => Math.round(y))).size], [3, 2]);
   assert.ok(boxes.every(([, , width, height]) => width > 100 && height > 70), JSON.stringify(boxes));
+});
+
+test("one camera is shown at the former size, and the palette shows all again", async () => {
+  const width = async () => (await panel().boundingBox()).width;
+  const large = await width();
+  await press("Show one camera");
+  await until(async () => (await width()) < large / 2 && (await panel().locator("canvas").count()) === 1, "the former size");
+  await page.keyboard.press("Control+k");
+  await page.getByRole("combobox", { name: "Command, robot, topic or panel" }).fill("cameras");
+  await page.getByRole("option", { name: /Show all cameras/ }).waitFor();
+  await page.keyboard.press("Enter");
+  await until(async () => (await panel().locator("canvas").count()) === 6, "all cameras again");
 });
 
 test("a click on one shows it alone, and it is zoomed", async () => {

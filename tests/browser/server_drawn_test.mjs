@@ -61,6 +61,7 @@ test("without WebGL the server draws the view at the size of the window", async 
     const { width, height } = document.querySelector(".view").getBoundingClientRect();
     return Math.abs(canvas.width - width) <= 1 && Math.abs(canvas.height - height) <= 1;
   });
+  await page.getByText("This browser has no WebGL, so the server draws the view.").waitFor();
   const image = await lookAtImage();
   assert.ok(image.colours > 100, `only ${image.colours} colours`);
   assert.equal(await page.getByTestId("drawer").textContent(), "drawn by the server");
@@ -204,6 +205,7 @@ test("a browser whose WebGL is slow changes to the server's images by itself, an
     });
     const moving = await startServer(SIMULATION);
     const { page: slow } = await openPage(other, moving.url);
+    await slow.getByText("This browser draws fewer than 10 images per second, so the server draws the view now.").waitFor();
     await slow.getByTestId("drawer").getByText("drawn by the server").waitFor();
     await slow.locator(".drawn-view").waitFor();
     await moving.stop();

@@ -243,9 +243,12 @@ export class App {
     this.panels.open("joints");
   }
 
+  // All images need a large part, so a small one is maximised meanwhile.
   showAllCameras(allCameras: boolean): void {
     this.store.set({ allCameras });
     this.panels.open(IMAGES_PANEL);
+    if (allCameras) this.panels.host?.enlarge(IMAGES_PANEL);
+    else this.panels.host?.restoreSize();
   }
 
   // Plots a value against simulated time from now on.

@@ -6,6 +6,7 @@ import type { Store } from "../state/Store";
 export interface PanelHost {
   isInSight(id: string): boolean; // false if the panel is closed or behind another tab
   reveal(id: string): void;
+  enlarge(id: string): void; // maximises the part of a panel if it is small
   restoreSize(): boolean; // ends Maximise; returns whether a part was maximised
 }
 

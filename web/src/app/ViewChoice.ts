@@ -12,6 +12,9 @@ export interface ChoiceOptions {
 const SLOW_FPS = 10;
 const SLOW_SECONDS = 5; // number of consecutive slow seconds after which the server draws
 
+const NO_WEBGL = "This browser has no WebGL, so the server draws the view. Everything else works as usual.";
+const SLOW = `This browser draws fewer than ${SLOW_FPS} images per second, so the server draws the view now. To change this, click “drawn by the server” in the status bar.`;
+
 export class ViewChoice {
   private slowSeconds = 0;
   private isByHand: boolean;
@@ -21,6 +24,7 @@ export class ViewChoice {
     private readonly store: Store<State>,
     private readonly options: ChoiceOptions,
     private readonly use: (drawer: Drawer) => void,
+    private readonly explain: (sentence: string) => void, // called when the server draws without the user's choice
   ) {
     this.isByHand = options.chosen === "browser" || options.chosen === "server";
   }
@@ -28,13 +32,16 @@ export class ViewChoice {
   start(): void {
     const { canDraw, chosen } = this.options;
     this.set(!canDraw || chosen === "server" ? "server" : "browser");
+    if (!canDraw && chosen !== "server") this.explain(NO_WEBGL);
   }
 
   // Called about once per second while frames are drawn.
   frameRate(framesPerSecond: number): void {
     if (this.store.get().drawnBy === "server" || this.isByHand || this.serverFails || !this.options.inSoftware) return;
     this.slowSeconds = framesPerSecond > 0 && framesPerSecond < SLOW_FPS ? this.slowSeconds + 1 : 0;
-    if (this.slowSeconds >= SLOW_SECONDS) this.set("server");
+    if (this.slowSeconds < SLOW_SECONDS) return;
+    this.set("server");
+    this.explain(SLOW);
   }
 
   // The other drawer that the user can choose; null if there is no choice.

@@ -28,6 +28,7 @@ export function panelPorts(app: App, api: SimulationApi, library: Pick<ModelLibr
     control: {
       take: () => app.people.want(true),
       resume: () => app.startPauseOrResume(),
+      setDriven: (driven) => store.set({ driven }),
       drive: (simulation, robot, drive) => api.drive(simulation, robot, drive),
       joints: (simulation, body) => api.joints(simulation, body),
       showJoints: () => app.showJoints(),

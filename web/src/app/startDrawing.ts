@@ -55,7 +55,7 @@ export function startDrawing(
     };
     world.drawBy(new DrawnView({ live, fetchImage }, events));
   };
-  choice = new ViewChoice(store, { ...options, canDraw: world.canDraw }, use);
+  choice = new ViewChoice(store, { ...options, canDraw: world.canDraw }, use, (sentence) => notify(store, "note", sentence));
   choice.start();
   let isSettingUp = store.get().setUp !== null;
   store.watch(

@@ -59,12 +59,12 @@ function runCommands(app: App): Command[] {
 }
 
 function viewCommands(app: App): Command[] {
-  const { shown, mapMode, scene, allCameras } = app.store.get();
+  const { shown, mapMode, scene } = app.store.get();
   const view = (label: string, key: string, run: () => void): Command => ({ group: "View", label, key, run });
   return [
     { group: "View", label: mapMode ? "Leave the map" : "Map", run: () => app.setMap(!mapMode) },
     { group: "View", label: "Measure", run: () => app.pointing.setMeasuring(true) },
-    ...(imagesOf(scene).length > 1 && !allCameras ? [{ group: "View", label: "Show all cameras", run: () => app.showAllCameras(true) }] : []),
+    ...(imagesOf(scene).length > 1 ? [{ group: "View", label: "Show all cameras", run: () => app.showAllCameras(true) }] : []),
     view("Reset view", "R", () => app.resetView()),
     view("Top view", "T", () => app.topView()),
     view("Follow", "F", () => app.toggleViewMode("follow")),

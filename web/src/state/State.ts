@@ -109,6 +109,7 @@ export interface State {
   expectations: readonly Expectation[]; // expectations of the scenario
   robotFilter: RobotFilter;
   selection: string | null; // name of the selected robot
+  driven: string | null; // name of the robot that this page drives
   selectedPose: RobotPose | null;
   chosenPose: BodyPose | null; // pose of the edited body as it is drawn
   part: WorldPart | null; // the selected object, link, joint or sensor, for the inspector
@@ -168,6 +169,7 @@ export const initialState: State = {
   expectations: [],
   robotFilter: NO_FILTER,
   selection: null,
+  driven: null,
   selectedPose: null,
   chosenPose: null,
   part: null,

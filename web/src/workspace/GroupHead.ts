@@ -11,6 +11,8 @@ export interface HeadParts {
   isNarrow(): boolean; // whether the page is too narrow for parts beside each other
 }
 
+// With more tabs there is no room for the button in a narrow part; the menu has the command.
+const MAX_TABS = 2;
 const SIDES = [
   ["left", "Move to the left of the view"],
   ["right", "Move to the right of the view"],
@@ -39,6 +41,11 @@ export function createGroupHead(api: DockviewApi, group: DockviewGroupPanel, par
   const maximise = item("Maximise", () =>
     group.api.isMaximized() ? api.exitMaximizedGroup() : group.api.maximize(),
   );
+  const large = element(
+    "button",
+    { class: "button plain small", type: "button", onclick: () => (group.api.isMaximized() ? api.exitMaximizedGroup() : group.api.maximize()) },
+    icon("enlarge"),
+  );
   const window = item("Open in a separate window", (panel) => {
     if (panel.api.location.type === "popout") panel.api.moveTo(besideView(api, "right"));
     else void api.addPopoutGroup(panel);
@@ -55,7 +62,7 @@ export function createGroupHead(api: DockviewApi, group: DockviewGroupPanel, par
     { class: "button plain small", type: "button", onclick: () => active()?.api.close() },
     icon("close"),
   );
-  place.append(tools, menu.element, close);
+  place.append(tools, large, menu.element, close);
 
   const show = () => {
     const panel = active();
@@ -71,7 +78,12 @@ export function createGroupHead(api: DockviewApi, group: DockviewGroupPanel, par
     menu.button.setAttribute("aria-label", `Arrange ${title}`);
     menu.button.title = `Arrange ${title}`;
     const isOut = panel?.api.location.type === "popout";
-    setText(maximise, group.api.location.type === "grid" && group.api.isMaximized() ? "Restore the size" : "Maximise");
+    const isMaximised = group.api.location.type === "grid" && group.api.isMaximized();
+    setText(maximise, isMaximised ? "Restore the size" : "Maximise");
+    const largeLabel = isMaximised ? `Restore the size of ${title}` : `Maximise ${title}`;
+    large.setAttribute("aria-label", largeLabel);
+    large.title = isMaximised ? `${largeLabel} (Esc)` : largeLabel;
+    large.hidden = isView || isOut || parts.isNarrow() || (!isMaximised && group.panels.length > MAX_TABS);
     setText(window, isOut ? "Return to the page" : "Open in a separate window");
     maximise.hidden = isOut;
     window.hidden = isView;

@@ -140,3 +140,13 @@ test("a panel moves to another side of the view without a mouse", async () => {
   [...menu.querySelectorAll("button")].find(({ textContent }) => textContent === "Move to the left of the view")!.click();
   await vi.waitFor(() => expect(shapeOf(workspace.layout)).toBe("r(news,view)"));
 });
+
+test("a part that would be too low joins the part above it, and returns when the panel at the top is closed", async () => {
+  const panels = [panelOf("news", { place: "side" }).panel, panelOf("log", { place: "side" }).panel, panelOf("side", { place: "top-side" }).panel];
+  const { workspace, open } = workspaceOf(panels, "r(view~700,c(news~600,log~400)~300)");
+  open("news", "log", "side");
+  expect(shapeOf(workspace.layout)).toBe("r(view,c(side,news.log))");
+  expect([workspace.isInSight("news"), workspace.isInSight("log")]).toEqual([true, false]);
+  open("news", "log");
+  await vi.waitFor(() => expect(workspace.layout).toBe("r(view~700,c(news~600,log~400)~300)"));
+});

@@ -14,12 +14,14 @@ import { createGroupHead } from "./GroupHead";
 import type { Split } from "../state/layout";
 import { VIEW, narrowLayout, panelsOf, textOf } from "../state/layout";
 import type { Space } from "./presets";
+import { SideRoom } from "./SideRoom";
 
 const SIDE_PX = 300;
 const BELOW_PX = 250;
 const TOP_SIDE_SHARE = 0.62; // fraction of the height
 const MIN_WIDTH_PX = 150;
-const MIN_HEIGHT_PX = 90;
+const MIN_HEIGHT_PX = 120;
+const SMALL_PX = 480; // width below which a part is too small for several images
 const POPOUT_PAGE = "popout.html";
 
 export interface WorkspacePanels {
@@ -39,6 +41,7 @@ export class Workspace {
   onChange: (layout: string) => void = () => {};
   private readonly api: DockviewApi;
   private readonly frames = new Map<string, Frame>();
+  private readonly room: SideRoom;
   private readonly narrow: MediaQueryList | null;
   private wide: Split | null = null; // the layout of the wide screen, while the screen is narrow
   private isApplying = false;
@@ -63,6 +66,7 @@ export class Workspace {
       scrollbars: "native",
       disableDnd: this.isNarrow,
     });
+    this.room = new SideRoom(this.api);
     this.api.onDidRemovePanel(({ id }) => this.follow(id));
     this.api.onDidLayoutChange(() => this.changed());
     this.api.onDidOpenPopoutWindowFail(() =>
@@ -105,6 +109,11 @@ export class Workspace {
     this.api.getPanel(id)?.api.setActive();
   }
 
+  enlarge(id: string): void {
+    const group = this.api.getPanel(id)?.group;
+    if (group?.api.location.type === "grid" && !this.isNarrow && group.width < SMALL_PX) group.api.maximize();
+  }
+
   // Ends Maximise. Returns whether a part was maximised.
   restoreSize(): boolean {
     const isMaximised = this.api.hasMaximizedGroup();
@@ -114,6 +123,7 @@ export class Workspace {
 
   private apply(layout: Split): void {
     this.isApplying = true;
+    this.room.forget();
     try {
       const panels = panelsOf(layout).map((id) => ({ id, title: this.titleOf(id) }));
       // Sets the size of the dock first, because a dock without a size cannot use the sizes of
@@ -147,7 +157,9 @@ export class Workspace {
     const size = direction === "below" ? { initialHeight: Math.min(BELOW_PX, this.space.height / 2) } : { initialWidth: SIDE_PX };
     const side = place === "top-side" && !this.isNarrow ? this.kinOf(id, "side") : undefined;
     if (side) {
-      const position = { referencePanel: side, direction: "above" as const };
+      this.room.make(this.sideColumn(), 1 - TOP_SIDE_SHARE);
+      const top = this.sideColumn()[0]?.activePanel ?? side;
+      const position = { referencePanel: top, direction: "above" as const };
       return this.constrain(this.api.addPanel({ id, component: id, tabComponent: "tab", title: panel.title, position, initialHeight: TOP_SIDE_SHARE * this.space.height }));
     }
     const position = kin
@@ -170,6 +182,17 @@ export class Workspace {
     return kin.find((each) => each.api.isActive) ?? kin[0];
   }
 
+  // The parts beside the view, from the top.
+  private sideColumn(): DockviewGroupPanel[] {
+    const viewGroup = this.api.getPanel(VIEW)?.group;
+    const top = (group: DockviewGroupPanel) => group.element.getBoundingClientRect().top;
+    const isAtSide = (group: DockviewGroupPanel) =>
+      group !== viewGroup &&
+      group.api.location.type === "grid" &&
+      group.panels.some(({ id }) => this.of.panels.find((panel) => panel.id === id)?.place === "side");
+    return this.api.groups.filter(isAtSide).sort((a, b) => top(a) - top(b));
+  }
+
   private constrain(panel: IDockviewPanel): void {
     panel.api.group.api.setConstraints({ minimumWidth: MIN_WIDTH_PX, minimumHeight: MIN_HEIGHT_PX });
   }
@@ -183,6 +206,7 @@ export class Workspace {
   // Called when the user has closed a panel.
   private follow(id: string): void {
     if (this.isApplying) return;
+    if (this.of.panels.find((panel) => panel.id === id)?.place === "top-side") this.room.restore();
     const { openPanels } = this.of.ports.state.get();
     if (openPanels.includes(id)) this.of.setOpen(openPanels.filter((each) => each !== id));
   }

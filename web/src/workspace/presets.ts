@@ -24,7 +24,7 @@ export const PRESETS: readonly Preset[] = [
     name: "standard",
     title: "Standard",
     hint: "View, inspector and camera",
-    layout: ({ width }) => beside(width, SIDE_PX, tabs(VIEW), column([tabs("inspector"), 620], [tabs("images"), 380])),
+    layout: ({ width }) => beside(width, SIDE_PX, tabs(VIEW), column([tabs("inspector"), 570], [tabs("images"), 430])),
   },
   {
     name: "drive",

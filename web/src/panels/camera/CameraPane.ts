@@ -4,6 +4,7 @@ import type { CameraChoice } from "../../api/scene";
 import { camerasOf, imagesOf } from "../../api/scene";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
+import { icon } from "../../ui/icons";
 import { smallButton } from "../../ui/smallButton";
 import type { MountedPanel } from "../contract/Panel";
 import type { PanelPorts } from "../contract/ports";
@@ -57,7 +58,7 @@ export function mount(ports: Ports): MountedPanel {
     choice.value = showsAll ? ALL : (chosen()?.topic ?? "");
     for (const button of zooms) button.hidden = showsAll || all === 0;
     grid.hidden = all < 2;
-    grid.setAttribute("aria-pressed", String(showsAll));
+    setText(gridWord, showsAll ? "Show one camera" : "Show all cameras");
     listen();
   };
   const listen = () => {
@@ -93,7 +94,8 @@ export function mount(ports: Ports): MountedPanel {
     smallButton("enlarge", "Fit the image", zoomBy(0)),
   ];
 
-  const grid = smallButton("grid", "Show all cameras", () => cameras.showAll(!showsAll));
+  const gridWord = element("span", {});
+  const grid = element("button", { class: "button small camera-all", type: "button", onclick: () => cameras.showAll(!showsAll) }, icon("grid"), gridWord);
   choice.addEventListener("change", () => {
     if (choice.value === ALL) return cameras.showAll(true);
     const camera = imagesOf(state.get().scene).find(({ topic }) => topic === choice.value);

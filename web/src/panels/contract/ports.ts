@@ -76,6 +76,7 @@ export interface ControlPort {
   resume(): void; // starts or resumes the simulation
   // Sets the velocity of an avatar, or of a robot without a behaviour, until the next command.
   drive(simulation: string, robot: string, drive: Drive): Promise<void>;
+  setDriven(robot: string | null): void; // sets the robot that this page drives by hand
   joints(simulation: string, body: string): Promise<BodyJoints>;
   showJoints(): void; // opens the panel of joints, which shows those of the selection
   commandJoint(simulation: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void>;

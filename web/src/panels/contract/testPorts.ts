@@ -58,6 +58,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
     control: {
       take: vi.fn(async () => {}),
       resume: vi.fn(),
+      setDriven: vi.fn((driven: string | null) => store.set({ driven })),
       drive: vi.fn(async () => {}),
       joints: vi.fn(async () => ({ time: 0, joints: [], refusal: "" })),
       showJoints: vi.fn(),

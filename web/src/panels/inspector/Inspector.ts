@@ -5,6 +5,7 @@ import { agentLabel } from "../../state/actions";
 import { element, setText } from "../../ui/element";
 import { formatDistance, formatNumber } from "../../ui/format";
 import { icon } from "../../ui/icons";
+import { shallowEqual } from "../../state/Store";
 import type { PanelPorts } from "../contract/ports";
 import { hasJoints, jointsButton } from "../control/jointsButton";
 import { plotButton } from "./plotButton";
@@ -86,12 +87,13 @@ export function createInspector(ports: Ports): HTMLElement {
     (pose) => showPose(pose, set),
   );
   ports.state.watch(
-    ({ selection, status }) => status?.robots.find(({ name }) => name === selection) ?? null,
-    (robot) => {
-      if (robot) showStatus(robot, set);
+    ({ selection, status, driven }) => ({ robot: status?.robots.find(({ name }) => name === selection) ?? null, isDriven: driven === selection }),
+    ({ robot, isDriven }) => {
+      if (robot) showStatus(robot, isDriven, set);
       setText(detail, robot?.detail ?? "");
       placeOutput(robot?.agentPhase === "dead");
     },
+    shallowEqual,
   );
   return panel;
 }
@@ -113,9 +115,9 @@ function showPose(pose: RobotPose | null, set: (row: Row, text: string) => void)
   set("Turning", pose ? `${formatNumber(pose.turnRate * DEGREES, 1)}°/s` : "…");
 }
 
-function showStatus(robot: RobotStatus, set: (row: Row, text: string) => void): void {
+function showStatus(robot: RobotStatus, isDriven: boolean, set: (row: Row, text: string) => void): void {
   set("Behaviour", robot.behaviour || "none");
-  set("Agent", agentLabel(robot));
+  set("Agent", isDriven ? "driven from this page" : agentLabel(robot));
   set("Driven", formatDistance(robot.distance));
   set("Collisions", String(robot.collisions));
   set("Model", robot.model || "…");

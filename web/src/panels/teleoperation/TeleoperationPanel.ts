@@ -60,6 +60,7 @@ export function mount({ state, control }: Ports): MountedPanel {
     const wish = isStill(wishes.pad) ? wishes.gamepad : wishes.pad;
     if (!mayDrive() && !isStill(wish)) return;
     show(wish);
+    if (!isStill(wish)) control.setDriven(robot);
     driver.move(wish, { linear: linear.value(), angular: angular.value() });
   };
   const letGo = () => {
@@ -82,6 +83,7 @@ export function mount({ state, control }: Ports): MountedPanel {
   const choose = (name: string | null) => {
     if (name === robot) return;
     letGo();
+    control.setDriven(null);
     robot = name;
     driver.setRobot(name);
     choice.value = name ?? "";
@@ -105,6 +107,7 @@ export function mount({ state, control }: Ports): MountedPanel {
       gamepad.open(),
       whenPageIsLeft(letGo),
       letGo,
+      () => control.setDriven(null),
       state.watch(drivable, offer, shallowEqual),
       state.watch(
         ({ selection }) => selection,
@@ -113,7 +116,11 @@ export function mount({ state, control }: Ports): MountedPanel {
       followPhase(),
       state.watch(
         ({ people }) => needsControl(people) !== "",
-        (isMissing) => isMissing && letGo(),
+        (isMissing) => {
+          if (!isMissing) return;
+          letGo();
+          control.setDriven(null);
+        },
       ),
     ];
     show(STILL);

@@ -90,7 +90,7 @@ function panel(people = { viewers: [], you: 0 }) {
 }
 
 test("keys on the pad drive a robot without a behaviour, do not reach the page, and the panel's end stops it", async () => {
-  const { ports, key, end } = panel();
+  const { ports, store, key, end } = panel();
   const heard = vi.fn();
   window.addEventListener("keydown", heard);
   expect([...document.querySelectorAll("option")].map(({ value }) => value)).toEqual(["a"]);
@@ -98,7 +98,9 @@ test("keys on the pad drive a robot without a behaviour, do not reach the page, 
   await vi.advanceTimersByTimeAsync(1);
   expect(ports.control.drive).toHaveBeenLastCalledWith("house", "a", { linear_m_s: 0.5, lateral_m_s: 0, angular_rad_s: 0 });
   expect(heard).not.toHaveBeenCalled();
+  expect(store.get().driven).toBe("a");
   end();
+  expect(store.get().driven).toBeNull();
   await vi.advanceTimersByTimeAsync(1);
   expect(ports.control.drive).toHaveBeenLastCalledWith("house", "a", { linear_m_s: 0, lateral_m_s: 0, angular_rad_s: 0 });
   window.removeEventListener("keydown", heard);

@@ -43,11 +43,11 @@ export class RobotList {
   }
 
   // While the pointer or the keyboard focus is in the list, its rows stay where they are, so that
-  // the user can click them.
+  // the user can click them. They also stay while this page drives a robot.
   private followAttention(): void {
     const { scroller } = this.rows;
     const release = () => {
-      if (this.isPointed || this.hasFocus || !this.held) return;
+      if (this.isInUse || !this.held) return;
       this.held = null;
       this.update();
     };
@@ -63,10 +63,14 @@ export class RobotList {
     });
   }
 
+  private get isInUse(): boolean {
+    return this.isPointed || this.hasFocus || this.ports.state.get().driven !== null;
+  }
+
   update(): void {
     const state = this.ports.state.get();
     const entries = entriesOf(listedRobots(state), state.robotFilter, this.order);
-    const isHeld = (this.isPointed || this.hasFocus) && this.held?.filter === state.robotFilter;
+    const isHeld = this.isInUse && this.held?.filter === state.robotFilter;
     this.entries = isHeld ? inOrderOf(this.entries, entries) : entries;
     if (!isHeld) this.heights.clear();
     this.held = { filter: state.robotFilter };

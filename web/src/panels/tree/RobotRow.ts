@@ -90,6 +90,7 @@ export class RobotRow {
   }
 
   private work({ status, kind }: ListedRobot, agent: string): string {
+    if (status.name === this.ports.state.get().driven) return "driven from this page";
     const isAtWork = status.agentPhase === "running" || status.agentPhase === "waiting";
     const name = status.behaviour || "no behaviour";
     const behaviour = isAtWork ? name : `${name} · ${agent}`;

@@ -144,3 +144,16 @@ test("rows do not move while the pointer or the keyboard focus is in the list", 
   expect(names(tree)[0]).toBe("r3");
   tree.remove();
 });
+
+test("rows do not move while this page drives a robot, whose row says so", () => {
+  const { ports, store } = testPorts({ ...crowd(8), health: health({ robot: "r5", state: "stuck" }) });
+  const tree = createSceneTree(ports, document.createElement("div"));
+  const text = (name: string) => tree.querySelector(`[data-robot="${name}"] .robot-behaviour`)!.textContent;
+  store.set({ driven: "r2" });
+  expect(text("r2")).toBe("driven from this page");
+  store.set({ health: health({ robot: "r7", state: "stuck" }) });
+  expect(names(tree).slice(0, 2)).toEqual(["r5", "r0"]);
+  store.set({ driven: null });
+  expect(names(tree).slice(0, 2)).toEqual(["r7", "r0"]);
+  expect(text("r2")).not.toContain("driven");
+});

@@ -31,7 +31,7 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
     (hidden) => (tree.hidden = hidden),
   );
   ports.state.watch(
-    ({ status, health, robotFilter, scene }) => ({ robots: status?.robots, health, robotFilter, scene }),
+    ({ status, health, robotFilter, scene, driven }) => ({ robots: status?.robots, health, robotFilter, scene, driven }),
     () => robots.update(),
     shallowEqual,
   );

@@ -1,0 +1,55 @@
+// Keeps parts of the column beside the view high enough. A part that would become too low joins the
+// part above it as a tab, and returns to its place later.
+import type { DockviewApi, DockviewGroupPanel } from "dockview";
+
+// The minimum height of a part, CSS pixels: its tabs, tools and some lines.
+const MIN_PART_PX = 170;
+
+interface Joined {
+  panel: string;
+  height: number; // of the part that it came from, CSS pixels
+}
+
+export class SideRoom {
+  private joined: Joined[] = [];
+
+  constructor(private readonly api: DockviewApi) {}
+
+  // Joins the lowest parts of the column until each part has the minimum height in this fraction of
+  // the column. `column`: its parts from the top.
+  make(column: readonly DockviewGroupPanel[], fraction: number): void {
+    const parts = [...column];
+    const height = fraction * parts.reduce((sum, part) => sum + part.height, 0);
+    while (parts.length > 1 && height / parts.length < MIN_PART_PX) {
+      const low = parts.pop()!;
+      const above = parts.at(-1)!;
+      const front = above.activePanel;
+      for (const panel of [...low.panels]) {
+        this.joined.push({ panel: panel.id, height: low.height });
+        panel.api.moveTo({ group: above, skipSetActive: true });
+      }
+      front?.api.setActive();
+    }
+  }
+
+  // Returns the panels that have joined another part, below that part again.
+  restore(): void {
+    const joined = this.joined;
+    this.joined = [];
+    for (const { panel: id, height } of joined) {
+      const panel = this.api.getPanel(id);
+      if (!panel || panel.api.location.type !== "grid" || panel.group.panels.length < 2) continue;
+      const { group } = panel;
+      const front = group.activePanel;
+      panel.api.moveTo({ group, position: "bottom" });
+      // The part of the closed panel still exists now, so the height is set afterwards.
+      queueMicrotask(() => panel.group.api.setSize({ height }));
+      if (front && front !== panel) front.api.setActive();
+    }
+  }
+
+  // The user or a program has chosen another layout.
+  forget(): void {
+    this.joined = [];
+  }
+}
