@@ -16,9 +16,9 @@ class Device : public Sensor {
  public:
   const Device* device() const final { return this; }
 
-  // Whether opening the device switches it on, and closing it switches it off, as for a radio: the
-  // device has a state in between. Other devices get their state from their first command, and keep
-  // it until they are removed from the robot.
+  // Whether the device is on exactly while it is open, as a radio is. Opening such a device
+  // switches it on, and closing it switches it off. Other devices get their state from their first
+  // command, and keep it until they are removed from the robot.
   virtual bool IsOnWhileOpen() const { return false; }
   // Whether each command is a message to send, with the receiving robot in `word` and the message
   // in `content`. For other devices, only the last command of a step applies.

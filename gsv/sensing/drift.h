@@ -1,10 +1,12 @@
-// The Ornstein–Uhlenbeck process of variance 1, for drifting biases. Its value at any instant is
-// computed without earlier values.
+// Random drift of a sensor's bias: an Ornstein–Uhlenbeck process with mean 0 and variance 1. The
+// value at any instant can be computed directly, without the values at earlier instants.
 //
-// Method       the process is Markov and Gaussian. So the value in the middle between two known
-//              values has a normal distribution with a known mean and variance. Values at a
-//              distance of 64 correlation times count as independent. Intervals between them are
-//              halved until the instant is reached. Each value is drawn with its own number.
+// Method       bisection. The time axis is divided into intervals of 64 correlation times, and the
+//              values at their ends count as independent. The interval that contains the instant is
+//              halved repeatedly, down to a thousandth of the correlation time. The value at each
+//              midpoint has a normal distribution, because the process is Markov and Gaussian. Its
+//              mean and variance follow from the values at both ends. Each drawn value has its own
+//              random number, keyed by its position on the time axis.
 // Source       for the distribution between two values: Rasmussen and Williams, "Gaussian Processes
 //              for Machine Learning", appendix B.2.
 // Determinism  a function of the arguments.

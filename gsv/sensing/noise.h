@@ -29,8 +29,9 @@ namespace gsv::sensing {
 struct NoiseModel {
   double mean = 0, stddev = 0;
   double bias_mean = 0, bias_stddev = 0;
-  double drift_stddev = 0, drift_time = 0;  // drift_time 0: there is no drift
-  double precision = 0;                     // 0: exact
+  // standard deviation, and correlation time in s (0: no drift)
+  double drift_stddev = 0, drift_time = 0;
+  double precision = 0;  // step to which readings are rounded; 0: not rounded
   double outlier_probability = 0, outlier_stddev = 0;
   double dropout_probability = 0;
 

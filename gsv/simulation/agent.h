@@ -28,9 +28,10 @@ namespace gsv::simulation {
 
 using ClockId = int;
 
-// A wait has a time limit, the lease. If the lease ends before the instant, the wait returns
-// kNotYet, and the caller must repeat it with the same arguments. Until the repeated call, the
-// agent counts as waiting.
+// The result of a wait for an instant of simulated time. A wait blocks for at most its lease, a
+// duration of wall-clock time. If the lease ends first, the wait returns kNotYet, and the caller
+// must repeat the call with the same arguments. Until the repeated call, the agent counts as
+// waiting.
 enum class Wait { kReached, kNotYet };
 
 // A reading and the name of its sensor.
@@ -45,7 +46,8 @@ struct Exchanged {
   base::SimTime now{0};
   // the readings of the sensors, by name, if `wait` is kReached
   std::vector<NamedReading> readings;
-  // Whether simulated time stands still until this agent waits again. Only SleepAndRead() sets it.
+  // Whether simulated time stands still until this agent waits again (lockstep). Only
+  // SleepAndRead() sets this member.
   bool holds_time = false;
 };
 
@@ -85,21 +87,24 @@ class Agent {
   // a link with a sensor.
   virtual geometry::Pose RobotFromLink(int link) const = 0;
 
-  // Clocks. The behaviour counts as running while one of its clocks runs. It has finished when all
-  // its clocks are closed.
+  // A clock belongs to one thread of the behaviour, and is the means by which that thread waits for
+  // an instant of simulated time. An open clock either runs or waits. In lockstep, the next step is
+  // taken when all open clocks of all agents wait. The behaviour counts as running while one of its
+  // clocks runs. It has finished when it has closed all its clocks.
   virtual base::Result<ClockId> OpenClock() = 0;
   virtual base::Status CloseClock(ClockId clock) = 0;
-  // Reports that the behaviour's run has ended with an error, instead of CloseClock(). From this
-  // instant on, the agent is dead. `reason` is logged on one line, truncated if it is long.
+  // Reports that the behaviour has ended with an error; call it instead of CloseClock(). From this
+  // instant on, the agent counts as dead, like an agent whose process has ended. `reason` is logged
+  // on one line, truncated if it is long.
   virtual base::Status GiveUp(ClockId clock, const std::string& reason) = 0;
   // Returns the current simulated time.
   virtual base::SimTime Now() const = 0;
-  // Makes the clock wait for `until`. Blocks until then, but at most for the lease.
+  // Waits on this clock until the instant `until`. The call blocks for at most `lease`, see Wait.
   virtual base::Result<Wait> SleepUntil(ClockId clock, base::SimTime until,
                                         std::chrono::milliseconds lease) = 0;
-  // Commands the base, waits, then reads the sensors. `cycle` numbers the exchanges of this clock
-  // from 1. A repeated call has the same number and sends no command. Without a `command`, the last
-  // one continues to apply.
+  // Commands the base, waits until `until`, then reads the sensors. `cycle` numbers the exchanges
+  // of this clock from 1. After kNotYet, the caller repeats the call with the same number; the
+  // repeated call sends no command. Without a `command`, the last command continues to apply.
   virtual base::Result<Exchanged> Exchange(ClockId clock, std::uint64_t cycle,
                                            std::optional<world::DriveCommand> command,
                                            base::SimTime until,

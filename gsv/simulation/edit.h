@@ -15,12 +15,11 @@ namespace gsv::simulation {
 // An edit of a simulated world.
 struct Edit {
   enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace, kCommand };
-  // When the edit was made between two steps, relative to the turns of behaviours.
+  // When the edit was made, relative to the turns of behaviours between two steps.
   enum class Moment {
     kBeforeTurns,  // before the turns: behaviours that wake at this instant see the changed world
     kAfterTurns,   // after the turns: only the next step uses the changed world
-    kAmidTurns,    // during the turns: it is unknown which behaviours had their turn before the
-                   // edit
+    kAmidTurns,  // during the turns: it is unknown which behaviours had their turn before the edit
   };
 
   std::int64_t step = 0;  // the number of steps taken before the edit

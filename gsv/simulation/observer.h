@@ -27,8 +27,8 @@ struct StepTimes {
   std::chrono::nanoseconds bodies{0};      // motion and contacts
   std::chrono::nanoseconds observers{0};   // recorders and viewers
   std::chrono::nanoseconds idle{0};        // in real time: waiting until the step was due
-  // The robot whose behaviour delayed the step: the last one that the step waited for, or else the
-  // one with the longest turn. Empty if there was none.
+  // The robot whose behaviour delayed the step. It is the last robot for which the step waited, or
+  // else the robot with the longest turn. Empty if no behaviour delayed the step.
   std::string held_up_by;
 
   std::chrono::nanoseconds total() const {
@@ -40,8 +40,8 @@ struct StepTimes {
 class Observer {
  public:
   virtual ~Observer() = default;
-  // Whether OnTimes() shall be called. The result must not change. Steps are timed while an
-  // observer requests it.
+  // Whether OnTimes() shall be called. The result must not change. Steps are timed only while at
+  // least one observer returns true.
   virtual bool wants_times() const { return false; }
   // Receives the times of a step, after OnSnapshot(), on the stepping thread.
   virtual void OnTimes(const StepTimes&) {}

@@ -165,7 +165,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Returns the events from number `first` on, counted from 0. Only a limited number is kept; the
   // oldest events are dropped.
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
-  // Returns the lines that the programs of behaviours printed, from number `first` on. Lines and
+  // Returns the lines that the behaviours' programs printed, from line number `first` on. Lines and
   // events are numbered separately.
   virtual std::vector<Event> outputs(std::uint64_t first) const = 0;
   // Emits an event at the current step. Must not be called from Observer::OnEvent().

@@ -21,7 +21,7 @@ struct Displacer {
   // closed surface of any other shape; empty if the fluid has no layers
   geometry::TriangleMesh surface{};
   double reach = 0;              // distance of the farthest point from `centre`, m
-  double volume_of_surface = 0;  // m³ inside `surface`; below `volume` for round shapes
+  double volume_of_surface = 0;  // volume inside `surface`, m³
 };
 
 // The properties of one part of a body that these forces depend on.

@@ -17,20 +17,20 @@ struct RollingWheel {
   model::SlippingWheel wheel;
   geometry::Vector3 axle;  // direction of the axle in the part's frame, unit length
 
-  // Slip velocity along the rolling direction per friction force and per rate of the wheel, in m/s
-  // for each N and rad/s. The slip of the ground is added.
+  // Returns the slip velocity along the rolling direction for a friction force of 1 N and a wheel
+  // rate of 1 rad/s, in m/s. Includes the slip of the ground.
   double PerRateAlong(const model::Slip& ground) const {
     return (wheel.slip.longitudinal + ground.longitudinal) * wheel.radius / wheel.normal_force;
   }
-  // Slip velocity along the axle, in the units of PerRateAlong().
+  // Returns the slip velocity along the axle, in the same units.
   double PerRateAcross(const model::Slip& ground) const {
     return (wheel.slip.lateral + ground.lateral) * wheel.radius / wheel.normal_force;
   }
 };
 
 // Returns the part as a wheel if one of its links is a wheel (model::Link::wheel), or if the
-// model's drive turns it. The wheels of a drive share the weight of the model equally, at a gravity
-// in m/s². Null for other parts.
+// model's drive rotates it. Returns nullopt for other parts. The wheels of a drive share the
+// model's weight equally. `gravity` is in m/s².
 std::optional<RollingWheel> WheelOf(const model::Model& model, const Articulation& articulation,
                                     const Part& part, double gravity);
 

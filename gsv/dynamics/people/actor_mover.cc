@@ -19,8 +19,8 @@ Vector3 RateBetween(const geometry::Quaternion& from, const geometry::Quaternion
   return axis * (2 * std::atan2(sine, turn.w) / (sine * seconds));
 }
 
-// Returns the distances along a trajectory at kSamples instants between each two waypoints, and at
-// the last waypoint.
+// Returns the distances (m) from the start of a trajectory to kSamples points between each two
+// waypoints, and to the last waypoint.
 constexpr int kSamples = 32;
 
 std::vector<double> WaysAlong(const model::Trajectory& trajectory) {

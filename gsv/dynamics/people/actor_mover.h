@@ -34,7 +34,8 @@ class ActorMover {
     const model::Script* script = nullptr;
     geometry::Pose world_from_trajectory;
     int first_joint = 0;
-    std::vector<std::vector<double>> ways;  // distances by trajectory, see WaysAlong()
+    // for each trajectory: distance from the start to each waypoint, m
+    std::vector<std::vector<double>> ways;
   };
   // Writes the pose and joint positions that the actor has at this instant of its script.
   static void Pose(const Actor& actor, const ScriptInstant& instant, world::State& state);

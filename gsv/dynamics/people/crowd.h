@@ -47,7 +47,8 @@ class Crowd {
   struct Walker {
     int body = 0;
     const world::Pedestrian* pedestrian = nullptr;
-    std::size_t level = 0;  // the level at which walls are sliced for this pedestrian
+    // index in levels_ of the heights at which walls are sliced for this pedestrian
+    std::size_t level = 0;
     // The present goal, after `reached` goals have been reached. It is stored because it is drawn
     // at random only once.
     bool has_goal = false;

@@ -7,8 +7,8 @@
 //               waypoints, the spline's parameter is proportional to time. This is the spline of
 //               ignition::math::Spline, which Gazebo's actors use. With a tension of 1 the path is
 //               straight, and the actor stops at each waypoint.
-// Orientations  are interpolated spherically, the shorter way round. (Gazebo uses a spline here as
-//               well, which differs between waypoints.)
+// Orientations  are interpolated spherically (slerp), by the smaller rotation. Gazebo interpolates
+//               orientations by a spline, so its orientations differ between waypoints.
 // Times         follow SDFormat: the script waits for its delay, then runs its trajectories one
 //               after the other. If it loops, it starts again, including the delay. Before the
 //               first run, the actor is at its first waypoint. During later delays, it is at its

@@ -42,16 +42,19 @@ TEST(PoseOnTrajectory, PassesThroughItsWaypoints) {
 }
 
 TEST(PoseOnTrajectory, FollowsTheHermitePolynomialWithinASegment) {
-  // The tangents of the middle segment, from x = 1 to 3, are (3 - 0) / 2 and (7 - 1) / 2.
+  // The middle segment goes from x = 1 to x = 3. Its tangents are (3 - 0) / 2 = 1.5 and (7 - 1) / 2
+  // = 3.
   const auto trajectory = TrajectoryOf({{0, PlanarPose(0, 0, 0, 0)},
                                         {1, PlanarPose(1, 0, 0, 0)},
                                         {3, PlanarPose(3, 0, 0, 0)},
                                         {4, PlanarPose(7, 0, 0, 0)}});
-  // The weights at a quarter of the segment: 0.84375 · 1 + 0.15625 · 3 + 0.140625 · 1.5 - 0.046875
-  // · 3.
+  // At a quarter of the segment, the Hermite weights are 0.84375 and 0.15625 for the end points,
+  // and 0.140625 and -0.046875 for the tangents: 0.84375 · 1 + 0.15625 · 3 + 0.140625 · 1.5 -
+  // 0.046875 · 3 = 1.3828125.
   EXPECT_NEAR(XAt(trajectory, 1.5), 1.3828125, 1e-12);
-  // The tangents of the first segment are (1 - 0) / 2 and 1.5. At half of it, the position is 0.5 +
-  // 0.125 (0.5 - 1.5).
+  // The first segment goes from x = 0 to x = 1. Its tangents are (1 - 0) / 2 = 0.5 and 1.5. At half
+  // of the segment, the Hermite weights are 0.5 for each end point, and 0.125 and -0.125 for the
+  // tangents: 0.5 · 0 + 0.5 · 1 + 0.125 · 0.5 - 0.125 · 1.5 = 0.375.
   EXPECT_NEAR(XAt(trajectory, 0.5), 0.375, 1e-12);
 }
 

@@ -72,7 +72,7 @@ class MoverCollisions {
   struct PiecePair {
     std::uint32_t first, second;  // indices of pieces of the two footprints
     geometry::PlanarPosition first_found_at, second_found_at;
-    Separation separation;  // at first_found_at and second_found_at
+    Separation separation;  // separation of the two pieces at first_found_at and second_found_at
   };
   struct MoverPair {
     std::uint32_t first, second;           // movers
@@ -82,10 +82,11 @@ class MoverCollisions {
     Vector2 centre;
     double radius = -1;
   };
-  // The result for a mover so far.
+  // The result for a mover so far: the time at which it stops, and the first iteration that found
+  // this time.
   struct Outcome {
-    double time;           // time until the mover stops
-    int since, new_since;  // first iteration with this time, now and after this iteration
+    double time;           // time until the mover stops, s
+    int since, new_since;  // that iteration, before and after the present iteration
   };
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;

@@ -46,11 +46,12 @@ class NearObstacles {
                ContactCollector& contacts) const;
 
  private:
+  // A piece of a mover and an obstacle near it.
   struct Near {
     std::uint32_t mover, piece, obstacle;
     const ObstacleField* field;
     geometry::PlanarPosition found_at;
-    Separation separation;  // at the position found_at
+    Separation separation;  // separation of the piece from the obstacle, with the mover at found_at
   };
   // Stores that a mover with its origin at `centre`, at any heading, is further than `radius` from
   // every obstacle.
@@ -58,7 +59,7 @@ class NearObstacles {
     Vector2 centre;
     double radius = -1;
   };
-  struct alignas(64) Chunk {  // a cache line each, because threads write to adjacent chunks
+  struct alignas(64) Chunk {  // aligned to a cache line, because threads write to adjacent chunks
     std::vector<Near> near;
     std::vector<BodyPair> touching;
   };

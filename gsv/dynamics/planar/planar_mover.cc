@@ -39,7 +39,7 @@ class TeamMover final : public PlanarMover {
     double remaining;  // time left in this step, s
     Journey journey;
   };
-  struct alignas(64) Chunk {  // a cache line each, because threads write to adjacent chunks
+  struct alignas(64) Chunk {  // aligned to a cache line, because threads write to adjacent chunks
     bool is_as_sliced, has_room;
     std::vector<std::uint32_t> in_contact;  // movers that were in contact before the step
     std::vector<Stopped> stopped;

@@ -197,7 +197,8 @@ void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double ma
       const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const double square = 1 - cosines[i][j] * cosines[i][j];
       if (square < kParallel * kParallel) continue;
-      // |between . (a_i x b_j)|, by components along the axes of the first box
+      // The length of the projection of `between` on the cross product of edge i of box a and edge
+      // j of box b, |between · (a_i × b_j)|.
       const double distance = std::abs(at_a[i2] * cosines[i1][j] - at_a[i1] * cosines[i2][j]);
       const double reach = a.half[i1] * absolute[i2][j] + a.half[i2] * absolute[i1][j] +
                            b.half[j1] * absolute[i][j2] + b.half[j2] * absolute[i][j1];

@@ -75,7 +75,8 @@ TEST(ContactForce, SlidingBoxPullsTheGroundAlong) {
   EXPECT_WITHIN_PERCENT(-mean.z, 3 * kG, 0.5);
 }
 
-// An impact is not lost among the substeps of a step.
+// The reported force is the mean over all substeps of a step, so it includes an impact in one of
+// them.
 TEST(ContactForce, ImpactTransmitsTheMomentumOfTheStep) {
   TestWorld world = WorldOnGround();
   world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 2), At(0, 0, 0.12));
@@ -85,10 +86,11 @@ TEST(ContactForce, ImpactTransmitsTheMomentumOfTheStep) {
   EXPECT_WITHIN_PERCENT(-force.z, 2 * 3 / 0.05 + 2 * kG, 0.1);
 }
 
-// The solver treats the links of a robot differently from a single solid. A robot rests if all its
-// accelerations are below 0.1 m/s² and 0.1 rad/s². So a wheel may carry its quarter of the weight
-// with an error of 0.125 N for the mass of 5 kg. The moments of inertia, 0.069 kg m² about x and
-// 0.134 kg m² about y, add 0.028 N at the wheels' distances of 0.15 m and 0.2 m: 0.153 N in all.
+// The weight is 5 kg g, and each wheel should carry a quarter. A robot at rest may accelerate by up
+// to 0.1 m/s² and 0.1 rad/s², which permits an error. The linear acceleration permits 0.1 m/s² * 5
+// kg / 4 = 0.125 N per wheel. The angular acceleration permits 0.028 N: the moments of inertia are
+// 0.069 kg m² about x and 0.134 kg m² about y, and the wheels are at y = ±0.15 m and x = ±0.2 m.
+// The tolerance is the sum, 0.153 N.
 TEST(ContactForce, WheelsCarryTheWeightOfTheirRobot) {
   auto model = SolidOf(geometry::Box{{0.4, 0.2, 0.1}}, 3);
   for (const double x : {-0.2, 0.2}) {

@@ -136,9 +136,10 @@ int ContactSweeps::LevelOf(int contact) const {
   return std::max(levels_[AsIndex(of.first)], levels_[AsIndex(of.second)]);
 }
 
-// Puts the contacts into batches, level by level. Within a level, a contact joins the first of at
-// most kOpen batches in which no contact has one of its bodies. So it may be solved before a
-// contact that precedes it.
+// Puts the contacts into batches, level by level. Contacts of one batch share no body. A contact is
+// added to the first of at most kOpen open batches of its level that has space and contains neither
+// of its bodies. So the solver may process a contact before other contacts that precede it in
+// order_.
 void ContactSweeps::MakeBatches() {
   constexpr std::size_t kOpen = 12;
   batches_.clear();

@@ -62,8 +62,10 @@ class ContactSweeps {
     std::array<geometry::Vector3, 3> axes;
     // Changes of the two bodies' angular velocities by a unit impulse along each axis.
     std::array<geometry::Vector3, 3> turn_first, turn_second;
-    // J M⁻¹ Jᵀ: along the normal; of friction, with its softness: [[a, c], [c, b]] and its largest
-    // eigenvalue; from the normal to each axis of friction.
+    // The effect of unit impulses on the velocities at the contact, J M⁻¹ Jᵀ. `normal` is the
+    // effect of a normal impulse along the normal. [[a, c], [c, b]] is the effect of friction,
+    // including its softness, and `max` is the largest eigenvalue of this matrix. `coupling` is the
+    // effect of a normal impulse along each friction axis.
     double normal, a, b, c, max;
     std::array<double, 2> coupling;
     std::array<double, 3> targets;

@@ -25,11 +25,10 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
   // steps. OverlapRemoval removes an overlap of bodies without joints.
   const double gap = contact.point.distance + kRestingDepth;
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
-  // The fraction of the slip that friction removes in this substep. A contact that closes during
-  // the substep keeps a part of its closing speed, so that the bodies meet at the end of the
-  // substep. The next substep removes the rest. Friction must not act faster than that. If one
-  // point stuck before it touched, a body that lands on two edges at once would be thrown to one
-  // side.
+  // The fraction of the slip that friction removes in this substep. If the bodies still have a gap,
+  // they close it in this substep and lose the rest of their closing speed in the next one. In this
+  // substep, friction removes only the same fraction of the slip as is removed of the closing
+  // speed. Otherwise a body that lands on two edges at once would be thrown to one side.
   const double kept = gap / substep, taken = wanted - free[0];
   const double share = kept > kImpact && taken > 0 ? taken / (taken + kept) : 1;
   return {wanted, (1 - share) * free[1], (1 - share) * free[2]};

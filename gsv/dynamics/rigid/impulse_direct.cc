@@ -264,8 +264,8 @@ bool ImpulseRows::Guess() {
   if (!ChooseLikely()) return false;
   Remember();
   CoupleAll();
-  // WriteEquations() takes the direction of friction from the impulses that belong to a unit normal
-  // impulse.
+  // WriteEquations() reads the direction of friction from the impulses of the contact's rows. So
+  // these are set to the friction for a normal impulse of 1.
   for (std::size_t i = 0; i < cones_.size(); ++i) {
     if (!slips_[i]) continue;
     const Cone& cone = cones_[i];

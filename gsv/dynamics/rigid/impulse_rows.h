@@ -4,17 +4,18 @@
 // Row       J v + softness x = target, where v is the change of velocities (of all bodies, one
 //           after the other) and x the row's impulse, between a lower and an upper bound. A row
 //           acts on at most two bodies.
-// Cone      two rows whose impulses together are at most friction times that of a normal row
-//           (Coulomb). At this limit they are opposite to the slip, for any axes of the two rows.
+// Cone      two friction rows of a contact. The length of their impulse is at most the friction
+//           coefficient times the impulse of the normal row (Coulomb). At this limit, the impulse
+//           is opposite to the slip, for any axes of the two rows.
 // Method    projected Gauss-Seidel, row by row and cone by cone (each cone is solved exactly),
 //           which finds the rows that are within their bounds. For at most kMaxDirect of these
 //           rows, linear equations are solved after some iterations: Silcowitz, Niebur, Erleben,
 //           "Projected Gauss-Seidel subspace minimization method for interactive rigid body
 //           dynamics" (GRAPP 2010). These equations include how the friction rotates with the slip
 //           (a semismooth Newton step). Larger problems are accelerated as a nonsmooth nonlinear
-//           conjugate gradient: Silcowitz-Hansen and others, The Visual Computer 26 (2010). Masses
-//           of a thousand to one and long chains of joints would take Gauss-Seidel alone thousands
-//           of iterations.
+//           conjugate gradient: Silcowitz-Hansen and others, The Visual Computer 26 (2010).
+//           Gauss-Seidel alone would take thousands of iterations for mass ratios of 1000 to 1 and
+//           for long chains of joints.
 // Start     from zero impulses. The first guess is that a body which moves along a surface slips,
 //           and that all other contacts stick. Linear equations give the impulses of this guess.
 // Loads     redundant rows, as of a base on two wheels and two casters, share the load as equal
@@ -38,9 +39,10 @@ class ImpulseRows {
   // freedom.
   struct Side {
     int first = 0;                     // index of the body's velocities, from AddBody()
-    std::span<const double> jacobian;  // empty for no body, or for a fixed body
-    std::span<const double> response;  // change of velocities by a unit impulse
+    std::span<const double> jacobian;  // empty if the side has no body or a fixed body
+    std::span<const double> response;  // change of the body's velocities by a unit impulse
   };
+  // The target velocity of a row, and the bounds of its impulse.
   struct Limits {
     double target = 0;    // m/s or rad/s
     double softness = 0;  // (m/s) / (N s), or in the units of the row
@@ -102,7 +104,9 @@ class ImpulseRows {
     double friction;
     Axes axes;
     double coupling;  // softness that couples its two rows
-    double shift;  // the shift of the last solution on the circle, from which the next one begins
+    // result of the last search for the limiting friction impulse, from which the next search
+    // starts (see WithinCircle())
+    double shift;
   };
 
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
@@ -175,7 +179,8 @@ class ImpulseRows {
   std::vector<double> velocities_before_, impulses_before_;
 };
 
-// These functions are inlined into each processor's version of their callers.
+// The callers of these functions are compiled once for each instruction set, so these functions
+// must be inlined.
 [[gnu::always_inline]] inline double ImpulseRows::VelocityOf(const Row& row) const {
   double sum = 0;
   for (const Block& side : row.sides) {

@@ -39,7 +39,7 @@ struct PushRow {
   int moving = 0;
   geometry::Vector3 point, normal;  // world
   double speed = 0, limit = 0;      // m/s, N s
-  double impulse = 0;               // found by the solver
+  double impulse = 0;               // result of the solver, N s
 };
 
 class IslandSolver {

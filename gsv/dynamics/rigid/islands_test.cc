@@ -16,7 +16,7 @@ using testing::TestWorld;
 
 constexpr double kStep = 1e-3;  // s
 
-// A plate on four wheels that rotate it about its centre, so that all of them slip.
+// A plate on four wheels. The wheels rotate the plate about its centre, so all of them slip.
 std::shared_ptr<model::Model> Rover() {
   auto model = SolidOf(geometry::Box{{0.6, 0.4, 0.1}}, 10);
   for (const double x : {-0.2, 0.2}) {

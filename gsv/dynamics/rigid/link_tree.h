@@ -1,10 +1,10 @@
 // The equations of motion of a rigid body, or of parts that joints connect, in joint coordinates.
 // So joints cannot drift apart.
 //
-// Velocities  one number for each degree of freedom. Those of the base come first, unless it is
-//             fixed: its angular velocity, then the velocity of its centre of mass, in the world.
-//             Those of the joints follow, part by part. A ball joint has three, its angular
-//             velocity in the child's frame.
+// Velocities  one number for each degree of freedom. The base's velocities come first, unless the
+//             base is fixed: its angular velocity, then the velocity of its centre of mass, in the
+//             world. The joints' velocities follow, part by part. A ball joint has three: its
+//             angular velocity in the child's frame.
 // Frames      the origin of a part's frame is its centre of mass (Articulation).
 // Method      mass matrix by composite bodies, and a factorisation that keeps its zeros
 //             (Featherstone, Rigid Body Dynamics Algorithms, 2008, sections 6.2 and 6.5). A body

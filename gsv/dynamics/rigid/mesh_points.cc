@@ -21,7 +21,9 @@ void MeshPoints::Add(const Vector3& on_mesh, const Vector3& normal, double dista
   points_.push_back({on_mesh, normal, distance});
 }
 
-// A difference of the normals by an angle counts as a distance: the angle times the radius.
+// Returns the distance between two points, for the choice of points that are far apart. A
+// difference of the normals also counts as a distance: the angle between them (rad) times the
+// radius (m).
 double MeshPoints::DistanceOf(const TouchPoint& a, const TouchPoint& b) const {
   const Vector3 between = a.on_second - b.on_second, turn = radius_ * (a.normal - b.normal);
   return std::sqrt(Dot(between, between) + Dot(turn, turn));

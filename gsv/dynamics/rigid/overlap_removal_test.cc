@@ -19,9 +19,9 @@ using testing::TestWorld;
 using testing::WorldOnGround;
 
 constexpr double kSubstep = 0.001, kEdge = 0.3;
-constexpr double kTolerated = 1e-4;  // m: overlap that stays
-// m: the excess of an overlap at which a body that moves by `part` of the correction moves at less
-// than 0.1 mm/s, and so counts as a body at rest
+constexpr double kTolerated = 1e-4;  // overlap that is not removed, m
+// Returns the overlap beyond kTolerated, in m, that may remain. A body that makes the fraction
+// `part` of the correction then moves more slowly than 0.1 mm/s, and so counts as a body at rest.
 double RestingExcess(double part) { return 1e-4 * kSubstep / OverlapRemoval::kShare / part; }
 
 double DeepestOf(const std::vector<world::Contact>& contacts) {
@@ -30,8 +30,8 @@ double DeepestOf(const std::vector<world::Contact>& contacts) {
   return deepest;
 }
 
-// In each step, the overlap shrinks by a fifth of what is above the tolerated overlap, and by no
-// more than both boxes move at their greatest speed.
+// In each step, a fifth of the overlap beyond the tolerated overlap is removed. The speed limits of
+// both boxes also limit what a step removes.
 TEST(OverlapRemoval, TwoBoxesPartGeometrically) {
   TestWorld world = WorldOnGround();
   const double light = 1, heavy = 3, start = 0.02;

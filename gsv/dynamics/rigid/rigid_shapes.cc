@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Vector3;
 
-// m: Bullet rounds the edges of boxes and cylinders, and of hulls, by at most these margins
+// Bullet rounds the edges of boxes, cylinders and hulls with at most these radii, m.
 constexpr double kMargin = 1e-3;
 constexpr double kHullMargin = 1e-4;
 constexpr int kMaxCorners = 64;

@@ -28,7 +28,7 @@ struct StandingMesh {
   std::vector<int> indices;
   std::unique_ptr<btTriangleIndexVertexArray> triangles;
   std::unique_ptr<TriangleSurface> surface;
-  std::unique_ptr<btBvhTriangleMeshShape> shape;  // its user pointer is `surface`
+  std::unique_ptr<btBvhTriangleMeshShape> shape;  // its user pointer points to `surface`
 };
 
 class RigidShapes {

@@ -95,7 +95,7 @@ class RigidStep {
   std::size_t island_count_ = 0;
   std::vector<int> starts_;  // index of each body's first velocity
   std::vector<double> velocities_;
-  std::vector<geometry::Vector3> shifts_;  // m/s: by which overlapping bodies separate
+  std::vector<geometry::Vector3> shifts_;  // velocities that separate overlapping bodies, m/s
   std::vector<char> is_touched_;
   // state at the start of the step; may be null
   std::shared_ptr<const world::EngineState> kept_before_;

@@ -243,8 +243,8 @@ class TriangleSurface::CylinderContacts {
     if (!(axial < list_.margin())) return;
     const double radial = RadialDistance() - radius_;
     if (!(radial < list_.margin())) return;
-    // A contact must be along the direction in which the triangle and the cylinder are farthest
-    // apart.
+    // The cylinder and the triangle touch along the direction in which they are farthest apart or
+    // overlap the least. Contacts along other directions are dropped.
     constexpr double kBetter = 0.05, kLeast = 1e-6;
     const double best = std::max({face, axial, radial});
     floor_ = best - kBetter * std::abs(best) - kLeast;

@@ -62,8 +62,8 @@ class TriangleSurface {
   const geometry::Vector3& CornerOf(const Triangle& triangle, std::size_t corner) const {
     return vertices_[static_cast<std::size_t>(triangle.vertices[corner])];
   }
-  // Whether a point in the direction `normal` from the edge or vertex is not nearer to an adjacent
-  // triangle or edge.
+  // Whether the edge or vertex is the nearest part of the surface to points in the direction
+  // `normal` from it. Only then can it have a contact in this direction.
   bool MayTouchEdge(const Triangle& triangle, std::size_t edge,
                     const geometry::Vector3& normal) const;
   bool MayTouchVertex(int vertex, const geometry::Vector3& normal) const;

@@ -24,7 +24,7 @@ struct Obstacle {
   model::CollisionFilter filter{};
 };
 
-// A grid that finds the obstacles near a position.
+// A grid that finds the obstacles near a position. See the top of this file for `margin` (m).
 class ObstacleField {
  public:
   ObstacleField() = default;

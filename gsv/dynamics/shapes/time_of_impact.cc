@@ -113,8 +113,9 @@ bool IsStill(const MovingPiece& moving) {
   return twist.angular == 0 || (piece.vertex_count == 1 && piece.vertices[0] == Vector2{});
 }
 
-// `place_second(t)` moves the second piece to its pose at time t. `project_second(axis, corners)`
-// projects the piece, at that pose, on the axis. `normal` is the normal at the start.
+// Finds the first contact, for a second piece that moves in any way. `place_second(t)` moves the
+// second piece to its pose at time t. `project_second(axis, corners)` projects the piece, at that
+// pose, on the axis. `normal` is the direction between the pieces at the start.
 template <typename PlaceSecond, typename ProjectSecond>
 std::optional<Impact> Find(const MovingPiece& first, double end, Vector2 normal,
                            PlaceSecond place_second, ProjectSecond project_second) {

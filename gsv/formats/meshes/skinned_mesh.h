@@ -1,10 +1,9 @@
-// Reads an animated mesh with a skeleton (a skin) as rigid parts, one for each bone. A bone has the
-// triangles on which it has the largest weight.
+// Reads an animated mesh with a skeleton (a skin) as rigid parts, one for each bone.
 //
-// Rule      A triangle belongs to the bones with the largest weights at its corners. If these are
-//           several bones, each has a copy of the triangle, so that there is no gap between parts.
-//           If a bone has less than the fraction kMinTriangles of all triangles, its parent gets
-//           them.
+// Rule      The main bone of a corner is the bone with the largest weight there. A triangle becomes
+//           a part of the main bones of its three corners. If these are different bones, each of
+//           them gets a copy of the triangle, so that there is no gap between the parts. If a bone
+//           has less than the fraction kMinTriangles of all triangles, its parent gets them.
 // Frames    the frame of a skin is the root of its file, as for MeshReader. The frame of a bone
 //           has no scale.
 // Sampling  at equal intervals over the animation, at about kFramesPerSecond, at most kMaxFrames.

@@ -13,8 +13,8 @@ namespace gsv::formats {
 struct TerrainLayer {
   std::shared_ptr<const model::Image> image;  // null: uniform grey
   double tile = 10;                           // side of a tile, m
-  // From `min_height` upwards the layer covers the layers before it. Its opacity grows from 0 to 1
-  // over `fade_distance`. Ignored for the first layer.
+  // The layer covers the earlier layers from the height `min_height` upwards. Its opacity grows
+  // from 0 to 1 over the next `fade_distance`. Both are ignored for the first layer.
   double min_height = 0, fade_distance = 0;  // m
 };
 

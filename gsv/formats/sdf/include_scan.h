@@ -52,7 +52,8 @@ class IncludeScan {
   base::Problems& problems_;
   IncludedFiles files_;
   std::map<std::pair<std::string, std::string>, base::Result<std::filesystem::path>> found_;
-  std::vector<std::filesystem::path> open_;  // the chain of files being visited
+  // the chain of files that are being read; a file that includes one of them forms a cycle
+  std::vector<std::filesystem::path> open_;
   // For each file: its name in files_, or the reason why the file is not in files_.
   std::map<std::filesystem::path, base::Result<std::string>> done_;
 };

@@ -5,9 +5,9 @@
 
 namespace gsv::formats {
 
-// Returns the gap in m of a joint of Model::loop_joints. A prismatic joint may have any distance
-// along its axis. The gap is 0 if all initial positions are zero, as the file defines the joint
-// there.
+// Returns the gap in m between the two ends of a joint of Model::loop_joints. The distance along
+// the axis of a prismatic joint does not count. If all initial positions are zero, the gap is 0,
+// because the file defines the joint at these positions.
 double LoopGap(const model::Model& model, const model::Joint& loop);
 
 }  // namespace gsv::formats

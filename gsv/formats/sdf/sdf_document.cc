@@ -94,10 +94,10 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
   }
 }
 
-// Returns the schema without some large parts whose elements do not occur in the text. This saves
-// time, because libsdformat copies the descriptions below each element that it reads. None of the
-// omitted elements is required, and libsdformat creates them from no other elements, except from
-// URDF.
+// Returns libsdformat's schema without the descriptions of those large elements that do not occur
+// in the text. This saves time, because libsdformat copies the descriptions of an element's
+// children whenever it reads the element. Leaving them out is safe: none of these elements is
+// required, and libsdformat creates them only from URDF.
 sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex()) {
   // schemas by the set of omitted elements
   static std::map<std::set<std::string>, sdf::ElementPtr> schemas;

@@ -31,7 +31,8 @@ void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
 model::Joint* FindControlledJoint(const std::string& name, const std::string& place,
                                   const ReadingContext& context, model::Model& model);
 
-// Sets the target of a joint. A joint that already has one gets a warning, and the new one is used.
+// Sets the target of a joint. If the joint already has a target, adds a warning, and uses the new
+// target.
 void SetTarget(const model::JointTarget& target, const std::string& place,
                const ReadingContext& context, model::Model& model);
 

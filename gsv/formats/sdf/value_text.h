@@ -7,7 +7,8 @@
 
 namespace gsv::formats {
 
-// A valid text for a value. `wrong` is the problem with the original text (empty: none).
+// A valid text for a value. `wrong` describes the problem with the original text; it is empty if
+// there was none.
 struct RepairedText {
   std::string text;
   std::string wrong;

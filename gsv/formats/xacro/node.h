@@ -35,7 +35,8 @@ NodePtr ToNode(const tinyxml2::XMLElement& element,
 
 // Returns XML in which each element is on its node's call line, or on a later line because lines
 // cannot decrease. Also returns the source of each element, in the order of the document. Stops
-// soon after `max_bytes`: nodes can share children, so a few nodes can become a very long text.
+// soon after `max_bytes`, because nodes can share children, so that a few nodes can become a very
+// long text.
 Expansion ToXml(const Node& node, std::size_t max_bytes);
 
 }  // namespace gsv::formats::xacro

@@ -63,7 +63,8 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
     Clock::time_point due{};                 // earliest time of the next image
     Clock::time_point sent{};
     Clock::duration reported_after{};  // time from the last image to its report
-    std::size_t detail = 0;            // index of kDetails in the .cc file; 0: as the client asked
+    // index in kDetails (pushed_views.cc); 0: the quality and size that the client requested
+    std::size_t detail = 0;
     Clock::time_point coarse_until{};  // earliest time of a finer image
     // minimum time that the images stay coarse; doubles each time; 0: not yet coarse
     Clock::duration coarse_for{};

@@ -35,12 +35,12 @@ struct SetParameters {
   std::vector<Parameter> parameters;
   std::string request;
 };
-// Starts or ends to watch parameters: the client gets each change.
+// Starts or stops watching parameters. A client that watches a parameter gets each change of it.
 struct WatchParameters {
   std::vector<std::string> names;  // empty: all parameters
   bool is_end = false;             // whether the client stops watching
 };
-// Starts or ends to watch the connection graph.
+// Starts or stops watching the connection graph.
 struct WatchGraph {
   bool is_end = false;
 };

@@ -18,7 +18,7 @@ namespace gsv::gateway {
 class CommandServices {
  public:
   struct Service {
-    simulation::Command command;  // its `apply` is not used
+    simulation::Command command;  // the command of a service; its function `apply` is not used
     // Returns the response's message.
     std::function<base::Result<std::string>(const simulation::Arguments& arguments)> run;
   };
@@ -29,8 +29,8 @@ class CommandServices {
   std::vector<foxglove::Service> list() const;
 
   // Returns a function that carries out the call. Run it once; it may block. Fails for an unknown
-  // service or an invalid request. Fields cannot be left out. So a value outside of its parameter's
-  // range means the default, for example 0 for a count, NaN, or an empty text.
+  // service or an invalid request. A request cannot omit a field. So a value outside of its
+  // parameter's range stands for the default, for example 0 for a count, NaN, or an empty text.
   base::Result<std::function<Response()>> Prepare(const foxglove::ServiceCall& call) const;
 
  private:

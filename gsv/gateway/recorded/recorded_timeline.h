@@ -57,7 +57,9 @@ class RecordedTimeline {
   ChannelIds ChannelsOf(const std::string& topic) const;
   std::vector<RecordedEvent> ReadEvents() const;
   std::vector<RecordedLine> ReadLog() const;
-  // Returns the entries that `use` makes from the messages of these channels, within the limits.
+  // Reads the messages of these channels. Calls `use` for each message; `use` returns the entry of
+  // the timeline for it, or nullopt for none. Stops at `max_entries` entries. Returns the entries
+  // ordered by time.
   template <typename Message, typename Entry, typename Use>
   std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t max_entries, Use use) const;
 

@@ -29,7 +29,8 @@ class RecordingsApi {
   Response List();
   Response Open(const std::string& name);
   Response Difference(const std::string& name, const Request& request);
-  // Calls `use` with the NoteFile of a recording.
+  // Opens the file with the notes of the recording `name`, and returns the response that `use`
+  // makes from it. `use` is a function with a parameter of type NoteFile.
   template <typename Use>
   Response OfNotes(const std::string& name, Use use);
   Response AddNote(const std::string& name, const std::string& body);

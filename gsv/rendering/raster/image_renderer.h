@@ -64,7 +64,8 @@ class ImageRenderer {
   };
   // The data that one thread uses while it shades.
   struct Shading {
-    std::vector<std::int32_t> surface_of;  // the index in surfaces by triangle number - 1, or -1
+    // for each triangle, by its number - 1: its index in `surfaces`, or -1
+    std::vector<std::int32_t> surface_of;
     std::vector<TriangleSurface> surfaces;
   };
 
@@ -109,7 +110,7 @@ class ImageRenderer {
   std::vector<Triangle> triangles_;
   std::vector<Shading> shadings_;
   std::vector<Drawn> drawn_;
-  std::vector<std::uint8_t> is_still_;  // for opaque items, in the order of drawn_
+  std::vector<std::uint8_t> is_still_;  // whether each opaque item of drawn_ is still
   std::vector<std::int32_t> body_of_,
       visual_of_;  // one for each opaque item, in the order of drawn_
   std::vector<Seen> solid_, transparent_;

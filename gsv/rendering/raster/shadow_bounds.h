@@ -45,13 +45,13 @@ class ShadowBounds {
   static constexpr int kBlock = 8;  // in texels
   static constexpr int kSide = kShadowSide / kBlock;
 
-  // The upper bound is a plane, so that a lit surface that is tilted is above it. Within a block,
-  // the depths of such a surface differ by more than the small offset between the surface and its
-  // own depths. A constant bound would be above a part of the surface.
+  // The upper bound is a plane, because depths in a block differ if a surface is tilted. They
+  // differ by more than the small offset between a surface and its own depths in the map. So under
+  // a constant bound, a part of a lit surface would count as possibly in shadow.
   struct Block {
     float min = 0;
-    float max = 0;                   // at the block's first corner
-    float slope_x = 0, slope_y = 0;  // of the upper bound, across the whole block
+    float max = 0;                   // upper bound at the block's first corner
+    float slope_x = 0, slope_y = 0;  // change of the upper bound across the whole block
   };
   static Block BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y);
 

@@ -43,7 +43,7 @@ inline F8 Select(I8 mask, F8 a, F8 b) { return _mm256_blendv_ps(b, a, (__m256)ma
 inline I8 SelectInt(I8 mask, I8 a, I8 b) {
   return (I8)_mm256_blendv_epi8((__m256i)b, (__m256i)a, (__m256i)mask);
 }
-// bit i of the result is lane i
+// Returns a mask with one bit per lane: bit i is set if lane i of `mask` is set.
 inline int Bits(I8 mask) { return _mm256_movemask_ps((__m256)mask); }
 inline F8 Gather(const float* from, I8 index) {
   return _mm256_i32gather_ps(from, (__m256i)index, 4);

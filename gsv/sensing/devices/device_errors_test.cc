@@ -165,10 +165,10 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
       if (range > 2.2 && range < 3.8) ++between;
     }
   }
-  // Each of the two edges is between two beams, so four beams are beside an edge. In half of the
-  // scans, the errors of a beam concern the side of the edge. The beam then covers the edge with
-  // the probability divergence / step = 0.6. Of the mixed ranges, the fraction 0.8 is between 2.2
-  // and 3.8 m.
+  // The expected number of mixed ranges. There are two edges, and each is between two beams, so
+  // four beams are beside an edge. A beam looks at the edge's side in half of the scans. The beam
+  // then covers the edge with the probability divergence / step = 0.6. Of the mixed ranges, the
+  // fraction 0.8 is between 2.2 and 3.8 m, where the test counts them.
   const double expected = 4 * 0.5 * 0.6 * 0.8 * scans;
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }

@@ -69,7 +69,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   // Reads the three terms of an Allan plot, which apply to all three axes of `quantity`.
   void ReadAllan(ParameterReader& reader, const std::string& quantity, double limit,
                  std::size_t first_channel) {
-    // The flicker floor is at 0.664 times the deviation of a slowly drifting bias (IEEE 952).
+    // The lowest value of the Allan deviation is 0.664 times the deviation of a slowly drifting
+    // bias (IEEE 952).
     constexpr double kFloor = 0.664, kInstabilityTime = 100, kWalkTime = 3600;  // s
     const double density = reader.Number(quantity + ".noise_density", 0, 0, limit);
     const double instability = reader.Number(quantity + ".bias_instability", 0, 0, limit);

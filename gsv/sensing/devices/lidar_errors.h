@@ -40,8 +40,9 @@ struct LidarErrors {
 // Reads the parameters. Reports invalid ones to the reader.
 LidarErrors ReadLidarErrors(ParameterReader& reader);
 
-// Changes the ranges of one row. `step` (rad) is the angle between beams, and `first_beam` the
-// number of the first. Infinite ranges are beams without an echo.
+// Adds errors to the ranges of one row. `step` (rad) is the angle between adjacent beams.
+// `first_beam` is the index of the row's first beam in the scan. A beam without an echo has an
+// infinite range.
 void Disturb(const LidarErrors& errors, const Sampling& sampling,
              const model::SensorDescription& description, double step, std::size_t first_beam,
              std::span<double> ranges);

@@ -9,7 +9,7 @@
 
 namespace gsv::sensing {
 
-// Beams at evenly spaced angles, including both ends.
+// Evenly spaced angles of beams, from `first` to `last`, both included.
 struct Angles {
   int count = 1;
   double first = 0, last = 0;
@@ -18,15 +18,17 @@ struct Angles {
   double angle(int i) const { return first + i * increment(); }
 };
 
-// Angles in rad, ranges in m.
+// Angles are in rad, ranges in m.
 struct LidarSettings {
   Angles horizontal, vertical;
   double min = 0, max = 0;
-  double noise_mean = 0, noise_stddev = 0;  // white noise, drawn for each beam
-  std::optional<NoiseModel> full_noise;     // the noise model if it has other terms
-  LidarErrors errors;                       // applied before the noise
-  // The intensity of a white surface at right angles, at the range `intensity_range`, or at any
-  // range if that is 0. A scale of 0 means that the lidar does not measure intensities.
+  double noise_mean = 0, noise_stddev = 0;  // white noise of each beam, m
+  // set if the parameters ask for more than white noise, such as a bias or a drift
+  std::optional<NoiseModel> full_noise;
+  LidarErrors errors;  // errors of real lidars, applied before the noise
+  // `intensity_scale` is the intensity of a white surface at right angles to the beam, at the
+  // distance `intensity_range` (m). If `intensity_range` is 0, the intensity does not depend on the
+  // distance. If `intensity_scale` is 0, the lidar does not measure intensities.
   double intensity_scale = 0, intensity_range = 0;
 };
 

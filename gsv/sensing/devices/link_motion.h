@@ -13,7 +13,7 @@ namespace gsv::sensing {
 // The velocities and accelerations of a link, in world axes.
 struct LinkMotion {
   geometry::Pose world_from_link;
-  // `place` is a point of the link. `velocity` and `acceleration` are those of this point.
+  // `place` is a point of the link, and `velocity` and `acceleration` are those of this point.
   geometry::Vector3 place, velocity, acceleration;
   geometry::Vector3 angular_velocity, angular_acceleration;
 

@@ -14,7 +14,7 @@
 namespace gsv::sensing {
 namespace {
 
-// Returns ROBOT of "ROBOT/SENSOR".
+// Returns the name of the robot in a frame name "ROBOT/SENSOR".
 std::string_view RobotOf(std::string_view frame) { return frame.substr(0, frame.rfind('/')); }
 
 using OdometryMessage = messages::nav_msgs::Odometry;

@@ -35,7 +35,7 @@ struct OdometryDrift {
 // Reads the parameters. Reports invalid ones to the reader.
 OdometryDrift ReadOdometryDrift(ParameterReader& reader);
 
-// A step of a robot's motion: a distance (m) and a turn (rad).
+// A step of a robot's motion: the distance `way` in m, and the change of heading `turn` in rad.
 struct OdometryStep {
   double way = 0, turn = 0;
 };

@@ -41,8 +41,8 @@ std::vector<std::optional<double>> RadioState::Arriving(const world::DeviceStep&
       arriving.back() = HeardAt(sent.from, here, step.rays);
       continue;
     }
-    // Fading may amplify a message, so a message that is too weak without fading may still be
-    // received.
+    // Fading may amplify a message. So a message is considered even if it is too weak without
+    // fading.
     world::RadioSetup keen = *setup_;
     keen.sensitivity = -300;
     world::Antenna there = here;

@@ -104,8 +104,8 @@ double SoundCone::NearestHeard(const Sampling& sampling, std::vector<Echo> echoe
   std::sort(echoes.begin(), echoes.end(), [](const Echo& a, const Echo& b) {
     return std::tie(a.distance, b.strength) < std::tie(b.distance, a.strength);
   });
-  // Echoes whose distances differ by less than this come from one target, which is represented by
-  // the strongest of them.
+  // Echoes whose distances differ by less than this fraction count as one target. Only the
+  // strongest of these echoes is used.
   constexpr double kOneTarget = 0.02;  // fraction of the distance
   constexpr int kMaxTargets = 6;
   int targets = 0;

@@ -1,9 +1,9 @@
 // A bounding volume hierarchy (BVH, Embree's) that finds all boxes on a ray.
 //
 // Boxes are given in double precision, rounded outwards and padded; the caller computes the
-// intersection in each. No box on the ray within its current length is left out, if the ray starts
-// within ten times the extent of the boxes. Single precision then errs by less than the padding of
-// 2e-6 of that extent.
+// intersection in each. The tree finds every box on the ray within its current length, if the ray
+// starts within ten times the extent of the boxes. For such rays, the error of single precision is
+// smaller than the padding, which is 2e-6 of that extent.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -24,7 +24,8 @@ class BoundingVolumeTree {
   BoundingVolumeTree(const BoundingVolumeTree&) = delete;
   BoundingVolumeTree& operator=(const BoundingVolumeTree&) = delete;
 
-  // Replaces all boxes. `often` means that a quick build matters more than quick rays.
+  // Replaces all boxes. `often` means that the boxes are replaced often, so a fast build matters
+  // more than fast rays.
   void Build(std::span<const geometry::Bounds> boxes, bool often);
 
   class Visitor {

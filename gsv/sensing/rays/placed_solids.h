@@ -45,7 +45,7 @@ class PlacedSolids final : public RayScene {
     geometry::Pose part_from_world;
     const Part* part;
   };
-  struct Shadings;  // solids and the rays of a fan that may hit them
+  struct Shadings;  // the solids near a fan, each with the sector of rays that may hit it
 
   // Sets the pose of the moving part with this index.
   void Place(std::size_t index, const world::Snapshot& snapshot);

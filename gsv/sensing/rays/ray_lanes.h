@@ -53,7 +53,7 @@ GSV_AVX2_INLINE Vectors Rotated(__m256d w, const Vectors& u, const Vectors& v) {
           v.z + (u.x * cy - u.y * cx) * two};
 }
 
-// Slab<Span>(origin, direction, half)
+// Computes Slab<Span>(origin, direction, half) of ray_shape.cc for four rays.
 GSV_AVX2_INLINE Spans SlabSpans(__m256d origin, __m256d direction, __m256d half) {
   const __m256d zero = _mm256_setzero_pd(), infinity = All(geometry::kInfinity);
   const __m256d sign = All(-0.0), minus_infinity = All(-geometry::kInfinity);
@@ -68,8 +68,8 @@ GSV_AVX2_INLINE Spans SlabSpans(__m256d origin, __m256d direction, __m256d half)
                            _mm256_xor_pd(enter_if_level, sign), is_level)};
 }
 
-// PipeChord<Span>(ray, radius). Products with the zero z coordinates are kept, because they affect
-// the results of numbers that are not finite.
+// Computes PipeChord<Span>(ray, radius) of ray_shape.cc for four rays. Keeps the products with z
+// coordinates of zero, because they matter for infinite and NaN inputs.
 GSV_AVX2_INLINE Spans PipeSpans(const Vectors& origins, const Vectors& directions, __m256d radius) {
   const __m256d zero = _mm256_setzero_pd(), infinity = All(geometry::kInfinity);
   const __m256d sign = All(-0.0), minus_infinity = All(-geometry::kInfinity);

@@ -17,7 +17,7 @@
 
 namespace gsv::sensing {
 
-// Where a shape is, seen from a row.
+// The origin of a row's rays in a shape's frame, and the rotation of directions into this frame.
 struct ShapeFrame {
   geometry::Vector3 origin;  // origin of the rays in the shape's frame
   // Rotations of directions from the world to the shape's frame, one (static shapes) or two (parts

@@ -10,7 +10,7 @@ using geometry::Vector3;
 // Boxes are extended by kGrown, and sectors by kWidened. This is more than their rounding errors.
 constexpr double kGrown = 1e-6;        // m, and a fraction of the distance
 constexpr double kWidened = 1e-7;      // rad
-constexpr double kInTheMiddle = 1e-3;  // m: a solid that is nearer than this covers all directions
+constexpr double kInTheMiddle = 1e-3;  // a solid that is nearer than this covers all directions, m
 
 // The functions below have no branches, so that the compiler computes several boxes at once. It does
 // so only for plain comparisons, not for std::min() and std::max().
@@ -75,14 +75,14 @@ struct Tangents {
 GSV_FOR_EACH_PROCESSOR
 void FindSectors(const Fan& fan, BoxBatch& boxes, SectorBatch& sectors) {
   const auto& [at, turn] = fan.world_from_fan;
-  // Per metre of distance in the fan's plane, the rays rise by this.
+  // The height by which the rays rise per metre of distance in the fan's plane.
   const double slope = fan.elevation != 0 ? std::tan(fan.elevation) : 0;
   const double max_distance = fan.max_distance;
   const double at_x = at.x, at_y = at.y, at_z = at.z;
   const double fw = turn.w, fx = turn.x, fy = turn.y, fz = turn.z;
   const std::size_t count = boxes.Pad() / 4 * 4;
   const BoxBatch& b = boxes;
-// The batches do not overlap.
+// The arrays of the two batches do not overlap, so the loop can be vectorised.
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
     // The fan's place in the box's frame: position + orientation * at.

@@ -23,8 +23,8 @@ using geometry::Vector3;
 // Up to this number of triangles, each is tested.
 constexpr std::size_t kHandful = 6;
 
-// Tolerance for the rounding errors of boxes and heights: a fraction of the length, plus this
-// number of metres.
+// Tolerance for the rounding errors of boxes and heights: a length times kPadding, plus kPadding
+// metres.
 constexpr double kPadding = 1e-9;
 
 Bounds BoundsOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {

@@ -34,8 +34,8 @@ struct TouchedSpheres {
   std::span<const Touched> all() const { return std::span(touched).first(count); }
 };
 
-// Rays of a packet in single precision, as a structure of arrays; positions are relative to the
-// place.
+// Rays of a packet in single precision, as a structure of arrays; positions are relative to a point
+// near the rays (place_x, place_y, place_z).
 struct PacketRays {
   using Floats = std::array<float, RayPacket::kMax>;
 
@@ -46,7 +46,7 @@ struct PacketRays {
   alignas(32) Floats length;
   float place_x, place_y, place_z;
   float reach;
-  float rounding;  // m, by which spheres are enlarged
+  float rounding;  // distance by which the spheres are enlarged, m
   unsigned used;   // bit i: whether ray i exists
 };
 

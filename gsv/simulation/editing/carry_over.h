@@ -5,9 +5,9 @@
 
 namespace gsv::simulation {
 
-// Returns the state of `layout` that continues `old_state`. Bodies that are also in `old_layout`
-// keep their state, and others start at their initial poses. Devices are unchanged, see
-// CarryOverDevices().
+// Returns a state for `layout`. Bodies that are also in `old_layout` get their state from
+// `old_state`, and the others start at their initial poses. The states of devices are not changed;
+// see CarryOverDevices().
 world::State CarryOver(const world::Layout& old_layout, const world::State& old_state,
                        const world::Layout& layout);
 

@@ -10,10 +10,10 @@
 
 namespace gsv::simulation {
 
-// Returns the layout with the pedestrians of all groups, each on its route and without overlaps.
-// Afterwards the engine has this layout. The places depend only on the seed, the groups and the
-// world. Fails with kInvalidArgument for invalid groups, and if there is not enough space for all
-// pedestrians.
+// Returns the layout with the pedestrians of all groups added, each on its route and without
+// overlaps. Also passes this layout to the engine. The places depend only on the seed, the groups
+// and the world. Fails with kInvalidArgument for invalid groups, and if there is not enough space
+// for all pedestrians.
 base::Result<std::shared_ptr<const world::Layout>> PlacePedestrians(
     const world::Layout& layout,
     const std::vector<std::shared_ptr<const model::PedestrianGroup>>& groups, std::uint64_t seed,

@@ -98,8 +98,9 @@ base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
     return status;
   }
   MoveDevices(*layout, state.time, state);
-  // After a reset, a robot starts at the free place where it was added, even if it was moved after
-  // the first step.
+  // A reset moves a robot to its initial pose. For a robot that was pushed out of an overlap when
+  // it was added, this is the pose to which it was pushed. Later moves after the first step do not
+  // change the initial pose.
   std::vector<world::Body> settled = layout->bodies;
   for (const std::string& name : placed) {
     world::Body& body = settled[static_cast<std::size_t>(layout->Find(name))];

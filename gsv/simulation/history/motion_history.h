@@ -17,8 +17,8 @@
 
 namespace gsv::simulation {
 
-// Whether the base is at rest although its drive has had commands to move for at least
-// `stuck_after`, up to now.
+// Whether the base has been at rest for at least `stuck_after`, although its drive was commanded to
+// move all that time.
 bool IsStuck(const Motion& motion, SimTime stuck_after);
 
 // Records since when each robot has been moving, at rest or stuck.

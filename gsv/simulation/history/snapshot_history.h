@@ -33,7 +33,8 @@ class SnapshotHistory {
  public:
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;
 
-  // The results of At() at one instant. Many threads can read a frame without a lock.
+  // The snapshots that sensors of each cadence read at one instant. Many threads can read a frame
+  // without a lock.
   class Frame {
    public:
     const SnapshotPtr& latest() const { return latest_; }
@@ -73,7 +74,8 @@ class SnapshotHistory {
  private:
   struct Samples {
     SnapshotPtr arrived;
-    // snapshots that are not available yet; at most the latency divided by the period
+    // snapshots that are not available yet; their number is at most the latency divided by the
+    // period
     std::deque<SnapshotPtr> coming;
   };
 

@@ -17,7 +17,7 @@ class StepTimer {
 
   // Ignores the time since the end of the last step. Call this after a pause.
   void Interrupt() { ended_ = WallTime(); }
-  // Declares that `idle` of the time since the last step was a wait until this step was due.
+  // Declares that `idle` of the time since the last step was spent waiting until this step was due.
   void AddIdle(WallDuration idle) { idle_ += idle; }
   // Begins to measure a step. `held_up_by` is explained at StepTimes.
   void Begin(WallTime start, std::string held_up_by) {

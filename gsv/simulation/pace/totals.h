@@ -1,4 +1,4 @@
-// Counts over all simulations of this process since its start, for monitoring.
+// Numbers of steps of all simulations of this process since it started, for monitoring.
 //
 // Threads  any; stepping threads add without waiting. No simulated value depends on them.
 #pragma once

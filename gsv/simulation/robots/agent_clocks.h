@@ -1,8 +1,8 @@
 // The clocks of one agent, which determine whether the simulation waits for the agent. The class
 // holds data only, without threads or time.
 //
-// An agent runs from its start until all its clocks wait for later instants. It has finished when
-// all its clocks are closed.
+// An open clock either runs or waits for an instant. An agent runs from its start, and until all
+// its open clocks wait. It has finished when all its clocks are closed.
 #pragma once
 
 #include <algorithm>
@@ -26,9 +26,9 @@ class AgentClocks {
   void Close(ClockId clock);
 
   // Makes the clock wait until the first step at or after `until`. Returns true if that step has
-  // already been taken; the clock then runs on. Repeating a wait that has ended or is pending
-  // changes nothing. Only Wake() ends a pending wait, so no agent runs in a simulation that is
-  // paused at that instant.
+  // already been taken; then the clock does not wait. A repeated call for a wait that has ended or
+  // is pending changes nothing. Only Wake() ends a pending wait. So if the simulation pauses at
+  // that instant, the agent does not run.
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
 
   bool IsWaiting(ClockId clock) const;

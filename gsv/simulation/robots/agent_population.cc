@@ -75,7 +75,7 @@ std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
 void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
   for (const AgentPtr& agent : WithBehaviour()) {
     caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
-      // A behaviour may fail to handle a pause; its clock stops anyway.
+      // If a behaviour fails to handle a pause, its clocks are stopped nevertheless.
       if (const auto status = (behaviour.get()->*call)(); !status) {
         events_.Emit(
             "behaviour_silent", agent->robot(),
@@ -134,7 +134,7 @@ void AgentPopulation::ReportIfFailed(RobotAgent& agent, const char* what,
 
 void AgentPopulation::CheckForDeaths() {
   for (const auto& [name, agent] : agents_) {
-    // A behaviour in this process does not die on its own.
+    // A behaviour in this process ends only with the process, so it is not checked.
     if (agent->is_hosted() || !agent->is_watched()) continue;
     if (!liveness_checks_.insert(name).second) continue;
     caller_.Post("watch " + name, [this, held = agent, behaviour = agent->behaviour()] {

@@ -1,5 +1,7 @@
-// A behaviour in this process. The simulation runs its turns between two steps, on the threads of a
-// team. A turn begins when the behaviour wakes and ends when it waits again.
+// A behaviour that runs in the simulation's process, without a thread of its own. The simulation
+// calls the behaviour's function TakeTurn() between two steps, on the threads of a team. Such a
+// call is a turn: it begins when the behaviour's wait is over, and ends when the behaviour waits
+// again.
 //
 // Threads      a behaviour takes one turn at a time, not always on the same thread. Different
 //              behaviours take turns at the same time.
@@ -23,8 +25,9 @@
 
 namespace gsv::simulation {
 
-// The operations of a behaviour in its turn. The last call of WaitUntil(), Block(), Finish() or
-// Fail() decides what follows the turn; without any of them the behaviour has finished.
+// A turn is one execution of a local behaviour between two steps. This class has the operations
+// that the behaviour may use meanwhile. The last call of WaitUntil(), Block(), Finish() or Fail()
+// decides what happens after the turn. Without such a call, the behaviour has finished.
 class Turn {
  public:
   // The data that all turns at one instant share.
@@ -65,7 +68,7 @@ class Turn {
   // update rate.
   void ReadBeams(const sensing::BeamSet& beams, std::span<double> values) const;
   base::SimTime snapshot_time() const { return sampling_->snapshot()->state.time; }
-  // Declares that the turn will read this many sensors that cast rays.
+  // Announces that the turn will read `sensors` sensors that cast rays.
   void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
 
   // Commands the base from this step on. A later call replaces the command.
@@ -119,7 +122,7 @@ class LocalBehaviour : public BehaviourPort {
   bool IsDead() final { return false; }
   bool time_managed() const final { return true; }
 
-  // The clock of the turns, which Start() has opened.
+  // The clock on which the turns wait. Start() opened it.
   virtual ClockId clock() const = 0;
   // Loads the data that the turn needs into the processor's cache. Called shortly before the turn.
   virtual void PrefetchTurn() const {}

@@ -54,7 +54,7 @@ class SensorDesigns {
 };
 
 // Counts the sweeps of a robot. In a sweep, the behaviour reads several sensors of its robot
-// together. So one count replaces a count for each sensor.
+// together. This one count replaces a count of readings for each of these sensors.
 struct Sweeps {
   // The number of sweeps. Only the thread of the behaviour's turn writes it.
   std::atomic<std::uint64_t> count{0};

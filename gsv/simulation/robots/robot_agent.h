@@ -90,15 +90,14 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const std::shared_ptr<BehaviourPort>& behaviour() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_;
   }
-  // Whether the behaviour is in this process. Such a behaviour takes turns, and has no waiting
-  // thread.
+  // Whether the behaviour runs in this process, in turns. Then no thread of its own waits.
   bool is_hosted() const GSV_REQUIRES(simulation_mutex) { return local_ != nullptr; }
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
   // Whether the agent still runs, so that the next step must wait for it.
   bool BlocksStep() const GSV_REQUIRES(simulation_mutex);
-  // Whether the agent itself delays the step, and does not wait for the turns of other
-  // agents.
+  // Whether the agent itself delays the step. False if it only waits until other agents have had
+  // their turns.
   bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
   WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
   // Ends waits for instants up to `now`.

@@ -43,7 +43,8 @@ class RobotCommands {
   };
 
   void SetDrive(const Drive& drive) { drive_ = drive; }
-  // Sets the command of the drive, unless a command of a clock with a higher id is already set.
+  // Sets the drive command, unless the command that is already set came from a clock with a higher
+  // id.
   void OfferDrive(const Drive& drive);
   void CommandJoint(int joint, const world::JointCommand& command);
   // Removes the command of a joint.

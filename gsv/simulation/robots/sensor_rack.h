@@ -57,7 +57,7 @@ class SensorRack {
   SensorDesigns& designs_;
   mutable base::Mutex mutex_;
   std::vector<Slot> slots_ GSV_GUARDED_BY(mutex_);  // ordered by name
-  // Number of readings of sensors that are closed, by type.
+  // Number of readings of closed sensors, by sensor type.
   std::map<std::string, std::uint64_t> closed_readings_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -66,7 +66,8 @@ class TimerQueue {
   void Clear() { entries_.clear(); }
 
  private:
-  // When sleeper i of an instant is woken, the data of sleeper i + kAhead is loaded into the cache.
+  // When sleeper i of an instant is woken, the data of sleeper i + kAhead is prefetched into the
+  // cache.
   static constexpr std::size_t kAhead = 8;
 
   std::map<base::SimTime, std::vector<Sleeper*>> entries_;

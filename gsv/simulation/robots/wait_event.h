@@ -21,8 +21,9 @@ class Wakeable {
 // An event on which threads wait, and which another thread signals.
 class WaitEvent final : public Wakeable {
  public:
-  // The number of signals so far. A thread that reads it under the lock of its condition, and then
-  // calls WaitAfter() with it, misses no signal.
+  // The number of signals so far. To wait for a condition, a thread reads this number while it
+  // holds the lock of the condition, and then passes it to WaitAfter(). So it also notices a signal
+  // that comes between the two calls.
   std::uint64_t signals() const {
     const base::MutexLock lock(mutex_);
     return signals_;
@@ -37,7 +38,8 @@ class WaitEvent final : public Wakeable {
     opened_.notify_all();
   }
 
-  // Waits until there were more than `signals` signals. Returns false at the time `until`.
+  // Waits until the number of signals exceeds `signals`, and then returns true. Returns false if
+  // this has not happened by the time `until`.
   bool WaitAfter(std::uint64_t signals, WallTime until) {
     base::MutexLock lock(mutex_);
     return opened_.wait_until(lock, until,

@@ -82,10 +82,11 @@ class RunControl {
 
   // How many times the run has started or resumed.
   std::uint64_t run() const { return run_; }
-  // When an edit that is made now happens, relative to turns. `all_wait` is true if no agent is in
-  // its turn.
+  // Returns whether an edit that is made now comes before, during or after the turns. `all_wait` is
+  // true if no agent is in its turn.
   Edit::Moment MomentOfEdit(bool all_wait) const;
-  // Edits of bodies before the first start are part of the setup and do not count.
+  // Edits of bodies before the first start are part of the setup and do not count as edits of the
+  // run.
   void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }
   void MarkWorldChanged() { was_edited_ = true; }
   bool was_edited() const { return was_edited_; }

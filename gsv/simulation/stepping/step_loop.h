@@ -105,7 +105,7 @@ class StepLoop {
   // The agents of the current turns. The first `awake_` are awake. The others wake first.
   std::vector<RobotAgent*> turns_;
   std::size_t awake_ = 0;
-  // kNone: the agent did not wake, so it has no turn.
+  // kNone: the agent was not woken, so it has no turn.
   enum class TurnOutcome : std::uint8_t { kTaken, kDied, kNone };
   std::vector<TurnOutcome> outcomes_;
   std::vector<RobotAgent::UsualEnd> usual_ends_;  // the ends of the applied turns

@@ -82,7 +82,7 @@ class LifeCycleModel {
         continue;
       if (state.phase == Phase::kPaused && seen.step >= end_) continue;
       state.step.low = seen.step;
-      // A step that was in progress at a pause or stop is the last one.
+      // If a pause or stop comes during a step, this step is still completed, and is the last one.
       if (state.phase != Phase::kRunning)
         state.step.high = std::min(state.step.high, seen.step + 1);
       next.push_back(state);
@@ -109,7 +109,7 @@ class LifeCycleModel {
   std::vector<State> WithSpontaneousChanges() const {
     std::vector<State> all = states_;
     for (const State& state : states_) {
-      // A step that was in progress at a pause may have been the run's last.
+      // If a pause came during the last step of the run, the run may also have finished.
       if (state.phase == Phase::kPaused && state.step.high >= end_)
         all.push_back(Frozen(Phase::kFinished, {end_, end_}));
       if (state.phase != Phase::kRunning) continue;
