@@ -208,7 +208,9 @@ TEST_F(UrdfRoundTripTest, ReportsOmittedElements) {
   WriteUrdf(*loose, "", problems_);
   std::string all;
   for (const base::Problem& problem : problems_) all += problem.Sentence() + "\n";
-  EXPECT_THAT(all, HasSubstr("m: URDF has no elements for sensors: 1; they are left out"));
+  EXPECT_THAT(
+      all,
+      HasSubstr("m: the URDF leaves out the model's sensors (1): URDF has no elements for them"));
   EXPECT_THAT(all, HasSubstr("link b, which nothing connects"));
 }
 

@@ -251,8 +251,9 @@ class ModelReader {
     return link == above;
   }
 
-  // Reports a sensor of a joint that closes a loop, and a force_torque sensor on another joint of
-  // the loop: its inverse dynamics leave out the force of the loop joint (sensing/joint_wrench.h).
+  // Warns about two kinds of sensors in a closed loop of joints. A sensor of the joint that closes
+  // the loop cannot measure this joint. A force_torque sensor on another joint of the loop leaves
+  // out the force of the closing joint (sensing/joint_wrench.h).
   void CheckLoop(const model::SensorDescription& sensor, const std::string& frame,
                  const std::string& place) const {
     const auto is_it = [&](const Joint& joint) { return joint.name == frame; };
@@ -260,17 +261,18 @@ class ModelReader {
       if (sensor.type != "force_torque" && sensor.type != "forcetorque") return;
       for (const Joint& loop : model_.loop_joints) {
         if (IsBelow(loop.parent, sensor.link) == IsBelow(loop.child, sensor.link)) continue;
-        context_.Warn("the sensor \"" + sensor.name +
-                          "\" is on a joint of a closed loop; it leaves out the force of \"" +
-                          loop.name + "\", the joint that closes the loop",
-                      place);
+        context_.Warn(
+            "the sensor \"" + sensor.name +
+                "\" is on a joint of a closed loop; its readings leave out the force of \"" +
+                loop.name + "\", the joint that closes the loop",
+            place);
         return;
       }
       return;
     }
     context_.Warn("the sensor \"" + sensor.name +
-                      "\" belongs to a joint that closes a loop; it "
-                      "measures the other joint of that link",
+                      "\" belongs to a joint that closes a loop; its readings are "
+                      "those of the other joint of the child link",
                   place);
   }
 

@@ -71,16 +71,18 @@ class UrdfText {
   void WarnOfWhatIsLeftOut() {
     const auto warn = [&](const std::string& what) {
       problems_.push_back({base::Problem::Severity::kWarning,
-                           "URDF has no elements for " + what + "; they are left out",
+                           "the URDF leaves out " + what + ": URDF has no elements for them",
                            model_.name});
     };
-    if (!model_.sensors.empty()) warn("sensors: " + std::to_string(model_.sensors.size()));
-    if (model_.drive && model_.drive->origin == model::DriveOrigin::kPlugin) warn("drives: 1");
+    if (!model_.sensors.empty())
+      warn("the model's sensors (" + std::to_string(model_.sensors.size()) + ")");
+    if (model_.drive && model_.drive->origin == model::DriveOrigin::kPlugin)
+      warn("the settings of the model's drive");
     for (const model::Link& link : model_.links) {
       for (const model::Visual& visual : link.visuals) {
         for (const model::Material& material : visual.materials) {
           if (material.base_colour_map == nullptr) continue;
-          warn("the textures of meshes in STL");
+          warn("the textures of the meshes");
           return;
         }
       }

@@ -148,7 +148,7 @@ TEST(Evaluation, RejectsInvalidExpressionsWithTheReason) {
       {"__import__('os')", "the call of __import__() is not supported"},
       {"side.__class__", "a str has no \"__class__\""},
       {"'{:d}'.format(1)", "the format \"d\" is not supported"},
-      {"side.title()", "title() of a string is not supported"},
+      {"side.title()", "the string method title() is not supported"},
       {"[x for x in [1]]", "comprehensions are not supported"},
       {"lambda: 1", "lambda is not supported"},
       {"f'{side}'", "strings with a prefix"},

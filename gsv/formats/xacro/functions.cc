@@ -313,7 +313,7 @@ base::Result<Value> TextMethod(const std::string& text, const std::string& name,
   if (name == "replace" && a.size() == 2) {
     return Replaced(text, *a[0].as<std::string>(), *a[1].as<std::string>());
   }
-  return InvalidCall("the call " + name + "() of a string is not supported");
+  return InvalidCall("the string method " + name + "() is not supported");
 }
 
 base::Result<Value> DictionaryMethod(const Dictionary& entries, const std::string& name,
@@ -325,7 +325,7 @@ base::Result<Value> DictionaryMethod(const Dictionary& entries, const std::strin
     return a.size() == 2 ? a[1] : Value{};
   }
   if (!a.empty() || (name != "keys" && name != "values" && name != "items")) {
-    return InvalidCall("the call " + name + "() of a dictionary is not supported");
+    return InvalidCall("the dictionary method " + name + "() is not supported");
   }
   List items;
   for (const auto& [key, value] : entries) {
@@ -373,7 +373,8 @@ base::Result<Value> CallMethod(const Value& of, const std::string& name,
                                const Arguments& arguments) {
   if (const auto* text = of.as<std::string>()) return TextMethod(*text, name, arguments);
   if (of.dictionary() != nullptr) return DictionaryMethod(*of.dictionary(), name, arguments);
-  return InvalidCall("the call " + name + "() of a " + TypeName(of) + " is not supported");
+  return InvalidCall("a value of type " + std::string(TypeName(of)) + " has no supported method " +
+                     name + "()");
 }
 
 }  // namespace gsv::formats::xacro

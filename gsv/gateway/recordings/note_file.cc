@@ -107,8 +107,8 @@ base::Status NoteFile::Remove(std::int64_t id) const {
   return Write(*notes);
 }
 
-// Writes a new file, and then replaces the old file by it. So a crash leaves a complete file, the
-// old or the new one.
+// Writes a new file, and then replaces the old file by it. So if the program crashes meanwhile, the
+// notes are still complete: the old or the new version.
 base::Status NoteFile::Write(const std::vector<Note>& notes) const {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Note& note : notes) {

@@ -373,8 +373,10 @@ TEST_F(NormalsCameraTest, ReturnsTheNormalsOfASphereAndNanForTheSky) {
         continue;
       }
       const Vector3 expected = Vector3{0.3, 0, 1} + d * RayOf(x, y) - centre;
-      // Facets are 0.1 rad wide, and adjacent pixels are 0.07 m apart, which is 0.07 rad of the
-      // sphere. The error about each axis is at most half of the sum, 0.085 rad.
+      // The tolerance for the angle between the measured and the exact normal, in rad. The sphere
+      // consists of facets, which are 0.1 rad wide. The normal is computed from adjacent pixels,
+      // which are 0.07 m apart: 0.07 rad of the sphere. Half of the sum, 0.085 rad, is the greatest
+      // error about each of two axes. Together these are 0.12 rad.
       if (expected.x > -0.75) continue;
       EXPECT_LT(Norm(normal - expected), 0.12) << x << " " << y;
       ++seen;

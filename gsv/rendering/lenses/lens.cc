@@ -9,8 +9,8 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-// Newton's method stops when its step is smaller than this, at a distance of 1. Images have at most
-// 4,096 pixels per side.
+// Newton's method stops when its step is smaller than this length in the image plane at a distance
+// of 1. This is far less than a pixel, because an image has at most 4,096 pixels per side.
 constexpr double kCloseEnough = 1e-12;
 constexpr int kMaxSteps = 50;
 

@@ -187,7 +187,9 @@ F8x3 LightModel::Sky(const F8x3& ray) const {
 }
 
 I8 Encoded(const F8x3& colour, I8 alpha) {
-  constexpr int kSteps = 8192;  // a step is half a step of eight bits where the curve is steepest
+  // Number of entries of the table of encoded values. It is large enough that from entry to entry,
+  // the value changes by at most half a step of eight bits.
+  constexpr int kSteps = 8192;
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> bytes(kSteps + 4);
     for (int i = 0; i < kSteps; ++i) {

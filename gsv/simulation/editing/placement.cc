@@ -83,7 +83,7 @@ base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
     const int overlapped = FindOverlap(engine, layout, state, index);
     if (overlapped < 0) continue;
     const world::Body& other = layout.bodies[static_cast<std::size_t>(overlapped)];
-    // If two new bodies are at the same place, only the second one is refused.
+    // If two new bodies are at the same place, only the second body is refused.
     if (std::find(name + 1, placed.end(), other.name) != placed.end()) continue;
     const std::string wanted = PlaceText(body.initial_pose);
     // A robot whose larger part is outside of a wall is moved to a place beside the wall.

@@ -99,8 +99,8 @@ base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
   }
   MoveDevices(*layout, state.time, state);
   // A reset moves a robot to its initial pose. For a robot that was pushed out of an overlap when
-  // it was added, this is the pose to which it was pushed. Later moves after the first step do not
-  // change the initial pose.
+  // it was added, this is the pose to which it was pushed. Moving a robot after the first step does
+  // not change its initial pose.
   std::vector<world::Body> settled = layout->bodies;
   for (const std::string& name : placed) {
     world::Body& body = settled[static_cast<std::size_t>(layout->Find(name))];

@@ -13,8 +13,9 @@
 namespace gsv::simulation {
 namespace {
 
-// The number of turns that a thread executes at a time: some microseconds of work. A small crowd
-// has this number of pieces for each thread, so that all threads end at about the same time.
+// Each thread repeatedly takes a number of turns and executes them, which takes some microseconds.
+// The number is from kMinTurnsAPiece to kMaxTurnsAPiece. With few agents, it is chosen such that
+// each thread does this kPiecesOfAThread times, so that all threads end at about the same time.
 constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThread = 8;
 
 // The number of agents whose commands a thread applies at a time.
