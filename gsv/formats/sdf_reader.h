@@ -29,6 +29,7 @@
 
 namespace gsv::formats {
 
+// Reads worlds and models from files.
 class ModelLibrary {
  public:
   explicit ModelLibrary(ReadOptions options = {});

@@ -57,6 +57,7 @@ struct RelayedInstance {
   std::string authority{};  // a PEM file with the certificates to trust; empty: the system's
 };
 
+// GSV's web server.
 class Gateway {
  public:
   // Serves the simulations of this program. Start(), StartReplay() and StartRelay() fail if the

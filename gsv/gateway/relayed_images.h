@@ -18,6 +18,7 @@ namespace gsv::gateway {
 
 inline constexpr long kMaxImageStreams = 8;
 
+// Serves streams of images through a relay.
 class RelayedImages {
  public:
   // `io` must outlive this object and run until it ends.

@@ -11,6 +11,7 @@
 
 namespace gsv::gateway {
 
+// The routes of one kind of gateway.
 class RouteSet {
  public:
   virtual ~RouteSet() = default;
@@ -30,6 +31,7 @@ class RouteSet {
 std::unique_ptr<RouteSet> MakeLiveRoutes(const GatewayOptions& options,
                                          std::shared_ptr<SimulationDirectory> directory,
                                          WorkerPool& commanders);
+// Makes the routes of a replay.
 std::unique_ptr<RouteSet> MakeReplayRoutes(const GatewayOptions& options, ReplayPlayer& player);
 // Fails if no gsv answers at the address `there`.
 base::Result<std::unique_ptr<RouteSet>> MakeRelayRoutes(const RelayedInstance& there,

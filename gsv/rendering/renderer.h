@@ -43,6 +43,7 @@ struct RendererOptions {
   std::size_t queue_capacity = 4096;
 };
 
+// Renders images of snapshots on its own thread.
 class Renderer {
  public:
   // This is longer than the slowest machine needs for an image. The simulation's deadline for

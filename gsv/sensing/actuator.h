@@ -9,6 +9,7 @@
 
 namespace gsv::sensing {
 
+// Base class of devices that take commands.
 class Actuator : public Device {
  public:
   world::DeviceStatePtr Apply(const std::string& robot, const world::DeviceStatePtr& before,

@@ -12,6 +12,7 @@
 
 namespace gsv::sensing {
 
+// Base class of sensors that keep a state between steps.
 class Device : public Sensor {
  public:
   const Device* device() const final { return this; }

@@ -18,6 +18,7 @@ inline messages::std_msgs::Header HeaderOf(base::SimTime time, const std::string
   header.frame_id = frame_id;
   return header;
 }
+// Returns the header of a reading's message.
 inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::string& frame_id) {
   return HeaderOf(reading.time, frame_id);
 }

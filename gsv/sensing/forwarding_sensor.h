@@ -10,6 +10,7 @@
 
 namespace gsv::sensing {
 
+// Base class of sensors that change the behaviour of another sensor.
 class ForwardingSensor : public Sensor {
  public:
   explicit ForwardingSensor(std::unique_ptr<Sensor> sensor)

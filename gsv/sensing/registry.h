@@ -69,6 +69,7 @@ class SensorRegistry {
   // Returns a type by name or alias, or null. It is valid during the registry's lifetime.
   const SensorType* Find(std::string_view name) const;
 
+  // The names of all types.
   std::vector<std::string> names() const;
 
  private:

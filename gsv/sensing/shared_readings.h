@@ -26,6 +26,7 @@ class SharedReadings {
   // Returns sensor.Sample(sampling), cached. Errors are not cached.
   base::Result<Reading> Take(const Sensor& sensor, const Sampling& sampling);
 
+  // The size of all cached readings.
   std::size_t bytes() const;
 
  private:

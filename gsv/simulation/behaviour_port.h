@@ -24,9 +24,13 @@ class BehaviourPort {
 
   // Gives the behaviour its robot. It may open sensors before it returns.
   virtual base::Status Init(const std::shared_ptr<Agent>& agent) = 0;
+  // Starts the behaviour at the start of the run.
   virtual base::Status Start() = 0;
+  // Ends the behaviour at the end of the run.
   virtual base::Status Stop() = 0;
+  // Notifies the behaviour that the run is paused.
   virtual base::Status Pause() = 0;
+  // Notifies the behaviour that the run is resumed.
   virtual base::Status Resume() = 0;
   // Destroys the behaviour.
   virtual void Destroy() = 0;

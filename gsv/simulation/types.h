@@ -23,6 +23,7 @@ namespace gsv::simulation {
 
 using base::SimTime;
 
+// How simulated time relates to wall-clock time.
 enum class Mode {
   // Steps follow the wall clock, scaled by the real-time factor. The simulation does not wait for
   // agents.
@@ -67,6 +68,7 @@ struct Specification {
   SimTime stuck_after = std::chrono::seconds(5);
 };
 
+// The phase of a robot's agent. kFinished: the behaviour has closed all its clocks.
 enum class AgentPhase { kNone, kInitialised, kRunning, kWaiting, kFinished, kUnresponsive, kDead };
 
 const char* ToString(AgentPhase phase);

@@ -21,6 +21,7 @@ class AttachedLayout {
   // Attach a body to a link, and detach it, as Engine::Attach() and Engine::Detach() do. engine.h
   // describes the errors.
   base::Status Attach(const Attachment& attachment, const world::State& state);
+  // Ends the attachment, as Engine::Detach() does.
   void Detach(int held_body);
 
   // Returns the layout with all attachments if they have changed since the last call or Reset();
@@ -35,7 +36,9 @@ class AttachedLayout {
 
   // Returns an error if the attachment is invalid, see Engine::Attach().
   base::Status Check(const Attachment& attachment) const;
+  // Whether the body is attached to a link of another body.
   bool IsHeld(int body) const;
+  // Whether another body is attached to a link of this body.
   bool IsHolder(int body) const;
   // Returns the layout in which the shapes of each held body belong to its holder.
   std::shared_ptr<const world::Layout> Derive() const;

@@ -24,11 +24,13 @@ class BallAngles {
   // frame. AnglesOf() is the inverse. Every rotation has angles. They are not unique if the middle
   // angle is ±90 degrees.
   geometry::Quaternion Turn(const std::array<double, 3>& angles) const;
+  // The inverse of Turn().
   std::array<double, 3> AnglesOf(const geometry::Quaternion& turn) const;
 
   // AngularVelocity() converts the rates (rad/s) about the joint's three axes to the child's
   // angular velocity relative to its parent, in the child's part frame. RatesOf() is the inverse.
   geometry::Vector3 AngularVelocity(const std::array<double, 3>& rates) const;
+  // The inverse of AngularVelocity().
   std::array<double, 3> RatesOf(const geometry::Vector3& angular_velocity) const;
 
  private:

@@ -64,6 +64,7 @@ class DriveKinematics {
     return {moves.linear, moves.lateral - moves.angular * reference_x_, moves.angular};
   }
 
+  // Whether the base can rotate without moving forwards.
   bool can_turn_on_the_spot() const {
     return drive_.kind != model::DriveKind::kAckermann && drive_.kind != model::DriveKind::kNone;
   }
@@ -71,6 +72,7 @@ class DriveKinematics {
   bool can_move_sideways() const {
     return drive_.kind == model::DriveKind::kMecanum || drive_.kind == model::DriveKind::kVelocity;
   }
+  // The x coordinate of the drive's reference point in the model's frame, m.
   double reference_x() const { return reference_x_; }
 
   // Whether TurnJoints() sets any joint.

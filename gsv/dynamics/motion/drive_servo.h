@@ -21,6 +21,7 @@ class DriveServo {
     now_ += base::FromSeconds(seconds);
     return drive_.actual;
   }
+  // The motion at the end of the last substep.
   const world::DriveCommand& motion() const { return drive_.actual; }
   const DriveKinematics& kinematics() const { return kinematics_; }
 

@@ -37,10 +37,14 @@ namespace gsv::dynamics {
 class PlanarMover {
  public:
   virtual ~PlanarMover() = default;
+  // As Engine::SetLayout().
   virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
+  // As Engine::Step(), for bodies with planar kinematics.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
+  // As Engine::Overlaps().
   virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
+  // As Engine::OverlapsOf().
   virtual std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                                  double tolerance) = 0;
 };

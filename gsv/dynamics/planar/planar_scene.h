@@ -74,6 +74,7 @@ class PlanarScene {
 
   const world::Layout& layout() const { return *layout_; }
   const std::vector<Mover>& movers() const { return movers_; }
+  // The properties that the mover shares with all movers of its model.
   const MoverKind& kind(const Mover& mover) const { return kinds_[mover.kind]; }
   const Footprint& footprint(std::size_t mover) const {
     return kinds_[movers_[mover].kind].footprint;
@@ -82,9 +83,11 @@ class PlanarScene {
   int level(const Mover& mover, std::size_t piece) const {
     return levels_[mover.first_level + piece];
   }
+  // The slices of static bodies at this level.
   const ObstacleField& field(int level) const { return fields_[level]; }
   // Whether there are dynamic obstacles: rigid bodies or actors.
   bool has_dynamic() const { return !dynamic_.empty(); }
+  // The slices of dynamic obstacles at this level.
   const ObstacleField& dynamic_field(int level) const { return dynamic_fields_[level]; }
   // The height of a mover's origin at the last Slice(), m.
   double height(std::size_t mover) const { return heights_[mover]; }

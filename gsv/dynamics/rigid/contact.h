@@ -7,6 +7,7 @@
 
 namespace gsv::dynamics {
 
+// A point at which two solids touch, with the inputs and results of the solver.
 struct Contact {
   int first = 0, second = 0;  // solids: indices in ContactFinder::colliders()
   TouchPoint point;
@@ -20,6 +21,7 @@ struct Contact {
   std::array<double, 2> softness{};  // (m/s) / (N s): sliding velocity per impulse at this point
   std::array<double, 3> impulse{};   // N s: along the normal and the axes
 
+  // The contact point on the first solid, in the world.
   geometry::Vector3 on_first() const { return point.on_second + point.distance * point.normal; }
 };
 

@@ -32,6 +32,7 @@ struct Collider {
   geometry::Vector3 position, velocity, angular_velocity;
 };
 
+// Finds the contacts of rigid bodies with each other and with all other bodies.
 class ContactFinder {
  public:
   // Prepares for the bodies of a scene. `bodies` are in the order of scene.bodies().
@@ -72,11 +73,13 @@ class ContactFinder {
     int collider = 0;
   };
 
+  // Computes the poses of the static bodies.
   void PlaceStatic(const world::State& state);
   // Computes the poses of a group's pieces.
   void PlaceGroup(Group& group);
   // Adds the contacts between groups whose bounding boxes overlap, found by sort and sweep.
   void AddGroupPairs(double substep);
+  // Adds the contacts between two groups.
   void AddGroupPair(const Group& a, const Group& b);
   // Adds the contacts of a group with static bodies.
   void AddStaticPairs(const Group& group);

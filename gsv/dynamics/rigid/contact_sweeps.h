@@ -20,6 +20,7 @@
 
 namespace gsv::dynamics {
 
+// Solves the contacts of a large island of bodies without joints.
 class ContactSweeps {
  public:
   struct Body {
@@ -51,6 +52,7 @@ class ContactSweeps {
   int Solve(int max_sweeps, double tolerance);
 
   const Body& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
+  // The impulse of a contact along its normal and its two friction axes, N s.
   const std::array<double, 3>& impulse(int contact) const {
     return contacts_[static_cast<std::size_t>(contact)].impulse;
   }
@@ -95,6 +97,7 @@ class ContactSweeps {
   // Returns -1 for a contact with a fixed body, else the larger level of its two bodies. The level
   // of a body is the number of bodies between it and a fixed body.
   int LevelOf(int contact) const;
+  // Puts the contacts into batches of four.
   void MakeBatches();
   // Writes a contact into one of the four values of a batch.
   void Fill(Batch& batch, std::size_t value, const Contact& contact) const;

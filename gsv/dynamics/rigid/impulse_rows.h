@@ -55,6 +55,7 @@ class ImpulseRows {
   // Adds a body whose velocities earlier impulses have already changed by `velocities`. Returns the
   // index of the body's first value.
   int AddBody(std::span<const double> velocities);
+  // The velocities of a body after all impulses so far. `first` is the result of AddBody().
   std::span<const double> velocities(int first, int count) const;
 
   // Adds a row and returns its index. `impulse` is already applied: its effect is part of the
@@ -126,6 +127,7 @@ class ImpulseRows {
   void Apply(Row& row, double impulse);
   // Solve one row or cone, with all other impulses unchanged.
   void SolveRow(Row& row);
+  // Solves a friction cone, with all other impulses unchanged.
   void SolveCone(Cone& cone);
   // Solves each row and cone once.
   void Sweep(bool backwards);
@@ -145,6 +147,8 @@ class ImpulseRows {
   std::array<double, 2> MissingOf(const Cone& cone) const;
   // Writes the linear equations of a contact that slips.
   void WriteSlip(const Cone& cone);
+  // Writes the linear equations of the rows in free_. With `shares_loads`, redundant rows share the
+  // load.
   void WriteEquations(bool shares_loads);
   // Applies the solution of the linear equations, within the bounds of all rows.
   void TakeSolution();
@@ -159,7 +163,9 @@ class ImpulseRows {
   bool TakeGuess();
   // Stores the impulses and velocities. GoBack() restores them.
   void Remember();
+  // Restores the impulses and velocities that Remember() stored.
   void GoBack();
+  // The change of energy by all rows in the last iteration; it is small near the solution.
   double ChangeOfEnergy() const;
 
   std::vector<double> velocities_, jacobians_, responses_;

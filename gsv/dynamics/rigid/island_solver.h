@@ -42,6 +42,7 @@ struct PushRow {
   double impulse = 0;               // result of the solver, N s
 };
 
+// Computes the impulses and velocities of one island of bodies that act on each other.
 class IslandSolver {
  public:
   static constexpr int kMaxVelocities = 96, kMaxHeap = 48;
@@ -50,7 +51,9 @@ class IslandSolver {
   void Clear();
   // Adds a body, contact or push of the island, by its index in the arguments of Solve().
   void AddBody(int moving) { bodies_.push_back(moving); }
+  // Adds a contact, by its index in `contacts` of Solve().
   void AddContact(int contact) { contacts_.push_back(contact); }
+  // Adds a push, by its index in `pushes` of Solve().
   void AddPush(int push) { pushes_.push_back(push); }
   const std::vector<int>& contacts() const { return contacts_; }
   // Whether Solve() started from the impulses in its contacts.
@@ -97,7 +100,9 @@ class IslandSolver {
 
   // These functions add the rows of all joints, of one push, and of one contact.
   void AddJointRows(std::span<const std::unique_ptr<MovingBody>> bodies);
+  // Adds the row of a push.
   void AddPushRow(std::span<const std::unique_ptr<MovingBody>> bodies, const PushRow& push);
+  // Adds the three rows of a contact.
   void AddContactRows(const ContactFinder& finder,
                       std::span<const std::unique_ptr<MovingBody>> bodies, const Contact& contact,
                       int index, double substep);
@@ -110,6 +115,7 @@ class IslandSolver {
                   double substep, ContactRows& rows) const;
   // Returns the velocity at a contact or of a row, for the velocities `v` of the island.
   std::array<double, 3> VelocityAt(const ContactRows& rows, const std::vector<double>& v) const;
+  // Returns the velocity of a row, for the velocities `v` of the island.
   double VelocityOf(const Row& row, const std::vector<double>& v) const;
   // Returns the index in bodies_ of the body that has this velocity.
   int BodyAt(int column) const;
@@ -118,15 +124,18 @@ class IslandSolver {
   bool SolveByNewton(std::span<const std::unique_ptr<MovingBody>> bodies);
   // Chooses the modes of all rows and contacts from the velocities without impulses.
   void Guess();
+  // Writes the linear equations for the velocities.
   void WriteEquations(std::span<const std::unique_ptr<MovingBody>> bodies);
   // Adds a row to the linear equations.
   void AddRow(const Row& row);
+  // Adds the rows of a contact to the linear equations.
   void AddContactEquations(const ContactRows& rows);
   // Computes the impulses that belong to the new velocities.
   void TakeImpulses();
   // Updates which rows are active, and whether contacts are open, stick or slip. Returns the
   // largest error, m/s.
   double ChooseModes();
+  // Chooses whether a contact is open, sticks or slips. Returns its error, m/s.
   double ChooseMode(ContactRows& rows) const;
   // Returns the velocity across the direction of slip that the softness permits for a unit normal
   // impulse.
@@ -138,6 +147,7 @@ class IslandSolver {
   void SolveBySweeps(const ContactFinder& finder,
                      std::span<const std::unique_ptr<MovingBody>> bodies,
                      std::vector<Contact>& contacts, double substep);
+  // Writes the island's velocities to `velocities`.
   void StoreVelocities(std::span<const std::unique_ptr<MovingBody>> bodies,
                        std::span<const int> starts, std::span<double> velocities) const;
 

@@ -50,6 +50,7 @@ class JointRows {
     return std::span(velocities_)
         .subspan(static_cast<std::size_t>(row.begin), static_cast<std::size_t>(row.count));
   }
+  // The jacobian of a row: one value for each of velocities(row).
   std::span<const double> values(const JointRow& row) const {
     return std::span(values_).subspan(static_cast<std::size_t>(row.begin),
                                       static_cast<std::size_t>(row.count));

@@ -11,6 +11,7 @@
 
 namespace gsv::dynamics {
 
+// The impulses of a substep, from which the next substep starts.
 class KeptImpulses final : public world::EngineState {
  public:
   struct Entry {

@@ -37,7 +37,9 @@ class LinkTree {
   // Removes all forces that were added. AddForce() adds a force and a torque at a part's centre of
   // mass, and AddEffort() a force or torque of a joint.
   void ClearForces();
+  // Adds a force (N) and a torque (N m) at a part's centre of mass, in the world.
   void AddForce(int part, const geometry::Vector3& force, const geometry::Vector3& torque);
+  // Adds an effort (N or N m) to one velocity of a joint.
   void AddEffort(int velocity, double effort) { efforts_[Index(velocity)] += effort; }
   // Computes free(), the velocities after `seconds` of these forces and of the motion itself,
   // without any impulse. Also computes free_momenta(), the mass matrix times these velocities. Call
@@ -49,14 +51,19 @@ class LinkTree {
   // Translates and rotates the base.
   void Shift(const geometry::Vector3& shift, const geometry::Vector3& turn);
 
+  // The number of velocities.
   int size() const { return size_; }
   // Returns the index of a part's first velocity; 0 for the base.
   int first_velocity(int part) const { return links_[Index(part)].first; }
+  // Whether the base can move.
   bool is_moved_base() const { return base_size_ > 0; }
+  // Whether the tree is a single part without joints.
   bool is_single() const { return links_.size() == 1; }
   std::span<double> velocities() { return velocities_; }
   std::span<const double> velocities() const { return velocities_; }
+  // The velocities that Accelerate() has computed.
   std::span<const double> free() const { return free_; }
+  // The mass matrix times free().
   std::span<const double> free_momenta() const { return free_momenta_; }
   // The lower triangle of the mass matrix, row by row.
   double mass(int row, int column) const { return masses_[Index(row * size_ + column)]; }
@@ -65,16 +72,21 @@ class LinkTree {
   // Returns the inverse inertia, in the world, of a body without joints. Valid after WriteMass().
   const Matrix3& inverse_inertia() const { return inverse_inertia_; }
 
+  // The position of a part's centre of mass, in the world.
   const geometry::Vector3& position(int part) const { return positions_[Index(part)]; }
+  // The axes of a part's frame, in the world.
   const Matrix3& rotation(int part) const { return rotations_[Index(part)]; }
   // Returns the pose of a part's centre of mass, and its angular velocity, in the world.
   geometry::Pose pose(int part) const;
+  // Returns the angular velocity of a part, in the world.
   geometry::Vector3 angular_velocity(int part) const;
   // Returns the velocity of a point of a part.
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
   // The velocity and angular velocity of the base's centre of mass.
   geometry::Vector3 base_velocity() const;
+  // Returns the angular velocity of the base, in the world.
   geometry::Vector3 base_angular_velocity() const;
+  // Sets the velocity and the angular velocity of the base, in the world.
   void SetBaseVelocity(const geometry::Vector3& velocity,
                        const geometry::Vector3& angular_velocity);
 
@@ -94,6 +106,7 @@ class LinkTree {
   // Computes the velocity of a point of a part due to a unit of each velocity of the part's chain.
   void PointMotions(int part, const geometry::Vector3& point,
                     std::vector<geometry::Vector3>& motions) const;
+  // The angular velocity due to a unit of this velocity, in the world.
   const geometry::Vector3& turning(int velocity) const { return motions_[Index(velocity)].turning; }
 
   // Returns J M⁻¹ Jᵀ of a row with values for the velocities of a part's chain.

@@ -21,6 +21,7 @@ inline geometry::Vector3 TransposeTimes(const Matrix3& m, const geometry::Vector
 }
 inline Matrix3 operator*(const Matrix3& a, const Matrix3& b) { return {a * b.x, a * b.y, a * b.z}; }
 
+// Returns the rotation as a matrix.
 inline Matrix3 MatrixOf(const geometry::Quaternion& q) {
   const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
   const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;

@@ -29,12 +29,14 @@ class MeshPoints {
       : margin_(margin), near_(near), radius_(radius), points_(points), begin_(points.size()) {}
 
   double margin() const { return margin_; }
+  // Adds a contact point. `on_mesh` and `normal` are in the mesh's frame.
   void Add(const geometry::Vector3& on_mesh, const geometry::Vector3& normal, double distance);
   // Chooses among the points, and converts them to the world.
   void Finish(const PlacedPiece& mesh);
 
  private:
   double DistanceOf(const TouchPoint& a, const TouchPoint& b) const;
+  // Reduces the added points to at most kMaxPoints points.
   void Choose();
 
   const double margin_, near_, radius_;

@@ -10,6 +10,7 @@
 
 namespace gsv::dynamics {
 
+// A rigid body during a step: its equations of motion, forces and commands.
 class MovingBody {
  public:
   // `world` is the body's world. `plan` and `world` must outlive this object.
@@ -44,6 +45,7 @@ class MovingBody {
   bool is_kinematic() const { return is_kinematic_; }
   // Whether its drive controls the base directly.
   bool is_held() const { return servo_.has_value() && !rolls_; }
+  // Returns the velocity of a point of a part, in the world.
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
   // Returns the absolute rate of a wheel about its axle, in rad/s; 0 for a part on a ball joint,
   // which has no axle.
@@ -68,6 +70,7 @@ class MovingBody {
   void Drive(double seconds);
   // Returns the command of a joint, which comes from the drive or from outside.
   world::JointCommand CommandOf(int joint) const;
+  // Adds the rows of all joints.
   void AddJointRows(double seconds);
   // Adds the rows and efforts by which a joint follows its command.
   void AddMotor(const Motor& motor, double seconds);
@@ -75,16 +78,21 @@ class MovingBody {
   void AddPush(const Motor& motor, double force, double seconds);
   // Adds the row of a joint's controller. Returns the sign of its effort.
   double AddControl(const Motor& motor, const world::JointCommand& command, double seconds);
+  // Adds a row that keeps a joint within its velocity limit.
   void AddVelocityLimit(const Motor& motor, double force, double seconds);
+  // Adds rows that keep a joint within its position limits.
   void AddPositionLimits(const Motor& motor, double seconds);
   // Adds a row that moves the joint at `rate`, with at most this impulse.
   void AddRow(const Motor& motor, double rate, double impulse);
   // Adds the row of a joint that follows another joint, as gears do.
   void Follow(const Motor& motor, const model::Mimic& mimic, double seconds);
+  // Writes the positions and velocities of all joints to `state`.
   void StoreJoints(bool rests, world::State& state) const;
+  // Writes the angles and rates of a ball joint to `state`.
   void StoreBall(int part, bool rests, world::State& state) const;
   // Returns the speed of a part's joint, rad/s or m/s.
   double Rate(int part) const;
+  // Returns the pose of the model's frame in the world.
   geometry::Pose WorldFromModel() const;
   // Returns the speed that is compared with kResting: the maximum of all linear and angular speeds.
   double RestingSpeed() const;

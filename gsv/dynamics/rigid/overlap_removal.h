@@ -19,6 +19,7 @@
 
 namespace gsv::dynamics {
 
+// Computes velocities that separate overlapping bodies.
 class OverlapRemoval {
  public:
   static constexpr double kShare = 0.2;     // fraction of an overlap
@@ -53,7 +54,9 @@ class OverlapRemoval {
   };
 
   Body& At(int body) { return bodies_[static_cast<std::size_t>(body)]; }
+  // Solves one contact. Returns the change of velocity, m/s.
   double SolveRow(Row& row);
+  // Scales all velocities so that none exceeds kMaxSpeed.
   void Limit();
 
   std::vector<Body> bodies_;

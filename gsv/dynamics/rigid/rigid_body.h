@@ -57,6 +57,7 @@ struct RigidBody {
   std::vector<PartMedium> media;  // one for each part; empty if no medium exerts a force
   std::optional<DriveKinematics> kinematics;
   int first_joint = 0;
+  // Whether the body has parts that joints connect.
   bool is_jointed() const { return articulation.parts.size() > 1; }
 };
 

@@ -9,6 +9,7 @@
 
 namespace gsv::dynamics {
 
+// Collects the contacts of a step over its substeps.
 class RigidContacts {
  public:
   // Starts a step.

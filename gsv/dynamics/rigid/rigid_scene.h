@@ -39,8 +39,11 @@ class RigidScene {
   // These functions add a body of the layout, by its index: AddRigid() to bodies_, AddStanding() to
   // standing_, AddPlanar() and AddActor() to planar_.
   base::Status AddRigid(int index);
+  // Adds a body of the layout to standing_.
   void AddStanding(int index);
+  // Adds a body of the layout to planar_.
   void AddPlanar(int index);
+  // Adds an actor of the layout to planar_.
   void AddActor(int index);
 
   std::shared_ptr<const world::Layout> layout_;

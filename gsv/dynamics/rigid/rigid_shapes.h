@@ -31,6 +31,7 @@ struct StandingMesh {
   std::unique_ptr<btBvhTriangleMeshShape> shape;  // its user pointer points to `surface`
 };
 
+// Makes and owns Bullet's shapes of all bodies.
 class RigidShapes {
  public:
   // The shape of a static body; null if there is nothing to collide with. It lives as long as this

@@ -17,6 +17,7 @@
 
 namespace gsv::dynamics {
 
+// Takes a step of all rigid bodies of a scene.
 class RigidStep {
  public:
   // `team` may be null, must outlive this object, and does not change results.
@@ -55,26 +56,32 @@ class RigidStep {
     double impulse = 0;
   };
 
+  // Loads the bodies and finds the planar bodies near them.
   void Start(const world::State& before, const world::State& after, double seconds);
   // Adds the planar bodies that may touch a rigid body in this step.
   void AddPlanarNear(const world::State& before, const world::State& after);
   // Moves these planar bodies to their poses at `time` after the start of the step.
   void MovePlanar(double time);
+  // Prepares the pushes of the step.
   void AddPushes(std::span<const Push> pushes);
   // Returns the length of the next substep, if `left` seconds of the step are left.
   double SubstepFor(double left) const;
+  // Finds and solves the contacts of a substep, and moves the bodies to its end.
   void TakeSubstep(double time, double substep, std::span<const Push> pushes,
                    RigidContacts& contacts);
   // Prepares the rows of the pushes for a substep.
   void StartPushes(std::span<const Push> pushes, double time, double substep);
+  // Lists the islands: groups of bodies that act on each other.
   void MakeIslands();
   // Merges the islands of two bodies.
   void Join(int a, int b);
   // Returns the body that represents the island of a body.
   int RootOf(int moving);
+  // Solves each island for a substep.
   void SolveIslands(double substep);
   // Stores the impulses of heaps for the next substep.
   void KeepImpulses(double substep);
+  // Moves all bodies to the end of a substep.
   void MoveBodies(double substep);
   // Returns the moving body on which impulses on a collider act, or -1.
   int MovedBy(int collider) const;

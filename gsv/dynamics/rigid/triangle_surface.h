@@ -66,6 +66,7 @@ class TriangleSurface {
   // `normal` from it. Only then can it have a contact in this direction.
   bool MayTouchEdge(const Triangle& triangle, std::size_t edge,
                     const geometry::Vector3& normal) const;
+  // Like MayTouchEdge(), for a vertex.
   bool MayTouchVertex(int vertex, const geometry::Vector3& normal) const;
 
   std::vector<Triangle> triangles_;

@@ -8,6 +8,7 @@
 
 namespace gsv::dynamics {
 
+// Finds the boxes that overlap a given box.
 class BoxBvh {
  public:
   // in the common frame of all boxes

@@ -28,6 +28,7 @@ struct Obstacle {
 class ObstacleField {
  public:
   ObstacleField() = default;
+  // `margin` (m): a query within this distance needs only one cell.
   ObstacleField(std::vector<Obstacle> obstacles, double margin);
 
   const Obstacle& operator[](std::uint32_t index) const { return obstacles_[index]; }
@@ -58,6 +59,7 @@ class ObstacleField {
  private:
   // Chooses the extent of the grid and the size of its cells.
   void LayOutGrid();
+  // Adds each obstacle to the cells near it.
   void FillGrid();
   template <typename Visit>
   void ForEachCellNear(const Obstacle& obstacle, Visit visit) const;

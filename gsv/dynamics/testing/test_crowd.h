@@ -75,6 +75,7 @@ class Crowd {
   // The contacts of the last step.
   const std::vector<world::Contact>& contacts() const { return contacts_; }
 
+  // Returns the fraction of the robots that are in contact.
   double InContact() {
     std::size_t touching = 0;
     for (const std::size_t robot : robots_) touching += world_.state().bodies[robot].in_contact;

@@ -30,6 +30,7 @@
 
 namespace gsv::formats {
 
+// Finds the files to which worlds and robots refer.
 class ResourceFinder {
  public:
   explicit ResourceFinder(std::vector<std::filesystem::path> search_path = {},
@@ -46,9 +47,12 @@ class ResourceFinder {
   bool allows_absolute_paths() const { return allow_absolute_paths_; }
 
  private:
+  // Returns the folders in which models are searched for a name in this file.
   std::vector<std::filesystem::path> FoldersFor(const std::filesystem::path& naming_file) const;
+  // Finds the path of a model:// name.
   base::Result<std::filesystem::path> FindInModels(const std::string& path,
                                                    const std::filesystem::path& naming_file) const;
+  // Finds a relative or absolute path.
   base::Result<std::filesystem::path> FindByPath(const std::string& path,
                                                  const std::filesystem::path& naming_file) const;
 

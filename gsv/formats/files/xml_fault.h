@@ -7,6 +7,7 @@
 
 namespace gsv::formats {
 
+// The first error in malformed XML, and its place.
 struct XmlFault {
   int line = 1, column = 1;  // counted from 1; columns count bytes
   std::string sentence;      // the fault and a remedy: "<model> is not closed. Add </model>."

@@ -13,13 +13,16 @@ namespace gsv::formats {
 
 using Json = nlohmann::ordered_json;
 
+// The binary part of a GLB file.
 class GlbBuffer {
  public:
   // Each of these functions returns the index by which other parts of the file refer to the added
   // data.
   int AddBytes(std::span<const std::uint8_t> bytes);  // a buffer view
   int AddPositions(std::span<const float> xyz);       // an accessor with min and max
+  // Adds an accessor of vectors with this number of components.
   int AddVectors(std::span<const float> values, int components);
+  // Adds an accessor of triangle indices.
   int AddIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count);
 
   std::size_t size() const { return bytes_.size(); }
@@ -30,6 +33,7 @@ class GlbBuffer {
  private:
   template <typename T>
   int AddView(std::span<const T> values, int target);
+  // Adds an accessor to a buffer view.
   int AddAccessor(int view, int component_type, std::size_t count, const char* type);
 
   std::vector<std::uint8_t> bytes_;

@@ -25,9 +25,11 @@ base::Result<std::shared_ptr<const model::Image>> DecodeImage(const unsigned cha
                                                               const std::string& source,
                                                               const ReadLimits& limits);
 
+// Reads image files, each once.
 class TextureReader {
  public:
   explicit TextureReader(const ReadLimits& limits) : limits_(limits) {}
+  // Reads an image file.
   base::Result<std::shared_ptr<const model::Image>> Read(const std::filesystem::path& path);
 
   // Combines two grey images into a metallic-roughness map of glTF: `roughness` becomes the green

@@ -27,12 +27,15 @@ struct HeightGrid {
   std::optional<geometry::Vector2> spacing;
 };
 
+// Whether the bytes begin like a TIFF file.
 bool IsTiff(const unsigned char* bytes, std::size_t size);
 
+// Decodes a TIFF image.
 base::Result<std::shared_ptr<model::Image>> DecodeTiff(const unsigned char* bytes, std::size_t size,
                                                        const std::string& source,
                                                        const ReadLimits& limits);
 
+// Reads heights from a TIFF file.
 base::Result<HeightGrid> ReadTiffHeights(const std::filesystem::path& path,
                                          const ReadLimits& limits);
 

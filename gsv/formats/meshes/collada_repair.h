@@ -7,6 +7,7 @@
 
 namespace gsv::formats {
 
+// The result of a repair.
 struct ColladaRepair {
   std::vector<std::string> changes;                // a sentence for each part that was left out
   std::multimap<std::string, std::string> ids_of;  // ids of nodes and geometries by name

@@ -31,6 +31,7 @@ struct MeshFile {
   std::vector<model::Material> materials;  // materials of the mesh's parts, by index
 };
 
+// Reads mesh files, each once.
 class MeshReader {
  public:
   MeshReader(const ReadLimits& limits, TextureReader& textures)

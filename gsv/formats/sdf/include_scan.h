@@ -18,6 +18,7 @@
 
 namespace gsv::formats {
 
+// Finds, reads and repairs included files.
 class IncludeScan {
  public:
   IncludeScan(const ResourceFinder& finder, const ReadLimits& limits, base::Problems& problems)

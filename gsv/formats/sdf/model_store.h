@@ -30,6 +30,7 @@ struct StoredFile {
   base::Problems broken_rules;  // see ReadOptions::check_rules
 };
 
+// Reads model files, each once.
 class ModelStore {
  public:
   explicit ModelStore(const ReadOptions& options)

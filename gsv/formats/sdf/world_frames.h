@@ -25,6 +25,7 @@ base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element);
 // Reads the pose of a <frame>. Without @relative_to it is relative to the frame in @attached_to.
 base::Result<WrittenPose> ReadFramePose(const tinyxml2::XMLElement& frame);
 
+// The frames of a world, and the poses between them.
 class WorldFrames {
  public:
   // Adds a model or frame. `at` is the element's pose. If the model has a placement frame, `at` is
@@ -36,6 +37,7 @@ class WorldFrames {
   // Returns the pose in the world of an element that was added. Fails for missing names, and for
   // poses that are relative to each other.
   base::Result<geometry::Pose> WorldFrom(const std::string& name) const;
+  // Returns a pose in the world.
   base::Result<geometry::Pose> WorldFrom(const WrittenPose& pose) const;
 
  private:

@@ -18,6 +18,7 @@
 
 namespace gsv::formats {
 
+// The <state> of a world, as Gazebo Classic saves it.
 class WorldState {
  public:
   // Reads the <state> elements of a <world>, and removes them. Models that a state inserts become a
@@ -30,6 +31,7 @@ class WorldState {
   // Sets the pose and the joint positions of a model from the state. Warns of a loop of joints that
   // is open at these positions.
   void Apply(model::PlacedModel& placed, const ReadingContext& context) const;
+  // Returns the pose of a light in the state; nullopt if it has none.
   std::optional<geometry::Pose> LightPose(const std::string& name) const;
 
   // Warns of each model, link, joint and light in the states that the complete `world` does not
@@ -49,8 +51,10 @@ class WorldState {
     std::string place;
   };
 
+  // Reads one <state> element.
   void ReadState(tinyxml2::XMLElement& state, tinyxml2::XMLElement& world,
                  const ReadingContext& context);
+  // Reads the poses and joint positions of a model. `scope` is the prefix of its links.
   void ReadModel(const tinyxml2::XMLElement& element, const std::string& scope, int levels_left,
                  const ReadingContext& context, ModelState& state);
   // Returns the joint positions that follow from the saved poses of the links, or else the saved

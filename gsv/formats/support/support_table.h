@@ -32,6 +32,7 @@ struct ElementSupport {
 
   // Returns the element or attribute with that name; null if SDFormat has none in this element.
   const ElementSupport* Child(std::string_view child) const;
+  // Returns the attribute with that name; null if there is none.
   const ElementSupport* Attribute(std::string_view attribute) const;
 
   using ByName = std::map<std::string, std::unique_ptr<ElementSupport>, std::less<>>;
@@ -50,6 +51,7 @@ struct PluginSupport {
   std::string_view note;
 };
 
+// GSV's support of each element of SDFormat and URDF.
 class SupportTable {
  public:
   // Returns the program's table. Aborts if a row cannot be read.
@@ -57,6 +59,7 @@ class SupportTable {
 
   const ElementSupport& sdf() const { return Definition("root"); }
   const ElementSupport& urdf() const { return Definition("robot"); }
+  // Returns the definition with that name.
   const ElementSupport& Definition(std::string_view name) const;
 
   // Returns the row of the plugin with this file or class name; null if there is none.
@@ -64,9 +67,13 @@ class SupportTable {
 
  private:
   SupportTable();
+  // Returns the definition with that name, and creates it if necessary.
   ElementSupport& DefinitionToFill(std::string_view name);
+  // Reads a table of elements.
   void ReadElements(std::string_view table);
+  // Reads a row of a table into a definition.
   void ReadRow(std::string_view line, ElementSupport& definition);
+  // Reads the table of plugins.
   void ReadPlugins(std::string_view table);
 
   ElementSupport::ByName definitions_;

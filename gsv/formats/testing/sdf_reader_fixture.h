@@ -12,6 +12,7 @@
 
 namespace gsv::formats {
 
+// Returns an SDFormat document with this content.
 inline std::string Sdf(const std::string& content, const std::string& version = "1.9") {
   return "<?xml version='1.0'?>\n<sdf version='" + version + "'>\n" + content + "\n</sdf>\n";
 }

@@ -14,6 +14,7 @@
 
 namespace gsv::formats::xacro {
 
+// Expands the elements of a xacro file.
 class Expander {
  public:
   Expander(const ExpandOptions& options, base::Problems& problems);
@@ -33,44 +34,63 @@ class Expander {
 
   // These functions expand nodes, and append the results to `parent`.
   base::Status Children(const Node& of, Node& parent, Context& context);
+  // Expands one node.
   base::Status One(const NodePtr& node, Node& parent, Context& context);
+  // Expands one element.
   base::Status Element(const NodePtr& node, Node& parent, Context& context);
   // Returns the function for an element of xacro; null for other elements.
   static Handler HandlerOf(const Node& node, bool takes_plain_names);
+  // Whether the node is probably a call of the macro.
   bool LooksLikeCall(const Node& node, const Macro& macro) const;
+  // Handles the call of an unknown macro.
   base::Status UnknownMacro(const std::string& name, const Node& call);
   // Appends an element that is not an element of xacro, with its attributes and content expanded.
   base::Status Plain(const std::string& name, const Node& node, Node& parent, Context& context);
 
   // Each of these functions expands one kind of xacro element, such as <xacro:property>.
   base::Status OnProperty(const NodePtr& node, Node& parent, Context& context);
+  // Expands <xacro:macro>: stores the definition.
   base::Status OnMacro(const NodePtr& node, Node& parent, Context& context);
+  // Expands <xacro:arg>: sets the default of an argument.
   base::Status OnArgument(const NodePtr& node, Node& parent, Context& context);
+  // Expands <xacro:include>.
   base::Status OnInclude(const NodePtr& node, Node& parent, Context& context);
+  // Expands an included file.
   base::Status Include(const std::string& name, bool is_optional, const NodePtr& node, Node& parent,
                        Context& context);
+  // Expands <xacro:if> or <xacro:unless>.
   base::Status OnCondition(const NodePtr& node, Node& parent, Context& context);
+  // Expands <xacro:insert_block>.
   base::Status OnInsertBlock(const NodePtr& node, Node& parent, Context& context);
+  // Expands <xacro:call>.
   base::Status OnCall(const NodePtr& node, Node& parent, Context& context);
+  // Expands <xacro:element>.
   base::Status OnElement(const NodePtr& node, Node& parent, Context& context);
+  // Expands <xacro:attribute>.
   base::Status OnAttribute(const NodePtr& node, Node& parent, Context& context);
 
+  // Expands the call of a macro. `home` is the Space that defines the macro.
   base::Status CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
                          Context& context);
   // These functions set the parameters of a macro in the scope of its body.
   base::Status BindValues(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
+  // Sets a parameter to its default.
   base::Status BindDefault(const Parameter& parameter, const NodePtr& node, Context& context,
                            Scope& inner);
+  // Sets the block parameters of a macro.
   base::Status BindBlocks(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
 
   // These functions substitute ${…} and $(…) in a text.
   base::Result<Value> Evaluate(const std::string& text, const Node& at, Scope& scope);
+  // Returns the text with all substitutions made.
   base::Result<std::string> TextOf(const std::string& text, const Node& at, Scope& scope);
   // Returns an attribute's value; kBadModel if it is missing.
   base::Result<std::string> RequiredAttribute(const Node& node, const char* name, Scope& scope);
+  // Returns an attribute's truth value, or `otherwise` if it is missing.
   base::Result<bool> FlagOf(const Node& node, const char* name, bool otherwise, Scope& scope);
   // Evaluates a $(command).
   base::Result<Value> Command(const std::string& command, const Node& at, Scope& scope);
+  // Returns the value of $(arg name).
   base::Result<Value> ArgumentNamed(const std::string& name) const;
 
   base::Problems& problems_;

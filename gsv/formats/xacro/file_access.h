@@ -15,6 +15,7 @@
 
 namespace gsv::formats::xacro {
 
+// Reads the files to which a xacro file refers.
 class FileAccess {
  public:
   FileAccess(const ResourceFinder& finder, const ReadLimits& limits, base::Problems& problems)
@@ -28,13 +29,17 @@ class FileAccess {
   // their names.
   std::vector<std::string> Matching(const std::string& pattern,
                                     const std::filesystem::path& in) const;
+  // Reads a YAML file.
   base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);
+  // Returns the folder of a ROS package.
   base::Result<std::filesystem::path> Package(const std::string& name,
                                               const std::filesystem::path& in);
 
  private:
+  // Finds a file.
   base::Result<std::filesystem::path> Find(const std::string& name,
                                            const std::filesystem::path& in) const;
+  // Whether the file is in a folder that Package() has returned.
   bool IsInPackage(const std::filesystem::path& file) const;
 
   const ResourceFinder& finder_;

@@ -13,6 +13,7 @@
 
 namespace gsv::formats::xacro {
 
+// An element or a text of a xacro file.
 struct Node {
   bool is_element = true;
   std::string text;  // the element's name, or the text

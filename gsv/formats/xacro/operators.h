@@ -12,10 +12,13 @@ namespace gsv::formats::xacro {
 
 // Applies one of + - * / // % **
 base::Result<Value> Apply(const std::string& sign, const Value& a, const Value& b);
+// Returns -value.
 base::Result<Value> Negative(const Value& value);
 // Compares two values. `word` is ==, !=, <, <=, >, >=, "in" or "not in".
 base::Result<bool> Compare(const std::string& word, const Value& a, const Value& b);
+// Returns of[index].
 base::Result<Value> Index(const Value& of, const Value& index);
+// Returns of[from:to].
 base::Result<Value> Slice(const Value& of, const Value& from, const Value& to);
 // Returns of.name: an entry of a dictionary, or a member of a namespace.
 base::Result<Value> Member(const Value& of, const std::string& name);
@@ -26,6 +29,7 @@ std::optional<Value> Constant(const std::string& name);
 // functions, those of sequences.h, and abs, min, max, round, sum, len, int, float, str, bool, list,
 // tuple.
 bool IsFunction(const std::string& name);
+// Calls a function by its name.
 base::Result<Value> CallFunction(const std::string& name, const std::vector<Value>& arguments);
 // Calls a method of a text, list or dictionary: lower, upper, capitalize, strip, startswith,
 // endswith, replace, split, join, find, isdigit, zfill, format, get, keys, values, items.

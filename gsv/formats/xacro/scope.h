@@ -34,22 +34,27 @@ struct Block {
 
 using Resolve = std::function<base::Result<Value>(const std::string& text, const Node& at, Scope&)>;
 
+// The properties and blocks that are visible at an element.
 class Scope final : public Names {
  public:
   // `parent` must outlive this scope. It is null for the outermost scope.
   Scope(Scope* parent, const Resolve& resolve) : parent_(parent), resolve_(resolve) {}
 
   Scope* parent() { return parent_; }
+  // The outermost scope, which has no parent.
   Scope& outermost() { return parent_ == nullptr ? *this : parent_->outermost(); }
 
   // Sets a property. Converts a text that is a number or truth value.
   void Set(const std::string& name, const Value& value, const NodePtr& at, bool is_lazy);
   void Remove(const std::string& name) { properties_.erase(name); }
+  // Whether this scope or a parent has the property.
   bool Has(const std::string& name) const;
+  // Returns the value of a property of this scope or a parent; nullopt if there is none.
   base::Result<std::optional<Value>> Find(const std::string& name);
   std::optional<Value> Member(const std::string& name) const override;
 
   void SetBlock(const std::string& name, Block block) { blocks_[name] = std::move(block); }
+  // Returns a block of this scope or a parent; null if there is none.
   const Block* FindBlock(const std::string& name) const;
 
  private:

@@ -28,18 +28,21 @@ struct Tuple {
   std::shared_ptr<const List> items;
 };
 
+// A value of a xacro expression.
 struct Value {
   using Content = std::variant<std::monostate, bool, std::int64_t, double, std::string,
                                std::shared_ptr<const List>, Tuple,
                                std::shared_ptr<const Dictionary>, const Names*>;
   Content content;  // monostate is None
 
+  // The value as type T; null if it has another type.
   template <typename T>
   const T* as() const {
     return std::get_if<T>(&content);
   }
   // Returns the elements of a list or tuple, else null.
   const List* items() const;
+  // The entries of a dictionary; null if the value is none.
   const Dictionary* dictionary() const;
   bool is_number() const;  // Whether the value is a bool, an int or a float.
 };
@@ -53,8 +56,10 @@ const char* TypeName(const Value& value);
 
 // Converts like Python's str(). Floats get the shortest text that restores the same number.
 std::string ToText(const Value& value);
+// Converts a float like Python's str().
 std::string FloatText(double value);
 
+// Returns the truth value like Python's bool().
 bool IsTrue(const Value& value);
 // Compares like Python's ==. Numbers are compared by value, and values of other types differ.
 bool AreEqual(const Value& a, const Value& b);

@@ -15,6 +15,7 @@
 
 namespace gsv::gateway {
 
+// Checks the Host and Origin headers of requests.
 class AccessRule {
  public:
   // The hosts 127.0.0.1, localhost, [::1] and `host`, each with `port`, are always allowed.

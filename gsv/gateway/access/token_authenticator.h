@@ -28,6 +28,7 @@ struct Tokens {
 // kInvalidArgument does not contain the token.
 base::Status CheckToken(std::string_view token);
 
+// Determines the permission of a client by its token.
 class TokenAuthenticator final : public Authenticator {
  public:
   // `is_exposed` means that other machines can reach the server.

@@ -28,6 +28,7 @@ struct ControlLimits {
   std::chrono::milliseconds answer{20'000};  // time limit for the answer to a request for control
 };
 
+// The viewers of a server, and which of them hold control.
 class ViewerRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -60,6 +61,7 @@ class ViewerRegistry {
   base::Status Rename(const std::string& key, const std::string& name, Time now);
   // Selects a simulation; empty: none.
   base::Status SelectSimulation(const std::string& key, const std::string& simulation, Time now);
+  // Removes a viewer.
   base::Status Leave(const std::string& key, Time now);
   // Requests control. kNotRunning: the viewer has selected no simulation.
   base::Status RequestControl(const std::string& key, Time now);
@@ -95,9 +97,12 @@ class ViewerRegistry {
   void Expire(Time now) GSV_REQUIRES(mutex_);
   // Removes a viewer, and its control or request for control.
   void Forget(const std::string& key) GSV_REQUIRES(mutex_);
+  // Releases the control that this viewer holds.
   void ReleaseControl(const std::string& key) GSV_REQUIRES(mutex_);
+  // Gives control to the first viewer in the queue.
   static void PassControl(Control& control, Time now);
   base::Result<Viewer*> Find(const std::string& key, Time now) GSV_REQUIRES(mutex_);
+  // Returns the control of the simulation that the viewer has selected.
   Control& ControlOf(const Viewer& viewer) GSV_REQUIRES(mutex_) {
     return controls_[viewer.person.simulation];
   }

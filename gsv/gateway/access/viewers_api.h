@@ -14,6 +14,7 @@ namespace gsv::gateway::access {
 // Returns the viewers as in GET /api/viewers, without `you` if it is 0.
 std::string ViewerListJson(const ViewerRegistry::ViewerList& standing);
 
+// The part of the HTTP API about viewers and control.
 class ViewersApi {
  public:
   // The handlers are valid during the lifetime of this object.
@@ -27,8 +28,11 @@ class ViewersApi {
   ViewerRegistry& registry() { return registry_; }
 
  private:
+  // Registers a viewer.
   Response Enter(const Request& request);
+  // Changes the name of a viewer or its selected simulation.
   base::Status Change(const Request& request);
+  // Removes a viewer.
   base::Status Leave(const Request& request);
   // Requests control, or releases it or withdraws the request.
   base::Status SetControlRequest(const Request& request);

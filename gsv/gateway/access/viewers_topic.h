@@ -11,6 +11,7 @@
 
 namespace gsv::gateway::access {
 
+// Publishes the live topic /gsv/viewers.
 class ViewersTopic {
  public:
   // Advertises the topic. `registry` must outlive this; null: nothing is advertised.

@@ -17,6 +17,7 @@
 
 namespace gsv::gateway {
 
+// The HTTP API of the simulations of this program.
 class Api {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
@@ -36,12 +37,19 @@ class Api {
   ModelStore& models() { return models_; }
 
  private:
+  // Responds with the capabilities of the server.
   Response Server() const;
+  // Responds with the list of simulations.
   Response List() const;
+  // Responds with the GLB file of a model.
   Response Model(const Request& request);
+  // Responds with the scene: the bodies, their models and sensors.
   Response Scene(const SimulationPointer& simulation);
+  // Responds with the topics of a robot's sensors.
   Response Topics(const SimulationPointer& simulation, const std::string& robot) const;
+  // Responds with the state of the recording.
   Response Recording(const SimulationPointer& simulation) const;
+  // Starts or stops a recording.
   Response SwitchRecording(const SimulationPointer& simulation, const std::string& body) const;
 
   const std::shared_ptr<SimulationDirectory> directory_;

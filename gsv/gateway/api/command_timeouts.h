@@ -18,6 +18,7 @@
 
 namespace gsv::gateway {
 
+// Runs a function for a key unless it is replaced or cancelled in time.
 class CommandTimeouts {
  public:
   CommandTimeouts();

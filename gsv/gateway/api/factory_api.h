@@ -15,6 +15,7 @@
 
 namespace gsv::gateway {
 
+// The part of the HTTP API that creates and edits simulations.
 class FactoryApi {
  public:
   // `factory` and `models` must outlive this object.
@@ -29,15 +30,22 @@ class FactoryApi {
   Response Worlds() const;
   Response Models() const;
   Response Behaviours(const Target& target) const;
+  // Responds whether simulations can be published to ROS 2.
   Response Ros2() const;
 
+  // Responds with the scene and poses of a simulation without creating it.
   Response Preview(const std::string& body) const;
+  // Creates a simulation.
   Response Create(const std::string& body) const;
+  // Destroys a simulation.
   Response Destroy(const std::string& simulation) const;
+  // Adds a robot or an avatar.
   Response AddRobot(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::string& body) const;
+  // Responds with the texts of a world file and a scenario file.
   Response SaveWorld(const std::shared_ptr<simulation::Simulation>& simulation,
                      const Target& target) const;
+  // Adds an object.
   Response AddObject(const std::shared_ptr<simulation::Simulation>& simulation,
                      const std::string& body) const;
 

@@ -18,6 +18,7 @@
 
 namespace gsv::gateway {
 
+// Provides models as GLB files.
 class ModelStore {
  public:
   using WriteGlb =
@@ -50,6 +51,7 @@ class ModelStore {
 
   // Removes the identifiers and files of destroyed models.
   void ForgetDestroyed() GSV_REQUIRES(mutex_);
+  // Returns the model with this identifier, or null.
   std::shared_ptr<const model::Model> FindModel(const std::string& id) const GSV_REQUIRES(mutex_);
 
   const WriteGlb write_;

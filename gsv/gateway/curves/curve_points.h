@@ -18,6 +18,7 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
+// Stores the points of a curve in bounded memory.
 class CurvePoints {
  public:
   // `start` and `end` are the range of the samples' times. Keeps at most `max_points`, >= 2.
@@ -39,6 +40,7 @@ class CurvePoints {
     Point min, max;  // both equal the first sample until a sample is finite
   };
 
+  // Adds a sample to the bin of its time.
   void AddToBin(const Point& point);
 
   const base::SimTime start_, end_;

@@ -26,6 +26,7 @@ struct CurveRequest {
   friend bool operator==(const CurveRequest&, const CurveRequest&) = default;
 };
 
+// Extracts the samples of one curve from messages.
 class CurveSource {
  public:
   virtual ~CurveSource() = default;

@@ -29,6 +29,7 @@ struct Curve {
   std::string problem;        // reason for missing parts; empty: none
 };
 
+// Reads curves over a whole recording in the background.
 class RecordedCurves {
  public:
   // `reader` and `scene` must outlive this. `timeout`: limit for reading a curve, wall-clock time.
@@ -49,7 +50,9 @@ class RecordedCurves {
 
   // Returns the job of the request, or null. Marks the job as the most recently used job.
   std::shared_ptr<Job> Find(const CurveRequest& request) GSV_REQUIRES(mutex_);
+  // The main function of the reading thread.
   void Run();
+  // Reads the messages of one curve.
   void Read(Job& job);
 
   const recording::McapReader& reader_;

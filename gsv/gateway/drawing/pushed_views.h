@@ -35,6 +35,7 @@ inline constexpr std::size_t kMaxViewsOfClient = 4;
 // microseconds since 1970 (8).
 inline constexpr std::size_t kImageHeaderSize = 20;
 
+// Sends images of views to clients over their WebSockets.
 class PushedViews final : public Views, public std::enable_shared_from_this<PushedViews> {
  public:
   // Returns the world of the hub, or an error if it does not exist any more.
@@ -43,9 +44,13 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   // `drawer` must outlive the clients of the hub.
   PushedViews(ViewDrawer& drawer, FindWorldOfHub find) : drawer_(drawer), find_(std::move(find)) {}
 
+  // Starts a view, or changes its camera.
   void Handle(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) override;
+  // Ends a view.
   void Handle(const std::shared_ptr<Client>& client, const foxglove::UnwatchView& request) override;
+  // Records that the client has shown an image.
   void Handle(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) override;
+  // Ends all views of a client.
   void Forget(Client* client) override;
 
  private:
@@ -75,13 +80,16 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   void Remove(const Key& key);
   // Asks for the next image, if the client may get another image now.
   void Continue(const WatchedPtr& watched);
+  // Requests an image from the ViewDrawer.
   base::Status Ask(const WatchedPtr& watched);
   // Sends an image. `earliest`: the value with which it was requested (ViewDrawer::Ask()).
   void OnImage(const WatchedPtr& watched, std::uint32_t sequence, Clock::time_point earliest,
                const base::Result<DrawnImage>& image);
   // Chooses the detail of the next image. `slow_rate`: see Client. `bytes`: size of this image.
   static void ChooseDetail(Watched& watched, double slow_rate, std::size_t bytes);
+  // Ends a view and sends the client the reason.
   void Fail(const WatchedPtr& watched, const base::Error& error);
+  // Returns the message with an image: the header, then the JPEG.
   static SharedBytes MessageOf(const Watched& watched, std::uint32_t sequence,
                                const DrawnImage& image);
 

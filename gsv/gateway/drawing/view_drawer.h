@@ -51,6 +51,7 @@ struct DrawnImage {
   std::chrono::system_clock::time_point seen{};  // when the drawer first saw the shown state
 };
 
+// Renders the images that viewers request, on its own thread.
 class ViewDrawer {
  public:
   using Clock = std::chrono::steady_clock;
@@ -103,6 +104,7 @@ class ViewDrawer {
     DrawnImage image;
   };
 
+  // The main function of the drawing thread.
   void Run();
   // Forgets each world that nobody has requested for kUnusedSourceTimeout. With the last world, also
   // forgets the kept images.
@@ -115,7 +117,9 @@ class ViewDrawer {
     std::uint64_t number = 0;
     std::chrono::system_clock::time_point at{};
   };
+  // Draws the images of these requests and answers them.
   void Draw(const ViewInstant& instant, const Seen& seen, std::vector<Pending> due);
+  // Encodes an image in the requested format.
   base::Result<SharedBytes> Encode(const model::Image& image, const ViewRequest& request) const;
 
   const DrawingLimits limits_;
@@ -133,6 +137,7 @@ class ViewDrawer {
   std::thread thread_;
 };
 
+// A place among the requests and streams that a ViewDrawer serves at the same time.
 class ViewDrawer::Seat {
  public:
   explicit Seat(ViewRequest request) : request_(std::move(request)) {}

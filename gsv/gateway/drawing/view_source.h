@@ -22,6 +22,7 @@ struct ViewInstant {
   base::SimTime time{};
 };
 
+// The interface for the state of a world that the server draws.
 class ViewSource {
  public:
   virtual ~ViewSource() = default;
@@ -33,6 +34,7 @@ class ViewSource {
 // Makes the source for a running simulation. It does not keep the simulation alive.
 std::unique_ptr<ViewSource> MakeLiveSource(
     const std::shared_ptr<simulation::Simulation>& simulation);
+// Makes the source for a replay.
 std::unique_ptr<ViewSource> MakeReplaySource(std::shared_ptr<ReplayPlayer> player);
 
 }  // namespace gsv::gateway::drawing

@@ -25,6 +25,7 @@ enum class CloseCode : std::uint16_t {
 // subscription.
 enum class Delivery { kEach, kNewest };
 
+// A connected viewer, to which the server sends messages.
 class Client {
  public:
   virtual ~Client() = default;
@@ -40,6 +41,7 @@ class Client {
   virtual double slow_rate() const { return 0; }
   // Returns an error with the reason if this viewer does not have control now.
   virtual base::Status CheckControl() { return {}; }
+  // Closes the connection, with this reason.
   virtual void Close(CloseCode code, std::string reason) = 0;
 
   void SendStatus(foxglove::StatusLevel level, std::string_view message) {

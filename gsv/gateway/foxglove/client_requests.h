@@ -18,6 +18,7 @@
 
 namespace gsv::gateway {
 
+// Answers the clients' requests for parameters, services and playback.
 class ClientRequests {
  public:
   // If `operations` is null, every request is refused.
@@ -27,6 +28,7 @@ class ClientRequests {
   std::vector<std::string> capabilities() const;
   // Sends the list of services to a new client, and the playback state if `knows_playback`.
   void Welcome(const std::shared_ptr<Client>& client, bool knows_playback);
+  // Removes a client.
   void Forget(Client* client);
 
   // Carries out a request and sends the client the answer.

@@ -25,6 +25,7 @@
 
 namespace gsv::gateway {
 
+// Distributes the messages of one simulation to its clients.
 class Hub {
  public:
   // `on_demand` is called without the lock after each change of clients or subscriptions, and must
@@ -43,6 +44,7 @@ class Hub {
   // client instead.
   void Add(std::shared_ptr<Client> client,
            std::string_view subprotocol = foxglove::kSubprotocols.front());
+  // Removes a client.
   void Remove(Client* client);
   // Handles a message from a client, text or binary. After an error the connection must be closed.
   base::Status Receive(Client* client, std::string_view text);
@@ -53,6 +55,7 @@ class Hub {
   void Unadvertise(std::span<const foxglove::ChannelId> channels);
 
   bool has_clients() const;
+  // Whether the channel has subscribers.
   bool IsSubscribed(foxglove::ChannelId channel) const;
   // Whether the channel has subscribers that have received no message on it yet.
   bool HasNewSubscribers(foxglove::ChannelId channel) const;
@@ -104,6 +107,7 @@ class Hub {
     Delivery delivery = Delivery::kNewest;
   };
 
+  // Carries out a message from a client.
   void Handle(Client* client, const foxglove::ClientMessage& message);
 
   template <typename Request>
@@ -112,9 +116,13 @@ class Hub {
   void Apply(Member& member, const foxglove::Unsubscribe& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::WatchGraph& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::Unsupported& message) GSV_REQUIRES(mutex_);
+  // Sends the client a warning as a status message.
   static void SendWarning(Member& member, std::string_view message);
+  // Whether a client watches the connection graph.
   bool IsGraphWatched() const GSV_REQUIRES(mutex_);
+  // Returns the connection graph.
   foxglove::ConnectionGraph Graph() const GSV_REQUIRES(mutex_);
+  // Sends the changes of the connection graph to the clients that watch it.
   void PublishGraph();
   std::shared_ptr<Views> views() const;
 

@@ -14,6 +14,7 @@
 
 namespace gsv::gateway {
 
+// The interface for the operations on a simulation that a hub's clients can request.
 class Operations {
  public:
   // The response in CDR, or an error.
@@ -21,16 +22,19 @@ class Operations {
 
   virtual ~Operations() = default;
 
+  // The services that clients can call.
   virtual std::vector<foxglove::Service> services() const = 0;
   // Calls `answer` exactly once, before it returns or later from any thread.
   virtual void Call(const foxglove::ServiceCall& call, Answer answer) = 0;
 
+  // The parameters and their values.
   virtual std::vector<foxglove::Parameter> parameters() const = 0;
   // Fails for an unknown or fixed parameter, or an invalid value.
   virtual base::Status Set(const foxglove::Parameter& parameter) = 0;
 
   // Returns the state of a playback; nullopt for a running simulation.
   virtual std::optional<foxglove::PlaybackState> playback() const { return std::nullopt; }
+  // Plays, pauses or seeks a replay.
   virtual base::Status Control(const foxglove::PlaybackControl& request);
 };
 

@@ -11,6 +11,7 @@
 
 namespace gsv::gateway {
 
+// Immutable bytes that copies of the object share.
 class SharedBytes {
  public:
   SharedBytes() = default;

@@ -13,6 +13,7 @@ namespace gsv::gateway {
 // The name of this capability in the server info.
 inline constexpr const char* kViewsCapability = "gsvViews";
 
+// The interface for images that the server draws for clients.
 class Views {
  public:
   virtual ~Views() = default;

@@ -15,6 +15,7 @@
 
 namespace gsv::gateway::history {
 
+// Keeps the last minutes of every simulation.
 class Histories {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;

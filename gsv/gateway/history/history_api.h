@@ -15,6 +15,7 @@
 
 namespace gsv::gateway::history {
 
+// The part of the HTTP API about the past of running simulations.
 class HistoryApi {
  public:
   // If no history is kept, `histories` and `sessions` are both null. Then only the events and notes
@@ -34,8 +35,11 @@ class HistoryApi {
 
   // Responds with the time range and the size of the history.
   Response Extent(const SimulationPointer& simulation);
+  // Opens a replay of the past.
   Response Open(const SimulationPointer& simulation);
+  // Responds with the events so far.
   Response Events(const SimulationPointer& simulation, const Request& request);
+  // Adds a note of a viewer.
   Response AddNote(const SimulationPointer& simulation, const std::string& body);
 
   const std::shared_ptr<SimulationDirectory> directory_;

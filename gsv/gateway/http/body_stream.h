@@ -9,6 +9,7 @@
 
 namespace gsv::gateway {
 
+// The body of a response that is sent part by part.
 class BodyStream {
  public:
   virtual ~BodyStream() = default;

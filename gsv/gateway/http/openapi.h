@@ -7,6 +7,7 @@
 
 namespace gsv::gateway {
 
+// The text of docs/api.yaml.
 std::string_view OpenApiText();
 
 // GET /api/openapi.yaml

@@ -20,6 +20,7 @@ enum class Permission { kNone, kWatch, kControl };
 // delay viewers.
 enum class Pool { kReaders, kCommanders };
 
+// An address of the server, with its permission and its handler.
 struct Route {
   using Handler = std::function<Response(const Request&)>;
   using FindHub = std::function<base::Result<std::shared_ptr<Hub>>(const Request&)>;
@@ -53,6 +54,7 @@ struct Route {
 Route SocketRoute(std::string pattern, bool needs_control, Route::FindHub find_hub,
                   std::string summary);
 
+// Appends the routes `more` to `routes`.
 void Append(std::vector<Route>& routes, std::vector<Route> more);
 
 }  // namespace gsv::gateway

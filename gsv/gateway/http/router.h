@@ -17,6 +17,7 @@
 
 namespace gsv::gateway {
 
+// Finds the route of a request.
 class Router {
  public:
   struct Match {
@@ -35,6 +36,7 @@ class Router {
   Router(const Router&) = delete;
   Router& operator=(const Router&) = delete;
 
+  // Returns the route of a request, or its absence.
   Match Find(std::string_view method, const Target& target) const;
 
   const std::vector<Route>& routes() const { return routes_; }

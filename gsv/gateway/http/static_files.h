@@ -13,6 +13,7 @@
 
 namespace gsv::gateway {
 
+// Serves the viewer's files from one directory.
 class StaticFiles {
  public:
   // `root` may be empty or missing. Then "/" explains how to build the viewer's files.

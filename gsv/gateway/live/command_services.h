@@ -15,6 +15,7 @@
 
 namespace gsv::gateway {
 
+// Offers commands as services of the Foxglove protocol.
 class CommandServices {
  public:
   struct Service {
@@ -26,6 +27,7 @@ class CommandServices {
 
   explicit CommandServices(std::vector<Service> services) : services_(std::move(services)) {}
 
+  // The services that clients can call.
   std::vector<foxglove::Service> list() const;
 
   // Returns a function that carries out the call. Run it once; it may block. Fails for an unknown

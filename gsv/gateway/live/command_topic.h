@@ -14,6 +14,7 @@
 
 namespace gsv::gateway {
 
+// Publishes the live topic /gsv/commands.
 class CommandTopic {
  public:
   // Advertises the topic.

@@ -13,6 +13,7 @@
 
 namespace gsv::gateway {
 
+// Publishes the live topics of events, notes and output.
 class EventTopics {
  public:
   // Advertises the topics.

@@ -15,6 +15,7 @@
 
 namespace gsv::gateway {
 
+// Publishes the live topics /gsv/health and /gsv/expectations.
 class HealthTopics {
  public:
   // Advertises the topics.

@@ -14,6 +14,7 @@
 
 namespace gsv::gateway {
 
+// The operations on a running simulation.
 class LiveOperations final : public Operations {
  public:
   // Commands may block, so they run on `workers`. `workers` must outlive the last call. Does not

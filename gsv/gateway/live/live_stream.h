@@ -34,6 +34,7 @@ inline constexpr double kMaxSnapshotBytesPerSecond = 350'000;
 // Hz of wall-clock time.
 inline constexpr double kPublishRate = 30;
 
+// Publishes the changes of one simulation to a hub.
 class LiveStream {
  public:
   // Keeps the simulation alive only during Round() and while sensors are read. `on_demand`: see
@@ -69,9 +70,11 @@ class LiveStream {
   // Updates the list of poses after a change of the layout, and the topics of sensors when due.
   void FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                     WallTime now);
+  // Publishes the simulated time of a new snapshot.
   void PublishTime(const SnapshotPointer& snapshot);
   // Returns the rate of the topic in Hz, which depends on the size of its last message.
   static double RateFor(const SnapshotTopic& topic);
+  // Publishes a topic if the snapshot is new and the topic is due.
   void Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now);
 
   SharedBytes EncodeClock(const world::Snapshot& snapshot) const;

@@ -8,6 +8,7 @@ namespace gsv::gateway {
 
 using WallTime = std::chrono::steady_clock::time_point;
 
+// Limits the rate of messages.
 class Pacing {
  public:
   explicit Pacing(double rate) { SetRate(rate); }  // `rate` is in Hz, > 0

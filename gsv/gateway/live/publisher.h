@@ -13,6 +13,7 @@
 
 namespace gsv::gateway {
 
+// The thread that runs all live streams with clients.
 class Publisher {
  public:
   // Sensors are read on `watchers`, commands run on `commanders`. `recordings` and `registry` may
@@ -43,6 +44,7 @@ class Publisher {
 
   // Returns the live stream of a simulation, which is created at the first call.
   std::shared_ptr<LiveStream> StreamOf(const std::shared_ptr<simulation::Simulation>& simulation);
+  // The main function of the thread.
   void Run();
   // Makes the thread run a round at once.
   void Wake();

@@ -20,6 +20,7 @@
 
 namespace gsv::gateway {
 
+// Publishes the live topics /gsv/beams/ROBOT.
 class RobotBeams {
  public:
   // A sensor with beams.

@@ -32,6 +32,7 @@ namespace gsv::gateway {
 // sensors have no topic.
 inline constexpr std::size_t kMaxSensorTopics = 2000;
 
+// Publishes the live topics of sensors.
 class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
  public:
   // `workers` must outlive the last Publish().
@@ -54,6 +55,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
   using SensorList = std::vector<std::shared_ptr<Sensor>>;
 
+  // Returns the sensors that exist now, by topic.
   Sensors ListSensors(simulation::Simulation& simulation, const world::Layout& layout);
   // Withdraws the topics of sensors that are not in `found`.
   void Withdraw(const Sensors& found);
@@ -61,22 +63,28 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   RobotBeams::Sources WantedBeams() const;
   // If too many robots are requested, withdraws the topics of robots without subscribers.
   void EvictUnsubscribed(Sensors& found);
+  // Returns the robots whose topics have subscribers.
   std::set<std::string> SubscribedRobots() const;
   // Advertises the topics of sensors without a channel, up to kMaxSensorTopics. Sensors of
   // requested robots are advertised even beyond this limit.
   void Advertise(Sensors& found);
 
+  // Publishes the static transforms of the sensors.
   void PublishTransforms(const world::Snapshot& snapshot);
+  // Sends a sensor's companion message to new subscribers.
   void SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor);
   // Returns whether there are new subscribers to the sensor's readings.
   bool HasNewSubscribers(const Sensor& sensor) const;
+  // Starts to read a sensor on a worker thread, if it is due.
   void PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
                       const world::Snapshot& snapshot, WallTime now,
                       const std::shared_ptr<Sensor>& sensor);
+  // Starts to read all beam sensors on a worker thread, if they are due.
   void PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
   // These functions run on a worker thread. They read sensors, and publish the messages.
   void ReadSensor(simulation::Simulation& simulation, Sensor& sensor);
+  // Reads the beam sensors and publishes their beams, on a worker thread.
   void ReadBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                  const SensorList& sensors);
 

@@ -24,6 +24,7 @@ inline constexpr double kStatusRate = 5;
 inline constexpr double kMinStatusRate = 0.5;
 inline constexpr double kMaxStatusBytesPerSecond = 40'000;
 
+// Publishes the live topics of the status.
 class StatusTopics {
  public:
   // Advertises the topics.

@@ -19,6 +19,7 @@ namespace gsv::gateway {
 inline constexpr std::size_t kMaxHoldUps = 64;
 inline constexpr std::size_t kMaxLongestSteps = 32;
 
+// Publishes the live topic /gsv/step_costs.
 class StepCostTopic {
  public:
   // Advertises the topic.

@@ -16,8 +16,10 @@ namespace gsv::gateway {
 
 inline constexpr std::size_t kMaxWantedRobots = 100;
 
+// The robots whose sensor topics viewers have requested.
 class WantedRobots {
  public:
+  // Requests the topics of a robot.
   void Want(const std::string& robot);
   bool has_requests() const;
 
@@ -27,6 +29,7 @@ class WantedRobots {
   // request first. `subscribed` returns the robots with subscribers, and is called only if it is
   // needed. Returns the removed robots.
   std::set<std::string> EvictUnsubscribed(const std::function<std::set<std::string>()>& subscribed);
+  // Whether the topics of this robot were requested.
   bool Contains(const std::string& robot) const { return wanted_.contains(robot); }
 
  private:

@@ -11,6 +11,7 @@
 
 namespace gsv::gateway::metrics {
 
+// Writes metrics in Prometheus' text format.
 class Exposition {
  public:
   enum class Kind { kCounter, kGauge };
@@ -20,6 +21,7 @@ class Exposition {
 
   // Begins a family of samples. Each name may be used once.
   void Begin(std::string_view name, Kind kind, std::string_view help);
+  // Adds a sample to the current family.
   void Add(double value, std::initializer_list<Label> labels = {});
   void Add(std::uint64_t value, std::initializer_list<Label> labels = {});
 
@@ -33,6 +35,7 @@ class Exposition {
   const std::string& text() const { return text_; }
 
  private:
+  // Writes the line of one sample.
   void Line(std::initializer_list<Label> labels, const std::string& value);
 
   std::string name_;

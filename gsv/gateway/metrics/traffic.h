@@ -9,6 +9,7 @@
 
 namespace gsv::gateway::metrics {
 
+// Counters of a server's connections.
 struct Traffic {
   std::atomic<std::uint64_t> connections{0};      // open connections
   std::atomic<std::uint64_t> viewers{0};          // open WebSockets

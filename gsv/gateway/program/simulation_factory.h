@@ -47,6 +47,7 @@ struct ObjectRequest {
   std::optional<Placement> place;  // default: the first free place
 };
 
+// The interface through which the gateway creates and edits simulations.
 class SimulationFactory {
  public:
   struct ModelLine {

@@ -20,6 +20,7 @@ namespace gsv::gateway {
 // Returns the GLB file of a model by its identifier, or kNotFound. Called from any thread.
 using ModelSource = std::function<base::Result<SharedBytes>(const std::string& id)>;
 
+// The scenes and models that are attached to a recording.
 class RecordedScene {
  public:
   // Reads the scenes. problems() lists the invalid scenes. `reader` must outlive this. `models`
@@ -50,6 +51,7 @@ class RecordedScene {
     std::map<std::string, std::size_t> body_poses;
   };
 
+  // Reads an attached scene.
   base::Status Add(const recording::AttachmentIndexRecord& index);
   void Warn(const base::Error& error);
 

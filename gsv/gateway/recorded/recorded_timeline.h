@@ -33,6 +33,7 @@ struct RecordedLine {
 RecordedEvent CollisionEvent(base::SimTime time, const std::string& first,
                              const std::string& second);
 
+// The data for a recording's timeline: times of poses, events and the log.
 class RecordedTimeline {
  public:
   // `reader` and `scene` must outlive this.
@@ -54,8 +55,11 @@ class RecordedTimeline {
  private:
   using ChannelIds = std::set<std::uint16_t>;
 
+  // Returns the ids of the channels of a topic.
   ChannelIds ChannelsOf(const std::string& topic) const;
+  // Reads the events, notes and collisions.
   std::vector<RecordedEvent> ReadEvents() const;
+  // Reads the lines of the log.
   std::vector<RecordedLine> ReadLog() const;
   // Reads the messages of these channels. Calls `use` for each message; `use` returns the entry of
   // the timeline for it, or nullopt for none. Stops at `max_entries` entries. Returns the entries

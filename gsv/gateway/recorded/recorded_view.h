@@ -18,6 +18,7 @@
 
 namespace gsv::gateway {
 
+// Reconstructs the world at any instant of a recording.
 class RecordedView {
  public:
   struct Instant {
@@ -42,7 +43,9 @@ class RecordedView {
   };
   // Returns the newest message of the channel that is not after `time`, or null.
   const messages::gsv_msgs::Poses* NewestAt(base::SimTime time, std::uint16_t channel);
+  // Reads the poses of a block into poses_.
   void Load(const recording::MessageBlock& block, std::uint16_t channel);
+  // Returns the model with this identifier, or null.
   std::shared_ptr<const model::Model> FindModel(const std::string& id);
 
   const recording::McapReader& reader_;

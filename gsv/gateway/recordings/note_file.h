@@ -24,6 +24,7 @@ struct Note {
   std::string created;  // time of creation by RFC 3339, in UTC
 };
 
+// The file with the notes of a recording.
 class NoteFile {
  public:
   // `recording` is the path of the MCAP file.
@@ -38,6 +39,7 @@ class NoteFile {
   base::Status Remove(std::int64_t id) const;
 
  private:
+  // Replaces the content of the file.
   base::Status Write(const std::vector<Note>& notes) const;
 
   const std::string path_;

@@ -18,6 +18,7 @@ struct NoteRequest {
   std::string text;              // the text; with an author, it is "NAME: TEXT"
   std::optional<double> time_s;  // nullopt: the present time
 };
+// Parses the body of a request to add a note.
 base::Result<NoteRequest> ParseNoteRequest(const std::string& body);
 
 }  // namespace gsv::gateway::recordings

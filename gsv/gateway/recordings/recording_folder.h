@@ -46,6 +46,7 @@ struct RecordingLine {
   std::optional<double> violation_s;  // simulated time of the first violation
 };
 
+// Lists the recordings that viewers may replay.
 class RecordingFolder {
  public:
   struct Listing {
@@ -71,6 +72,7 @@ class RecordingFolder {
   bool IsName(const std::string& name) const;
   // Returns the file of a recording by its name; empty if there is none.
   std::filesystem::path FileOf(const std::filesystem::path& path) const;
+  // Returns the recording's line in the list.
   RecordingLine Describe(const std::string& name, const std::filesystem::path& file);
 
   const std::filesystem::path folder_;

@@ -12,6 +12,7 @@
 
 namespace gsv::gateway::recordings {
 
+// The part of the HTTP API about recordings.
 class RecordingsApi {
  public:
   explicit RecordingsApi(std::filesystem::path folder, std::string only = {},
@@ -26,14 +27,19 @@ class RecordingsApi {
   const RecordingFolder& folder() const { return folder_; }
 
  private:
+  // Responds with the list of recordings.
   Response List();
+  // Opens a replay of a recording.
   Response Open(const std::string& name);
+  // Responds with the first difference from another recording.
   Response Difference(const std::string& name, const Request& request);
   // Opens the file with the notes of the recording `name`, and returns the response that `use`
   // makes from it. `use` is a function with a parameter of type NoteFile.
   template <typename Use>
   Response OfNotes(const std::string& name, Use use);
+  // Adds a note to a recording.
   Response AddNote(const std::string& name, const std::string& body);
+  // Removes a note from a recording.
   Response RemoveNote(const std::string& name, const std::string& id);
 
   RecordingFolder folder_;

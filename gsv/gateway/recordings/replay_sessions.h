@@ -26,6 +26,7 @@ struct SessionLimits {
   std::chrono::milliseconds unwatched{30'000};
 };
 
+// The open replays of recordings.
 class ReplaySessions {
  public:
   explicit ReplaySessions(const SessionLimits& limits = {}) : limits_(limits) {}
@@ -56,6 +57,7 @@ class ReplaySessions {
     std::chrono::steady_clock::time_point used;
   };
 
+  // Returns the replay of a session. Fails with kNotFound if it does not exist.
   base::Result<Replay> Find(const std::string& name);
   // Removes the sessions without viewers and returns them. A session ends when its entry is
   // destroyed.

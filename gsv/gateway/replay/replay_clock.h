@@ -13,6 +13,7 @@
 
 namespace gsv::gateway {
 
+// The position and the phase of a replay.
 class ReplayClock {
  public:
   using WallTime = std::chrono::steady_clock::time_point;

@@ -11,6 +11,7 @@ namespace gsv::gateway {
 
 class ReplayPlayer;
 
+// The operations on a replay.
 class ReplayOperations final : public Operations {
  public:
   // `player` must outlive the last call.

@@ -25,6 +25,7 @@ struct ReplayOptions {
   bool loop = false;  // whether to restart at the end
 };
 
+// Plays a recording for viewers.
 class ReplayPlayer {
  public:
   // Opens a recording at its start. Fails if the file is not a recording or has no messages.
@@ -53,6 +54,7 @@ class ReplayPlayer {
   base::Result<SharedBytes> SceneNow() const;
   // Returns the recorded poses at the replay's position; empty if there are none yet.
   messages::gsv_msgs::Poses poses() const { return stream_.recorded_poses(); }
+  // Returns a copy of the clock of the replay.
   ReplayClock clock() const;
 
   base::Status Start();
@@ -78,11 +80,13 @@ class ReplayPlayer {
   ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const std::string& path,
                const ReplayOptions& options, ModelSource models);
 
+  // Reads the recording's metadata: name, mode and step size.
   void ReadMetadata();
   template <typename Change>
   auto Command(Change change);
   // Makes the thread publish at once.
   void Wake();
+  // The main function of the thread.
   void Run();
 
   const std::unique_ptr<recording::McapReader> reader_;

@@ -26,6 +26,7 @@
 
 namespace gsv::gateway {
 
+// Publishes the messages of a recording to a hub.
 class ReplayStream {
  public:
   // Advertises the topics of the recording, with the limit of SensorTopics. `reader` must outlive
@@ -61,6 +62,7 @@ class ReplayStream {
     bool is_fresh = false;
   };
 
+  // Returns how the messages of a topic are published.
   static Kind KindOf(const std::string& topic);
   // Advertises the topics up to the limit, beginning with the topics of the whole simulation.
   void AdvertiseFirst();
@@ -68,14 +70,18 @@ class ReplayStream {
   void AdvertiseWanted();
   // If too many robots are requested, withdraws the topics of robots without subscribers.
   void EvictUnsubscribed();
+  // Returns the robots whose topics have subscribers.
   std::set<std::string> SubscribedRobots() const;
+  // Returns the topic of a channel of the recording.
   const std::string& TopicOf(std::uint16_t id) const;
+  // Advertises these channels of the recording.
   void Advertise(const std::vector<std::uint16_t>& ids);
   // Stores the message as the newest of its track, and returns the track. Returns null if the
   // channel is not replayed.
   const Track* Keep(std::uint16_t id, base::SimTime time, recording::Bytes data);
   // Reads the next message of cursor_ into next_. Skips damaged parts with a warning.
   void ReadNext();
+  // Publishes the newest message of a track.
   void Publish(Track& track);
   // Publishes a message that is not recorded: to all subscribers if it is due, else only to new
   // subscribers.

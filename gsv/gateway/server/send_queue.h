@@ -44,6 +44,7 @@ struct Outgoing {
   std::size_t size() const { return header.size + payload.size(); }
 };
 
+// The queue of messages to one client.
 class SendQueue {
  public:
   using Time = Outgoing::Time;
@@ -65,6 +66,7 @@ class SendQueue {
   Popped Pop(Time now, bool allows_data = true);
 
   bool empty() const;
+  // Whether data messages are queued.
   bool has_data() const;
   std::uint64_t dropped() const;  // number of dropped data messages so far
 

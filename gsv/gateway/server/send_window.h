@@ -26,6 +26,7 @@
 
 namespace gsv::gateway {
 
+// Limits the data that one client has not yet confirmed.
 class SendWindow {
  public:
   using Clock = std::chrono::steady_clock;
@@ -79,7 +80,9 @@ class SendWindow {
   // Returns the rate of a slow connection in bytes per second; nullopt if the connection is fast.
   std::optional<double> slow_rate() const { return is_slow_ ? rate_ : std::nullopt; }
 
+  // The size of the window.
   std::size_t bytes() const { return bytes_; }
+  // The number of data bytes that were sent and not confirmed.
   std::size_t unconfirmed() const { return data_sent_ - data_confirmed_; }
 
  private:

@@ -73,6 +73,7 @@ class Handler {
   }
 };
 
+// Serves HTTP and WebSockets on one port.
 class Server {
  public:
   // Starts a server. `handler` must outlive it. Fails if the port is not available or the

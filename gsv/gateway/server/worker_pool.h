@@ -16,6 +16,7 @@ namespace gsv::gateway {
 // The queue limit of pools that handle viewers' requests.
 inline constexpr std::size_t kWaitingRequests = 256;
 
+// A thread pool with a bounded queue.
 class WorkerPool {
  public:
   WorkerPool(std::size_t threads, std::size_t queue_limit);

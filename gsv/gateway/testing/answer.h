@@ -7,6 +7,7 @@
 
 namespace gsv::gateway::testing {
 
+// Returns the response of the router to a request.
 inline Response Answer(const Router& router, Request request) {
   Router::Match match = router.Find(request.method, request.target);
   if (match.route == nullptr) return NoRoute(match);

@@ -25,6 +25,7 @@ class HttpConnection {
   explicit HttpConnection(std::uint16_t port);
   ~HttpConnection();
 
+  // Sends these bytes.
   void Send(const std::string& bytes);
   // Receives the next response; nullopt at the connection's end. `has_body`: false for a HEAD
   // request.
@@ -36,6 +37,7 @@ class HttpConnection {
   std::unique_ptr<Impl> impl_;
 };
 
+// Returns the text of an HTTP request.
 std::string RequestText(std::uint16_t port, const std::string& method, const std::string& target,
                         const std::string& more_headers = "", const std::string& body = "");
 // Sends one request on a new connection.
@@ -87,7 +89,9 @@ class Viewer {
   void Close();
 
  private:
+  // Stores data of other subscriptions for ReceiveData().
   void Keep(const Frame& frame);
+  // Sends a service call.
   void SendCall(const std::string& name, const std::string& request);
 
   struct Impl;

@@ -29,6 +29,7 @@ namespace gsv::gateway::transport {
 // An HTTP response has about 12.
 using Parts = boost::container::static_vector<boost::asio::const_buffer, 16>;
 
+// A connection with or without TLS.
 class ByteStream {
  public:
   using executor_type = boost::beast::tcp_stream::executor_type;

@@ -25,6 +25,7 @@ struct UploadLimits {
   std::size_t depth = 12;                        // maximum depth of folders
 };
 
+// Stores uploaded files until the server ends.
 class UploadFolder {
  public:
   explicit UploadFolder(const UploadLimits& limits = {}) : limits_(limits) {}

@@ -11,6 +11,7 @@
 
 namespace gsv::gateway::uploads {
 
+// The part of the HTTP API for uploads.
 class UploadsApi {
  public:
   explicit UploadsApi(const UploadLimits& limits = {}) : folder_(limits) {}

@@ -18,6 +18,7 @@
 
 namespace gsv::gateway::upstream {
 
+// Maps the channels of another instance to channels of a local hub.
 class ChannelMap {
  public:
   explicit ChannelMap(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {}

@@ -13,6 +13,7 @@
 
 namespace gsv::gateway::upstream {
 
+// The commands of a relayed simulation as services.
 class RelayedOperations final : public Operations {
  public:
   // `simulation` is its name at the other instance; empty: the first simulation. Requests run on

@@ -15,6 +15,7 @@
 
 namespace gsv::gateway::upstream {
 
+// Relays one simulation of another instance to a local hub.
 class Stream {
  public:
   // `simulation`: its name at the other instance; empty: the first simulation. `socket`: path of

@@ -11,6 +11,7 @@
 
 namespace gsv::rendering {
 
+// Encodes an animated PNG file, frame by frame.
 class ApngEncoder {
  public:
   // `frames_a_second` is from 0.1 to 240, and is rounded to hundredths. The animation plays once.

@@ -32,6 +32,7 @@ struct Distortion {
   double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
   geometry::Vector2 centre{0.5, 0.5};  // as fractions of the image's width and height
 
+  // Whether there is no distortion.
   bool is_none() const { return k1 == 0 && k2 == 0 && k3 == 0 && p1 == 0 && p2 == 0; }
   friend bool operator==(const Distortion&, const Distortion&) = default;
 };
@@ -62,6 +63,7 @@ class Lens {
  public:
   // A pinhole without distortion.
   explicit Lens(const CameraParameters& camera);
+  // A pinhole with these intrinsics and this distortion.
   Lens(const CameraParameters& camera, const Intrinsics& intrinsics, const Distortion& distortion);
   // Creates a wide lens; only the image size of `camera` is used. If `horizontal_fov` is not 0 (at
   // most 2 pi), f is chosen such that the image is this wide. Fails with kInvalidArgument if that
@@ -93,6 +95,7 @@ class Lens {
   // Distorted() applies the distortion, and Undistorted() inverts it. Both are for points in the
   // plane at a distance of 1.
   geometry::Vector2 Distorted(const geometry::Vector2& p) const;
+  // Removes the distortion from a point; nullopt if no point has this image.
   std::optional<geometry::Vector2> Undistorted(const geometry::Vector2& p) const;
 
   int width_ = 0, height_ = 0;

@@ -26,8 +26,10 @@ struct EglOptions {
 // (EGL_EXT_device_enumeration, EGL_EXT_platform_device). Null stands for no extensions.
 bool ListsDevices(const char* client_extensions);
 
+// An OpenGL context without a window.
 class EglContext {
  public:
+  // Creates a context and makes it current on the calling thread.
   static base::Result<std::unique_ptr<EglContext>> Create(const EglOptions& options);
   ~EglContext();
   EglContext(const EglContext&) = delete;

@@ -18,6 +18,7 @@ namespace raster {
 class RasterBatchRenderer;
 }
 
+// The back end that renders with OpenGL.
 class GlBatchRenderer final : public BatchRenderer {
  public:
   GlBatchRenderer();
@@ -28,6 +29,7 @@ class GlBatchRenderer final : public BatchRenderer {
   // Uses the rasteriser, so that results are bit-identical on every machine.
   base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+  // Frees the meshes and textures that are not in use.
   void Sweep() override;
 
  private:

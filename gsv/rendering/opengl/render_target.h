@@ -12,6 +12,7 @@
 
 namespace gsv::rendering {
 
+// A framebuffer with several layers, one for each image.
 class RenderTarget {
  public:
   RenderTarget(int width, int height);

@@ -12,6 +12,7 @@
 
 namespace gsv::rendering {
 
+// The shadow map of the sun on the graphics card.
 class ShadowMap {
  public:
   ShadowMap();

@@ -45,6 +45,7 @@ class ViewPass {
   void StageSolid(const RenderList& render_list, const geometry::Vector3& origin);
   // Makes the draw calls of transparent items, from far to near.
   void StageTransparent(const RenderList& render_list, const geometry::Vector3& origin);
+  // Makes the staged draw calls.
   void Draw(const std::vector<Call>& calls, const RenderList& render_list, bool lamps,
             const InstanceBuffer& instances);
   // Returns the shader program with these features, and compiles it on first use.

@@ -19,6 +19,7 @@
 
 namespace gsv::rendering::raster {
 
+// Renders the view of one camera on the processor.
 class ImageRenderer {
  public:
   // Renders a posed render list, antialiased. `render_list_id` identifies the render list. `block`
@@ -83,11 +84,16 @@ class ImageRenderer {
   void SetBackground(const Background& background);
   // Shades all opaque pixels, tile by tile.
   void Light(const LightModel& light, const SunShadow* shadow, base::ThreadTeam* team);
+  // Shades the opaque pixels of the tile at (x0, y0).
   void LightTile(const LightModel& light, const SunShadow* shadow, int x0, int y0,
                  Shading& shading);
+  // Whether all pixels of the tile show bodies that have not moved.
   bool IsStillTile(int x0, int y0, int x1, int y1) const;
+  // Returns the box around the visible points of a tile.
   TileBox BoxOfTile(int x0, int y0, int x1, int y1) const;
+  // Returns the texels of the shadow map that points in the box may look up.
   ShadowRegion::Rectangle InShadow(const TileBox& box) const;
+  // Shades the eight pixels from (x, y) to the right.
   void Light(const LightModel& light, const Lamps& lamps, int x, int y, Shading& shading);
   // Blends the transparent items.
   void Blend(const CameraView& view, const RenderList& render_list, const LightModel& light);
@@ -96,6 +102,7 @@ class ImageRenderer {
   // Returns the directions of eight pixels from (x, y) to the right.
   F8x3 RayAt(int x, int y) const;
 
+  // The index of pixel (x, y).
   std::size_t At(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(stride_) +
            static_cast<std::size_t>(x);

@@ -13,6 +13,7 @@ struct Lamps {
   const LightBlock* lights[kMaxLights];
 };
 
+// Computes the colours of surfaces under the lights of an image.
 class LightModel {
  public:
   // `block` must include the shadow parameters. If `shadow` is null, there are no shadows.
@@ -23,6 +24,7 @@ class LightModel {
 
   // Returns the tone-mapped linear colour in [0, 1]. Lanes outside `used` get any value.
   F8x3 Colour(const Surfaces& surfaces, const F8x3& ray, const Lamps& lamps, I8 used) const;
+  // Returns the colour of the sky in these directions.
   F8x3 Sky(const F8x3& ray) const;
 
  private:

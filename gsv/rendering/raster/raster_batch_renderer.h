@@ -36,6 +36,7 @@ class RasterBatchRenderer final : public BatchRenderer {
  private:
   // Returns an idle renderer, preferably the one whose last image had this view.
   std::unique_ptr<ImageRenderer> TakeRenderer(const CameraView& view);
+  // Makes a renderer idle again.
   void GiveBack(std::unique_ptr<ImageRenderer> renderer);
 
   base::ThreadTeam team_;

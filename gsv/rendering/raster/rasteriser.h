@@ -32,6 +32,7 @@ struct Drawn {
 Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& level,
                 const geometry::Vector3& origin);
 
+// Finds the triangles of an item that may cover pixels.
 class Rasteriser {
  public:
   enum class Rows { kDownwards, kUpwards };

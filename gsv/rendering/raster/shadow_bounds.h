@@ -53,6 +53,7 @@ class ShadowBounds {
     float max = 0;                   // upper bound at the block's first corner
     float slope_x = 0, slope_y = 0;  // change of the upper bound across the whole block
   };
+  // Computes the bounds of the block at (x, y).
   static Block BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y);
 
   std::vector<Block> blocks_ = std::vector<Block>(std::size_t{kSide} * kSide);  // row by row

@@ -14,6 +14,7 @@
 
 namespace gsv::rendering::raster {
 
+// The shadow map of the sun in memory.
 class SunShadow {
  public:
   // Draws the shadow map of a posed render list for some cameras. `render_list_id` identifies the

@@ -46,6 +46,7 @@ class Lighting {
  public:
   explicit Lighting(const model::WorldDescription& description);
 
+  // The direction to the sun, unit length, in the world.
   const geometry::Vector3& to_sun() const { return to_sun_; }
   bool sun_casts_shadows() const { return shadows_; }
 

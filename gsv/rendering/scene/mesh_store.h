@@ -62,6 +62,7 @@ class MeshStore {
   // box. The mesh is made on first use.
   std::shared_ptr<const DrawMesh> FindFileMesh(
       const std::shared_ptr<const geometry::TriangleMesh>& triangles);
+  // Returns the mesh of a shape such as a box; makes it on first use.
   std::shared_ptr<const DrawMesh> FindGenerated(const Key& key, const geometry::Shape& shape);
 
   const Make make_;

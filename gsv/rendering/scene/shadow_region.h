@@ -20,6 +20,7 @@ class ShadowRegion {
   // Makes the region around all casters of a posed render list.
   ShadowRegion(const RenderList& render_list, const geometry::Vector3& to_sun);
 
+  // Whether there are no casters.
   bool IsEmpty() const { return !(min_.x < max_.x); }
   double TexelSize() const;  // the longer side of a texel, m
 

@@ -17,6 +17,7 @@ struct DrawTexture {
   bool is_transparent = false;  // whether the alpha of some pixel is below 1
 };
 
+// Keeps one texture for each image that materials use.
 class TextureStore {
  public:
   // Makes a texture of a valid image with sides of at most `max_side` pixels.

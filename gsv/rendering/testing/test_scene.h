@@ -12,6 +12,7 @@
 
 namespace gsv::rendering {
 
+// A world that a test builds from shapes, with its snapshots.
 class TestScene {
  public:
   TestScene() { description_.scene.background = {0.5, 0.5, 0.5, 1}; }

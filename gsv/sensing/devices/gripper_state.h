@@ -24,6 +24,7 @@ struct GripperSetup {
 };
 using GripperSetupPtr = std::shared_ptr<const GripperSetup>;
 
+// A gripper's state since its last command.
 class GripperState final : public world::ActuatorState {
  public:
   struct Hold {
@@ -45,6 +46,7 @@ class GripperState final : public world::ActuatorState {
   // Whether the command is {1}, to open. {0} is the command to close.
   bool opens() const;
   double OpeningAt(base::SimTime now) const;  // Returns the distance between the fingers, m.
+  // The attachment of the body between the fingers; null if there is none.
   const world::Grasp* grasp() const override { return hold_ ? &hold_->grasp : nullptr; }
 
   // Attaches the body between fingers that close in this step.

@@ -31,6 +31,7 @@ struct LidarErrors {
   double reach = 0;
   double short_probability = 0, short_range = 1;
 
+  // Whether all errors are off.
   bool is_none() const {
     return range_noise == 0 && incidence_noise == 0 && beam_divergence == 0 && reach == 0 &&
            short_probability == 0;

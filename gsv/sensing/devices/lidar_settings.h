@@ -14,7 +14,9 @@ struct Angles {
   int count = 1;
   double first = 0, last = 0;
 
+  // The angle between two beams, rad.
   double increment() const { return count > 1 ? (last - first) / (count - 1) : 0; }
+  // The angle of beam i, rad.
   double angle(int i) const { return first + i * increment(); }
 };
 

@@ -32,6 +32,7 @@ struct RadioErrors {
   bool is_none() const { return fading == 0 && loss_probability == 0 && capture_ratio == 0; }
 };
 
+// The state of a radio that is switched on.
 class RadioState final : public world::DeviceState {
  public:
   RadioState(world::DeviceMount mount, world::RadioSetupPtr setup, const RadioErrors& errors = {})

@@ -17,6 +17,7 @@
 
 namespace gsv::sensing {
 
+// Finds the boxes on a ray.
 class BoundingVolumeTree {
  public:
   BoundingVolumeTree();

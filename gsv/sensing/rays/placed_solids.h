@@ -19,6 +19,7 @@
 
 namespace gsv::sensing {
 
+// Casts rays at the solids of one snapshot.
 class PlacedSolids final : public RayScene {
  public:
   // Sets the poses of `snapshot`, which must have the layout of `solids`. Reuses memory. No rays

@@ -18,6 +18,7 @@ struct RayAxis {
         inverse(std::abs(d) > 1e-100 ? 1 / d : std::copysign(1e100, d)),
         is_falling(std::signbit(d)) {}
 
+  // The coordinate of the point at `distance` along the ray.
   double At(double distance) const { return origin + distance * direction; }
   // Returns the distance along the ray at which it reaches the coordinate. If the ray is nearly
   // perpendicular to the axis, the result is huge and may have either sign.

@@ -36,6 +36,7 @@ class RayRow {
 
   // The range of ray i: the distance to the nearest surface found so far, m; infinite if none.
   double range(std::size_t i) const { return groups_[i / kGroup].range[i % kGroup]; }
+  // Sets the range of ray i, m.
   void SetRange(std::size_t i, double range) { groups_[i / kGroup].range[i % kGroup] = range; }
 
   // Ray i in the world, up to the nearest surface found so far.
@@ -58,6 +59,7 @@ class RayRow {
     return {at.x[i % kGroup], at.y[i % kGroup], at.z[i % kGroup]};
   }
   void Rotate(const geometry::Quaternion& rotation);
+  // Casts the rays from `first` to `last` one by one.
   void CastEachAt(const geometry::Shape& shape, const ShapeFrame& frame, double nearest,
                   std::size_t first, std::size_t last);
   template <class Convex>

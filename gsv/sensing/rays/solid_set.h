@@ -45,6 +45,7 @@ struct Nearest {
   }
 };
 
+// A set of shapes at which rays are cast.
 class SolidSet {
  public:
   // Adds a shape of a body, before Commit(). `reflectance` is the fraction of light that its
@@ -69,8 +70,10 @@ class SolidSet {
   // Casts the ray at a part of the set: all shapes, one shape, or all planes and triangles.
   void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
+  // Casts the ray at one shape.
   void CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
                    const Bearer& bearer = {}) const;
+  // Casts the ray at all planes and triangles.
   void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
 

@@ -64,6 +64,7 @@ class PacketSearch {
   PacketRays rays_;
 };
 
+// Finds the spheres that the rays of a packet may touch.
 class SphereGrid {
  public:
   // Replaces all spheres. Sphere i bounds the same solid as boxes[i].
@@ -81,6 +82,7 @@ class SphereGrid {
 
   // The column and row of a coordinate, which may be outside of the grid.
   int ColumnOf(double x) const { return CellOf((x - low_x_) * cells_per_metre_, columns_); }
+  // The row of a y coordinate, which may be outside of the grid.
   int RowOf(double y) const { return CellOf((y - low_y_) * cells_per_metre_, rows_); }
   static int CellOf(double cells, int count) {
     return static_cast<int>(std::clamp(cells, 0.0, count - 1.0));

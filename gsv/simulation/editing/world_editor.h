@@ -18,6 +18,7 @@
 
 namespace gsv::simulation {
 
+// Changes the bodies and the gravity of a simulated world.
 class WorldEditor {
  public:
   WorldEditor(SimulatedWorld& world, std::shared_ptr<SharedState> shared, EventLog& events)

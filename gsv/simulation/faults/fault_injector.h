@@ -15,6 +15,7 @@
 
 namespace gsv::simulation {
 
+// Applies the faults of a scenario during a run.
 class FaultInjector {
  public:
   FaultInjector(std::vector<scenario::Fault> faults, std::shared_ptr<SharedState> shared,

@@ -24,6 +24,7 @@ class FaultSchedule {
   const std::vector<scenario::Fault>& all() const { return faults_; }
   // The number of faults that have been applied.
   std::size_t done() const { return done_; }
+  // Whether a fault must be applied now.
   bool IsDue(base::SimTime now) const {
     return done_ < faults_.size() && base::FromSeconds(faults_[done_].at) <= now;
   }

@@ -31,6 +31,7 @@ class RunPace {
 
   // Called by the stepping thread. After a start or a resume, the next step is due at once.
   void RestartIfResumed();
+  // The time at which the next step is due.
   WallTime due() const { return pacer_.due(); }
   void StepStarts(WallTime start) { (void)pacer_.StepStarts(start); }
   void StepEnds(WallTime start, WallTime end, base::SimTime now) {

@@ -8,6 +8,7 @@
 
 namespace gsv::simulation {
 
+// The measured real-time factor and duration of steps.
 class RunStatistics {
  public:
   // Record that the simulation starts or stops running.

@@ -11,6 +11,7 @@
 
 namespace gsv::simulation {
 
+// Measures the parts of each step.
 class StepTimer {
  public:
   using Part = std::chrono::nanoseconds StepTimes::*;

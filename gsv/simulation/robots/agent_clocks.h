@@ -38,7 +38,9 @@ class AgentClocks {
   bool Wake(base::SimTime now);
 
   int count() const { return static_cast<int>(clocks_.size()); }  // The number of open clocks.
+  // Whether the behaviour has opened a clock since the start.
   bool HasOpened() const { return next_id_ > 1; }
+  // Whether the behaviour has closed all its clocks.
   bool IsFinished() const { return HasOpened() && clocks_.empty(); }
   // Whether a clock runs, or none has been opened yet.
   bool IsRunning() const;

@@ -31,6 +31,7 @@ class AgentPopulation {
            std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
   // Ends the agent's current calls, then stops and destroys its behaviour.
   void Remove(const std::string& name) GSV_REQUIRES(simulation_mutex);
+  // Replaces the agent's behaviour.
   void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour)
       GSV_REQUIRES(simulation_mutex);
   // Sets, for each agent, the index of its robot's body in the layout.
@@ -62,6 +63,7 @@ class AgentPopulation {
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
       GSV_EXCLUDES(simulation_mutex);
 
+  // Returns the status of each robot.
   std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot, SimTime stuck_after) const
       GSV_REQUIRES(simulation_mutex);
   // The first robot for which the simulation has waited longer than 0.1 s, with this time. Empty if
@@ -69,6 +71,7 @@ class AgentPopulation {
   std::string WaitingFor() const GSV_REQUIRES(simulation_mutex);
 
  private:
+  // Reports the behaviour's death and emits an event.
   void ReportDeath(RobotAgent& agent, const std::string& detail) GSV_REQUIRES(simulation_mutex);
 
   const std::shared_ptr<SharedState> shared_;

@@ -17,6 +17,7 @@
 
 namespace gsv::simulation {
 
+// The agent of one robot.
 class RobotAgent final : public Agent, public std::enable_shared_from_this<RobotAgent> {
  public:
   RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
@@ -92,6 +93,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   }
   // Whether the behaviour runs in this process, in turns. Then no thread of its own waits.
   bool is_hosted() const GSV_REQUIRES(simulation_mutex) { return local_ != nullptr; }
+  // Records that the behaviour has started.
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
   // Whether the agent still runs, so that the next step must wait for it.
@@ -99,6 +101,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Whether the agent itself delays the step. False if it only waits until other agents have had
   // their turns.
   bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
+  // The wall-clock time since which the agent runs.
   WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
   // Ends waits for instants up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
@@ -113,9 +116,11 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Reports the behaviour's death. It takes effect when the agent wakes next, or at once if the
   // agent runs.
   void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
+  // Whether the behaviour is neither dead nor unresponsive.
   bool is_alive() const GSV_REQUIRES(simulation_mutex) {
     return fate_ == Fate::kAlive && !death_reported_;
   }
+  // Whether the robot has a behaviour that is alive.
   bool is_watched() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_ != nullptr && is_alive() && !is_removed_;
   }
@@ -126,9 +131,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void StartDevices() GSV_REQUIRES(simulation_mutex);
   // Apply faults: from the next step on, the drive stops, or the joint has no motor.
   void LoseMotor() GSV_REQUIRES(simulation_mutex);
+  // Applies a fault: the joint has no motor from the next step on.
   void LoseJoint(int joint) GSV_REQUIRES(simulation_mutex);
+  // Records that the robot was removed. Calls of its behaviour then fail.
   void MarkRemoved() GSV_REQUIRES(simulation_mutex);
   bool is_removed() const GSV_REQUIRES(simulation_mutex) { return is_removed_; }
+  // Resets the agent for a new run: its clocks, commands, faults and state of life.
   void ResetClocks() GSV_REQUIRES(simulation_mutex);
   void FillStatus(RobotStatus& status) const GSV_REQUIRES(simulation_mutex);
   // Returns a text such as "robot_3 (wander on host:pid)".
@@ -146,6 +154,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::optional<WallTime> in_turn_since() const;
   // How long the last timed turn took. Only the stepping thread may call this, after the turn.
   WallDuration turn_took() const { return turn_took_; }
+  // Applies the result of the last turn. Returns the slow work for which the behaviour waits, if
+  // any.
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
   // The changes of SharedState's lists that must follow ApplyUsualTurn().
   struct UsualEnd {
@@ -194,11 +204,14 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
  private:
   enum class Fate { kAlive, kUnresponsive, kDead };
 
+  // Fails if the behaviour may not give commands now.
   base::Status CheckCanCommand() const GSV_REQUIRES(simulation_mutex);
   void SetDue(CycleChannel& channel) GSV_REQUIRES(simulation_mutex);
   base::Status OfferDrive(ClockId clock, const world::DriveCommand& command)
       GSV_REQUIRES(simulation_mutex);
+  // Fails if the behaviour is dead, or the run has ended.
   base::Status CheckAlive() const GSV_REQUIRES(simulation_mutex);
+  // Fails if the clock is not open.
   base::Status CheckClock(ClockId clock) const GSV_REQUIRES(simulation_mutex);
   // Waits on the clock. Releases `lock` while it waits.
   base::Result<Wait> WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,

@@ -56,10 +56,12 @@ class RunControl {
   // resets everything. Then FinishReset() returns to the phase "created". kNone means that there is
   // nothing to reset.
   Change BeginReset();
+  // Returns to the phase "created" after a reset.
   void FinishReset();
 
   // Each pending start of a behaviour keeps the run in the phase "starting".
   void BeginStart() { ++starts_pending_; }
+  // Ends a pending start of a behaviour.
   void EndStart() { --starts_pending_; }
   // Returns kRunning if the run was starting and no start is pending.
   Change RunIfStarted();
@@ -73,7 +75,9 @@ class RunControl {
   // Call this when the step that ended at `now` is complete.
   Change EndStep(SimTime now);
 
+  // Ends the run in the phase "failed".
   Change Fail(std::string reason);
+  // Why the run failed.
   const std::string& failure() const { return failure_; }
 
   // The hash of the state at which the run finished; empty in all other phases.
@@ -88,6 +92,7 @@ class RunControl {
   // Edits of bodies before the first start are part of the setup and do not count as edits of the
   // run.
   void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }
+  // Records an edit that always counts, also before the first start.
   void MarkWorldChanged() { was_edited_ = true; }
   bool was_edited() const { return was_edited_; }
 

@@ -54,8 +54,11 @@ class StepLoop {
   std::string HashNow() const GSV_REQUIRES(world_mutex, simulation_mutex);
 
  private:
+  // The main function of the thread.
   void Run();
+  // Applies the faults that are due.
   void ApplyFaults();
+  // Wakes the agents whose waits end now.
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
   void TakeCycles() GSV_REQUIRES(simulation_mutex);
   void OpenWoken(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
@@ -87,10 +90,13 @@ class StepLoop {
   // Returns true if the next step is due. Otherwise waits until it is, or for a change, and returns
   // false.
   bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
+  // Takes one step.
   void TakeStep();
   // Begins a step. Returns false if the step must not be taken.
   bool BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
+  // Applies the agents' commands to the world.
   void ApplyCommands() GSV_REQUIRES(world_mutex, simulation_mutex);
+  // Ends a step: publishes its snapshot and its times.
   void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start)
       GSV_REQUIRES(world_mutex);
 

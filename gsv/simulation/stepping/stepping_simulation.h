@@ -83,7 +83,9 @@ class SteppingSimulation final : public Simulation {
   void RemoveObserver(const std::shared_ptr<Observer>& observer) override;
 
  private:
+  // Returns the agent, or null if the name is unknown.
   AgentPopulation::AgentPtr FindAgent(const std::string& robot) const;
+  // Returns the agent, or an error that names the robot.
   base::Result<AgentPopulation::AgentPtr> RequireAgent(const std::string& robot) const;
   // Returns the error of a simulation that is stuck, see world_lock.h.
   base::Status RefuseStuck() const;

@@ -21,6 +21,7 @@ class Watchdog {
   void Stop();
 
  private:
+  // The main function of the thread.
   void Run();
   // Whether the run is starting, running or paused.
   bool IsUnderWay() const GSV_REQUIRES(simulation_mutex);

@@ -51,6 +51,7 @@ struct State {
   }
 };
 
+// Returns a state in which the run does not advance.
 inline State Frozen(Phase phase, Interval step) {
   return {.phase = phase, .step = step, .counted = {}, .run_until = {}};
 }
@@ -75,6 +76,7 @@ class LifeCycleModel {
     return !states_.empty();
   }
 
+  // Removes the states that contradict an observation. Returns false if none is left.
   bool Seen(const Observed& seen) {
     std::vector<State> next;
     for (State state : WithSpontaneousChanges()) {
@@ -97,6 +99,7 @@ class LifeCycleModel {
       return state.phase != Phase::kRunning || state.Goal() || end_ != kUnbounded;
     });
   }
+  // Removes the states in which the simulation runs.
   void RequirePaused() {
     std::vector<State> settled;
     for (const State& state : WithSpontaneousChanges()) {

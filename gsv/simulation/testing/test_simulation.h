@@ -81,6 +81,7 @@ class ThreadBehaviour final : public BehaviourPort {
   std::jthread thread_;
 };
 
+// Waits for a duration of simulated time. Returns false if the run has ended.
 inline bool SleepFor(Agent& agent, ClockId clock, SimTime duration) {
   const SimTime until = agent.Now() + duration;
   for (;;) {
@@ -90,6 +91,7 @@ inline bool SleepFor(Agent& agent, ClockId clock, SimTime duration) {
   }
 }
 
+// A robot: a disc with a sonar "front" ahead and a drive that reaches any velocity at once.
 inline std::shared_ptr<const model::Model> Disc(double radius) {
   auto model = std::make_shared<model::Model>();
   model->name = "disc";
@@ -108,6 +110,7 @@ inline std::shared_ptr<const model::Model> Disc(double radius) {
   return model;
 }
 
+// A static wall of 0.2 m by 10 m, 2 m high.
 inline std::shared_ptr<const model::Model> Wall() {
   auto model = std::make_shared<model::Model>();
   model->name = "wall";
@@ -117,6 +120,7 @@ inline std::shared_ptr<const model::Model> Wall() {
   return model;
 }
 
+// A run in lockstep with steps of 10 ms, in a world with a wall at x = 3.
 inline Specification Lockstep(SimTime duration) {
   auto world = std::make_shared<model::WorldDescription>();
   world->name = "test";
@@ -129,6 +133,7 @@ inline Specification Lockstep(SimTime duration) {
   return specification;
 }
 
+// Creates a simulation with the built-in sensors.
 inline std::shared_ptr<Simulation> Make(Specification specification) {
   auto sensors = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*sensors);
@@ -137,6 +142,7 @@ inline std::shared_ptr<Simulation> Make(Specification specification) {
   return *simulation;
 }
 
+// A robot with the radius 0.2 m at (x, y), which faces x.
 inline RobotSpecification Robot(std::string name, double x, double y,
                                 std::shared_ptr<BehaviourPort> behaviour = nullptr) {
   RobotSpecification robot;
@@ -147,6 +153,8 @@ inline RobotSpecification Robot(std::string name, double x, double y,
   return robot;
 }
 
+// A behaviour that drives at this speed. In each cycle of 50 ms, it first sleeps for `dawdling` of
+// wall-clock time.
 inline std::shared_ptr<ThreadBehaviour> Drives(double speed,
                                                std::chrono::microseconds dawdling = 0us) {
   return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
@@ -157,6 +165,7 @@ inline std::shared_ptr<ThreadBehaviour> Drives(double speed,
   });
 }
 
+// Starts the run and waits for its end.
 inline Phase RunToEnd(Simulation& simulation) {
   EXPECT_TRUE(simulation.Start());
   return simulation.WaitForPhase({Phase::kFinished, Phase::kFailed, Phase::kStopped}, kTimeout);
