@@ -140,8 +140,8 @@ double ProcessorTime() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Reports the mean and the minimum processor time of an instant. The minimum is for machines that
-// also do other work.
+// Reports the mean and the minimum processor time of an instant. The minimum is hardly affected by
+// other work of the machine.
 void Images(benchmark::State& bench) {
   const int cameras = static_cast<int>(bench.range(0));
   RendererOptions options;

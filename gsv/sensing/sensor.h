@@ -86,7 +86,7 @@ class Sampling {
   mutable std::size_t expected_rays_ = 0;
   mutable bool has_gathered_ = false;  // whether candidates_ are those of the present body
   mutable std::unique_ptr<CandidateSet> candidates_;
-  mutable int link_ = -1;  // the link of world_from_link_
+  mutable int link_ = -1;  // index of the link whose pose is world_from_link_
   mutable geometry::Pose world_from_link_;
 };
 

@@ -40,7 +40,7 @@ struct NamedReading {
   sensing::Reading reading;
 };
 
-// The result of an exchange.
+// The result of Exchange() or SleepAndRead().
 struct Exchanged {
   Wait wait = Wait::kNotYet;
   base::SimTime now{0};

@@ -185,7 +185,7 @@ struct ExpectationState {
   };
   std::vector<Place> places;
   struct Box {
-    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  // m; infinite means no limit
+    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  // m; an infinite value means no limit
   };
   std::vector<Box> boxes;
 };

@@ -61,8 +61,8 @@ TEST(Articulation, ComputesThePrincipalAxes) {
   inertial.ixx = product(x, x), inertial.iyy = product(y, y), inertial.izz = product(z, z);
   inertial.ixy = product(x, y), inertial.ixz = product(x, z), inertial.iyz = product(y, z);
   const Part part = MakeArticulation(model).parts[0];
-  // The order of the axes is arbitrary. A torque about each axis must accelerate it by the moment
-  // of that axis.
+  // The order of the principal axes is arbitrary. For each axis, a torque about it must cause the
+  // angular acceleration torque / moment of inertia.
   for (const auto& [axis, moment] :
        {std::pair(x, part.inertia.x), std::pair(y, part.inertia.y), std::pair(z, part.inertia.z)}) {
     const auto a = turned * (part.model_from_part.orientation * axis);

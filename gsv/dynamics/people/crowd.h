@@ -69,7 +69,8 @@ class Crowd {
     Repulsions repulsions;
   };
 
-  // Slices the static bodies again, if one of them has moved.
+  // Computes the outlines of all walls again (slices of the static bodies) if a static body has
+  // moved.
   void SliceWalls(const world::State& state);
   // Sorts others_ into the grid cells.
   void SortOthers(const world::State& state);

@@ -82,11 +82,10 @@ class MoverCollisions {
     Vector2 centre;
     double radius = -1;
   };
-  // The result for a mover so far: the time at which it stops, and the first iteration that found
-  // this time.
+  // The result for a mover so far.
   struct Outcome {
     double time;           // time until the mover stops, s
-    int since, new_since;  // that iteration, before and after the present iteration
+    int since, new_since;  // first iteration that found `time`: so far, and for the next iteration
   };
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;

@@ -18,8 +18,8 @@ struct Contact {
   // m/(s N): the velocity at which the solids slide along each axis, per friction force of all
   // their points.
   std::array<double, 2> slip{};
-  std::array<double, 2> softness{};  // (m/s) / (N s): sliding velocity per impulse at this point
-  std::array<double, 3> impulse{};   // N s: along the normal and the axes
+  std::array<double, 2> softness{};  // sliding velocity per impulse at this point: (m/s) / (N s)
+  std::array<double, 3> impulse{};   // impulse along the normal and the axes, N s
 
   // The contact point on the first solid, in the world.
   geometry::Vector3 on_first() const { return point.on_second + point.distance * point.normal; }
@@ -27,8 +27,8 @@ struct Contact {
 
 // A wheel that slips at a contact.
 struct SlippingContact {
-  geometry::Vector3 forwards;    // world: the rolling direction, of any length
-  double along = 0, across = 0;  // m/(s N): slip along the rolling direction and the axle
+  geometry::Vector3 forwards;    // rolling direction in the world, of any length
+  double along = 0, across = 0;  // slip along the rolling direction and the axle, m/(s N)
 };
 
 // The friction, slip and restitution of two surfaces in contact. The friction is the smaller one,

@@ -177,7 +177,7 @@ void ContactSweeps::MakeBatches() {
 
 // Solves four contacts at once. Returns the largest change of a velocity at them, m/s.
 __attribute__((always_inline)) inline double ContactSweeps::Solve(Batch& batch, double* motions) {
-  constexpr std::size_t kSize = 8;  // values of a motion
+  constexpr std::size_t kSize = 8;  // values of the motion of one body
   FourDoubles v1[kFour], w1[kFour], v2[kFour], w2[kFour];
   for (std::size_t i = 0; i < kFour; ++i) {
     const double* const first = motions + kSize * AsIndex(batch.first[i]);

@@ -92,7 +92,7 @@ class ContactSweeps {
 
   // Applies an impulse along an axis to both bodies of a contact.
   void Apply(const Contact& contact, std::size_t axis, double impulse);
-  // Orders the contacts by level.
+  // Orders the contacts by their level, see LevelOf().
   void Order();
   // Returns -1 for a contact with a fixed body, else the larger level of its two bodies. The level
   // of a body is the number of bodies between it and a fixed body.

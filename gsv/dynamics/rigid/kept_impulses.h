@@ -17,7 +17,7 @@ class KeptImpulses final : public world::EngineState {
   struct Entry {
     BodyPair bodies;          // indices in the layout, in the order of the contact
     geometry::Vector3 point;  // contact point, in the frame of the first body's part
-    geometry::Vector3 force;  // N, on the first body, in the world
+    geometry::Vector3 force;  // force on the first body, N, in the world
     friend bool operator==(const Entry&, const Entry&) = default;
   };
 

@@ -117,10 +117,12 @@ class LinkTree {
  private:
   struct Link {
     int parent = -1, joint = -1;
-    int first = 0, count = 0;  // range of its velocities
+    int first = 0, count = 0;  // range of the velocities of its joint
     model::JointKind kind = model::JointKind::kFixed;
-    geometry::Quaternion parent_from_part;  // with the joint at zero
-    // axis, and vectors from the pivot, in the part's frame
+    // orientation in the parent's frame with the joint at zero
+    geometry::Quaternion parent_from_part;
+    // The axis, and the vector from the pivot to the part, in the part's frame, and the pivot in
+    // the parent's frame.
     geometry::Vector3 axis, pivot_in_parent, arm;
     double pitch = 0, mass = 0, heaviness = 1;
     geometry::Vector3 inertia;
@@ -152,7 +154,7 @@ class LinkTree {
   std::vector<BallAngles> balls_;  // one for each ball joint
   std::vector<int> ball_of_;       // index in balls_ for each part; -1: none
   int size_ = 0, base_size_ = 6;
-  std::vector<int> parents_;  // parents of velocities; -1: none
+  std::vector<int> parents_;  // for each velocity, the index of its parent; -1: none
 
   geometry::Quaternion base_;                // orientation of the base
   std::vector<geometry::Quaternion> turns_;  // rotation of the ball joint of each part

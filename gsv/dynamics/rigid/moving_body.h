@@ -114,14 +114,15 @@ class MovingBody {
   geometry::Vector3 outer_acceleration_;  // m/s²: acceleration of a single body due to outer forces
   double resting_speed_before_ = 0;
   double separating_speed_ = 0;  // m/s: the greatest speed given to Separate() in this step
-  bool is_held_ = false;         // kResting applies in this step
+  // whether something can hold the body in this step, so that it may rest (kResting)
+  bool is_held_ = false;
 };
 
-// m/s² and rad/s²: a body keeps its pose if its speed is below this value times the step, before
-// and after the step. So bodies at rest keep bit-identical poses. The effect equals a rolling
-// resistance of one per cent: a body on a slope of half a degree does not start to roll. This
-// applies only to a body with a contact, a medium, or a joint with a motor, friction or a reached
-// limit. Nothing else can hold a body against a small force.
+// A body counts as resting if its speed is below kResting (m/s², rad/s²) times the step, before and
+// after the step. A resting body keeps its pose bit-identical. The effect equals a rolling
+// resistance of one per cent: a body on a slope of half a degree does not start to roll. Only a
+// body that something can hold may rest: a contact, a medium, or a joint with a motor, friction or
+// a reached limit.
 inline constexpr double kResting = 0.1;
 
 }  // namespace gsv::dynamics

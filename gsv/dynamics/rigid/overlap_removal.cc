@@ -28,7 +28,7 @@ void OverlapRemoval::AddContact(int first, int second, const Vector3& normal, do
   rows_.push_back({first, second, normal, gap});
 }
 
-// Returns the change of velocity, in m/s.
+// Solves one contact. Returns the change of its velocity, m/s.
 inline double OverlapRemoval::SolveRow(Row& row) {
   double speed = 0;
   if (row.first >= 0) speed += Dot(row.normal, At(row.first).velocity);

@@ -24,7 +24,7 @@ class RigidContacts {
  private:
   struct Found {
     world::Contact contact;     // the contact at one point in one substep
-    geometry::Vector3 impulse;  // N s on the second body: normal force and friction
+    geometry::Vector3 impulse;  // impulse on the second body, N s: normal force and friction
     int substep;
   };
 

@@ -97,8 +97,9 @@ class RigidStep {
   std::vector<Planar> planar_;
   std::vector<ActivePush> pushes_;
   std::vector<PushRow> push_rows_;
-  std::vector<int> parents_, islands_of_;  // one for each moving body
-  std::deque<IslandSolver> islands_;       // memory for the largest number of islands so far
+  // for each moving body: its parent in the union-find structure, and its island
+  std::vector<int> parents_, islands_of_;
+  std::deque<IslandSolver> islands_;  // memory for the largest number of islands so far
   std::size_t island_count_ = 0;
   std::vector<int> starts_;  // index of each body's first velocity
   std::vector<double> velocities_;

@@ -101,7 +101,8 @@ class DeclaredSizeChecker : public nlohmann::json_sax<nlohmann::json> {
       is_sparse_ = name == "sparse";
       is_children_ = is_nodes_ && name == "children";
     }
-    // In other places, and in the "extras" of an element, these names have another meaning.
+    // The names below declare sizes only in the elements of accessors, buffers and buffer views. In
+    // other places, and in "extras", they have another meaning.
     if (!claims_ || !(depth_ == kInElement || (depth_ > kInElement && is_sparse_))) return true;
     if (name == "byteLength" || name == "byteOffset" || name == "byteStride")
       max_number_ = max_bytes_;

@@ -152,7 +152,8 @@ void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
     context.Warn("the controller names no joint", reader.Place());
     return;
   }
-  // The further axes of a joint are joints of their own (AddJoint()).
+  // A joint with several axes was split into one joint for each axis (AddJoint()). <joint_index>
+  // selects the axis.
   const double axis_index = reader.Number("joint_index", 0);
   const std::string axis =
       axis_index > 0 ? "::axis" + std::to_string(static_cast<int>(std::min(axis_index, 99.0)) + 1)

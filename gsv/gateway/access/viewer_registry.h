@@ -89,7 +89,7 @@ class ViewerRegistry {
   };
   // The viewer that holds control of one simulation, and the queue of requests for it.
   struct Control {
-    std::string holder;  // a key; empty: none
+    std::string holder;  // key of the viewer that has control; empty: none
     std::deque<Question> questions;
   };
 

@@ -61,7 +61,7 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
     foxglove::SubscriptionId id = 0;
     ViewQuery query;
     std::uint32_t sequence = 0;
-    std::shared_ptr<ViewDrawer::Seat> seat;  // null: the camera has changed
+    std::shared_ptr<ViewDrawer::Seat> seat;  // null if the camera has changed
     std::uint64_t last = 0;                  // number of the last image of this camera; 0: none
     bool is_asked = false;                   // whether an answer of the ViewDrawer is pending
     int unshown = 0;                         // number of sent images not yet reported as shown

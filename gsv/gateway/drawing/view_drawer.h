@@ -90,7 +90,7 @@ class ViewDrawer {
     std::shared_ptr<ViewSource> source;
     std::shared_ptr<const world::Snapshot> snapshot;  // newest state seen by the drawer
     std::uint64_t number = 0;                         // number of this state
-    std::chrono::system_clock::time_point seen{};     // when the drawer first saw it
+    std::chrono::system_clock::time_point seen{};     // when the drawer first saw this state
     Clock::time_point used{};
   };
   struct Pending {

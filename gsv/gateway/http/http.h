@@ -46,7 +46,8 @@ struct Response {
   // Whether pages of other sites may embed the response, as an image.
   bool allows_other_sites = false;
   std::vector<std::pair<std::string, std::string>> headers{};  // further headers
-  // Sent instead of `body`. The connection is closed at its end. null: send `body`.
+  // A stream that is sent instead of `body`. The connection is closed at the end of the stream. If
+  // null, `body` is sent.
   std::shared_ptr<BodyStream> stream{};
 };
 

@@ -26,7 +26,8 @@ class Router {
     // whose paths begin with the same segment.
     Permission permission = Permission::kNone;
     std::string allow;  // the methods of the address, such as "GET, POST"; empty if no route has it
-    std::map<std::string, std::string, std::less<>> parameters;  // by name, without "{path...}"
+    // values by name, without that of "{path...}"
+    std::map<std::string, std::string, std::less<>> parameters;
   };
 
   // Patterns must be well-formed, and no two routes may have the same method and address

@@ -76,7 +76,8 @@ TEST_F(LiveStreamTest, CurrentContactsIncludeThoseThatBeganEarlier) {
   EXPECT_EQ(message.contacts[1].second, "robot_1");
   ASSERT_EQ(message.contacts[1].points.size(), 1u);
   EXPECT_EQ(message.left_out, 0u);
-  EXPECT_EQ(simulation_->observers(), 0u);  // the newest snapshot suffices
+  // the contacts come from the newest snapshot, so no observer is needed
+  EXPECT_EQ(simulation_->observers(), 0u);
 }
 
 TEST_F(LiveStreamTest, ContactsAreNotKeptForFormerSubscribers) {

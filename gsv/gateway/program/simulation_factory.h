@@ -89,7 +89,8 @@ class SimulationFactory {
   virtual std::vector<std::string> Worlds() = 0;  // names of the built-in worlds
   // Returns the models that can be robots: built-in models, and models on the model path.
   virtual std::vector<ModelLine> Models() = 0;
-  virtual std::vector<std::string> Objects() = 0;  // includes models that are not robots
+  // names of all models, also of models that are not robots
+  virtual std::vector<std::string> Objects() = 0;
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;
 
   virtual Ros2Support Ros2() { return {}; }

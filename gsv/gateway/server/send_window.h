@@ -41,8 +41,9 @@ class SendWindow {
   static constexpr std::chrono::milliseconds kMaxMinDelay{500};
   static constexpr std::chrono::seconds kMinDelayAge{30};
   static constexpr std::chrono::milliseconds kPingPeriod{100};
-  // A connection counts as slow after its pongs were late for kSlowAfter, and as fast again after
-  // no pong was late for kInTimeAfter.
+  // A pong is late if its delay exceeds the minimum delay by more than kMaxDelay. A connection
+  // counts as slow after its pongs were late for kSlowAfter. It counts as fast again after no pong
+  // was late for kInTimeAfter.
   static constexpr std::chrono::seconds kSlowAfter{2}, kInTimeAfter{5};
 
   // Whether a data message may be sent now. If all data are confirmed, a message of any size may be
@@ -97,7 +98,8 @@ class SendWindow {
     bool measures = false;
   };
 
-  // Notes that a message that was sent or queued at `began` was late.
+  // Notes a late pong, or data that were dropped because they had waited too long. `began` is the
+  // time at which the ping was sent or the data were queued.
   void NoteLate(Time began, Time now);
   // Whether the last ping has waited too long for its pong.
   bool IsOverdue(Time now) const;

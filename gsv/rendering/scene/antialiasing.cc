@@ -13,7 +13,7 @@ namespace {
 // the edges between rows and those between columns.
 struct Surfaces {
   const std::uint8_t* numbers;
-  int length, lines;  // `length` pixels along a line; `lines` lines side by side
+  int length, lines;  // number of pixels of a line, and number of lines
   int At(int line, int i) const { return numbers[static_cast<std::size_t>(line) * length + i]; }
 };
 

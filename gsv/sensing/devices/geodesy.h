@@ -16,7 +16,7 @@ namespace gsv::sensing {
 // A position on the earth.
 struct GeodeticPlace {
   double latitude = 0, longitude = 0;  // rad
-  double altitude = 0;                 // m above the ellipsoid
+  double altitude = 0;                 // height above the ellipsoid, m
 };
 
 // Earth-centred, earth-fixed coordinates, m.

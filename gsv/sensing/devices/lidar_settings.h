@@ -20,7 +20,8 @@ struct Angles {
   double angle(int i) const { return first + i * increment(); }
 };
 
-// Angles are in rad, ranges in m.
+// The settings of a lidar. Angles are in rad and distances in m. `min` and `max` limit the measured
+// range.
 struct LidarSettings {
   Angles horizontal, vertical;
   double min = 0, max = 0;

@@ -24,9 +24,9 @@ namespace gsv::sensing {
 // value.
 struct OdometryDrift {
   double linear_scale = 1, angular_scale = 1;
-  double linear_per_metre = 0;    // m after one metre
-  double angular_per_metre = 0;   // rad after one metre
-  double angular_per_radian = 0;  // rad after one radian
+  double linear_per_metre = 0;    // standard deviation of the path length after one metre, m
+  double angular_per_metre = 0;   // standard deviation of the heading after one metre, rad
+  double angular_per_radian = 0;  // standard deviation of the heading after one radian, rad
 
   bool is_none() const { return *this == OdometryDrift{}; }
   friend bool operator==(const OdometryDrift&, const OdometryDrift&) = default;

@@ -78,7 +78,7 @@ world::DeviceStatePtr RadioState::BeforeStep(world::DeviceStep& step) const {
   if (step.transmissions.empty()) return nullptr;
   const world::Antenna here = AntennaOf(*step.now, mount(), setup_);
   if (here.body < 0) return nullptr;
-  // used if errors depend on the strengths of all messages
+  // The strength of each transmission. Needed only if one of the radio's errors is on.
   std::vector<std::optional<double>> arriving;
   if (!errors_.is_none()) arriving = Arriving(step, here);
   std::shared_ptr<RadioState> changed;  // null until it receives a message

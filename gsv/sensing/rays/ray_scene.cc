@@ -52,13 +52,13 @@ class RaySceneCache::Impl {
   struct Solids {
     std::shared_ptr<const world::Layout> layout;
     std::once_flag is_built;
-    std::shared_ptr<const LayoutSolids> solids;  // null until they are built
+    std::shared_ptr<const LayoutSolids> solids;  // null until the solids are built
   };
   struct Entry {
     std::shared_ptr<const world::Snapshot> snapshot;
     std::shared_ptr<Solids> solids;  // solids of the snapshot's layout
     std::once_flag is_built;
-    std::shared_ptr<const RayScene> scene;  // null until it is built
+    std::shared_ptr<const RayScene> scene;  // null until the scene is built
   };
 
   std::shared_ptr<Entry> FindOrAdd(const std::shared_ptr<const world::Snapshot>& snapshot) {

@@ -39,14 +39,14 @@ struct TouchedSpheres {
 struct PacketRays {
   using Floats = std::array<float, RayPacket::kMax>;
 
-  alignas(32) Floats dx, dy, dz;  // directions
-  alignas(32) Floats ox, oy, oz;  // origins relative to the place, times -2
+  alignas(32) Floats dx, dy, dz;  // directions of the rays
+  alignas(32) Floats ox, oy, oz;  // origins of the rays relative to the place, times -2
   alignas(32) Floats start;       // scalar product of origin and direction
   alignas(32) Floats square;      // square of the origin's distance, m²
   alignas(32) Floats length;
   float place_x, place_y, place_z;
   float reach;
-  float rounding;  // distance by which the spheres are enlarged, m
+  float rounding;  // distance by which spheres are enlarged, m
   unsigned used;   // bit i: whether ray i exists
 };
 

@@ -21,7 +21,8 @@ class RunStatistics {
   // The actual real-time factor over the last second. When the simulation does not run: over its
   // whole running time.
   double real_time_factor() const;
-  // The wall-clock time for which the simulation has run, up to the last call.
+  // The wall-clock time for which the simulation has run, up to the last call of Stepped() or
+  // Stopped().
   WallDuration wall_time() const;
   WallDuration mean_step_time() const;
 

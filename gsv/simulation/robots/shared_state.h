@@ -97,7 +97,7 @@ class GSV_SCOPED_CAPABILITY SimulationLock {
   SimulationLock(const SimulationLock&) = delete;
   SimulationLock& operator=(const SimulationLock&) = delete;
 
-  // In the analysis, the mutex is called simulation_mutex.
+  // The thread-safety analysis is off here, because it knows the mutex only as simulation_mutex.
   void lock() GSV_ACQUIRE() GSV_NO_THREAD_SAFETY_ANALYSIS { lock_.lock(); }
   void unlock() GSV_RELEASE() GSV_NO_THREAD_SAFETY_ANALYSIS { lock_.unlock(); }
   // The lock that base::ConditionVariable needs.
@@ -121,7 +121,7 @@ class GSV_SCOPED_CAPABILITY AgentCallLock {
   AgentCallLock(const AgentCallLock&) = delete;
   AgentCallLock& operator=(const AgentCallLock&) = delete;
 
-  // In the analysis, the mutex is called simulation_mutex.
+  // The thread-safety analysis is off here, because it knows the mutex only as simulation_mutex.
   void lock() GSV_ACQUIRE() GSV_NO_THREAD_SAFETY_ANALYSIS {
     const base::MutexLock first_in_line(state_.line);
     state_.mutex.lock();

@@ -63,7 +63,7 @@ class GSV_SCOPED_CAPABILITY WorldGuard {
   bool is_held() const { return is_held_; }
 
  private:
-  // In the analysis, the mutex is called world_mutex.
+  // The thread-safety analysis is off here, because it knows the mutex only as world_mutex.
   void Lock() GSV_NO_THREAD_SAFETY_ANALYSIS {
     while (!is_held_ && !world_.is_stuck()) {
       is_held_ = world_.mutex_.try_lock_for(WorldLock::kPollPeriod);
