@@ -32,7 +32,7 @@ double DeepestOf(const std::vector<world::Contact>& contacts) {
 
 // In each step, a fifth of the overlap beyond the tolerated overlap is removed. The speed limits of
 // both boxes also limit what a step removes.
-TEST(OverlapRemoval, TwoBoxesPartGeometrically) {
+TEST(OverlapRemoval, TwoBoxesLoseAFifthOfTheirOverlapPerStep) {
   TestWorld world = WorldOnGround();
   const double light = 1, heavy = 3, start = 0.02;
   world.AddRigid("a", SolidOf(geometry::Box{{kEdge, kEdge, kEdge}}, light), At(0, 0, kEdge / 2));
