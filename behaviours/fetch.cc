@@ -13,9 +13,10 @@ namespace {
 using namespace gsv;
 
 constexpr Colour kYellow{1, 0.7, 0}, kGreen{0, 1, 0}, kRed{1, 0, 0};
-constexpr double kBetweenFingers = 0.03;  // a body nearer to the sonar is between the fingers, m
-constexpr double kBackOff = 0.3;          // distance to drive back after the release, m
-constexpr double kBackOffSpeed = 0.15;    // m/s
+// If the sonar measures less than this (m), a body is between the fingers.
+constexpr double kBetweenFingers = 0.03;
+constexpr double kBackOff = 0.3;        // distance to drive back after the release, m
+constexpr double kBackOffSpeed = 0.15;  // m/s
 
 struct FetchGoal {
   double x = 0, y = 0;      // the place in the world where it releases the body, m

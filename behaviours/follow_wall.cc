@@ -1,5 +1,5 @@
-// Follows the wall on its right at a constant distance. Turns left if the way ahead is blocked, and
-// right around open corners.
+// Follows the wall on its right at a constant distance. Turns left if the way ahead is blocked.
+// Turns right where the wall on the right ends.
 #include <algorithm>
 #include <numbers>
 

@@ -21,7 +21,7 @@ class Wander final : public Behaviour {
     sonars_ = *std::move(sonars);
     if (!takes_images_) return {};
     auto camera = OpenOrMountCamera(robot);
-    if (camera) camera_ = *std::move(camera);  // a robot without a camera wanders without it
+    if (camera) camera_ = *std::move(camera);  // the camera is optional
     return {};
   }
 

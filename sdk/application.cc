@@ -109,16 +109,16 @@ class SimulationProxy final : public RemoteSimulation {
         simulation_(sba::Simulation::_duplicate(simulation)),
         server_(std::move(server)) {
     orb::LimitCalls(simulation_, kCreateTimeout);
-    // Waits use a second reference to the simulation, because a time limit is stored in a
-    // reference.
+    // An object reference has one time limit for all its calls. So waits use a second reference to
+    // the simulation, with another limit.
     const CORBA::String_var text = orb_->orb()->object_to_string(simulation);
     const CORBA::Object_var object = orb_->orb()->string_to_object(text);
     waiting_ = sba::Simulation::_unchecked_narrow(object);
     orb::LimitCalls(waiting_, kWaitTimeout);
   }
   ~SimulationProxy() override {
-    (void)Ask(
-        [this] { simulation_->destroy(); });  // this may fail, because the server may have ended
+    // The call may fail, because the server may have ended.
+    (void)Ask([this] { simulation_->destroy(); });
   }
 
   base::Result<std::string> AddRobot(const RobotRequest& request) override {
@@ -138,7 +138,7 @@ class SimulationProxy final : public RemoteSimulation {
       return std::string(name);
     });
     if (!added && request.own_behaviour) {
-      // The simulator may already have destroyed it, so the call may fail.
+      // The simulator may already have destroyed the behaviour, so this call may fail.
       (void)Ask([&] { robot.behaviour->destroy(); });
     }
     return added;

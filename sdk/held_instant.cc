@@ -43,7 +43,8 @@ bool HeldInstant::Delay(const DriveCommand& command) {
   const bool is_finite = std::isfinite(command.linear) && std::isfinite(command.angular) &&
                          std::isfinite(command.lateral);
   const base::MutexLock lock(mutex_);
-  // A command that is not finite is sent at once, so that the simulation refuses it now.
+  // A command with a number that is not finite is sent at once, so that the simulation refuses it
+  // before the behaviour continues.
   if (!now_ || !is_finite) return false;
   command_ = command;
   return true;

@@ -25,7 +25,7 @@ class ExportedBehaviour final : public OfferedBehaviour {
   ~ExportedBehaviour() override {
     if (!offer_.empty()) {
       if (auto ok = client_.Withdraw(offer_); !ok) {
-        // If the broker has ended, its offers no longer exist. So this is no error.
+        // If the broker has ended, the offer no longer exists. So a failed withdrawal is no error.
         spdlog::debug("{}", ok.error().Sentence());
       }
     }

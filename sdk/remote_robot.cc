@@ -340,7 +340,8 @@ bool RemoteRobot::SleepAndRead(SimTime instant) {
   if (holds_time) {
     held_.Begin(SimTime(reached), std::move(readings));
   } else {
-    // In real time, no wait holds the simulated time, so later waits use the plain clock.
+    // In real time, simulated time advances while the behaviour runs. Readings would then be old,
+    // so later waits use the plain clock.
     batch_clock_ = sba::BatchClock::_nil();
   }
   return true;

@@ -61,7 +61,7 @@ class ReadsAll final : public Behaviour {
       read_.error = sent.error().message;
     }
     const auto refused = radio_->Broadcast(std::string(2000, 'x'));
-    // The sentence of the hardware must be the same in all ways.
+    // The error sentence for a message that is too long must be the same in all three ways.
     const std::string why = refused ? "" : refused.error().Sentence();
     read_.names["refused"] = {why.substr(std::min(why.size(), why.find("a message of")))};
     for (const base::Status& told :

@@ -12,7 +12,7 @@
 
 namespace gsv::base {
 
-// After which event a written file must still exist: the end of the process, or a power failure.
+// The event that a written file must survive: the end of the process, or a power failure.
 enum class Durability { kProcess, kPowerLoss };  // kPowerLoss waits until the disk has the data
 
 // Writes a temporary file beside `file` and renames it. Returns kUnavailable if the file cannot be

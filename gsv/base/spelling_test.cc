@@ -18,13 +18,15 @@ TEST(Spelling, DistanceCountsChangedLetters) {
 TEST(Spelling, SuggestsTheClosestKnownName) {
   const std::vector<std::string> worlds{"hall", "maze", "office", "playground", "warehouse"};
   EXPECT_EQ(ClosestName("offise", worlds), "office");
-  EXPECT_EQ(ClosestName("wharehuose", worlds), "warehouse");  // two letters of a long name differ
-  EXPECT_EQ(ClosestName("ofise", worlds), "");                // two letters of a short name differ
+  // Two wrong letters are accepted only in names of eight or more letters.
+  EXPECT_EQ(ClosestName("wharehuose", worlds), "warehouse");
+  EXPECT_EQ(ClosestName("ofise", worlds), "");
   EXPECT_EQ(ClosestName("office", worlds), "");
   EXPECT_EQ(ClosestName("rn", {"run"}), "");
   EXPECT_EQ(ClosestName("wells", {"wall", "walls"}), "walls");
   EXPECT_EQ(ClosestName("ware", worlds), "warehouse");
-  EXPECT_EQ(ClosestName("wall", {"wallpaper", "wallflower"}), "");  // two names continue it
+  // Both names begin with "wall", so the function returns neither.
+  EXPECT_EQ(ClosestName("wall", {"wallpaper", "wallflower"}), "");
   EXPECT_EQ(ClosestName("pss", {"ps", "pause"}), "ps");
   EXPECT_EQ(ClosestName("wa", worlds), "");
 }

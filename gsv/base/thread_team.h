@@ -68,7 +68,8 @@ class ThreadTeam {
   void RunPieces(std::size_t self);
   // Waits for an open job and processes pieces of it. Returns false when the team ends.
   bool Join();
-  // Makes the calling thread a member of the open job. Returns false if no job is open.
+  // Adds the calling thread to the workers of the open job, for which ParallelFor() then waits.
+  // Returns false if no job is open.
   bool TryJoin();
 
   // Workers may join a job while it is open. The first thread that finds no piece left closes it,

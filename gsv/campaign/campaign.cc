@@ -115,7 +115,7 @@ class ParameterReader {
     if (!is_range) return;
     const double stride = step.value_or(1);
     if (!from || !to) {
-      mapping.AddProblem("a range needs from and to");
+      mapping.AddProblem("a range needs the keys \"from\" and \"to\"");
       return;
     }
     if (*from > *to) {

@@ -1,6 +1,6 @@
-// The health of robots: whether each robot moves, stands, is stuck, touches something, is late or
-// dead; its last command, its actual motion, and the obstacle that stops it. The state is computed
-// from a simulation's status and the readings of range sensors.
+// The health of robots: the state of each robot (State), its last command, its actual motion, and
+// the obstacle that stops it. The state is computed from a simulation's status and the readings of
+// range sensors.
 //
 // Units        metres, radians, seconds; instants of simulated time.
 // Determinism  everything except `late` depends only on the states of the run.
@@ -17,6 +17,9 @@
 
 namespace gsv::health {
 
+// A robot is stuck if it does not move although it is commanded to. A robot is late if its
+// behaviour is unresponsive, or has not waited for 1 s of wall-clock time. A robot is dead if its
+// behaviour has crashed or was killed.
 enum class State { kMoving, kStanding, kStuck, kContact, kLate, kDead };
 inline constexpr std::size_t kStates = 6;
 

@@ -46,7 +46,8 @@ class HealthTracker {
     std::optional<Limit> limit;
   };
   const std::size_t robots_read_;
-  std::map<std::string, Known> known_;  // by name; only robots that do not move
+  std::map<std::string, Known>
+      known_;  // the last reading, by the robot's name; only for robots that do not move
 };
 
 // Returns the current health. Reads the sensors of at most 500 robots.

@@ -22,9 +22,9 @@ class SanitizerStack {
   // `bottom` is the lowest address of the stack.
   SanitizerStack(const void* bottom, std::size_t size) : bottom_(bottom), size_(size) {}
 
-  // Call this from outside, before Boost.Context switches to the stack and back to create the
-  // context. An earlier stack at these addresses may have left them poisoned, because its last
-  // calls never returned.
+  // Call this on another stack, before Boost.Context creates a context on this stack.
+  // AddressSanitizer may still mark these addresses as invalid: an earlier stack was here, and its
+  // last calls never returned.
   void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
   void AfterPreparing() {}
 

@@ -12,10 +12,10 @@ namespace gsv::model {
 // The kinematics of a base.
 enum class DriveKind {
   kDifferential,  // two wheels, or two rows of them (skid steer)
-  kSynchro,       // all wheels turn and steer together; moves along its heading
+  kSynchro,       // all wheels turn and steer together, so the base moves along its heading
   kAckermann,     // steered front wheels: cannot turn on the spot
-  kMecanum,       // moves sideways as well
-  kVelocity,      // moves sideways as well; four wheels with rollers
+  kMecanum,       // four wheels with rollers; can also move sideways
+  kVelocity,      // follows any velocity in the plane, without a model of its wheels
   kNone,          // the base does not move; only joints can be commanded
 };
 
@@ -31,10 +31,10 @@ struct Range {
   double max = std::numeric_limits<double>::infinity();
 };
 
-// The slip of a wheel, without unit: its contact slides at compliance * |rolling speed| * friction
-// force / normal force, as in WheelSlip of Gazebo. With 0 there is no slip up to the friction
-// limit. Example: if the friction force is a tenth of the normal force, a compliance of 1 gives a
-// slip ratio of a tenth.
+// The slip compliance of a wheel, without unit, as in Gazebo's WheelSlip: slip speed = compliance *
+// |rolling speed| * friction force / normal force. A compliance of 0 means no slip up to the
+// friction limit. Example: with a compliance of 1, a friction force of a tenth of the normal force
+// gives a slip speed of a tenth of the rolling speed.
 struct Slip {
   double longitudinal = 0;  // along the wheel's rolling direction
   double lateral = 0;       // along the wheel's axle
@@ -49,8 +49,8 @@ struct Drive {
   std::vector<int> steered;       // kAckermann: steering joints
   double wheel_separation = 0.3;  // distance between the left and right contact points
   double wheel_radius = 0.1;
-  // kDifferential: the true radius of each wheel, as a factor of wheel_radius, which the drive
-  // assumes.
+  // kDifferential: the true radius of the left and of the right wheels, divided by wheel_radius.
+  // The drive computes wheel speeds with wheel_radius.
   double left_wheel_scale = 1, right_wheel_scale = 1;
   double wheel_base = 0;        // kAckermann, kMecanum: distance from front to rear axle
   double steering_limit = 0.5;  // kAckermann

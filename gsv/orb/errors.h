@@ -17,7 +17,8 @@ base::Error ToError(const CORBA::UserException& exception, const std::string& wh
 // Returns why the TLS connection of the last call failed, if certificates were the reason, else an
 // empty text. Call it once, on the thread that made the call.
 std::string WhyNotConnected(const CORBA::SystemException& exception);
-// Clears the reasons of earlier failures. Call it before a remote call, on the same thread.
+// Deletes the stored reason of an earlier failed connection, so that WhyNotConnected() describes
+// the next call only. Call this before a remote call, on the same thread.
 void ForgetConnectionFailure();
 
 // Returns whether the exception proves that the peer has ended: its port refuses connections, or

@@ -123,8 +123,8 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
               {"pose", PoseJson(sensor.link_from_sensor)},
               {"topic", SensorTopic(body.name, sensor.name)},
               {"parameters", parameters.IndexOf(sensor)}};
-    // Units are listed by the path of a field in the sensor's message. A path includes all fields
-    // below it.
+    // The key "units" maps a field's path in the sensor's message to its unit, such as
+    // "linear_acceleration": "m/s²". The unit also applies to all fields below this path.
     if (auto units = type->layout.Units(); !units.empty()) json["units"] = std::move(units);
     const auto made = known.Of(sensor);
     if (const auto frustum = made ? (*made)->frustum() : std::nullopt) {

@@ -143,7 +143,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
     }
   }
   Series ranges{"range", "m", {}, {}}, residuals{"residual", "m", {}, {}};
-  // The mean residual of each scan: measured minus exact range.
+  // The mean residual of each scan. A residual is the measured minus the exact range, m.
   std::vector<double> real_mean, simulated_mean;
   for (const ScanPair& pair : pairs) {
     std::vector<double> of_real, of_simulated;
@@ -167,7 +167,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   result.rows.push_back({device, "mean residual", "m", a.mean, b.mean, k95 * b.deviation / root});
   result.rows.push_back({device, "deviation of residuals", "m", a.deviation, b.deviation,
                          k95 * b.deviation / (root * std::sqrt(2.0))});
-  result.rows.push_back({device, "autocorrelation of a scan's mean residual", "",
+  result.rows.push_back({device, "autocorrelation of the scans' mean residuals (lag 1)", "",
                          Autocorrelation(real_mean, 1), Autocorrelation(simulated_mean, 1),
                          k95 / std::sqrt(std::max(1.0, count))});
   result.rows.push_back({device, "Kolmogorov-Smirnov distance of ranges", "", 0,

@@ -13,12 +13,13 @@ namespace gsv::reality {
 // that the log contains. `start` is the first pose.
 std::vector<TimedPose> ReckonedPath(const Log& log, double wheel_distance, TimedPose start = {});
 
-// The estimated and the true motion in a time window: the displacement along and across the heading
-// at the start of the window, and the rotation. Windows follow each other.
+// The estimated ("reckoned") and the true motion in a time window: the length of the displacement,
+// and the rotation. Each window starts where the previous one ends.
 struct MotionWindow {
   double reckoned_way = 0, reckoned_turn = 0;  // length of the chord, m; rotation, rad
   double true_way = 0, true_turn = 0;
-  double metres = 0, radians = 0;  // distance and rotation according to the true poses, m and rad
+  // Distance travelled (m) and sum of all rotations (rad) between the true poses of the window.
+  double metres = 0, radians = 0;
 };
 std::vector<MotionWindow> Windows(const std::vector<TimedPose>& reckoned,
                                   const std::vector<TimedPose>& truth, double seconds);

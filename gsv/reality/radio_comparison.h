@@ -24,7 +24,8 @@ struct RadioGroup {
   std::string name;
   std::vector<double> real, simulated;  // without ranges that were not received
 };
-// Groups errors by anchor, then by metres of distance. Groups of less than 20 ranges are omitted.
+// Groups errors first by anchor, then by distance (0 to 1 m, 1 to 2 m, …). Groups with fewer than
+// 20 ranges are left out.
 std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);
 
 // Fits the bias and the scatter of a ranging sensor, both linear in the distance, to the even

@@ -22,16 +22,17 @@ struct Mixture {
 };
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
 
-// Returns a sentence if fewer than half of the readings are within `tolerance` of a surface: then
-// the poses or the world are wrong, and the device cannot be judged. Otherwise returns an empty
-// text.
+// Returns a warning if fewer than half of the readings are within `tolerance` of a surface. In this
+// case the poses or the world are wrong, and the comparison says little about the device. Otherwise
+// returns an empty text.
 std::string WarningAbout(const Mixture& real, double tolerance);
 
 // Returns the fraction of readings with an echo, for each beam of the real or the simulated device.
 std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real);
 
 // Returns the differences between a beam's readings in consecutive scans of a robot at rest,
-// divided by the square root of two. Their standard deviation is that of a single reading.
+// divided by the square root of two. The standard deviation of these values equals the standard
+// deviation of one reading.
 std::vector<double> RestDifferences(const std::vector<RangeScan>& scans);
 // Returns the differences of the simulated readings. `pairs` must be ordered by time.
 std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs);

@@ -13,10 +13,10 @@
 
 namespace gsv::ros2 {
 
-// The input from which a source makes its messages.
+// The instant of the simulation for which a source makes its messages.
 struct Moment {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::uint64_t seed = 0;  // seed of the simulation
+  std::uint64_t seed = 0;  // seed of the simulation, for the noise of sensors
   sensing::RaySceneCache& rays;
 };
 

@@ -46,14 +46,16 @@ void Compare(const std::string& topic, const Side& writer, const Side& reader,
   }
   if (reader.is_reliable && !writer.is_reliable) {
     problems.insert(
-        fmt::format("{}: a subscription asks for reliable delivery, a publisher offers best "
-                    "effort. Set the subscription's reliability to best effort",
+        fmt::format("{}: a subscription requires reliable delivery, but a publisher offers "
+                    "best effort, so no messages are delivered. Set the subscription's reliability "
+                    "to best effort",
                     topic));
   }
   if (reader.is_transient_local && !writer.is_transient_local) {
     problems.insert(
-        fmt::format("{}: a subscription requests transient local durability, a publisher offers "
-                    "volatile. Set the subscription's durability to volatile",
+        fmt::format("{}: a subscription requires transient local durability, but a publisher "
+                    "offers volatile, so no messages are delivered. Set the subscription's "
+                    "durability to volatile",
                     topic));
   }
 }

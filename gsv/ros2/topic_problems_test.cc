@@ -52,7 +52,7 @@ TEST(TopicProblems, NameQosThatIsNotOffered) {
   const dds::Qos latched{.is_reliable = false, .is_transient_local = true};
   EXPECT_THAT(FindTopicProblems({EndpointOf(true, kTwist, best_effort), EndpointOf(false, kTwist),
                                  EndpointOf(false, kTwist)}),
-              ElementsAre(HasSubstr("/topic: a subscription asks for reliable delivery")));
+              ElementsAre(HasSubstr("/topic: a subscription requires reliable delivery")));
   EXPECT_THAT(FindTopicProblems({EndpointOf(true, kTwist), EndpointOf(false, kTwist, latched)}),
               ElementsAre(HasSubstr("transient local durability")));
   EXPECT_THAT(FindTopicProblems(

@@ -9,8 +9,8 @@
 
 namespace gsv::scenario {
 
-// The place of a key in its file, such as "room.yaml:7:5", for errors that are found later. All
-// places compare as equal, so that they do not affect comparisons.
+// The place of a key in its file, such as "room.yaml:7:5", for messages about errors.
+// operator== always returns true, so that two faults at different places of a file can be equal.
 struct SourcePlace {
   std::string text;
   friend bool operator==(const SourcePlace&, const SourcePlace&) { return true; }

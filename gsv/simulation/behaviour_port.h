@@ -44,7 +44,7 @@ class BehaviourPort {
   virtual bool time_managed() const = 0;
   // The name of the behaviour's service, such as "wander".
   virtual const std::string& name() const = 0;
-  // The process in which the behaviour runs, as "host:pid".
+  // The process in which the behaviour runs, as "HOST:PID".
   virtual const std::string& place() const = 0;
   // The local behaviour, if the simulation runs it in turns (see local_behaviour.h), else null.
   virtual LocalBehaviour* local() { return nullptr; }

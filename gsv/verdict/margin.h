@@ -1,7 +1,8 @@
-// The distance of an expectation from its limit: the robustness of signal temporal logic (A. Donzé
-// and O. Maler, 2010), for expectations that are one condition over time.
+// The margin of an expectation: how far the measured number was from its limit. This is the
+// robustness of signal temporal logic (A. Donzé and O. Maler, 2010). It is defined here only for an
+// expectation that is one condition over time.
 //
-// Units  those of the measured numbers.
+// Units  the unit of the measured number.
 #pragma once
 
 #include <optional>
@@ -25,7 +26,8 @@ class Margin {
   friend std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
   scenario::Formula condition_;
-  bool must_come_ = false;  // true for "eventually", whose margin is the largest distance
+  // True for "eventually", whose margin is the largest distance. Otherwise it is the smallest one.
+  bool must_come_ = false;
   base::SimTime from_{0};
   std::optional<base::SimTime> by_;
   std::string unit_;

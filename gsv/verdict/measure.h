@@ -19,6 +19,7 @@ std::string Describe(const scenario::Quantity& quantity);
 // Returns the unit with a blank in front, such as " m", or an empty text.
 const char* UnitOf(const scenario::Quantity& quantity);
 
+// Measures quantities at one state of a simulation.
 class Measure {
  public:
   // `simulation` must outlive this object.
@@ -27,7 +28,7 @@ class Measure {
   // Fails for a quantity of an unknown body, sensor or behaviour, and for a quantity of a camera.
   base::Status Check(const scenario::Quantity& quantity) const;
 
-  // Sets the state that Of() evaluates. It must be the latest state.
+  // Sets the snapshot at which Of() measures. It must be the simulation's latest snapshot.
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
   // Returns the value, or nullopt if the body was removed or the sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);

@@ -150,8 +150,8 @@ base::Status Check(const Camera& camera) {
   const bool has_place = camera.eye || camera.target || !camera.follow.empty();
   if ((has_place || !camera.sensor.empty()) && camera.side != OverviewSide{}) {
     return Fail(ErrorCode::kInvalidArgument,
-                "azimuth, elevation and zoom are for a view of the whole world; leave out eye, "
-                "target, follow and camera");
+                "azimuth, elevation and zoom cannot be combined with eye, target, follow or "
+                "camera; use the parameters of one group only");
   }
   if (!camera.sensor.empty()) {
     if (has_place || camera.field_of_view) {

@@ -11,7 +11,7 @@ namespace gsv {
 // The reason why a run ended with an error.
 struct RunFailure {
   std::string cause;  // the robot's error, or the text of the exception; empty if there is none
-  bool is_exception = false;  // whether the behaviour threw the cause
+  bool is_exception = false;  // true if the behaviour threw an exception with this text
 
   bool empty() const { return cause.empty(); }
   // Returns a line for the log, such as "scout: the behaviour threw: too far". The robot's own
@@ -22,7 +22,8 @@ struct RunFailure {
 // Returns the failure of a behaviour that threw this exception.
 RunFailure FailureOf(const std::exception& exception);
 
-// Calls Run() until it returns or throws. The robot's error is the cause, or else the exception.
+// Calls Run() until it returns or throws. If the robot has an error, this error is the cause.
+// Otherwise an exception is the cause.
 RunFailure RunToItsEnd(Behaviour& behaviour, Robot& robot);
 
 }  // namespace gsv

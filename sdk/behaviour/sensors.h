@@ -317,7 +317,7 @@ class Radio : public Sensor {
   std::uint64_t missed() const { return missed_; }
 
  private:
-  std::uint64_t received_ = 0;  // number of the last message
+  std::uint64_t received_ = 0;  // number of the last received message
   std::uint64_t missed_ = 0;
 };
 

@@ -213,8 +213,8 @@ TEST(CommandLine, BenchTypicalReportsARowForEachNumberOfRobots) {
   ASSERT_EQ(rows.size(), 2u) << outcome.out;
   EXPECT_EQ(rows[0]["robots"], 1);
   EXPECT_EQ(rows[1]["robots"], 5);
-  // This test checks which work was done. `gsv bench` measures the speed; its limit for the median
-  // is 20 ms.
+  // This test only checks that each figure was measured, because speed depends on the machine. `gsv
+  // bench` itself requires a median of at most 20 ms.
   for (const auto& row : rows) {
     EXPECT_GT(row["real_time_factor_after_start"], 0.0) << row;
     EXPECT_GT(row["update_interval_ms"]["median"], 0.0) << row;

@@ -1,5 +1,5 @@
 // For tests: three robots in the playground, driven by three programs of two behaviours. The hash
-// of the run must not depend on what happens to the programs.
+// of the run must be the same if the programs are slowed down, paused or delayed.
 #pragma once
 
 #include <memory>

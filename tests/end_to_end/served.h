@@ -13,7 +13,8 @@
 
 namespace gsv::testing {
 
-// The number of repetitions of a case: one in make test, and GSV_SOAK in make soak.
+// The number of repetitions of a case: one in `make test`, and the value of GSV_SOAK in `make
+// soak`.
 int Rounds();
 
 // Returns the process's ORB. Its calls have the timeout that a build with a sanitizer needs.

@@ -1,5 +1,5 @@
-// For tests: a network namespace that programs take for another host. It has its own network behind
-// a slow link, and its own host name, so that its programs do not use this host's sockets.
+// For tests: a network namespace that acts as another host. It has its own network behind a slow
+// link, and its own host name. So programs in it cannot use this host's sockets.
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
 // `gsv doctor --security`: lists the open ports of GSV on this machine, and the credentials that
 // they require.
 //
-// Each listening socket is tested as an unknown client would use it, whatever the options of its
-// process are. The tests change nothing.
+// Each listening socket is tested by a connection without credentials, as an unknown client would
+// make. The options of the process are not used. The tests change nothing.
 #pragma once
 
 #include <string>

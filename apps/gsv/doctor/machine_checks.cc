@@ -49,7 +49,7 @@ void CheckPriority() {
   rlimit limit{};
   getrlimit(RLIMIT_NICE, &limit);
   if (geteuid() == 0 || limit.rlim_cur >= 30) {
-    std::printf("priority: ok, steps run before behaviours\n");
+    std::printf("priority: ok, simulation steps get a higher CPU priority than behaviours\n");
   } else {
     std::printf(
         "priority: default; with many robots, real-time steps may be late. Use `ulimit -e 30`\n");

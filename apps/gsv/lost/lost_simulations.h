@@ -63,7 +63,7 @@ class LostSimulations {
   services::SimulationHost& host_;
   gateway::RecordingSwitch& recordings_;
   std::filesystem::path file_;  // path of this server's note; empty if it cannot be written
-  ServerNote note_;             // the note as it was last written; used by the watching thread
+  ServerNote note_;             // the content that was last written to file_; used only by watcher_
   bool could_write_ = true;
   mutable base::Mutex mutex_;  // guards lost_ and next_
   std::condition_variable_any changed_;

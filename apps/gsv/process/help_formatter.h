@@ -2,9 +2,10 @@
 //
 //   --port PORT               port of the viewer (default: 8080) [env: GSV_PORT]
 //
-// An option's description is a short line. If there is more to say, sentences for its manual page
-// follow after a newline. `--help-all` prints these as well, with ranges and with the options that
-// an option needs or excludes. tools/make_man_pages and tools/make_completion read this output.
+// The description of an option is one short line. Further sentences for the manual page may follow
+// after a newline. `--help-all` prints these sentences too, and the ranges of values, and the
+// options that an option needs or excludes. tools/make_man_pages and tools/make_completion read
+// this output.
 #pragma once
 
 #include <string>

@@ -17,10 +17,10 @@ struct RecordedUserActions {
   bool has_verdicts = false;     // whether there are events about expectations
 };
 
-// Reads the actions of users from a recording. Fails if the edits cannot be repeated: because the
-// recording does not contain them, or because an edit was made while behaviours ran. With
-// `by_commands`, the robots repeat recorded commands, and edits during behaviours are allowed.
-// Errors contain `file`.
+// Reads the actions of users from a recording. Fails if the recording does not contain the edits,
+// or if an edit was made while behaviours were running. With `by_commands`, the robots repeat
+// recorded commands instead of running behaviours, so edits at any time are allowed. Errors contain
+// `file`.
 base::Result<RecordedUserActions> ReadUserActions(const recording::McapReader& reader,
                                                   const std::string& file, bool by_commands);
 

@@ -17,8 +17,8 @@ struct VideoOptions {
   std::string ffmpeg = "ffmpeg";  // searched on the PATH
 };
 
-// Exports the video and returns the number of frames. A frame shows the newest image at its
-// instant, so that a recorded second is a second of video.
+// Exports the video and returns the number of frames. One second of the video shows one second of
+// simulated time: each frame shows the newest image at its instant.
 base::Result<std::uint64_t> ExportVideo(const recording::McapReader& reader,
                                         const recording::Selection& selection,
                                         const VideoOptions& options);

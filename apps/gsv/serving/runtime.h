@@ -34,7 +34,7 @@ class SimulationBuilder;
 struct RuntimeOptions {
   std::string
       broker;  // the reference of a broker; if empty, the runtime starts a broker on loopback
-  // if false, there are no behaviours over CORBA, no services and no viewer
+  // if false, the process has no behaviours over CORBA, no services and no viewer
   bool has_broker = true;
   std::vector<std::filesystem::path> model_path;
   std::map<std::string, std::string> drives;  // drives by model, see ReadOptions::drives
@@ -70,7 +70,8 @@ class Runtime {
   // registers sba::ScenarioService for that number of concurrent scenarios.
   base::Status OfferService(const std::string& name, int scenarios = 0);
 
-  // Call this when the process must end. Behaviours that have not returned get one more second.
+  // Call this when the process must end soon. Behaviour programs that are still running then get
+  // one more second to end.
   void EndSoon();
 
  private:

@@ -1,8 +1,8 @@
 // Executes runs of scenarios, each in its own process. The process is forked from a run server
 // (running/run_server.h).
 //
-// The run server links the program, and reads worlds and models, once for all runs. So a run costs
-// only the time of its simulation. Files are not read again during the lifetime of this object.
+// The run server loads the program's libraries, worlds and models once for all runs. So a run takes
+// only the time of its simulation. Later changes of files have no effect on runs of this object.
 //
 // Threads  one at a time. The thread that creates this object must live as long as it
 //          (machine/child_process.h).

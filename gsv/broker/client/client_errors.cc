@@ -183,7 +183,7 @@ Error OfSystem(const std::string& where) {
     return {ErrorCode::kUnavailable,
             TakesTls(where) ? "the connection to the broker was lost"
                             : "the connection to the broker was lost. If the broker requires TLS, "
-                              "its address needs \"ssliop\" between the colons",
+                              "use the address corbaloc:ssliop:1.2@HOST:PORT/TradingService",
             where};
   } catch (const CORBA::OBJECT_NOT_EXIST&) {
     return {ErrorCode::kUnavailable, "the object at this address is not a broker", where};

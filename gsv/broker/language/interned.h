@@ -1,5 +1,5 @@
-// An immutable value that is stored once, however many objects have an equal one: the service type
-// and the property names of offers. It takes the space of a pointer. The stored value is removed
+// An immutable value that many objects share, such as a service type or a property name of offers.
+// Equal values are stored once. An Interned has the size of a pointer. The stored value is deleted
 // with its last user.
 //
 // Threads  safe. Creating an object from a value takes a lock; copying does not.

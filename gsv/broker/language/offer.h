@@ -18,7 +18,8 @@ struct ProxyPart {
   std::string policies{};     // policies to be passed on, as CDR of a CosTrading::PolicySeq
 };
 
-// Immutable: a modification replaces the offer, so any holder may read it without a lock.
+// An offer is immutable: a modification replaces it by a new object. So any thread may read an
+// offer without a lock.
 struct Offer {
   std::uint64_t number = 0;  // position in the order of export, from 1
   Interned<std::string> type;

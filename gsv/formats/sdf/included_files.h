@@ -14,13 +14,13 @@ struct SdfText {
   std::string text;
 };
 
-// The key is the text in the <uri> of an <include>.
+// Repaired texts of included files, by the text in the <uri> of the <include>.
 using IncludedFiles = std::map<std::string, SdfText>;
 
 // Provides texts as files in memory during the lifetime of this object, because libsdformat reads
 // an included file only by its name.
 //
-// Errors   if there is no memory for a text, libsdformat reads the original file.
+// Errors   if the system has no memory for the repaired text, libsdformat reads the original file.
 class IncludedFileServer {
  public:
   explicit IncludedFileServer(const IncludedFiles& files) : files_(files) {}

@@ -233,15 +233,15 @@ TEST_F(AccessTest, TwoViewersHoldControlOfTwoSimulations) {
   EXPECT_EQ(reset(bob, "other"), 200);
   EXPECT_EQ(reset(ada, "other"), 409);
   EXPECT_EQ(reset(bob, "arena"), 409);
-  // Commands apply to the simulation of the WebSocket's address, not to the simulation that the
-  // viewer has selected.
+  // The address of a WebSocket names a simulation. Commands on this WebSocket apply to that
+  // simulation, even if the viewer has selected another one.
   Viewer stranger(gateway_->port(), "/ws?simulation=other&viewer=" + ada);
   EXPECT_NE(stranger.CallRefusedService("start").find("Bob has control"), std::string::npos);
   Viewer holder(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);
   EXPECT_TRUE(holder.CallService("start").first);
 }
 
-TEST_F(AccessTest, ANewViewerReceivesTheHolderOfControlAtOnce) {
+TEST_F(AccessTest, NewViewerReceivesAtOnceWhetherItHasControl) {
   Start({});
   const std::string ada = Enter("Ada");
   Viewer viewer(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);

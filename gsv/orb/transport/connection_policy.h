@@ -60,7 +60,7 @@ class ConnectionHooks {
 
 // Applies to all connections of the process's ORB.
 struct ConnectionPolicy {
-  // Makes the hooks of a connection. May return null.
+  // Makes the hooks of a connection. May return null for a connection without hooks.
   using MakeHooks = std::function<std::unique_ptr<ConnectionHooks>(ConnectionControl&)>;
 
   MessageLimits limits;
@@ -68,10 +68,10 @@ struct ConnectionPolicy {
   // For connections that this process opens; may be empty. Without hooks, the ORB gets the bytes
   // unchanged.
   MakeHooks made;
-  // Decides whether the ORB shall read now; empty means always. The accepting thread calls it when
-  // bytes arrive on an accepted connection for which no thread of the ORB waits. The ORB may have
-  // destroyed the connection meanwhile, so the function must recognise its connections by their
-  // hooks.
+  // Decides whether the ORB reads from an accepted connection now; empty means always. The thread
+  // that accepts connections calls it when bytes arrive and no thread of the ORB waits for them.
+  // The ORB may already have destroyed the connection. So the function must compare the pointer
+  // with those of its existing hooks before it uses the pointer.
   std::function<bool(ConnectionControl*)> shall_read;
 };
 

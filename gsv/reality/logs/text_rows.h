@@ -34,10 +34,11 @@ class TextRows {
   // fewer than `count` words, or if a word is not a finite number.
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
-  // Whether the time of this row may follow that of the row before it. A row whose time is earlier
-  // than that of the row before it is left out. But if up to five earlier rows have later times
-  // than this row and the next row, those earlier rows are wrong. The caller has already used them,
-  // so RemoveMisdated() must remove the values made from them. A gap of more than 10 s is reported.
+  // Returns whether the caller may use this row. Rows must be in the order of time, so a row with
+  // an earlier time than the row before it is left out. Exception: if at most five earlier rows are
+  // later than both this row and the next one, the times of those earlier rows are wrong. The
+  // caller has already used these rows, so RemoveMisdated() must remove their values. Reports a gap
+  // of more than 10 s.
   bool InOrder(double time);
 
   // Removes the values that were made from misdated rows from a series, whose elements have a

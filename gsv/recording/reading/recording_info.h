@@ -9,7 +9,7 @@
 
 namespace gsv::recording {
 
-// Topics of users' actions. Their messages may come at any time.
+// Topics with the actions of users. A user may act at any time, also after the last step.
 inline constexpr std::string_view kUserTopics[]{"/gsv/events", "/rosout", "/gsv/edits"};
 
 struct RecordingInfo {

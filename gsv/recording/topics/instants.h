@@ -11,8 +11,8 @@ class Instants {
  public:
   explicit Instants(base::SimTime period) : period_(period) { GSV_CHECK(period.count() > 0); }
 
-  // Returns whether an instant lies after the last call's time, up to `time`. The first call
-  // returns whether `time` is an instant.
+  // Returns whether an instant is later than the time of the last call, and not later than `time`.
+  // The first call returns whether `time` is an instant.
   bool AdvanceTo(base::SimTime time) {
     if (time >= from_ && time < to_) return false;
     const std::int64_t index = time / period_;

@@ -1,8 +1,8 @@
 // Records the readings of all sensors on the topics /ROBOT/SENSOR, their beams on one topic, and
 // their transforms (/tf_static).
 //
-// A reading is a function of the snapshot. So the recorder samples the sensor again. It gets the
-// value that the robot's behaviour gets, without an effect on the simulation.
+// A reading is a function of the snapshot. So the recorder samples the sensor a second time: it
+// gets the same reading as the robot's behaviour, and the simulation does not change.
 #pragma once
 
 #include <functional>

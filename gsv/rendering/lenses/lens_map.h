@@ -50,8 +50,8 @@ class LensMap {
   struct Source {
     std::int32_t face = -1;  // index of the face; -1 if the lens shows nothing there
     float u = 0, v = 0;      // pixel coordinates in the face's image
-    float reach = 1;         // number of face pixels along one side of this pixel
-    float depth_scale = 0;   // factor that converts depth in the face to depth in the camera
+    float reach = 1;  // side of the square of face pixels that this pixel covers, in face pixels
+    float depth_scale = 0;  // factor that converts depth in the face to depth in the camera
   };
   // Sets the member `reach` of all sources.
   void FindReach();

@@ -35,7 +35,7 @@ void ShadowBounds::Update(const float* map, std::ptrdiff_t stride,
 ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y) {
   const int x0 = kBlock * x, y0 = kBlock * y;
   // The range of texels that look-ups in the block may read. Two vectors of eight texels cover each
-  // row.
+  // row of this range.
   const int top = std::max(-1, y0 - kBefore),
             bottom = std::min(kShadowSide, y0 + kBlock - 1 + kAfter);
   const int left = std::max(-1, x0 - kBefore),
@@ -52,16 +52,17 @@ ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stri
   });
   Block block{Least(lowest), Most(highest), 0, 0};
   if (block.min == block.max) return block;
-  // The slopes of the upper bound follow from the depths at the corners of the block. Any slopes
-  // are correct, and these are tight for a plane.
+  // The slopes of the upper bound are computed from the depths at the corners of the block. The
+  // bound is correct with any slopes, because its height is computed below. With these slopes it is
+  // tight if the surface is a plane.
   constexpr int kEnd = kBlock - 1;
   const auto depth = [&](int column, int row) { return map[stride * (y0 + row) + x0 + column]; };
   const float by_x =
                   (depth(kEnd, 0) + depth(kEnd, kEnd) - depth(0, 0) - depth(0, kEnd)) / (2 * kEnd),
               by_y =
                   (depth(0, kEnd) + depth(kEnd, kEnd) - depth(0, 0) - depth(kEnd, 0)) / (2 * kEnd);
-  F8 above =
-      Splat(-1e30f);  // the greatest difference between the depths and a plane with these slopes
+  // The largest height of a depth above the plane with these slopes that is 0 at the first corner.
+  F8 above = Splat(-1e30f);
   for_each([&](F8 depths, int column, int row) {
     const F8 dx = Splat(static_cast<float>(column - x0) + 0.5f) + Steps();
     const float dy = static_cast<float>(row - y0) + 0.5f;

@@ -5,7 +5,8 @@
 // (IP_MULTICAST_ALL of ip(7)), provided that some program joined this group on loopback.
 // LocalMulticast joins the group on loopback itself to meet this condition.
 //
-// This reaches participants that wait for multicast, as Cyclone DDS does with default settings.
+// So GSV finds participants that wait for a multicast announcement, such as those of Cyclone DDS
+// with default settings.
 //
 // Threads  any.
 #pragma once

@@ -17,7 +17,7 @@ namespace gsv::ros2 {
 // The entity that SpawnEntity requests.
 struct SpawnRequest {
   std::string uri;   // in the form of Spawnable::uri, or the file of a model
-  std::string name;  // empty for the model's name, with a number if that exists already
+  std::string name;  // if empty: the model's name, with a number if this name is in use
   geometry::Pose world_from_entity;
   // Whether the entity is put on the floor; the height of its pose is then ignored.
   bool on_ground = false;

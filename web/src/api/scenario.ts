@@ -1,6 +1,6 @@
-// A simulation that is being set up: its world, its robots and its options. Metres, radians,
-// seconds. The server accepts it as JSON, which is also a valid scenario file
-// (docs/formats/scenario.md), because JSON is YAML.
+// A simulation that is being set up: its world, its robots and its options, in metres, radians and
+// seconds. It is sent to the server as JSON. This JSON is also a valid scenario file
+// (docs/formats/scenario.md), because each JSON text is YAML.
 import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textOr } from "./json";
 import type { PedestrianSetUp } from "./pedestrians";
@@ -21,7 +21,7 @@ export interface RobotSetUp {
   model: string;
   place: Placed | null; // if null: the first free place
   behaviour: string; // name of the behaviour's offer; empty for none
-  constraint: string; // instead of a name: a constraint on the behaviour's offer
+  constraint: string; // used instead of `behaviour`: a constraint that selects an offer at the broker
   movement: "" | "planar" | "rigid"; // if empty: the movement of the model
   drive: string; // KIND[,KEY=VALUE]…; if empty: the model's drive, or else a guessed one
   namespace?: string; // namespace of its ROS 2 topics; if empty: its name

@@ -59,11 +59,11 @@ test("simulations of a crashed server are listed with their recording until they
   ];
   const host = await open([{ name: "one", place: "h:1", is_here: true, simulations: [] }], 200, lost);
   const items = () => [...host.querySelectorAll(".lost")];
-  expect(items().map((item) => item.querySelector("h2")!.textContent)).toEqual(["Ended by a crash: <i>arena</i>", "Ended by a crash: maze"]);
+  expect(items().map((item) => item.querySelector("h2")!.textContent)).toEqual(["<i>arena</i> ended because its server crashed", "maze ended because its server crashed"]);
   expect(items()[0]!.textContent).toContain("arena was lost at about 12.3 s");
   expect(items()[0]!.querySelector("a")!.getAttribute("href")).toBe("./?recording=a%20b.mcap");
   expect(items()[1]!.querySelector("a")).toBeNull();
   items()[0]!.querySelector("button")!.click();
-  await vi.waitFor(() => expect(items().map((item) => item.querySelector("h2")!.textContent)).toEqual(["Ended by a crash: maze"]));
+  await vi.waitFor(() => expect(items().map((item) => item.querySelector("h2")!.textContent)).toEqual(["maze ended because its server crashed"]));
   expect(host.querySelectorAll(".instance").length).toBe(1);
 });

@@ -37,7 +37,7 @@ function lostItem({ number, name, sentence, replay }: LostSimulation, dismiss: (
   return element(
     "li",
     { class: "card frame-item lost" },
-    element("h2", {}, `Ended by a crash: ${name}`),
+    element("h2", {}, `${name} ended because its server crashed`),
     element("p", {}, sentence),
     element(
       "div",

@@ -127,8 +127,8 @@ function singleKeysSetting(app: App): HTMLElement {
     element(
       "p",
       { class: "dim" },
-      "Press a key below to change it. Turn these off if keys are pressed by accident, for example with speech input. Arrow keys, Esc, Delete, Home, End " +
-        "and keys with Ctrl still work. This browser remembers the choice.",
+      "Press a key below to change it. Turn single-key shortcuts off if keys are pressed by accident, for example with speech input. Arrow keys, Esc, " +
+        "Delete, Home, End and keys with Ctrl still work then. This browser remembers the choice.",
     ),
   );
 }

@@ -1,4 +1,5 @@
-// Converts curves to the columns of a chart, and computes the range of their times and values.
+// Converts curves to the arrays of times and values that the chart library draws (one array is a
+// column), and computes their ranges.
 import type { Series } from "../live/Series";
 
 export interface Range {
@@ -13,8 +14,8 @@ export interface DrawnCurve {
   isDashed?: boolean; // whether the curve is of the compared recording
 }
 
-// If the distance of two values exceeds the usual distance by this factor, there is a gap in the
-// curve.
+// The curve has a gap between two samples if the time between them exceeds this number of usual
+// intervals, and also SHORTEST_GAP_S.
 const GAP_INTERVALS = 8;
 const SHORTEST_GAP_S = 1.5;
 const MARGIN = 0.06; // margin above and below, as a fraction of the range

@@ -47,7 +47,7 @@ test("a tone starts once, continues with later messages, and ends with the sound
   expect(player.playing).toBe(0);
 });
 
-test("another sound, or the same one started again, is started", () => {
+test("a new sound starts, and a sound that the robot plays again starts again", () => {
   const { player, started } = audio();
   player.play(new Map([["/a/speaker", { ...TONE, elapsed: 0.5 }]]));
   player.play(new Map([["/a/speaker", TONE]]));
@@ -56,7 +56,7 @@ test("another sound, or the same one started again, is started", () => {
   expect(player.playing).toBe(1);
 });
 
-test("of many simultaneous sounds, a few are played", () => {
+test("at most 8 of many simultaneous sounds are played", () => {
   const { player, started } = audio();
   player.play(new Map(Array.from({ length: 50 }, (_, i) => [`/${i}/speaker`, TONE])));
   expect(started).toHaveLength(8);

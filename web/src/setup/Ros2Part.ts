@@ -49,6 +49,6 @@ export function createRos2Part(app: App): Ros2Part {
 function hintFor(support: Ros2Support | null): string {
   if (support === null) return "";
   if (!support.isAvailable) return `Not available: ${support.reason || "this server does not publish to ROS 2"}.`;
-  if (support.published) return `${support.published} is published now. ROS 2 has one clock, so remove that simulation first.`;
+  if (support.published) return `${support.published} is published to ROS 2 now. A ROS 2 domain has only one /clock, so remove that simulation first.`;
   return `ROS 2 nodes can read the robots' topics and drive robots without a behaviour (${support.reach}).`;
 }

@@ -1,5 +1,5 @@
-// The preset layouts. Sizes depend on the available space: a column of facts does not grow with the
-// window.
+// The preset layouts. A side panel has a fixed width in pixels, so it does not grow with the
+// window. The view gets the remaining space.
 import type { Part, Split } from "../state/layout";
 import { VIEW } from "../state/layout";
 

@@ -158,7 +158,7 @@ test("in a recording, the complete curve replaces the played values", () => {
   expect(feed.isThinned(id)).toBe(true);
 });
 
-test("an expression is computed at each value of its fields, from the newest of the others", () => {
+test("an expression is computed whenever one of its fields gets a value, with the newest values of its other fields", () => {
   const text = "hypot({a x}, 3) + {/a/sonar range} * {simulation late_steps}";
   const { feed, topics, store, takePoses } = feeding([curve({ kind: "expression" }, text)]);
   expect(topics.read.sort()).toEqual(["/a/sonar", "/gsv/poses"]);

@@ -144,9 +144,9 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
   };
   const measuring = element(
     "label",
-    { class: "check-line", title: `Without this, only topics that the page reads have rates. At most ${MAX_MEASURED} topics are measured.` },
+    { class: "check-line", title: `Subscribe to all listed topics (at most ${MAX_MEASURED}) to measure how often their messages arrive. Otherwise, the page measures only topics that it shows.` },
     measure,
-    "Measure all listed topics",
+    "Measure the rates of all listed topics",
   );
   return { body: element("div", { class: "topics-body" }, list.element, message), tools: [list.filter, measuring], whileOpen };
 }
