@@ -13,7 +13,7 @@ namespace {
 using DriverClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGatherPeriod{500};
-// after this time without progress, the driver prints the reason
+// if there is no progress for this time, the driver prints why the tasks wait
 constexpr auto kSilence = std::chrono::seconds(30);
 constexpr std::size_t kFewTasks = 1000;
 // a run becomes an error after tasks have ended this many times during the run
@@ -129,8 +129,9 @@ class Drive {
     return missed != missed_queries_.end() && missed->second >= kMissedQueriesUntilGone;
   }
 
-  // Whether all runs are in submitted tasks, and the state of every task is certain. A task that is
-  // missing from one query may still be in the queue; the next query decides.
+  // Whether all runs are in submitted tasks, and the state of every task is certain. A task that
+  // one query does not list may still be in the queue. Only if the next query does not list it
+  // either, the task counts as lost.
   bool IsSubmissionComplete() const {
     return !is_waiting_to_submit_ &&
            std::none_of(missed_queries_.begin(), missed_queries_.end(), [](const auto& missed) {

@@ -58,8 +58,8 @@ SolidMoments Of(const Cone& cone) {
 
 SolidMoments Of(const Plane&) { return {}; }
 
-// For a tetrahedron with a corner at the origin, the integral of x_i x_j is
-// V/20 (sum of v_i v_j over the other corners v + (sum of v_i) (sum of v_j)).
+// The tetrahedron has the volume V, one corner at the origin, and three other corners v. The
+// integral of x_i x_j is V/20 (sum of v_i v_j + (sum of v_i) (sum of v_j)), each sum over v.
 void AddTetrahedron(const Vector3& a, const Vector3& b, const Vector3& c, SolidMoments& sum) {
   const double volume = Dot(a, Cross(b, c)) / 6;
   const Vector3 total = a + b + c;

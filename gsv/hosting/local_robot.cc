@@ -105,7 +105,7 @@ class LocalPort final : public SensorPort {
 }  // namespace
 
 void LocalRobot::Note(const base::Error& error) {
-  // If the run has ended, this is not an error.
+  // The error kEnded only says that the run is over, so it is not stored.
   if (is_running_.exchange(false) && error.code != base::ErrorCode::kEnded) {
     error_ = error.Sentence();
   }
@@ -155,8 +155,8 @@ base::Status LocalRobot::CommandDevice(const MountedSensor& actuator,
 
 base::Result<sensing::Reading> LocalRobot::ReadBlocked(const MountedSensor& sensor) {
   GSV_CHECK(suspend_);
-  // `reading` is on the heap: the behaviour may end while the image is made, and then this stack
-  // frame no longer exists.
+  // `reading` is on the heap, because the behaviour may end while the image is rendered. Then this
+  // stack frame no longer exists.
   auto reading = std::make_shared<base::Result<sensing::Reading>>();
   turn_->Block([reading, agent = agent_, name = sensor.name()] { *reading = agent->Read(name); });
   suspend_();

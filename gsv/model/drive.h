@@ -15,7 +15,7 @@ enum class DriveKind {
   kSynchro,       // all wheels turn and steer together, so the base moves along its heading
   kAckermann,     // steered front wheels: cannot turn on the spot
   kMecanum,       // four wheels with rollers; can also move sideways
-  kVelocity,      // follows any velocity in the plane, without a model of its wheels
+  kVelocity,      // omnidirectional: follows any velocity in the plane
   kNone,          // the base does not move; only joints can be commanded
 };
 

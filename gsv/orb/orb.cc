@@ -79,8 +79,8 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"oneCallPerConnection", "1"},
       {"supportPerThreadTimeOut", "1"},
       {"lcdMode", "0"},
-      // The setting skips bytes after a request's arguments. In strict mode, omniORB 4.2.5 would
-      // close the connection and leak about 9 kB.
+      // Without strict mode, omniORB skips surplus bytes after a request's arguments. In strict
+      // mode, omniORB 4.2.5 would close the connection and leak about 9 kB.
       {"strictIIOP", "0"},
       {"traceLevel", "0"},
       {"unixTransportPermission", "0600"},

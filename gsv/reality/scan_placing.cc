@@ -31,7 +31,8 @@ base::Result<OccupancyMap> SearchMap(const model::WorldDescription& world, doubl
   return MapOfWorld(world, {kFineCell, height, 1});
 }
 
-// Improves a pose until the exact ranges fit the scan. Differences above kWild count as kWild.
+// Improves a pose until the exact ranges at this pose fit the scan. A range difference above kWild
+// counts as kWild, so that outliers have a limited effect.
 class PoseRefiner {
  public:
   PoseRefiner(SimulatedDevice& exact, double max_range) : exact_(exact), max_range_(max_range) {}
@@ -171,7 +172,8 @@ Log WithBases(Log log, const CompareOptions& options) {
   const std::vector<TimedPose> path = ReckonedPath(log, options.wheel_distance, start);
   for (RangeScan& scan : log.scans) {
     scan.base = PoseAt(path, scan.time);
-    // Scans before the first wheel reading or after the last one get the pose of that reading.
+    // A scan before the first wheel reading gets the pose of the first reading. A scan after the
+    // last wheel reading gets the pose of the last reading.
     if (!scan.base) scan.base = scan.time < path.front().time ? path.front() : path.back();
   }
   return log;

@@ -250,7 +250,8 @@ bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapsho
       continue;
     }
     slow_.Drain();
-    robot = nullptr;  // this releases the names of its topics
+    // Destroys the old topics first, because the new topics may have the same names.
+    robot = nullptr;
     robot = std::make_unique<RobotTopics>(context, body, NamespaceOf(body.name), takes_commands);
     has_changed = true;
   }

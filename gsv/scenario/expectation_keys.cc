@@ -147,8 +147,8 @@ class FormulaReader {
   Formula Until(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kUntil, Several(node, m, key, depth, 2));
   }
-  // Reads `first` before `second`: `second` must not occur before `first` has occurred without
-  // `second`.
+  // Reads `before: [first, second]`: at some instant, `first` must hold, and `second` must not hold
+  // at this instant or earlier.
   Formula Before(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     auto parts = Several(node, m, key, depth, 2);
     Formula none_of_second = Not(parts[1]);

@@ -47,7 +47,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);
     const BehaviourIdentity identity{described.name, PlaceOf(described), described.time_managed};
     orb::LimitCalls(offer.object, kCreateTimeout);
-    // counted before the call, so that concurrent calls choose other programs
+    // the robot is counted before the call, so that concurrent calls choose other programs
     CountRobot(identity.place, +1);
     auto behaviour = orb::Call(identity.name + " on " + identity.place, [&] {
       const sba::AgentBehaviourFactory_var factory =

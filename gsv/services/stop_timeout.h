@@ -9,9 +9,9 @@
 
 namespace gsv::services {
 
-// All behaviours of a process share one object. Usually each call has the normal limit. When the
-// process ends, Shorten() is called. After it, all calls together have one second, so that a
-// behaviour that does not return cannot delay the end.
+// All behaviours of a process share one StopTimeout. Usually each call has the normal limit. When
+// the process ends, it calls Shorten(). Then all calls together have one second, so that a
+// behaviour that does not return cannot delay the end of the process.
 class StopTimeout {
  public:
   using Clock = std::chrono::steady_clock;

@@ -7,8 +7,9 @@
 namespace gsv::world {
 namespace {
 
-// Whether the model is fixed to the world and has joints that move. Such a model moves even without
-// collisions. Without a joint to the world, it would fall through the ground.
+// Whether the model is fixed to the world and has movable joints. Rigid-body dynamics moves such a
+// model even if it has no collisions. A model that is not fixed to the world needs collisions,
+// because it would fall through the ground without them.
 bool IsMechanism(const model::Model& model) {
   const auto is_to_world = [](const model::Joint& joint) { return joint.parent < 0; };
   const auto is_movable = [](const model::Joint& joint) {

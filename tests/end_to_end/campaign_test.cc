@@ -49,7 +49,8 @@ TEST_F(CampaignCommand, AnotherDriverContinuesAKilledOneAndRunsCountOnce) {
   EXPECT_GE(left["done"], 1);
   EXPECT_LT(left["done"], 8);
   const Outcome rest = Campaign("run", {"--json", "--jobs", "2"});
-  EXPECT_EQ(rest.ending, "exit code 1") << rest.err;  // x = 1 is out of bounds
+  // The runs with x = 1 fail, because the robot starts out of bounds.
+  EXPECT_EQ(rest.ending, "exit code 1") << rest.err;
   const auto status = rest.LastLine();
   EXPECT_EQ(status["done"], 8);
   EXPECT_EQ(status["passed"], 4);

@@ -30,7 +30,7 @@ inline double Milliseconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-// The processor time of all threads of a process (default: this one), in s.
+// Returns the processor time in s that all threads of a process (default: this process) have used.
 inline double ProcessorTime(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   timespec now;
   clock_gettime(clock, &now);

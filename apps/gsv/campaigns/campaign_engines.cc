@@ -25,7 +25,7 @@ using campaign::Attempt;
 using campaign::RunResult;
 using campaign::Spool;
 
-// number of concurrent runs on servers, including the runs that wait for a free slot of a server
+// maximum number of runs that are started on servers or wait for a free slot of a server
 constexpr int kRunsWithServers = 64;
 
 int Processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

@@ -314,7 +314,7 @@ void AddControlCommands(const CommandLine& line) {
       [](sba::Simulation_ptr simulation, const Arguments& given) { simulation->step(given.steps); },
       &AddStepCount, true);
   AddSteering(
-      line, "real-time-factor", "Set the target real-time factor of a simulation in real time",
+      line, "real-time-factor", "Set the target real-time factor of a simulation in real-time mode",
       [](sba::Simulation_ptr simulation, const Arguments& given) {
         simulation->set_factor(given.factor);
       },

@@ -83,8 +83,8 @@ void LostSimulations::Keep(std::vector<LostSimulation> lost) {
 
 void LostSimulations::Examine(const std::stop_token& stop) {
   for (auto& [number, simulation] : List()) {
-    // Reading a recording may take long, so a server that is ending reports the simulation without
-    // its recorded time.
+    // Reading a recording may take long. So if this server is ending, it does not read the
+    // recording, and the crash report has no recorded time.
     if (!simulation.recording.empty() && !stop.stop_requested()) {
       simulation.whole_until_s = WholeUntil(simulation.recording);
     }

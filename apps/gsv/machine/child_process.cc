@@ -33,8 +33,8 @@ struct Ends {
   dup2(ends.output, STDOUT_FILENO);
   if (quiet) dup2(nothing, STDERR_FILENO);
   if (ends.errors >= 0) dup2(ends.errors, STDERR_FILENO);
-  // In a separate process group, the child does not get Ctrl-C of the terminal. The parent gets it
-  // and ends its children in order.
+  // In a separate process group, the child gets no SIGINT when the user presses Ctrl-C. Only the
+  // parent gets SIGINT, and ends its children in order.
   setpgid(0, 0);
   sigset_t none;
   sigemptyset(&none);

@@ -69,10 +69,11 @@ base::Status EnterSandbox(const Sandbox& bounds) {
   const bool is_bound = (base::kReservesAddressSpace || Bound(RLIMIT_AS, bounds.memory_bytes)) &&
                         Bound(RLIMIT_CPU, static_cast<rlim_t>(bounds.processor_time.count())) &&
                         Bound(RLIMIT_FSIZE, 0) && Bound(RLIMIT_CORE, 0);
-  // A library may write a log. This write then fails, and the kernel does not kill the process.
+  // A library may try to write a log file. The write then fails because of the size limit. If the
+  // signal were not ignored, the kernel would kill the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  // If memory is exhausted, the process exits. Readers of files would report an exception as an
-  // error in the file.
+  // If memory is exhausted, the process exits. It does not throw bad_alloc, because a reader of
+  // files would report the exception as an error in the file.
   std::set_new_handler([] { _exit(kWantsMoreMemory); });
   std::vector<sock_filter> filter = Filter();
   const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};

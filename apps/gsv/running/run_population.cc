@@ -52,8 +52,8 @@ base::Status OverrideMovements(const RunOptions& options, const Simulation& simu
                     "--movement " + *left.begin());
 }
 
-// Sets the behaviour of each robot. The first of these applies: the robot's own behaviour on the
-// command line, the behaviour for all robots, the behaviour in the scenario.
+// Sets the behaviour of each robot. A behaviour for this robot on the command line has precedence,
+// then the behaviour for all robots, then the behaviour in the scenario.
 base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRobot>& robots) {
   std::set<std::string> names;
   for (PlacedRobot& robot : robots) {

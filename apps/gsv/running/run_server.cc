@@ -73,8 +73,9 @@ Result<RunOptions> OptionsOf(const RunRequest& request) {
   return ParseArguments(arguments);
 }
 
-// A broker is not needed for behaviours in this process and for robots without behaviours. Other
-// programs need not find such a run, because it is a child process of `gsv test` or of a campaign.
+// A run needs no broker if its behaviours run in this process or if its robots have none. Other
+// programs need not find the run through a broker, because it is a child process of `gsv test` or
+// of a campaign.
 bool NeedsBroker(const RunOptions& options) {
   if (!options.edits.empty() || options.runtime.viewer) return true;
   const bool has_option = !options.behaviour.empty() || !options.behaviour_of.empty();

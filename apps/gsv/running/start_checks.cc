@@ -25,7 +25,7 @@ constexpr double kRayHeight = 0.3;  // height above the floor of the rays that d
 constexpr int kDirections = 64;
 // The world is enclosed if at least this fraction of the rays from its centre hit a wall.
 constexpr double kEnclosed = 0.9;
-// A start is outside if a smaller fraction of the rays from it hit a wall.
+// A start is outside of the walls if less than this fraction of the rays from the start hit a wall.
 constexpr double kOutside = 0.75;
 constexpr double kMaxDrop = 100;  // maximum depth of the search for a floor, m
 constexpr double kSight = 1000;   // in m

@@ -129,8 +129,8 @@ base::Status BehaviourLauncher::Ensure(const std::string& behaviour, int program
       output_.BeginOutput(*child);
       continue;
     }
-    // The output of a program may end a moment before the program itself, so this waits for the
-    // end of the program.
+    // The output of a program may end a moment before the program does, so wait for the end of the
+    // program.
     const std::string ending = child->AwaitEnd(kEndOfOutput);
     if (ending.empty()) {
       return base::Fail(base::ErrorCode::kBehaviour, "did not offer its behaviour in time",

@@ -270,8 +270,8 @@ base::Result<ros2::Options> Ros2Access::OptionsOf(const scenario::Scenario& scen
   if (const auto support = Support(); !support.is_available) {
     return base::Fail(base::ErrorCode::kUnavailable, support.reason);
   }
-  // A scenario cannot change the range of the server, because a user of the viewer could then make
-  // topics visible to other machines.
+  // A scenario cannot change the discovery range of the server. Otherwise a user of the viewer
+  // could make topics visible to other machines.
   const bool is_wide = ros2::IsExposed(reach_);
   const std::string& range = scenario.ros2->range;
   if (!range.empty() && (range == "subnet") != is_wide) {

@@ -24,7 +24,8 @@ using Seconds = std::chrono::duration<double>;
 using TestClock = std::chrono::steady_clock;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(100);
-constexpr double kExtraTime = 30;  // wall-clock time after the timeout of the child itself, s
+// A child that has not ended this many seconds after its own timeout is killed.
+constexpr double kExtraTime = 30;
 constexpr std::size_t kMaxErrorLength = 4000;  // maximum number of characters of the child's errors
 
 struct ChildOutcome {

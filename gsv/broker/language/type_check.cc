@@ -6,8 +6,7 @@
 namespace gsv::broker {
 namespace {
 
-// The kind of a literal string of one character is kCharOrString, because such a literal may also
-// be a char.
+// A literal of one character, such as 'a', is a string or a char. So its kind is kCharOrString.
 enum class Kind { kUnknown, kBoolean, kNumber, kString, kChar, kCharOrString, kSequence, kOther };
 
 Kind KindOf(Scalar scalar) {

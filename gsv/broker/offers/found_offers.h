@@ -1,6 +1,6 @@
-// The offers that a query found, in order. The list points to offers in views and has no shared
-// pointer to each of them. So a query that finds many offers does not access the memory of each
-// offer to count a reference.
+// The offers that a query found, in order. The list has plain pointers to offers in views, and
+// keeps the views alive. With a shared pointer for each offer, a query would have to write the
+// reference count of each found offer.
 //
 // Threads  not safe. The memory of KeptOffers may be released by any thread.
 #pragma once

@@ -27,7 +27,8 @@ std::vector<Choice> OfferChunk::Choose(const ColumnConstraint& constraint) const
   }
   std::vector<Choice> choices = constraint.Choose(columns, offers_.size());
   if (IsPlain()) return choices;
-  // The columns cannot decide for a proxy, which may match every constraint.
+  // A proxy may match every constraint, whatever its properties are. So the columns cannot decide
+  // whether it matches.
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (offers_[i]->proxy != nullptr) choices[i] = Choice::kUnknown;
   }

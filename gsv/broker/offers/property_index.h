@@ -23,9 +23,9 @@ class PropertyIndex {
   void Insert(const OfferPtr& offer);
   void Remove(const Offer& offer);
 
-  // Returns, in the order of export, the offers whose property is equal to `value`. It also returns
-  // offers for which the index cannot decide this: those with a dynamic property, and proxies that
-  // match every query.
+  // Returns, in the order of export, the offers whose property is equal to `value`. Also returns
+  // the offers whose property is dynamic, and proxies that match every query, because the index
+  // cannot decide for them.
   Offers Find(const ScalarValue& value) const;
   // The number of offers that Find() returns.
   std::size_t Count(const ScalarValue& value) const;

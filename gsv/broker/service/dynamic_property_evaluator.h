@@ -25,8 +25,8 @@ class DynamicPropertyEvaluator : public DynamicEvaluator {
                                 Clock::time_point deadline) override;
 
  private:
-  // The property's name, and the service and arguments of the call as CDR. Equal calls have equal
-  // questions.
+  // The key of a cached answer: the property's name, and the service and arguments of the call as
+  // CDR.
   using Question = std::pair<std::string, std::string>;
   struct Answer {
     std::optional<Value> value;

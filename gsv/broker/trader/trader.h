@@ -120,7 +120,7 @@ class Trader {
   Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
-  // ---- Proxy offers, which the members for offers above do not affect
+  // ---- Proxy offers. The members for offers above do not find or change them.
 
   // Exports a proxy offer without checking `target`, the Lookup of another trader. Returns the
   // proxy's id.

@@ -95,8 +95,8 @@ class Trader::Search {
  private:
   // Returns false when the limit of searched or found offers is reached.
   bool Scan(const OfferChunk& chunk) {
-    // If there is a limit on the number of offers, the result for an offer depends on every offer
-    // before it.
+    // If the number of searched offers is limited, the result for an offer depends on the offers
+    // before it. So the offers are evaluated one by one, without columns.
     const std::vector<Choice> choices =
         candidates_.cut ? std::vector<Choice>() : chunk.Choose(column_constraint_);
     const auto order = ordered_by_ != nullptr ? chunk.ColumnOf(*ordered_by_) : nullptr;

@@ -34,7 +34,7 @@ class MessageAssembly {
 
   // The complete message.
   std::string& message() { return message_; }
-  // Forgets the message, to receive the next one.
+  // Removes the message from the buffer, so that the next message can be received.
   void Reset();
 
  private:

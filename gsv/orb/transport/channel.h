@@ -46,7 +46,7 @@ class PlainChannel final : public Channel {
   int Send(const void* buffer, std::size_t size, const omni_time_t& deadline) override;
 
  private:
-  // Returns like Receive(), with 0 after `until`. The thread does not sleep.
+  // Polls without sleeping. Returns the same values as Receive(), and 0 after `until`.
   int PollForBytes(void* buffer, std::size_t size, std::chrono::steady_clock::time_point until);
   int SleepForBytes(void* buffer, std::size_t size, const omni_time_t& deadline);
 

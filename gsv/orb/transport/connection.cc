@@ -135,7 +135,7 @@ int Connection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline
 int Connection::ReadPiece(const omni_time_t& deadline) {
   MessageAssembly& assembly = incoming_.assembly();
   const auto room = assembly.Next();
-  // The rest of a message usually arrives with its header.
+  // The rest of a message usually arrives with its header, so it is first read without waiting.
   ssize_t received = assembly.empty() ? -1 : channel_->TryReceive(room.bytes, room.size);
   if (received < 0) received = channel_->Receive(room.bytes, room.size, deadline);
   if (received <= 0) return static_cast<int>(received);

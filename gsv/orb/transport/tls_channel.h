@@ -1,8 +1,8 @@
 // TLS over one connection. It fails unless both peers show a certificate of the same authority.
 //
 // Protocol TLS 1.2 and 1.3 (RFC 5246, RFC 8446), without resumption and renegotiation: every
-//          connection has a full handshake. The name of the host is not compared with that of the
-//          certificate: any certificate of the authority is accepted for any host.
+//          connection has a full handshake. The host name in the certificate is not checked: any
+//          certificate of the authority is accepted for any host.
 // Threads  any; one thread may read while another one writes, which OpenSSL alone does not allow.
 #pragma once
 

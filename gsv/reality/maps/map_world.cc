@@ -97,8 +97,8 @@ class Slicer {
                cell(place.x, map_.origin_x, map_.width)] = Cell::kOccupied;
   }
 
-  // Whether the middle of a cell is inside a solid, so that a vertical ray upwards leaves the
-  // solid.
+  // Whether the middle of a cell is inside a solid. A vertical ray upwards from there hits the
+  // surface of the solid from inside.
   bool IsSolid(const geometry::Vector3& place) const {
     const auto middle = [&](double along, double origin) {
       return origin + (std::floor((along - origin) / map_.resolution) + 0.5) * map_.resolution;

@@ -70,7 +70,8 @@ class RecordingInfoTest : public testing::Test {
   const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
-// A user's stop may arrive during a step. Then one run may take one step more than another run.
+// The time of a user's action is not the end of the steps: a stop may arrive during a step, so that
+// one run takes one step more than another run.
 TEST(EndOfSteps, IgnoresUserActionsAndWallClockTopics) {
   Bytes bytes;
   MemorySink sink(bytes);

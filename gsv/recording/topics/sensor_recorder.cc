@@ -18,7 +18,8 @@ namespace {
 constexpr int kSlowAtOnce = 16;
 constexpr std::size_t kMaxSlowSensors = 64;
 
-// Returns the smallest multiple of the sensor's period that does not exceed `rate`, in Hz.
+// Returns the period of the recorded readings: the smallest multiple of the sensor's period that
+// gives at most `rate` readings per second.
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
   if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
   const base::SimTime own = base::FromSeconds(1 / description.update_rate);

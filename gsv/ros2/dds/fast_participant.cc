@@ -181,7 +181,8 @@ base::Status UseTransport(const ParticipantOptions& options, fast::DomainPartici
 }
 
 // Chooses the index of a participant, which determines its ports: the lowest index whose ports are
-// free. Without this choice, Fast DDS may take ports at which no participant looks, or none.
+// free. If Fast DDS chose the index, other participants might not search the participant's ports,
+// or it might have no ports.
 class ParticipantIndex {
  public:
   ParticipantIndex(std::uint32_t domain, bool on_loopback) : domain_(domain) {

@@ -31,8 +31,8 @@ constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kCycloneHeader = 16;
 
 // This number of replies is kept for clients that send requests without waiting for replies, or
-// that do not run for some seconds. If a client's socket had no space for a reply, it is sent again
-// after the next heartbeat.
+// that do not run for some seconds. If a client's socket had no space for a reply, the reply is
+// sent again after the next heartbeat.
 constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
 // If replies may be large, fewer of them are kept, to limit the memory.
 constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
