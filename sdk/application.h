@@ -60,8 +60,10 @@ struct SimulationState {
   SimTime time{0};
   double real_time_factor = 0;
   std::uint64_t late_steps = 0;
+  // The robot that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s";
+  // empty if there is none.
   std::string waiting_for;
-  std::string failure;
+  std::string failure;  // why the simulation failed; empty if it has not
   std::vector<RobotState> robots;
 };
 

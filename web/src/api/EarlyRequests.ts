@@ -34,7 +34,8 @@ export class EarlyRequests {
         this.fetchPage(this.url(`api/models/${encodeURIComponent(model)}.glb`)).catch(() => {});
       }
     } catch {
-      // Ignored: the page repeats a failed request, which only takes longer.
+      // Ignored: the page itself sends the failed request again later, so the page only opens more
+      // slowly.
     }
   }
 

@@ -35,8 +35,8 @@ export class JsonServer {
     return new URL(path, this.base).href;
   }
 
-  // Sets the path, below the root, to which all further requests are relative. Empty means the
-  // root.
+  // Sets the path below the root to which the paths of all later requests are relative. If it is
+  // empty, they are relative to the root.
   moveTo(path: string): void {
     this.base = new URL(path, this.root).href;
   }

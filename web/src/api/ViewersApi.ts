@@ -10,7 +10,9 @@ export interface Person {
   simulation: string; // the simulation that this viewer sees; empty if there is none
   holds: boolean; // whether this viewer has control of the simulation
   asks: number; // position in the queue for control, from 1; 0 if not waiting
-  passesIn: number; // for the first in the queue: seconds until this viewer gets control if nobody answers
+  // s: for the first in the queue, the time until this viewer gets control if the holder does not
+  // answer.
+  passesIn: number;
 }
 
 // All viewers of a server, and which of them is this page.

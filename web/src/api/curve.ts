@@ -13,7 +13,9 @@ export interface CurveOf {
 export interface WholeCurve {
   times: Float64Array; // s, simulated, ascending
   values: Float64Array; // NaN means a missing echo or a lost value
-  isWhole: boolean; // true: every sample is there; false: the minimum and the maximum of equal time intervals
+  // Whether `values` has every sample; if not, it has the minimum and the maximum in each of many
+  // equal time intervals.
+  isWhole: boolean;
   done: boolean; // whether the server has finished reading the recording
   problem: string; // why values are missing; empty if none are
 }

@@ -27,10 +27,15 @@ export interface SimulationStatus {
   targetFactor: number;
   realTimeFactor: number;
   lateSteps: number;
-  waitingFor: string; // empty: nobody
-  failure: string; // empty unless the simulation has failed; missing in the live stream
+  // The robot that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s";
+  // empty if there is none.
+  waitingFor: string;
+  // Empty unless the simulation has failed; only HTTP responses report it, the live stream does
+  // not.
+  failure: string;
   robots: RobotStatus[];
-  replay: Replay | null; // null unless this is a replay; missing in the live stream
+  // Null unless this is a replay; only HTTP responses report it, the live stream does not.
+  replay: Replay | null;
 }
 
 export interface SimulationSummary {

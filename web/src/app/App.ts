@@ -100,7 +100,7 @@ export class App {
     return this.command(action, (simulation) => this.api.act(simulation, action, count));
   }
 
-  // Sets the target real-time factor of a simulation in real time.
+  // Sets the target real-time factor of a simulation in real-time mode.
   setFactor(factor: number): Promise<void> {
     return this.command("factor", (simulation) => this.api.setFactor(simulation, factor));
   }

@@ -171,7 +171,8 @@ export class CompareControl {
     if (plays && phase !== "running") await api.act(simulation, phase === "created" ? "start" : "resume");
     else if (!plays && phase === "running") {
       await api.act(simulation, "pause");
-      this.movesAgain = true; // it played on between the seek and the pause
+      // The replay advanced between the seek and the pause, so it must seek again.
+      this.movesAgain = true;
     }
   }
 }

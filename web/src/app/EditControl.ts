@@ -13,10 +13,10 @@ import { inOrder, together } from "./edits";
 import { notify, offer } from "./notices";
 
 const MOST_EDITS = 100;
-const STANDS_M = 1e-6; // if a body moved by less, it was only rotated
+const STANDS_M = 1e-6; // an edit that moves a body by less only rotates it
 const SHOWN_WITHIN_MS = 10_000;
 const SHOWN_POLL_MS = 20;
-const PASTED_AT_M = 0.5; // offset of a copy from the original, along x and y
+const PASTED_AT_M = 0.5; // offset of a pasted copy from the original, along x and along y
 
 // Provides the reported poses of bodies.
 export interface Bodies {
@@ -393,7 +393,8 @@ export class EditControl {
     });
   }
 
-  // A selected object stays selected, unless it was added for a robot: then the robot is selected again.
+  // A selected object stays selected, unless it was added for a robot: then the robot is selected
+  // again.
   private end(): void {
     const object = this.store.get().editing?.chosen ?? null;
     if (object !== null) this.selectRobotBefore();
@@ -412,8 +413,8 @@ export class EditControl {
     return this.store.get().scene?.bodies.some(({ name }) => name === body) ?? false;
   }
 
-  // Offers to resume the simulation after an edit for which it was paused. The offer ends when the simulation is no
-  // longer paused, or is edited again.
+  // Offers to resume the simulation after an edit for which it was paused. The offer ends when the
+  // simulation is no longer paused, or is edited again.
   private offerToResume(): void {
     const isStillPaused = ({ status, editing }: State) => status?.phase === "paused" && editing === null;
     if (!this.hasPaused || !isStillPaused(this.store.get())) return;
@@ -451,13 +452,14 @@ export class EditControl {
   }
 }
 
-// Returns the place of a robot: upright on its wheels. Requests cannot specify another orientation.
+// Returns the place without roll and pitch: a request that adds or moves a robot can specify only
+// its yaw.
 function upright(place: BodyPlace) {
   return { x: place.x, y: place.y, yaw: place.yaw, ...(place.z !== undefined && { z: place.z }) };
 }
 
-// Returns the place of an object, which keeps its orientation. If it is only rotated, it also keeps
-// its height.
+// Returns the place with the roll and pitch that the object had before the edit. If the object is
+// only rotated, it also keeps its height.
 function asObject(place: Placed, before: BodyPlace, isTurn: boolean): BodyPlace {
   const { roll = 0, pitch = 0, z } = before;
   return { ...place, roll, pitch, ...(isTurn && z !== undefined && { z }) };

@@ -50,7 +50,8 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
     ...(beams === null ? [] : [beams]),
     ...(needsFrames && scene ? [FRAMES_TOPIC] : []),
     ...(mayHaveRadio ? [RADIO_TOPIC] : []),
-    // A recording contains only the contacts that bumpers report, and the beginning of others.
+    // A recording contains the contacts of bumpers, but of other contacts only the beginning, so
+    // they cannot be drawn while they last.
     ...(shown.contacts && scene && replay === null ? [CURRENT_CONTACTS_TOPIC] : []),
     ...readings.map(({ topic }) => topic),
   ];

@@ -12,8 +12,12 @@ import type { Session } from "./Session";
 import { notify } from "./notices";
 
 const POLL_MS = 2000;
-const OVERLAP_S = 1; // events of this time are requested again, because some may have arrived late
-const READER_MS = 10_000; // for this time, curves are read from the same replay of the past
+// Each request repeats the last second, because the server may have received some of its events
+// late.
+const OVERLAP_S = 1;
+// A replay of the past that provides curves is used for this time; then a new replay is opened,
+// which contains more of the run.
+const READER_MS = 10_000;
 
 type PastApi = Pick<SimulationApi, "kept" | "eventsFrom" | "another">;
 type PastSession = Pick<Session, "enterPast" | "goLive">;

@@ -35,8 +35,8 @@ export class RecordControl {
     );
   }
 
-  // One press ends a recording only if this page has started it, because a command line or another
-  // viewer may need other recordings. Before it ends such a recording, the page asks the user.
+  // Starts or ends the recording. If this page has not started the recording, it asks the user
+  // before it ends it, because a command line or another viewer may need it.
   press(): void {
     const { recording } = this.store.get();
     if (recording?.isOn && recording.path !== this.startedHere) this.store.set({ stopRecordingAsked: true });

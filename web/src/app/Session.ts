@@ -79,7 +79,8 @@ type LayoutMessage = Pick<PosesMessage, "layout_version">;
 
 export class Session implements TopicSource, LiveViewSource {
   private client: LiveClient | null = null;
-  private lasting = ""; // the server's sentences on the connection
+  // The server's report of a problem of the connection; empty if there is none.
+  private lasting = "";
   private readonly slowPage = new SlowPage(
     () => this.client?.received ?? 0,
     (isSlow) => this.store.set({ connectionProblem: isSlow ? SLOW_PAGE : this.lasting }),
@@ -93,8 +94,9 @@ export class Session implements TopicSource, LiveViewSource {
   private sceneFailedAtMs = -Infinity;
   private wasOpen = false;
   private hasOpened = false; // whether the requested recording was opened
-  private instant: number | null = null; // simulated time, s, at which a replay is to continue
-  private newsSince = Infinity; // s, simulated
+  // s, simulated: the time to which the replay seeks after the page has connected again.
+  private instant: number | null = null;
+  private newsSince = Infinity; // s, simulated; older events are not shown as notices
   // While the page changes between a run and its past, a closed stream is no lost connection.
   private isSwitching = false;
   private readonly topicRequests: TopicRequests;
@@ -277,7 +279,8 @@ export class Session implements TopicSource, LiveViewSource {
     return true;
   }
 
-  // If the page itself reads too slowly for the server, this is the problem, and not the connection.
+  // Shows a problem of the connection. While there is one, also finds out whether in fact this page
+  // reads too slowly; if so, shows that problem instead.
   private showLasting(sentence: string): void {
     this.lasting = sentence;
     if (sentence !== "") return this.slowPage.start();
@@ -289,7 +292,8 @@ export class Session implements TopicSource, LiveViewSource {
     try {
       this.store.set({ abilities: await this.api.setUp.abilities() });
     } catch {
-      // Until the answer arrives, the page offers no action that the server may not support.
+      // Ignored: without the answer, the page does not offer the actions that some servers do not
+      // support.
     }
   }
 

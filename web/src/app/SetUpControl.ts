@@ -48,7 +48,8 @@ export class SetUpControl {
     await this.hold(async () => {
       const [worlds, models] = await Promise.all([this.api.worlds(), this.api.models()]);
       const world = worlds.includes(FIRST_WORLD) ? FIRST_WORLD : (worlds[0] ?? "");
-      // The user may have dropped a world file during the request, so a chosen world is kept.
+      // If the user has chosen a world during the request (by dropping a world file on the page),
+      // it is kept.
       this.patch(({ scenario }) => ({ worlds, models, scenario: { ...scenario, world: scenario.world || world } }));
     });
     await this.preview();

@@ -1,15 +1,17 @@
-// Whether this page, and not the connection, is too slow for what the server sends. The server
-// cannot distinguish the two: when a page reads late, its browser confirms late.
-//
-// A busy page runs its timers late, and then receives much at once, because the messages waited in
-// the browser. Over a slow connection, they do not wait there.
+// Finds out whether this page, and not the connection, is too slow for what the server sends. The
+// server cannot distinguish the two cases: in both, the browser confirms received data late. In a
+// busy page, timers run late and then the page receives many bytes at once, because the browser has
+// stored the messages. Over a slow connection, the browser has nothing to store.
 
 const TICK_MS = 100;
-const WINDOW_MS = 8000; // the judgement follows from the ticks in this time
-const DECIDE_MS = 2000; // after this time there is a judgement
-const HOLD_MS = 10_000; // a slow page counts as slow for this time, because the server reports the recovery later
-const MIN_LATE_SHARE = 1 / 3; // delay of a busy page's ticks, as a fraction of the time
-const MIN_BYTES = 32 << 10; // bytes that a busy page receives between two ticks, on average
+const WINDOW_MS = 8000; // a judgement uses the ticks of this period
+const DECIDE_MS = 2000; // time from start() to the first judgement
+// The page counts as slow until this long after it was last slow, because the server reports late
+// that the connection is good again.
+const HOLD_MS = 10_000;
+// Minimum sum of the ticks' delays in a busy page, as a fraction of the period.
+const MIN_LATE_SHARE = 1 / 3;
+const MIN_BYTES = 32 << 10; // minimum bytes that a busy page receives between two ticks, on average
 
 interface Tick {
   at: number; // ms
@@ -24,8 +26,8 @@ export class SlowPage {
   private began = 0; // ms
   private lastSlow = -Infinity; // ms
 
-  // `received`: the number of bytes that the page has received. `onJudged` is called with each
-  // judgement while this measures.
+  // `received` returns the number of bytes that the page has received. `onJudged` is called with
+  // each judgement between start() and stop().
   constructor(
     private readonly received: () => number,
     private readonly onJudged: (isSlow: boolean) => void,

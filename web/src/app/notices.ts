@@ -5,7 +5,8 @@ import type { Store } from "../state/Store";
 const LONGEST_LIST = 4;
 const NOTE_MS = 6000;
 const ERROR_MS = 12_000;
-const READING_MS = 60; // for each character: long messages stay as long as a slow reader needs
+// Additional time for each character, so that a slow reader can finish a long message.
+const READING_MS = 60;
 
 let nextId = 1;
 

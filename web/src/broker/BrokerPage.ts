@@ -92,7 +92,8 @@ export class BrokerPage {
     }
     this.heading.textContent = type.name;
     this.declared.replaceChildren(declaration(type));
-    this.answer.replaceChildren(); // the offers on the page belong to another type
+    // The offers that are still shown belong to the type chosen before.
+    this.answer.replaceChildren();
     await this.find();
   }
 

@@ -5,7 +5,9 @@ import type { Side } from "./camera";
 import { FIRST_SIDE, PLACING, imageUrl, turned, zoomed } from "./camera";
 
 const ATTRIBUTES = ["src", "simulation", "eye", "target", "follow", "camera", "fov", "quality", "fps", "token", "label"] as const;
-const STEADY_MS = 400; // after this time without a gesture, a stream replaces the single images
+// While the user moves the camera, the page requests single images; a stream starts this long after
+// the last movement.
+const STEADY_MS = 400;
 const RETRY_MS = 2000;
 const SIDES_PX: [number, number] = [16, 4096]; // minimum and maximum side of an image, as in the server
 const KEY_STEP_PX = 25;
@@ -62,7 +64,7 @@ export class GsvView extends HTMLElement {
     this.sizes.disconnect();
     clearTimeout(this.steady);
     clearTimeout(this.retry);
-    this.image.removeAttribute("src"); // this ends the stream
+    this.image.removeAttribute("src"); // without an address, the browser ends the stream
   }
 
   attributeChangedCallback(): void {

@@ -84,7 +84,8 @@ export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) |
   }
 }
 
-// Returns the event with the default key of the command to which the pressed key is assigned.
+// The user may have assigned another key to a command. Returns the event as if the user had pressed
+// the command's default key.
 function asOriginal(event: Key, changed: ChangedKeys): Key {
   const { key, ctrlKey, altKey, metaKey } = event;
   return { key: isSingleKey(event) ? originalKey(key, changed) : key, ctrlKey, altKey, metaKey };

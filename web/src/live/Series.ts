@@ -1,5 +1,5 @@
-// The values of one curve by simulated time. Only the newest values are stored: an hour at one
-// value per second, or eleven minutes of poses.
+// The values of one curve, ordered by simulated time. Only the newest MOST_SAMPLES values are
+// stored: at one value per second, those of five hours; of poses, those of eleven minutes.
 
 export const MOST_SAMPLES = 20_000;
 const FIRST_CAPACITY = 512;

@@ -10,7 +10,8 @@ import { shallowEqual } from "../state/Store";
 import { element, setAttribute, setText } from "../ui/element";
 
 const EXPECTATIONS_PANEL = "expectations";
-// The order of the states: healthy ones first, then from the worst on.
+// The order of the states: first robots that move, then the other states from the worst to the
+// best.
 const ORDER: readonly ShownState[] = ["moving", ...SHOWN_STATES.filter((state) => state !== "moving")];
 
 export function createHealthStrip(app: App): HTMLElement {

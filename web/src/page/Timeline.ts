@@ -146,7 +146,7 @@ function typedTime(app: App): HTMLElement {
     const time = parseTime(field.value);
     field.setAttribute("aria-invalid", String(time === null));
     if (time === null) return;
-    field.blur(); // now keys control the replay again
+    field.blur(); // without the focus on the field, keys control the replay again
     void app.past.lookAt(time);
   });
   return field;

@@ -14,8 +14,8 @@ export interface DrawnCurve {
   isDashed?: boolean; // whether the curve is of the compared recording
 }
 
-// The curve has a gap between two samples if the time between them exceeds this number of usual
-// intervals, and also SHORTEST_GAP_S.
+// The curve is interrupted between two samples if the time between them exceeds both SHORTEST_GAP_S
+// and this multiple of the median interval.
 const GAP_INTERVALS = 8;
 const SHORTEST_GAP_S = 1.5;
 const MARGIN = 0.06; // margin above and below, as a fraction of the range
@@ -40,7 +40,7 @@ export function columnsOf(series: Series, time: Range): [number[], (number | nul
   return [times, values];
 }
 
-// Returns the time between two neighbouring values above which they are not connected.
+// Returns the longest time between two successive samples that the curve still connects.
 export function gapOf(series: Series, time: Range): number {
   const first = series.firstFrom(time.min);
   const last = Math.min(series.length, series.firstFrom(time.max)) - 1;
@@ -52,7 +52,8 @@ export function gapOf(series: Series, time: Range): number {
   return Math.max(SHORTEST_GAP_S, GAP_INTERVALS * steps[steps.length >> 1]!);
 }
 
-// Returns the path of a point with these coordinates, at the times of `y`.
+// Returns the points of a plot of `y` against `x`: one for each sample of `y`, with the newest
+// value that `x` has at that time.
 export function pathOf(x: Series, y: Series, time: Range): [number[], number[]] {
   const [xs, ys]: [number[], number[]] = [[], []];
   for (let i = y.firstFrom(time.min); i < y.length && y.timeAt(i) <= time.max; i++) {

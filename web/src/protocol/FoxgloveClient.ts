@@ -337,7 +337,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     known.bytes += bytes;
   }
 
-  // Runs after the messages that have already arrived.
+  // Decodes the newest message of the subscription after all messages that have already arrived,
+  // and after the pause that follows the previous one. Older messages that wait are dropped.
   private handOverLater(subscription: Subscription, channel: Channel, payload: DataView): void {
     const isScheduled = subscription.waiting !== null;
     subscription.waiting = payload;

@@ -5,8 +5,10 @@ const HEADER_BYTES = 20; // after the header of all messages: sequence, number, 
 
 // An image that the server has pushed.
 export interface PushedImage {
-  sequence: number; // number of the camera, chosen by the reader in show()
-  number: number; // grows with each change of the world
+  // The number that the reader gave in show() for the camera with which the image was drawn.
+  sequence: number;
+  // Number of the world's state that the image shows; a later state has a larger number.
+  number: number;
   stamp: number; // s, simulated
   seenMs: number; // when the server first saw this state, in ms since 1970
   jpeg: Blob;

@@ -1,7 +1,7 @@
 // The topics that the page reads. A topic with several readers is subscribed once, so that each
 // message is sent and decoded once; a server refuses a second subscription of a channel. The
-// subscription ends with its last reader. Readers survive a change of the source and continue with
-// the next one.
+// subscription ends with its last reader. If the source changes, each topic is subscribed again at
+// the new source.
 
 type Handler = (message: unknown) => void;
 
@@ -22,7 +22,8 @@ export interface TopicSource {
 
 interface SharedTopic {
   handlers: Map<Handler, { newestOnly: boolean }>;
-  orElse: string | undefined; // the topic to read instead, as requested by the first reader
+  // Topic to read if the server does not offer this one, as requested by the first reader.
+  orElse: string | undefined;
   newest: { message: unknown } | null;
   newestOnly: boolean; // the mode of the subscription at the server
   end(): void;

@@ -75,7 +75,7 @@ export class BodyLayer {
     return this.indices.get(name) ?? -1;
   }
 
-  // The body's entry in the scene's poses; null if it has none.
+  // Index of the body in the pose messages; null if they do not contain it.
   poseEntryOf(name: string): number | null {
     return this.poseEntries.get(name) ?? null;
   }

@@ -10,12 +10,13 @@ const FACES = trianglesOfABox();
 export class BoxCrowd {
   readonly mesh: Mesh;
   private readonly positions: Float32Array;
-  private readonly corner: Vector3; // the corner with index 0, in the frame
-  // The edges that start at the first corner.
+  // The box's corner with the smallest coordinates, in the body's frame.
+  private readonly corner: Vector3;
+  // The three edges of the box that start at `corner`, in the body's frame.
   private readonly edges: readonly [Vector3, Vector3, Vector3];
 
-  // `count` is the number of boxes. The box is in its part's frame, which is fixed in the frame of
-  // each body.
+  // `count` is the number of boxes, one for each body. `box` is in the frame of a part of the body;
+  // frameFromPart is the pose of the part in the body's frame.
   constructor(
     box: Box3,
     frameFromPart: Matrix4,

@@ -13,13 +13,14 @@ import { fittingDistance } from "./framing";
 const { clamp, degToRad: radians } = MathUtils;
 
 const FIELD_OF_VIEW_DEG = 50;
-// The field of view of a map. It is so narrow that the map deviates from an orthographic map by
-// less than a hundredth. The server does not support a narrower field of view.
+// The field of view of a map. It is so narrow that the map deviates from an orthographic one by
+// less than 1%. The server supports no narrower field of view.
 const MAP_FIELD_OF_VIEW_DEG = 1;
-const MAP_DEPTH = 200; // m: what is drawn below and above the camera's target
+const MAP_DEPTH = 200; // m: a map shows what is at most this far below or above the camera's target
 const FLIGHT_MS = 450;
 const MARGIN = 1.04;
-// The view from the south-west, well above the walls of a room.
+// The direction of the first view: from the south-west, and steep enough to see over the walls of a
+// room.
 const FIRST_DIRECTION = new Vector3(0.35, 0.72, -0.85).normalize();
 // Straight down, but not exactly vertical, because a vertical view has no heading. North is up.
 const DOWN = new Vector3(0, 0.001, -1).normalize();
@@ -31,8 +32,10 @@ const ABOVE = 1.5;
 const NEAREST = 0.4; // m: smallest distance to the followed robot
 const BEFORE_WALL = 0.15; // m
 const LOOK_MS = 100; // time between checks for walls
-const BACK_OFF_MS = 250; // duration of moving back when no wall is in between any more
-const AHEAD = 2; // m: distance of the target ahead of a robot's eye, when its view ends
+// Time in which the camera moves back when no wall hides the robot any more.
+const BACK_OFF_MS = 250;
+// m: when the view of a robot's eye ends, the camera's target is set this far ahead of the eye.
+const AHEAD = 2;
 
 // A robot that is followed: its position, the centre of its shape (equal to the position until the
 // shape is known), and the direction of its x axis (radians about the world's z).
@@ -56,7 +59,9 @@ interface Flight {
 export class CameraRig {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.05, 500); // the camera that draws
   readonly controls: OrbitControls; // controls that move `stand`
-  private readonly stand = this.camera.clone(); // the camera before walls are avoided
+  // The camera as the user has placed it; `camera` may be nearer to the robot, because a wall would
+  // hide the robot.
+  private readonly stand = this.camera.clone();
   private free = Infinity; // m: free distance from the followed robot towards the camera
   private looked = -Infinity; // ms
   private drawn = Infinity; // m: distance from the followed robot at which the image is drawn
@@ -122,7 +127,7 @@ export class CameraRig {
   }
 
   // The camera as numbers for a link. While a map is shown, the numbers describe the view before
-  // the map.
+  // the map was opened.
   get viewNumbers(): ViewNumbers {
     const { position, target } = this.beforeMap ?? this.viewpoint;
     return [...position.toArray(), ...target.toArray()];
@@ -132,7 +137,7 @@ export class CameraRig {
     this.viewpoint = { position: new Vector3(x, y, z), target: new Vector3(tx, ty, tz) };
   }
 
-  // Shows the box from above at an angle; at once if `fly` is false.
+  // Shows the box obliquely from above. If `fly` is false, the camera jumps there.
   frame(box: Box3, fly: boolean): void {
     this.lookAt(box, FIRST_DIRECTION, fly);
   }

@@ -10,12 +10,13 @@ import type { ModelInstances, Rig } from "./ModelInstances";
 import { boundsOf } from "./ModelTemplate";
 
 const SMALLEST_CROWD = 50;
-// Limits of the size in pixels of a crowd's nearest robot. Between the two limits, the level of
-// detail does not change.
+// A crowd is drawn as boxes if its nearest robot is smaller than COARSE_BELOW pixels in the image,
+// and with its shapes if it is larger than FINE_ABOVE pixels. Between the two limits, nothing
+// changes.
 const COARSE_BELOW = 12;
 const FINE_ABOVE = 16;
-// Parts below this fraction of the largest part are small. At the limits above, such a part is two
-// or three pixels wide.
+// Parts smaller than this fraction of the largest part have no box. At the limits above, such a
+// part is two or three pixels wide.
 const SMALL_SHARE = 0.4;
 
 interface Crowd {
@@ -33,8 +34,8 @@ export class CrowdDetail {
 
   constructor(private readonly frames: BodyFrames) {}
 
-  // Adds bodies of one model with this radius in metres. A small number of bodies is left
-  // unchanged.
+  // Adds bodies of one model with this radius in metres. Fewer than SMALLEST_CROWD bodies are
+  // always drawn with their shapes.
   add({ meshes, rigs, bodies }: ModelInstances, radius: number): void {
     if (bodies.length < SMALLEST_CROWD || !(radius > 0)) return;
     const parts = rigs.flatMap((rig) => rig.parts.map((framed) => ({ rig, framed, size: sizeOf(framed) })));

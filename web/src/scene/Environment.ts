@@ -11,10 +11,11 @@ import { shadesOfSky } from "./Sky";
 type Look = SceneDescription["look"];
 
 const SIZE_PX = 128; // side of a face of the cube map
-const TINT = 0.5; // fraction of the sky's colour in the light; the rest is white
+const TINT = 0.5; // fraction of the light that has the sky's colour; the rest is white
 const WINDOWS = 5; // number of windows around the horizon
 const WINDOW_RADIANCE = 3; // as a multiple of the sky's radiance
-const LOWEST_WINDOW = 0.25; // z of the lowest direction in a window
+// A window reaches from this z coordinate of the unit direction up to HIGHEST_WINDOW.
+const LOWEST_WINDOW = 0.25;
 const HIGHEST_WINDOW = 0.75;
 const SAMPLES = 64; // samples around the horizon; half as many from bottom to top
 

@@ -1,6 +1,6 @@
-// The shadow map of a sun, fitted to the visible part of the world: near a robot, its texels are
-// small enough for the shadow of a wheel. It moves and grows in steps, so that shadows are seldom
-// drawn again and their edges do not flicker.
+// The shadow map of a sun. It covers a sphere about the visible part of the world, so that near a
+// robot its texels are small enough for the shadow of a wheel. The sphere moves and grows in steps,
+// so that shadows are seldom drawn again and their edges do not flicker.
 import type { DirectionalLight, Sphere, Vector3 } from "three";
 
 const SMALL_MAP = 1024; // texels; enough for a room
@@ -8,11 +8,13 @@ const LARGE_MAP = 2048;
 const ROOM_RADIUS = 12; // m
 const LARGEST_RADIUS = 40; // m: with a larger radius, a texel is wider than a robot's wheel
 const SMALLEST_RADIUS = 3; // m
-// The shadowed radius as a multiple of the distance from the camera to its target.
+// Radius of the sphere, as a multiple of the distance from the camera to its target.
 const REACH = 4;
 const STEP = Math.SQRT2; // ratio of two successive radii
 const BIAS = 0.0016; // fraction of the radius
-const SLACK = 0.25; // fraction of the radius by which the view may move before the shadows follow
+// The sphere moves only if the camera's target is farther from its centre than this fraction of its
+// radius.
+const SLACK = 0.25;
 
 export class FittedShadow {
   private readonly largest: number;

@@ -55,11 +55,12 @@ interface Label {
   kind: string; // its CSS classes
 }
 
-// A priority is one number, so that thousands are sorted fast. It combines the rank (the lowest
-// first), the distance in centimetres, and the robot's number.
+// Priorities are numbers, so that thousands of them are sorted fast; the lowest number is labelled
+// first. A number combines, in this order, the rank (0 if the robot is selected, else BEST_RANK
+// minus its badness), the distance in centimetres, and the robot's index.
 const ROBOTS_IN_KEY = 2 ** 20;
 const DISTANCES_IN_KEY = 2 ** 24;
-const BEST_RANK = 100; // rank of a selected robot; the robots with the worst state follow
+const BEST_RANK = 100; // more than the badness of all robots
 const CENTIMETRES = 100;
 
 export class LabelLayer {

@@ -22,7 +22,7 @@ export interface PoseSample {
 }
 
 interface TimedSample extends PoseSample {
-  shownAtMs: number; // time on the smoothed time line of arrivals
+  shownAtMs: number; // time of arrival, corrected for irregular delays of the network
 }
 
 export class PoseInterpolator {

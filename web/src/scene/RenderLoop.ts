@@ -2,19 +2,20 @@
 // when the last one is drawn, and not when it is submitted; otherwise a click would wait for all
 // pending frames.
 
-// A longer pause (the user has shown another tab) does not count as slow drawing.
+// A longer time is not the drawing time of a frame: the user has shown another tab, for example.
 const LONGEST_FRAME_MS = 10_000;
-// If a frame takes longer than this, as without a graphics card, the loop rests between frames, so
-// that buttons and the simulation respond.
+// If a frame takes longer than this (without a graphics card, for example), the loop pauses between
+// frames, so that the page reacts to the user and the simulation gets CPU time.
 const EXHAUSTING_MS = 120;
 const SHORTEST_REST_MS = 80;
 const LONGEST_REST_MS = 400;
-// If a frame takes longer than this, the page reacts to the user's clicks before the next frame
-// begins.
+// If a frame takes longer than this and the user clicks, the next frame begins ANSWER_MS later, so
+// that the page can react to the click first.
 const SLOW_MS = 50;
 const ANSWER_MS = 120;
 
-// Finds out whether the submitted frame is drawn: mark() after submitting it, then poll isReached().
+// Finds out whether the submitted frame is drawn: mark() after submitting it, then poll
+// isReached().
 export interface Fence {
   mark(): void;
   isReached(): boolean;

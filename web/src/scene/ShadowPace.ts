@@ -1,6 +1,6 @@
-// Selects the frames in which shadows are redrawn: all frames with motion while frames are fast.
-// Shadows of a thousand robots cost as much as the robots, so if frames are slow, every fourth
-// frame.
+// Selects the frames in which shadows are drawn again. While frames are fast, these are all frames
+// in which something has moved. If frames are slow, they are every fourth frame, because the
+// shadows of a thousand robots take as long as the robots.
 
 const SLOW_MS = 90;
 const FRAMES_APART = 4;

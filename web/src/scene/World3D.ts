@@ -38,11 +38,12 @@ import { ShownPoses } from "./ShownPoses";
 import { Surface } from "./Surface";
 import type { DrawnView } from "../view/DrawnView";
 
-// The limits on beams with and without a graphics card: without a card, the beams of a crowd would
-// take longer than everything else.
+// The maximum number of beams that are drawn with a graphics card, and without one. Without a card,
+// drawing more would take longer than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
-// Poses for which no image comes from the server are shown after this time.
+// If the server draws the view and no image arrives within this time after new poses, the page
+// draws its own part of the view, such as the labels, without a new image.
 const LATE_POSES_MS = 150;
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditToolsEvents, "onPlacePoint"> {

@@ -1,4 +1,4 @@
-// Resolves when the graphics card, or its software replacement, has finished drawing.
+// Finds out whether the graphics card, or the software that replaces it, has finished drawing.
 import type { Fence } from "./RenderLoop";
 
 export function fenceOf(gl: WebGL2RenderingContext): Fence {
@@ -13,7 +13,7 @@ export function fenceOf(gl: WebGL2RenderingContext): Fence {
       drop();
       sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     },
-    // Also resolves if the context is lost, because nothing is drawn then.
+    // Also true if the WebGL context is lost, because nothing is drawn then.
     isReached: () => {
       if (sync !== null && gl.getSyncParameter(sync, gl.SYNC_STATUS) === gl.UNSIGNALED) return false;
       drop();

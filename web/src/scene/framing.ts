@@ -47,9 +47,9 @@ function boundsWithoutFarAway(scene: SceneDescription): Box3 {
   return box.intersect(bounds);
 }
 
-// Returns the bodies before the first gap, in the order of their distance from the median of all
-// bodies. For fewer than three bodies, uses the origin and not the median. Keeps at least half of
-// the bodies.
+// Returns the places that are not far away, ordered by their distance from the centre: the median
+// of all places, or the origin if there are fewer than three. At least half of the places are
+// returned.
 export function withoutFarAway(places: Vector3[]): Vector3[] {
   const middle = new Vector3();
   if (places.length >= 3) {

@@ -13,7 +13,8 @@ const BLUE = rgb(0x2f6df6);
 const VIEW_COLOUR = rgb(0xf2b90f);
 const CONTACT_COLOUR = rgb(0xff1fd0);
 const VIEW_DEPTH = 1; // m
-const NORMAL_LENGTH = 0.3; // m: length of the line at a contact whose force is unknown
+// m: length of the line along the normal of a contact whose force is unknown.
+const NORMAL_LENGTH = 0.3;
 const FORCE_LENGTH = 0.3; // m: length of the arrow for a force of FORCE_UNIT
 const FORCE_UNIT = 10; // N
 const LONGEST_FORCE = 1.2; // m

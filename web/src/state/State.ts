@@ -65,8 +65,9 @@ export interface BodyPose extends Point {
   yaw: number;
 }
 
-// Whether the browser draws in 3D.
-export type View = "starting" | "open" | "interrupted" | "none"; // interrupted: the browser has ended WebGL
+// Whether the browser draws in 3D. "interrupted" means that the browser has stopped WebGL; it may
+// start it again.
+export type View = "starting" | "open" | "interrupted" | "none";
 
 // The program that draws the view.
 export type Drawer = "browser" | "server";
@@ -78,7 +79,8 @@ export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 // The whole state of the page.
 export interface State {
   connection: ConnectionState;
-  connectionProblem: string; // a problem that lasts, such as a slow connection; empty if there is none
+  // A present problem of the connection, for example that it is slow; empty if there is none.
+  connectionProblem: string;
   abilities: Abilities; // the capabilities of the server
   missing: string; // why the content of the page's address cannot be shown; empty if it can
   refusal: string; // why the server rejects this page's token; empty if it does not
@@ -100,7 +102,8 @@ export interface State {
   events: RecordedEvent[]; // events of the recording or the run, ordered by time
   notes: readonly RecordingNote[]; // notes of the recording, ordered by time
   comparison: Comparison | null; // null while no recording is compared
-  wishedTime: number | null; // s; the requested instant until the replay shows it; else null
+  // s: the instant that the user has requested; null as soon as the replay shows it.
+  wishedTime: number | null;
   view: View;
   drawnBy: Drawer | null; // null before the view has started
   scene: SceneDescription | null;

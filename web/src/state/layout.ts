@@ -1,8 +1,8 @@
 // A layout: how the area beside the robot list is divided, and which panels are tabs of which part.
 //
-// The text of a layout is readable, and short enough for a link. r( ) is a row and c( ) a column.
-// Commas separate parts, and points separate the tabs of one part. The tab in front has a *. After
-// ~ is the share of the row or column in thousandths:
+// The text of a layout is readable, and short enough for a link. r(…) is a row and c(…) is a
+// column. Commas separate the parts of a row or column. Points separate the tabs of one part, and *
+// marks the visible tab. After ~ is the size of the part, in thousandths of its row or column:
 //
 //   r(view~740,c(inspector.topics*~600,camera~400)~260)
 export interface Tabs {

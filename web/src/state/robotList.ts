@@ -32,7 +32,8 @@ export function isTitle(entry: Entry): entry is { title: string; count: number }
   return "title" in entry;
 }
 
-// Returns the part of a name before its last slash, or else the name without its number.
+// Returns the part of a name before its last slash; if it has no slash, the name without the number
+// at its end.
 export function namespaceOf(name: string): string {
   const slash = name.lastIndexOf("/");
   return slash > 0 ? name.slice(0, slash) : name.replace(/[_-]?\d+$/, "");

@@ -35,10 +35,11 @@ interface DecodedImage {
 export class DrawnView {
   readonly canvas = document.createElement("canvas");
   images = 0; // number of images so far
-  // The delays of the server's last images, in ms: from a state of the world to its image on the
-  // screen. Correct only if the server has the same clock.
+  // The delays of the server's last images in ms, from the time at which the server saw a state of
+  // the world until its image was on the screen. Correct only if the clocks of both computers
+  // agree.
   readonly delaysMs: number[] = [];
-  // Called when there is another image for advance().
+  // Called when advance() can show another image.
   onNewImage = () => {};
   private feed: Feed;
   // Cameras of the images that have been requested.
@@ -119,7 +120,8 @@ export class DrawnView {
   }
 
   private take(image: ArrivedImage): void {
-    this.waiting?.shown(); // the older image is skipped: reports it as shown
+    // The older image is skipped; the server sends the next one only after shown().
+    this.waiting?.shown();
     this.waiting = image;
     if (!this.isDecoding) void this.decode();
   }

@@ -68,7 +68,7 @@ function column(...parts: [Part, number][]): Split {
   return { split: "column", parts: parts.map(([part, share]) => ({ part, share })) };
 }
 
-// The side has this width, but at most half of the available space.
+// Returns a row of both parts. `side` has a width of `sidePx`, but at most half of `width`.
 function beside(width: number, sidePx: number, main: Part, side: Part): Split {
   const share = Math.round(1000 * Math.min(0.5, sidePx / Math.max(1, width)));
   return row([main, 1000 - share], [side, share]);

@@ -23,7 +23,7 @@ export function gridFor(count: number, width: number, height: number): Grid {
   return { columns: Math.max(1, columns), cellWidth: null };
 }
 
-// The width of a cell if all rows are in sight.
+// The width of a cell if all rows fit into the panel without scrolling.
 function widthOf(columns: number, count: number, width: number, height: number): number {
   const rows = Math.ceil(count / columns);
   const byWidth = (width - GAP_PX) / columns - GAP_PX;

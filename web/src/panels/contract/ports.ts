@@ -23,7 +23,9 @@ import type { StateReader } from "../../state/Store";
 // All ports. A panel names the ports that it uses.
 export interface PanelPorts {
   state: StateReader<State>; // the page's state, read-only; the other ports change it
-  topics: TopicSource; // topics of the simulation that is shown, and of the next one
+  // Topics of the simulation that is shown; if the page changes to another simulation, a
+  // subscription continues there.
+  topics: TopicSource;
   traffic: TrafficPort;
   server: ServerPort;
   commands: CommandsPort;
@@ -119,7 +121,7 @@ export interface PlotsPort {
 }
 
 export interface EditsPort {
-  // In edit mode, moves a body to exactly this pose. Resolves to whether the body is now there.
+  // In edit mode, moves a body to exactly this pose. Resolves to whether the server has moved it.
   pose(pose: BodyPose): Promise<boolean>;
 }
 

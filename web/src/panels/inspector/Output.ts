@@ -65,11 +65,11 @@ class OutputReader {
 
   private async past(simulation: string, robot: string): Promise<OutputLine[]> {
     const { health, replay } = this.ports.state.get();
-    if (health === null || replay) return []; // a replay stores no output
+    if (health === null || replay) return []; // a recording contains no output of behaviours
     try {
       return await this.ports.server.output(simulation, robot);
     } catch {
-      return []; // the topic repeats the last lines
+      return []; // not needed: a new subscription of the topic delivers the last lines again
     }
   }
 

@@ -6,7 +6,9 @@ import { formatNumber } from "../../ui/format";
 
 const STEPS = 400; // number of steps of the slider
 const USUAL_VELOCITY = 2; // used if the joint has no velocity limit, rad/s or m/s
-const HELD_MS = 600; // for this time after a change, the field keeps the set value, until the server reports it
+// After the user sets a value, the field shows it for this time, because the server reports it
+// later.
+const HELD_MS = 600;
 
 interface Actions {
   command(joint: string, kind: "position" | "velocity", value: number): Promise<void>;

@@ -23,7 +23,9 @@ export const LEVELS: readonly { level: number; label: string; word: string }[] =
   { level: 40, label: "Errors only", word: "error" },
 ];
 
-const LIKELY_AGAIN = 200; // a new subscription repeats the last hundred lines
+// Number of newest lines that are compared with a new line: a new subscription delivers the last
+// hundred lines again.
+const LIKELY_AGAIN = 200;
 
 // Returns "info", "warning", "error" or "debug".
 export function levelWord(level: number): string {

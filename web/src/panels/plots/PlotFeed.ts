@@ -216,8 +216,8 @@ export class PlotFeed {
     if (!this.whole.has(id)) this.series.get(id)?.push(time, value);
   }
 
-  // Simulated time of a run goes back only after a reset; then the values are removed. The time of
-  // a recording may go back, and its values remain valid.
+  // If simulated time goes back, a run was reset, so its values are removed. In a replay the user
+  // may go back, and the values remain valid.
   private goOn(time: number): void {
     const wasReset = time < this.newest - LONGEST_GAP_S && this.state.get().replay === null;
     if (wasReset) {

@@ -1,6 +1,6 @@
-// Requests each plotted value over a whole recording, and passes on what the server has read so far
-// until it is complete. For a running simulation, does the same for the stored past; for a
-// comparison, for the second recording.
+// Fetches the plotted curves of a whole recording, of the stored past of a running simulation, and
+// of the recording that is compared. The server needs time to read a recording; until it has
+// finished, requests repeatedly what it has read so far.
 import type { CurveOf, WholeCurve } from "../../api/curve";
 import { MOST_SAMPLES } from "../../live/Series";
 import { parseExpression } from "../../live/expression";

@@ -1,5 +1,5 @@
-// A curve that is computed from others: at each time at which one of them has a value, from the
-// newest value of each.
+// Computes a curve from other curves. It has a value at each time at which one of the others has a
+// sample; the value is computed from the newest sample of each.
 import type { WholeCurve } from "../../api/curve";
 import type { Expression } from "../../live/expression";
 

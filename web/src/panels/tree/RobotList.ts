@@ -12,7 +12,8 @@ import { VirtualRows } from "./VirtualRows";
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
 const TITLE_PX = 30; // must equal the height in style/robots.css
-// In a larger crowd all rows have the same height, so that changes do not move the rows below them.
+// If the list has more robots, all rows have the same height and long sentences are cut off, so
+// that a change of one row does not move the rows below it.
 const MAX_WRAPPED = 100;
 
 export class RobotList {

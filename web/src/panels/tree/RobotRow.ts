@@ -10,7 +10,7 @@ import type { PanelPorts } from "../contract/ports";
 export const ROW_PX = 50;
 const FIRST_LINE_PX = 33; // the name and the padding
 const LINE_PX = 17; // must equal the line height in style/robots.css
-const LINE_CHARACTERS = 31; // in a list of the smallest width
+const LINE_CHARACTERS = 31; // characters in one line if the list has its smallest width
 const MAX_LINES = 4;
 
 // Returns the sentence about what is wrong with the robot; empty if there is no problem.

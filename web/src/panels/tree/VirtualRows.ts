@@ -1,8 +1,8 @@
-// A list in which only the rows in sight exist, however long it is. Rows are created once and
-// reused for other entries.
+// A list that may have thousands of entries. Only for the visible entries there are elements in the
+// page; they are reused for other entries when the user scrolls.
 import { element, setAttribute } from "../../ui/element";
 
-const BEYOND_PX = 200; // rows exist this far above and below the visible part
+const BEYOND_PX = 200; // there are also elements this far above and below the visible part
 const HEIGHT_WITHOUT_LAYOUT_PX = 800;
 
 // A row, which can show any entry of its kind.
