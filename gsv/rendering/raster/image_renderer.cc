@@ -1,6 +1,7 @@
 #include "gsv/rendering/raster/image_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -392,13 +393,15 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
   }
   if (sky) colour = Select(ids == 0, light.Sky(ray), colour);
   const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
-  // The last pixels of a row must not overwrite the next row.
   std::uint32_t* to = &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
   if (in_image == 0xff) {
     StoreInt(to, rgba);
   } else {
-    const I8 inside = IntSteps() < SplatInt(width_ - x);
-    StoreInt(to, SelectInt(inside, rgba, LoadInt(to)));
+    // The last pixels of a row: the next row must not be written, not even with its own values,
+    // because another thread may draw it now.
+    std::array<std::uint32_t, 8> last;
+    StoreInt(last.data(), rgba);
+    std::copy_n(last.begin(), width_ - x, to);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/rendering/raster/raster_batch_renderer.h"
 #include "gsv/rendering/raster/raster_mesh.h"
 #include "gsv/rendering/testing/test_scene.h"
 
@@ -148,6 +149,24 @@ TEST(BackEnds, DrawSimilarImages) {
   }
   EXPECT_LT(sum / static_cast<double>((*ours)->pixels.size()), 3);
   EXPECT_LT(far_off, static_cast<int>((*ours)->pixels.size() / 100));
+}
+
+// Rows of 203 pixels end within a vector of eight pixels.
+TEST(RasterBatchRenderer, DrawsEqualImagesByOneAndBySeveralThreads) {
+  TestScene scene;
+  scene.Add("floor", geometry::Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.9, 0.8, 0.7), true);
+  scene.Add("ball", geometry::Sphere{0.5}, {{3, 0.5, 0.5}, {}}, Matt(0.7, 0.1, 0.1));
+  const auto snapshot = scene.Snapshot();
+  raster::RasterBatchRenderer renderer(4);
+  for (int i = 0; i < 100; ++i) {
+    // Another pitch each time, so that no pixels of the last image are kept.
+    const CameraView view{{{0, 0, 1}, geometry::FromRollPitchYaw({0, 0.2 + 0.001 * i, 0})},
+                          {203, 90, 1.1, 0.05, 60}};
+    const auto together = renderer.Draw(*snapshot, {view});     // by four threads
+    const auto apart = renderer.Draw(*snapshot, {view, view});  // each by one thread
+    ASSERT_TRUE(together && apart);
+    ASSERT_EQ(together->at(0)->pixels, apart->at(1)->pixels) << i;
+  }
 }
 
 }  // namespace
