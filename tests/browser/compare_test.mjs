@@ -182,3 +182,35 @@ test("both recordings play together", async () => {
   assert.ok(Math.hypot(to.x - from.x, to.y - from.y) > 0.1, "the ghost stood still");
   assert.deepEqual(faults, []);
 });
+
+test("the ghosts are shown on images that the server draws", async () => {
+  const drawn = await openPage(browser, `${server.url}?recording=today.mcap&view=server`);
+  page = drawn.page;
+  page.on("request", (request) => {
+    if (request.url().endsWith("/scene")) sceneUrl = request.url();
+  });
+  await page.locator(".drawn-view").waitFor();
+  await waitUntilDrawn(page);
+  await standAt(4);
+  await approach();
+  const purple = () =>
+    page.locator(".drawn-view").evaluate((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        const [r, g, b] = data.subarray(i, i + 3);
+        if (b > 1.3 * g && b > r && r > 1.02 * g) count += 1;
+      }
+      return count;
+    });
+  const alone = await purple();
+  await page.getByRole("button", { name: "Compare with…" }).click();
+  await page.locator(".compare-list").getByText("yesterday.mcap").click();
+  await ghostIsRight();
+  await until(async () => (await purple()) > alone + 40, "the ghost's shape");
+  await keepPicture(page, "compare_drawn");
+  await page.getByRole("button", { name: "Compare with…" }).click();
+  await page.getByRole("button", { name: "Stop comparing" }).click();
+  await until(async () => (await purple()) <= alone, "the ghost to go");
+  assert.deepEqual(drawn.faults, []);
+});

@@ -7,6 +7,7 @@ import type { CameraRig } from "./CameraRig";
 import type { CollisionLayer } from "./CollisionLayer";
 import type { EditTools } from "./EditTools";
 import type { FrameRate } from "./FrameRate";
+import type { GhostLayer } from "./GhostLayer";
 import type { OverlayLayers } from "./OverlayLayers";
 import type { RobotSigns } from "./RobotSigns";
 import type { RobotFollower } from "./RobotFollower";
@@ -21,6 +22,7 @@ export interface DrawnLayers {
   rig: CameraRig;
   poses: ShownPoses;
   overlays: OverlayLayers;
+  ghosts: GhostLayer;
   collisions: CollisionLayer;
   signs: RobotSigns;
   follower: RobotFollower;
@@ -89,8 +91,8 @@ export class FrameDrawer {
 
   // The objects that the page draws over an image from the server.
   private painted(parts: SceneParts | null, shown: Shown): Object3D[] {
-    const { overlays, collisions, signs, follower, arranger, tools } = this.layers;
-    const objects: Object3D[] = [overlays.group, signs.marks.points, follower.ring.mesh, arranger.handle.group, tools.group];
+    const { overlays, ghosts, collisions, signs, follower, arranger, tools } = this.layers;
+    const objects: Object3D[] = [ghosts.group, overlays.group, signs.marks.points, follower.ring.mesh, arranger.handle.group, tools.group];
     if (collisions.group) objects.unshift(collisions.group);
     return parts && shown.grid ? [parts.grid, ...objects] : objects;
   }

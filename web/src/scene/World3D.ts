@@ -356,9 +356,9 @@ export class World3D {
   }
 
   private makeDrawer(): FrameDrawer {
-    const { scene: root, surface, rig, poses, overlays, collisions, signs, follower, arranger, tools, environment } = this;
+    const { scene: root, surface, rig, poses, overlays, ghosts, collisions, signs, follower, arranger, tools, environment } = this;
     return new FrameDrawer({
-      ...{ root, surface, rig, poses, overlays, collisions, signs, follower, arranger, tools },
+      ...{ root, surface, rig, poses, overlays, ghosts, collisions, signs, follower, arranger, tools },
       frameRate: new FrameRate((rate) => this.events.onFrameRate(rate)),
       hasFineLight: environment !== null,
       parts: () => this.stage.parts,

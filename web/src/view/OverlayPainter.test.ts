@@ -1,10 +1,12 @@
 import {
+  BoxGeometry,
   BufferAttribute,
   BufferGeometry,
   InstancedMesh,
   LineBasicMaterial,
   LineSegments,
   Matrix4,
+  Mesh,
   MeshBasicMaterial,
   PerspectiveCamera,
   Points,
@@ -93,4 +95,16 @@ test("a wireframe is painted as the edges of its triangles, for each instance", 
     [75, 75, 100, 50],
     [100, 50, 100, 75],
   ]);
+});
+
+test("only the faces of a body that the camera sees are painted, also of a mirrored body", () => {
+  const { lines, context } = fakeContext();
+  const box = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial());
+  box.position.set(4, 2, 2); // ahead, to the left and up: the camera sees three of the six faces
+  new OverlayPainter(context, 200, 100, camera()).paint([box]);
+  const cornersOfThreeFaces = 3 * 2 * 3;
+  expect(lines.length).toBe(cornersOfThreeFaces);
+  box.scale.set(1, -1, 1);
+  new OverlayPainter(context, 200, 100, camera()).paint([box]);
+  expect(lines.length).toBe(2 * cornersOfThreeFaces);
 });

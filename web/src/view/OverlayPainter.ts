@@ -1,7 +1,7 @@
 // Paints the lines, points and plain surfaces of overlays on an image, projected with its camera.
 // They are on top, because an image has no depths that could hide them.
-import type { BufferAttribute, BufferGeometry, Camera, InterleavedBufferAttribute, Object3D } from "three";
-import { Color, InstancedMesh, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
+import type { BufferAttribute, BufferGeometry, Camera, InterleavedBufferAttribute, Object3D, Side } from "three";
+import { Color, FrontSide, InstancedMesh, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
@@ -94,6 +94,7 @@ export class OverlayPainter {
     if (!position) return;
     const plain = plainColour(material);
     this.context.fillStyle = plain;
+    const isMirrored = this.clipFromObject.determinant() * this.clipFromWorld.determinant() < 0;
     this.context.globalAlpha = opacityOf(material);
     for (const [a, b, c] of trianglesOf(geometry)) {
       const corners = [a, b, c].map((index) => this.corner(position, index));
@@ -102,6 +103,7 @@ export class OverlayPainter {
         continue;
       }
       if (corners.some(([, , w]) => w < NEAR_W)) continue;
+      if (isOneSided(material) && showsItsBack(corners) !== isMirrored) continue;
       this.context.beginPath();
       for (const [x, y, w] of corners) this.context.lineTo(x / w, y / w);
       this.context.fill();
@@ -161,6 +163,16 @@ function isInvisible(material: unknown): boolean {
 
 function isWireframe(material: unknown): boolean {
   return (material as { wireframe?: boolean }).wireframe === true;
+}
+
+function isOneSided(material: unknown): boolean {
+  return (material as { side?: Side }).side === FrontSide;
+}
+
+// Returns whether the camera sees the back of a triangle, whose corners then go clockwise.
+function showsItsBack([a, b, c]: readonly Corner[]): boolean {
+  const [ax, ay, bx, by, cx, cy] = [a!, b!, c!].flatMap(([x, y, w]) => [x / w, y / w]) as [number, number, number, number, number, number];
+  return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax) >= 0; // y is downwards
 }
 
 function opacityOf(material: unknown): number {
