@@ -106,7 +106,8 @@ bool CycleClient::Post(exchange::CycleRequest request, const std::vector<std::st
 }
 
 CycleState CycleClient::Await() {
-  const std::chrono::nanoseconds until = (Clock::now() + kLease).time_since_epoch();
+  const Clock::time_point lease_ends = Clock::now() + kLease;
+  const std::chrono::nanoseconds until = lease_ends.time_since_epoch();
   std::uint32_t state = slot_.state;
   while (IsPending(StateOf(state))) {
     if (exchange::FutexWait(slot_.state, state, until)) {
@@ -114,8 +115,9 @@ CycleState CycleClient::Await() {
       continue;
     }
     // The simulation applies a request soon after it has taken it, and the caller must know whether
-    // it has.
-    if (StateOf(state) == CycleState::kTaken && slot_.is_applied == 0) {
+    // it has. A second lease is enough, unless the simulation was killed or stopped between the two.
+    if (StateOf(state) == CycleState::kTaken && slot_.is_applied == 0 &&
+        Clock::now() < lease_ends + kLease) {
       std::this_thread::yield();
       state = slot_.state;
       continue;

@@ -147,6 +147,7 @@ void StepLoop::WakeAgents() {
 void StepLoop::TakeCycles() {
   SharedState& shared = *parts_.shared;
   mark_ = shared.changed.mark();
+  may_have_missed_a_ring_ = false;
   if (shared.channels.empty()) return;
   exchange::Bell& bell = *shared.channels.bell();
   bell.now_ns.store(shared.now.count(), std::memory_order_relaxed);
@@ -163,6 +164,9 @@ void StepLoop::TakeCycles() {
     awaited = kNever;
   }
   bell.wanted = posted + awaited;
+  // A client that posted before this change has compared its request with the number of before, so
+  // it may not have rung.
+  may_have_missed_a_ring_ = awaited > 0 && exchange::HasReached(bell.posted, bell.wanted);
 }
 
 void StepLoop::OpenWoken(SimulationLock& lock) {
@@ -311,7 +315,7 @@ bool StepLoop::AllWait(SimulationLock& lock) {
   if (shared.mode != Mode::kLockstep || shared.running == 0) return true;
   if (!shared.channels.empty()) {
     TakeCycles();  // the agents that WakeAgents() has woken are awaited now
-    if (shared.running == 0 || !woken_.empty()) return false;
+    if (shared.running == 0 || !woken_.empty() || may_have_missed_a_ring_) return false;
   }
   AgentPopulation::AgentPtr longest;
   for (const auto& [name, agent] : parts_.agents.all()) {

@@ -119,7 +119,8 @@ class StepLoop {
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events and channels of the agents that were just woken
   std::uint32_t mark_ = 0;       // of the signal, at the last TakeCycles()
-  bool is_timed_ = false;        // whether an observer requests the times of steps
+  bool may_have_missed_a_ring_ = false;  // of a client, at the last TakeCycles()
+  bool is_timed_ = false;                // whether an observer requests the times of steps
   StepTimer timer_;
 
   std::jthread thread_;
