@@ -5,7 +5,8 @@
 //
 // The memory is a shared file: first a Bell, from kSlotSize on one CycleSlot for each clock. A
 // client maps the bell and its own slot. Each side copies what the other side wrote before it
-// checks it, so a client that writes arbitrary bytes harms only its own cycles.
+// checks it. A client that writes arbitrary bytes into its slot harms only its own cycles. With
+// arbitrary bytes in the bell, it can delay each step in lockstep by up to 20 ms.
 //
 // Threads  the members that are no atomics belong to one side at a time, see CycleState.
 #pragma once
