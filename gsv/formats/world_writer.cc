@@ -367,8 +367,8 @@ class WorldWriter {
         ->ToElement();
   }
 
-  // Returns model://NAME or model://NAME/REST if this name finds the same file from any folder, else
-  // the path.
+  // Returns the URI model://NAME or model://NAME/REST if it means the same file in whatever folder the
+  // world is stored, else the path.
   std::string UriOfFile(const std::string& source) const {
     const fs::path path = fs::absolute(xacro::FilePart(source)).lexically_normal();
     const std::string by_name = "model://" + path.parent_path().filename().string();

@@ -38,8 +38,8 @@ std::string LinkFrame(const world::Body& body, const model::Link& link);
 // Returns the transforms map → body for entries of bodies, and body → link for entries of links.
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list);
-// Sets the stamps and transforms of a message of TransformsMessage() for another snapshot of the
-// same layout, with the same list. `poses` are those of PosesOf().
+// Sets the stamps and transforms of `message`, which TransformsMessage() made with the same list,
+// to those of `snapshot`. The layout must be the same. `poses` are those of PosesOf().
 void UpdateTransforms(const world::Snapshot& snapshot, const std::vector<PoseEntry>& list,
                       std::span<const geometry::Pose> poses,
                       messages::tf2_msgs::TFMessage& message);

@@ -12,7 +12,8 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// The robot "pebble" is at (10, 20, 0) and faces along y. Its camera "eye" is 0.5 m above it.
+// The robot "pebble" is at (10, 20, 0), faces along y and is slightly tilted. Its camera "eye" is 0.5 m
+// along the robot's z axis.
 SceneLookup Pebble() {
   const Pose pebble{{10, 20, 0}, geometry::FromRollPitchYaw({0.1, 0.2, std::numbers::pi / 2})};
   return {[pebble](const std::string& body) {

@@ -196,7 +196,8 @@ class Services(unittest.TestCase):
                 file.write(POSTS)
             self.assertEqual(call(f"load_world {path}")["name"], "posts")
             poses = call("get_named_poses")["poses"]
-            # The gate is 1 m before the post, which stands at (2, 0, 0) and looks along y.
+            # The post is at (2, 0, 0), and its x axis points along the world's y axis. The gate is 1 m
+            # ahead of the post on this axis.
             for found, wanted in zip(poses["gate"], [2, 1, 0, 0, 0, 0.5 ** 0.5, 0.5 ** 0.5]):
                 self.assertAlmostEqual(found, wanted)
             self.assertEqual(call("unload_world")["result"], OK)

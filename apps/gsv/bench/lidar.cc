@@ -45,7 +45,7 @@ class ScanCheck {
       const auto hits = std::count_if(scans[i].values.begin(), scans[i].values.end(),
                                       [](double range) { return std::isfinite(range); });
       if (hits * 10 < static_cast<std::ptrdiff_t>(scans[i].values.size()))
-        return Fail("a scan is blank");
+        return Fail("fewer than 10 % of a scan's rays hit something");
       if (i > 0 && scans[i].values == scans[i - 1].values)
         return Fail("two lidars have equal scans");
       const bool has_moved = i < last_.size() && !(poses[i] == poses_[i]);

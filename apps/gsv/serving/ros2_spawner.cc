@@ -53,10 +53,11 @@ std::vector<ros2::Spawner::Spawnable> Ros2Spawner::Spawnables() {
 
 base::Result<std::string> Ros2Spawner::FileOf(const std::string& uri) const {
   if (!reads_files_) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "files are not read while other machines reach gsv. Use --model-path and a "
-                      "model's name, or a built-in world",
-                      uri);
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "gsv reads no files that a request names, because other machines can reach it. "
+        "Use --model-path and a model's name, or a built-in world",
+        uri);
   }
   std::string file = uri.starts_with('/') ? uri : uri.substr(kFileScheme.size());
   std::error_code ignored;

@@ -1,6 +1,6 @@
-// The offers of one service type in the order of export. A query reads them without a lock while
-// other threads change them. The offers are stored in chunks. A change copies a chunk that is being
-// read. The property columns of all other chunks do not change.
+// The offers of one service type in the order of export. A query makes a view and reads it without a
+// lock, while another thread changes the offers. The offers are stored in chunks, each with one
+// column for each property. A change of an offer copies the offer's chunk if a view reads it.
 //
 // Threads  any thread may read a view. One thread at a time may change the column. Several threads
 //          may make views while no thread changes it.

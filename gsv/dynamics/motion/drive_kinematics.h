@@ -46,9 +46,9 @@ class DriveKinematics {
   // velocity.
   static DriveKinematics Free();
 
-  // Returns the motion in the next step from the present motion and the command. A command that is
-  // older than the drive's timeout is ignored, and non-finite values count as zero. Inline, as it
-  // is called for each base in each step.
+  // Returns the velocities in the next step, from the velocities and the last command in `state`. A
+  // command that is older than the drive's timeout is ignored, and non-finite values count as zero.
+  // Defined in this header for speed, because it is called for each base in each step.
   world::DriveCommand Next(const world::DriveState& state, base::SimTime now,
                            double step_seconds) const;
 

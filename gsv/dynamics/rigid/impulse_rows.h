@@ -152,7 +152,8 @@ class ImpulseRows {
   void WriteEquations(bool shares_loads);
   // Applies the solution of the linear equations, within the bounds of all rows.
   void TakeSolution();
-  // Solves the linear equations of the rows within their bounds. Returns false if this fails.
+  // Solves the linear equations of the rows in free_, whose impulses are not at a bound. Returns
+  // false if this fails.
   bool SolveFree(bool shares_loads);
   // Lists in free_ the rows that probably have an impulse.
   bool ChooseLikely();

@@ -80,7 +80,7 @@ class LinkTree {
   geometry::Pose pose(int part) const;
   // Returns the angular velocity of a part, in the world.
   geometry::Vector3 angular_velocity(int part) const;
-  // Returns the velocity of a point of a part.
+  // Returns the velocity of a point that is fixed to a part. Both are in the world.
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
   // The velocity and angular velocity of the base's centre of mass.
   geometry::Vector3 base_velocity() const;

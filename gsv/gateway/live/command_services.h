@@ -31,8 +31,8 @@ class CommandServices {
   std::vector<foxglove::Service> list() const;
 
   // Returns a function that carries out the call. Run it once; it may block. Fails for an unknown
-  // service or an invalid request. A request cannot omit a field. So a value outside of its
-  // parameter's range stands for the default, for example 0 for a count, NaN, or an empty text.
+  // service or an invalid request. A request cannot omit a field. To select the default, it
+  // has a value outside of the parameter's range: 0 for a count, NaN for a number, or an empty text.
   base::Result<std::function<Response()>> Prepare(const foxglove::ServiceCall& call) const;
 
  private:

@@ -59,6 +59,7 @@ class RecordingFolder {
       : folder_(std::move(folder)), only_(std::move(only)) {}
 
   const std::filesystem::path& path() const { return folder_; }
+  // The file name of the only recording that is served; empty: all recordings of the folder.
   const std::string& only() const { return only_; }
 
   // Lists the recordings. The list is empty if the folder does not exist.

@@ -71,8 +71,8 @@ base::Status FileSink::Sync() {
 base::Status FileSink::Truncate(std::uint64_t size) {
   const auto end = static_cast<off_t>(size);
   if (::ftruncate(file_.get(), end) == 0 && ::lseek(file_.get(), end, SEEK_SET) == end) return {};
-  return Fail(ErrorCode::kUnavailable, "cannot shorten the recording: " + SystemMessage(errno),
-              path_);
+  return Fail(ErrorCode::kUnavailable,
+              "cannot truncate the file of the recording: " + SystemMessage(errno), path_);
 }
 
 base::Result<std::unique_ptr<FileSource>> FileSource::Open(std::string path) {

@@ -91,7 +91,7 @@ class ImageRenderer {
   bool IsStillTile(int x0, int y0, int x1, int y1) const;
   // Returns the box around the visible points of a tile.
   TileBox BoxOfTile(int x0, int y0, int x1, int y1) const;
-  // Returns the texels of the shadow map that points in the box may look up.
+  // Returns the texels of the shadow map that the shading of points in the box may read.
   ShadowRegion::Rectangle InShadow(const TileBox& box) const;
   // Shades the eight pixels from (x, y) to the right.
   void Light(const LightModel& light, const Lamps& lamps, int x, int y, Shading& shading);

@@ -50,8 +50,8 @@ class RayScene : public world::RayCaster {
   virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
                       CandidateSet& candidates) const = 0;
 
-  // Sets ranges[i] to the range of ray i of the packet, which is faster than Range() for rays from
-  // near `place`.
+  // Sets ranges[i] to the range of ray i of the packet. If the rays start near `place`, this function
+  // is faster than Range().
   virtual void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
                       std::span<double> ranges) const = 0;
 

@@ -1,5 +1,5 @@
-// Signals the wait events of many agents on its own thread, so that this does not delay the next
-// step. If no processor is free, waking one thread takes tens of microseconds.
+// Signals the wait events of many agents on its own thread, so that signalling does not delay the
+// next step. If no processor is free, waking one thread takes tens of microseconds.
 //
 // Threads  Open() from one thread at a time.
 #pragma once

@@ -62,7 +62,7 @@ const KEYS: [heading: string, lines: Line[]][] = [
   [
     "Recording",
     [
-      [["←", "→"], "Previous or next pose (Shift: ten poses)"],
+      [["←", "→"], "Previous or next recorded instant (Shift: ten instants)"],
       [["Home", "End"], "Go to the start or the end"],
       [[",", "."], "Go to the previous or next event"],
     ],

@@ -11,7 +11,8 @@ export interface HeadParts {
   isNarrow(): boolean; // whether the page is too narrow for parts beside each other
 }
 
-// With more tabs there is no room for the button in a narrow part; the menu has the command.
+// With more tabs than this, a narrow part has no room for the button Maximise. Its menu then has the
+// command.
 const MAX_TABS = 2;
 const SIDES = [
   ["left", "Move to the left of the view"],

@@ -1,4 +1,5 @@
-// Ports for tests: with the test's own store and the messages that it sends.
+// Fake ports (the interface through which a panel reaches the page) for tests of panels. The test
+// sets the state in their store, and sends the messages that the panel receives.
 import { vi } from "vitest";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { VisualFacts } from "../../api/visuals";

@@ -76,7 +76,7 @@ export function mount({ state, control }: Ports): MountedPanel {
       wishes.gamepad = wish;
       update();
     },
-    onConnected: (name) => setText(note, `Gamepad connected: ${name}. The left stick drives, the right stick goes sideways.`),
+    onConnected: (name) => setText(note, `Gamepad connected: ${name}. The left stick drives and turns the robot, the right stick moves it sideways.`),
     onPulledOut: () => setText(note, "The gamepad was disconnected. The robot stops."),
   });
 

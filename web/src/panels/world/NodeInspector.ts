@@ -40,7 +40,7 @@ export class NodeInspector {
     this.end = () => {};
     setText(this.title, "Nothing selected");
     this.actions.replaceChildren();
-    this.show([["", "Select a part of the world to see where it is and what it reads."]]);
+    this.show([["", "Select a part of the world to see its pose, or the readings of a sensor."]]);
   }
 
   // Reads the data of the node until another node is opened, or close() is called.

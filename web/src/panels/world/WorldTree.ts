@@ -34,7 +34,7 @@ export class WorldTree {
     const shown = bodies.slice(0, MAX_BODIES);
     this.list.replaceChildren(...shown.map((body) => this.bodyItem(body, isFiltered && bodies.length <= 3)));
     const left = bodies.length - shown.length;
-    setText(this.note, bodies.length === 0 ? (isFiltered ? "No part has this text in its name. Change the text above." : "No world yet.") : left > 0 ? `${left.toLocaleString("en")} more. Type a name above.` : "");
+    setText(this.note, bodies.length === 0 ? (isFiltered ? "No part has this text in its name. Change the text above." : "No world yet.") : left > 0 ? `${left.toLocaleString("en")} more parts. To find one, type a part of its name above.` : "");
     this.select(this.chosen);
   }
 
