@@ -159,6 +159,7 @@ base::Status Recordings::FinishEndedRecording(
         name);
   }
   auto node = recordings_.extract(found);
+  SetLast(name, node.mapped());
   lock.unlock();
   if (const auto ok = Finish(node.mapped()); !ok) spdlog::error("{}", ok.error().Sentence());
   CountEnded(node.mapped());
@@ -262,25 +263,31 @@ base::Status Recordings::Finish(Recording& recording) {
   return recording.bag.empty() ? base::Status() : recording::WriteBagMetadata(recording.bag);
 }
 
+void Recordings::SetLast(const std::string& simulation, const Recording& recording) {
+  State state = StateOf(recording);
+  state.is_recording = false;
+  last_[simulation] = std::move(state);
+}
+
 base::Status Recordings::Stop(const std::string& simulation) {
   base::MutexLock lock(mutex_);
   auto node = recordings_.extract(simulation);
-  lock.unlock();
   if (node.empty()) {
     return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
   }
+  SetLast(simulation, node.mapped());
+  lock.unlock();
   const base::Status finished = Finish(node.mapped());
   CountEnded(node.mapped());
-  State state = StateOf(node.mapped());
-  state.is_recording = false;
   lock.lock();
-  last_[simulation] = std::move(state);
+  SetLast(simulation, node.mapped());
   return finished;
 }
 
 base::Status Recordings::StopAll() {
   base::MutexLock lock(mutex_);
   auto recordings = std::exchange(recordings_, {});
+  for (const auto& [name, recording] : recordings) SetLast(name, recording);
   lock.unlock();
   base::Status first;
   for (auto& [name, recording] : recordings) {

@@ -101,6 +101,8 @@ class Recordings final : public gateway::RecordingSwitch {
   static State StateOf(const Recording& recording);
   static void Add(const State& state, Totals& totals);
   void CountEnded(const Recording& recording);
+  // Stores the state of a recording that ends, so that RecordingOf() always returns its path.
+  void SetLast(const std::string& simulation, const Recording& recording) GSV_REQUIRES(mutex_);
 
   const std::filesystem::path folder_;
   base::Mutex starting_;  // held while a recording starts; locked before mutex_

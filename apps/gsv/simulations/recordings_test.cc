@@ -114,6 +114,16 @@ TEST_F(RecordingsTest, NameWithoutExtensionBecomesABagFolder) {
   std::filesystem::remove_all(folder);
 }
 
+// Viewers show the path after the end of a run.
+TEST_F(RecordingsTest, PathIsKnownAfterAllRecordingsWereStopped) {
+  ASSERT_TRUE(recordings_.Start(simulation_, path_));
+  ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);
+  ASSERT_TRUE(recordings_.StopAll());
+  const auto state = recordings_.RecordingOf("simulation");
+  EXPECT_EQ(state.path, path_);
+  EXPECT_FALSE(state.is_recording);
+}
+
 TEST_F(RecordingsTest, SimulationWithoutARecordingCannotBeStopped) {
   EXPECT_EQ(recordings_.Stop("simulation").error().code, base::ErrorCode::kNotFound);
   EXPECT_TRUE(recordings_.StopAll());
