@@ -84,9 +84,9 @@ install(DIRECTORY examples/horn examples/infrared examples/out_of_tree examples/
   PATTERN __pycache__ EXCLUDE PATTERN horn_test.cc EXCLUDE)
 file(GLOB IDL_FILES CONFIGURE_DEPENDS idl/*.idl)
 install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
-# Behaviours and applications need sdk/, gsv/readings and gsv/base. Implementations of hardware also
+# Behaviours and applications need sdk/, gsv/exchange, gsv/readings and gsv/base. Implementations of hardware also
 # need gsv/orb, the broker's client and the stubs. Sensor plug-ins need the rest.
-foreach(FOLDER sdk sdk/behaviour gsv/base gsv/readings gsv/broker/client gsv/broker/language gsv/broker/offers
+foreach(FOLDER sdk sdk/behaviour gsv/base gsv/exchange gsv/readings gsv/broker/client gsv/broker/language gsv/broker/offers
     gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing/rays gsv/sensing gsv/simulation/pace
     gsv/simulation/robots gsv/simulation/commands gsv/simulation gsv/health gsv/services)
   file(GLOB HEADERS CONFIGURE_DEPENDS ${FOLDER}/*.h)
