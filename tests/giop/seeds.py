@@ -162,7 +162,7 @@ class World:
         self.call("sba::Simulation", "start")
         self.targets["sba::JointedHardware"] = self.robot_side.hardware_of(self.simulation)
         for interface, operation in (("SensorFactory", "sensor_factory"), ("ActuatorProxy", "base"),
-                                     ("BatchClock", "open_clock")):
+                                     ("SharedClock", "open_clock")):
             self.targets[f"sba::{interface}"] = self.call("sba::JointedHardware", operation)[""]
         self.joint = self.call("sba::JointedHardware", "list_joints")[""][0]["name"]
         self.targets["sba::JointActuator"] = self.call("sba::JointedHardware", "open_joint", name=self.joint)[""]

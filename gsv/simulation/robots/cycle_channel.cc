@@ -13,6 +13,10 @@ using exchange::CycleState;
 using exchange::StateOf;
 using exchange::WithState;
 
+// The largest file, in bytes. A slot is never used twice, because the client of a closed slot may
+// still write to it. So a simulation has at most 16,383 slots; further clocks use calls.
+constexpr std::uint64_t kMaxFileSize = 16'384 * exchange::kSlotSize;
+
 }  // namespace
 
 CycleChannel::CycleChannel(std::unique_ptr<exchange::Mapping> memory, ClockId clock,
@@ -111,6 +115,10 @@ base::Status CycleChannels::Prepare() {
 base::Result<CycleChannels::Added> CycleChannels::Add(RobotAgent& agent,
                                                       std::weak_ptr<RobotAgent> shared,
                                                       ClockId clock) {
+  if (size_ >= kMaxFileSize) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "the memory for control cycles is full; use calls instead");
+  }
   if (auto ok = file_->Grow(size_ + exchange::kSlotSize); !ok) return base::Fail(ok.error());
   auto memory = file_->Map(size_, exchange::kSlotSize);
   if (!memory) return base::Fail(memory.error());
