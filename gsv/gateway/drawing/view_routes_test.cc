@@ -120,7 +120,8 @@ TEST_F(ViewRoutesTest, InvalidRequestsGetAnErrorStatusAndTheReason) {
   check("size=64x48&camera=nobody/eye", 404, "there is no camera 'nobody/eye'");
   check("elevation=91", 400, "the parameter elevation must be -90 to 90");
   check("azimuth=x", 400, "the parameter azimuth");
-  check("zoom=2&eye=1,1,1&target=0,0,0", 400, "cannot be combined with eye, target, follow or camera");
+  check("zoom=2&eye=1,1,1&target=0,0,0", 400,
+        "cannot be combined with eye, target, follow or camera");
   check("colour=red", 400, "there is no parameter 'colour'");
 }
 
