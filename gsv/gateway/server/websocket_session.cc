@@ -190,8 +190,9 @@ class WebSocketSession final : public Client,
   void WriteNext() {
     if (!is_open_ || is_writing_) return;
     const auto now = SendWindow::Clock::now();
-    // A client that is leaving gets only control messages.
-    const bool allows_data = !close_reason_ && window_.is_open();
+    // A client that is leaving gets only control messages. But if the server ends, its clients get
+    // the final state, such as the end of a run.
+    const bool allows_data = close_reason_ ? sends_all_ : window_.is_open();
     SendQueue::Popped popped = queue_.Pop(now, allows_data);
     if (popped.left_out > 0) {
       context_->traffic->dropped_updates += popped.left_out;
@@ -282,6 +283,7 @@ class WebSocketSession final : public Client,
   void BeginClose(CloseCode code, const std::string& reason) {
     if (close_reason_) return;
     close_reason_ = Reason(code, reason);
+    sends_all_ = code == CloseCode::kGoingAway;
     farewell_.expires_after(kCloseTimeout);
     farewell_.async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
@@ -307,6 +309,7 @@ class WebSocketSession final : public Client,
   }
 
   websocket::stream<transport::ByteStream> stream_;
+  bool sends_all_ = false;  // whether all messages are sent before the connection is closed
   boost::asio::steady_timer farewell_, expiry_, slow_look_;
   HttpRequest request_;
   beast::flat_buffer buffer_;
