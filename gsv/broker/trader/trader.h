@@ -56,7 +56,7 @@ struct QueryResult {
   // The names of the policies that limited the result.
   std::vector<std::string> limits_applied{};
 };
-// The same, with offers that are sorted as far as they are needed.
+// The result of a query whose offers are not sorted yet: the caller sorts as many as it needs.
 struct RankedResult {
   RankedOffers offers{};
   std::vector<std::string> limits_applied{};
