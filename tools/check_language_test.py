@@ -143,6 +143,17 @@ class Extraction(unittest.TestCase):
             '<p title="Who is it">Two words</p><script>let no = a > b < c;</script>')],
             ["Who is it", "Two words"])
 
+    def test_strings_of_all_files_of_the_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = Path(folder, "web/src")
+            source.mkdir(parents=True)
+            for name in ("a.ts", "b.test.ts", "c.ts"):
+                (source / name).write_text('say("Add a robot");\n// Shows a robot.\n')
+            self.assertEqual(
+                {path: [text.kind for text in found] for path, found in texts.texts_below(folder).items()},
+                {"web/src/a.ts": ["ui", "comment"], "web/src/b.test.ts": ["comment"],
+                 "web/src/c.ts": ["ui", "comment"]})
+
     def test_descriptions_of_the_api(self):
         page = 'a:\n  summary: The viewer\n  description: >\n    Two\n    lines.\n  - {description: Short, x: y}\n'
         self.assertEqual([text.words for text in texts.texts_of_openapi(page)],

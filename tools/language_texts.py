@@ -336,7 +336,6 @@ def texts_below(root):
             source = file.read_text(encoding="utf-8")
             if extract is texts_of_script and not (file.suffix == ".py" or source.startswith("#!")):
                 continue
-            if file.name.endswith(".test.ts"):  # its strings are names of tests and data
-                extract = texts_of_comments
-            texts[str(path)] = list(extract(source))
+            is_test = file.name.endswith(".test.ts")  # its strings are names of tests and data
+            texts[str(path)] = list((texts_of_comments if is_test else extract)(source))
     return dict(sorted(texts.items()))
