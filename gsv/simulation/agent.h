@@ -68,7 +68,7 @@ inline JointReading JointReadingIn(const world::Snapshot& snapshot, int body, in
 
 class MountedSensor;
 
-// Where a client finds the memory of a clock, see gsv/exchange/cycle_memory.h.
+// Place of the shared memory of a clock, see gsv/exchange/cycle_memory.h.
 struct CycleMemory {
   exchange::FileAddress file;
   std::uint64_t offset = 0;  // position of the clock's slot
@@ -87,10 +87,10 @@ class Agent {
   // a link with a sensor.
   virtual geometry::Pose RobotFromLink(int link) const = 0;
 
-  // A clock belongs to one thread of the behaviour, and is the means by which that thread waits for
-  // an instant of simulated time. An open clock either runs or waits. In lockstep, the next step is
-  // taken when all open clocks of all agents wait. The behaviour counts as running while one of its
-  // clocks runs. It has finished when it has closed all its clocks.
+  // Each thread of the behaviour waits for instants of simulated time with its own clock. An open
+  // clock either runs or waits. In lockstep, the next step is taken when all open clocks of all
+  // agents wait. The behaviour counts as running while one of its clocks runs. The behaviour has
+  // finished when all its clocks are closed.
   virtual base::Result<ClockId> OpenClock() = 0;
   virtual base::Status CloseClock(ClockId clock) = 0;
   // Reports that the behaviour has ended with an error; call it instead of CloseClock(). From this
@@ -110,13 +110,14 @@ class Agent {
                                            base::SimTime until,
                                            std::chrono::milliseconds lease) = 0;
 
-  // Makes memory by which a client on this host exchanges instead of calling Exchange() and
-  // SleepAndRead(). Fails if this system has no such memory.
+  // Creates shared memory for the clock. Through this memory, a client on the same host can
+  // exchange commands and readings without calling Exchange() and SleepAndRead(). Fails if the
+  // operating system offers no such memory.
   virtual base::Result<CycleMemory> ShareMemory(ClockId clock) = 0;
 
-  // Commands the base like Command(), waits, then reads those of `sensors` that are open. Leaves
-  // out sensors that fail or take long. Reads no sensors unless simulated time stands still until
-  // this agent waits again (Exchanged::holds_time).
+  // Commands the base like Command(), waits, then reads those of `sensors` that are open. Sensors
+  // that fail or take long are left out. If simulated time does not stand still until this agent
+  // waits again (Exchanged::holds_time), no sensor is read.
   virtual base::Result<Exchanged> SleepAndRead(ClockId clock,
                                                std::optional<world::DriveCommand> command,
                                                base::SimTime until, std::chrono::milliseconds lease,
@@ -126,7 +127,7 @@ class Agent {
   virtual base::Status Command(const world::DriveCommand& command) = 0;
 
   // Joints, by their index in the robot's model. A command is applied from this instant until the
-  // next command. Efforts are refused for robots with planar kinematics.
+  // next command. Robots with planar kinematics refuse efforts.
   virtual const std::vector<model::Joint>& Joints() const = 0;
   virtual base::Status CommandJoint(int joint, const world::JointCommand& command) = 0;
   virtual base::Result<JointReading> ReadJoint(int joint) = 0;

@@ -22,20 +22,21 @@ struct Edit {
     kAmidTurns,  // during the turns: it is unknown which behaviours had their turn before the edit
   };
 
-  std::int64_t step = 0;  // the number of steps taken before the edit
+  std::int64_t step = 0;  // number of steps taken before the edit
   base::SimTime time{0};
   Kind kind = Kind::kPlace;
   Moment moment = Moment::kBeforeTurns;
   std::uint64_t halt = 0;  // number of the pause; edits during one pause have the same number
   std::string body;
-  // For added bodies: the file of the model, or the body that is copied.
+  // Only for added bodies: the file of the model, or the body that is copied.
   std::string model;
   std::string copy_of;
   std::string behaviour;  // name of the robot's behaviour; empty if it has none
   std::optional<model::Movement> movement;
-  // in the form of model/drive_choice.h; empty for the model's own or a guessed drive
+  // the drive in the form of model/drive_choice.h; empty means the model's own drive, or a guessed
+  // drive
   std::string drive;
-  // For bodies that are added or moved: the requested pose.
+  // Only for bodies that are added or moved: the requested pose.
   geometry::Pose world_from_body;
   bool on_ground = true;
   // A command of simulation/commands/command_table.h and its arguments, for ReadArguments().

@@ -9,7 +9,7 @@
 namespace gsv::simulation {
 namespace {
 
-// A run with ten steps of 10 ms. In real time, each step takes ten seconds.
+// A run with ten steps of 10 ms. At this real-time factor, each step takes ten seconds.
 Specification Slow() {
   Specification specification = Lockstep(100ms);
   specification.mode = Mode::kRealTime;

@@ -83,7 +83,7 @@ class GazeboValues : public ::testing::Test {
     return {reading->values.begin(), reading->values.end()};
   }
 
-  // Expects four contact points, where two spheres touch the edges of two boxes.
+  // Expects four contact points, at which two spheres rest on the edges of two boxes.
   void ExpectFourCorners(const std::string& robot, const std::string& sensor) {
     const std::vector<double> touches = Read(robot, sensor);
     ASSERT_EQ(touches.size(), 4 * 11u);
@@ -170,8 +170,7 @@ TEST_F(GazeboValues, ArmKeepsItsDistanceFromItsJoint) {
     RunUntil(i * 50ms);
     least = std::min(least, Joint("m", 0));
     most = std::max(most, Joint("m", 0));
-    // The arm cannot stretch, because the engine computes in joint coordinates. The base must not
-    // move.
+    // The engine uses joint coordinates, so the arm cannot stretch. The base must not move.
     EXPECT_WITHIN(Norm(At("m").position - Vector3{0, 0, 0.005}), 0, 1e-3, "m");
   }
   EXPECT_GT(most - least, 0.5);
@@ -190,7 +189,7 @@ std::string Carrier(const std::string& pose, const std::string& sensor) {
 
 TEST_F(GazeboValues, VelocityControlMovesARigidBaseAsCommanded) {
   // A box without wheels is driven on ground with a friction coefficient of 1. Friction must not
-  // hold it back, and it must not tip over.
+  // stop the box, and the box must not tip over.
   Start(kGround + Carrier("0 0 0 0 0 1", "type='imu'>"));
   ASSERT_TRUE(simulation_->SetBehaviour(
       "robot", std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
@@ -228,7 +227,7 @@ TEST_F(GazeboValues, IncludedActorWalksItsTrajectory) {
         "<include><uri>model://walker</uri><name>guide</name><pose>0 5 0 0 0 0</pose></include>");
   for (const SimTime time : {SimTime(500ms), SimTime(1s), SimTime(1500ms), SimTime(2500ms)}) {
     RunUntil(time);
-    // Gazebo's spline: at each end, the tangent is half of the way to the other waypoint.
+    // Gazebo's spline: the tangent at each waypoint is half of the vector to the other waypoint.
     const double u = std::fmod(base::ToSeconds(time), 2) / 2;  // the script loops after 2 s
     EXPECT_WITHIN(At("guide").position.x, u + 3 * u * u - 2 * u * u * u, 1e-6, "m") << u;
     EXPECT_WITHIN(At("guide").position.y, 5, 1e-6, "m");
@@ -381,8 +380,8 @@ TEST_F(GazeboValues, ContactSensorReadsEachContactPoint) {
   }
 }
 
-// The original worlds of gz-sim. Their folder is beside that of real_files_test. If it is absent,
-// the tests are skipped.
+// The original worlds of gz-sim. Their folder must be beside the folder of real_files_test. If it
+// is absent, the tests are skipped.
 class GazeboOriginals : public GazeboValues {
  protected:
   void StartOriginal(const std::string& name) {
@@ -484,7 +483,8 @@ TEST_F(GazeboValues, ForceTorqueSensorReadsTheWeightOnAScale) {
     Start(std::string(kGround) + scale(type) + weight);
     RunUntil(2s);
     const std::vector<double> wrench = Read("scale", "s");
-    // The expectation allows for accelerations below 0.1 m/s², at which bodies count as at rest.
+    // Bodies count as at rest at accelerations below 0.1 m/s². The expected value allows for such
+    // an acceleration.
     const double force = 0.1 * 10.2, arm = 0.15;
     EXPECT_WITHIN(wrench[0], 0, force, "N") << type;
     EXPECT_WITHIN(wrench[1], 0, force, "N") << type;

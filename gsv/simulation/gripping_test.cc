@@ -80,18 +80,18 @@ std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens =
   });
 }
 
-// Returns the maximum time, in s, for which the post rocks if it starts at nine tenths of the angle
-// at which it would fall. The energy that an impact leaves, and the time between two impacts, are
-// those of G. W. Housner, "The behavior of inverted pendulum structures during earthquakes",
-// Bulletin of the Seismological Society of America 53 (1963).
+// Returns the maximum time, in s, for which the post rocks. The post starts at nine tenths of the
+// angle at which it would fall. The formulas for the energy after an impact and for the time
+// between two impacts are from G. W. Housner, "The behavior of inverted pendulum structures during
+// earthquakes", Bulletin of the Seismological Society of America 53 (1963).
 double RockingTime() {
   const double half = kWidth / 2, height = 0.1, r = std::hypot(half, height);
   const double inertia = 1e-3 + kMass * r * r;  // moment of inertia about an edge
   const double falls = std::atan(half / height);
   const double left = std::pow(1 - kMass * r * r / inertia * (1 - std::cos(2 * falls)), 2);
   const double rate = std::sqrt(kMass * 9.8 * r / inertia);
-  // The energy is relative to the energy at which the post falls. The time between impacts is 2 /
-  // rate × artanh(√energy).
+  // The energy is given as a fraction of the energy at which the post falls. The time between
+  // impacts is 2 / rate × artanh(√energy).
   double energy = 1 - 0.1 * 0.1, time = std::atanh(std::sqrt(energy)) / rate;
   while ((energy *= left) > 1e-9) time += 2 / rate * std::atanh(std::sqrt(energy));
   return time;
@@ -121,8 +121,7 @@ TEST(Grippers, GraspedBodyMovesWithTheRobotUntilTheFingersOpen) {
   const SimTime at_rest = 2s + base::FromSeconds(RockingTime());
   RunTo(*simulation, at_rest);
   const geometry::Pose left = PoseOf(*simulation, "post");
-  RunTo(*simulation, at_rest + 500ms);  // then the robot drives away, and the post stays where it
-                                        // is
+  RunTo(*simulation, at_rest + 500ms);  // then the robot drives away, and the post stays here
   EXPECT_WITHIN(Norm(PoseOf(*simulation, "post").position - left.position), 0, 1e-5, "m");
   EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
 }
@@ -222,7 +221,8 @@ TEST(Grippers, ReleaseTheBodyOnRemovalAndOnReset) {
   ASSERT_TRUE(simulation->RemoveRobot("robot"));
   EXPECT_TRUE(simulation->snapshot()->state.devices->empty());
   // The post is released at 0.2 m/s. It rocks and stops within its own width. If the robot still
-  // carried it, it would move by 0.1 m. If it were fixed in place, it would not move.
+  // carried the post, the post would move by 0.1 m. If the post were fixed in place, it would not
+  // move.
   const geometry::Pose left = PoseOf(*simulation, "post");
   RunTo(*simulation, 2s);
   const double moved = Norm(PoseOf(*simulation, "post").position - left.position);

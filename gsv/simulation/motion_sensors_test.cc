@@ -84,13 +84,13 @@ std::vector<Leg> AroundTheSquare() {
 }
 
 TEST(MotionSensors, OdometerIgnoresUnequalWheels) {
-  // The test is the square of planar_fidelity_test.cc, with sides of 2 m. If the wheels differ by
-  // the ratio E, the robot misses its start by 2 L beta, with beta = L / (b/2 (E + 1) / (E - 1)).
-  // The odometry does not show this error.
+  // The test is the square of planar_fidelity_test.cc, with sides of 2 m. If E is the ratio of the
+  // wheels' radii, the distance between the robot's start and its end is 2 L beta, with beta = L /
+  // (b/2 (E + 1) / (E - 1)). The odometry does not show this error.
   const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
   const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
   ASSERT_EQ(driven.values.size(), 6u);
-  EXPECT_EQ(driven.values[5], 0);  // sideways velocity, which this drive does not have
+  EXPECT_EQ(driven.values[5], 0);  // sideways velocity; this drive cannot move sideways
   EXPECT_WITHIN(driven.values[0], 0, 1e-9, "m");
   EXPECT_WITHIN(driven.values[1], 0, 1e-9, "m");
   EXPECT_NEAR(geometry::WrapAngle(driven.values[2]), 0, 1e-9);

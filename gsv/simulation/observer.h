@@ -1,9 +1,9 @@
 // The interface of objects that receive the snapshots and events of a simulation. See
 // Simulation::AddObserver().
 //
-// Threads  snapshots come from the stepping thread, which holds no lock then, so const members of
-//          the simulation may be called. Events come from any thread with locks held, so no member
-//          of the simulation may be called. Both functions must return at once.
+// Threads  the stepping thread passes snapshots and holds no lock meanwhile, so const members of
+//          the simulation may be called. Any thread may pass events and holds locks meanwhile, so
+//          no member of the simulation may be called. Both functions must return at once.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace gsv::simulation {
 
-// How long the parts of one step took, in wall-clock time, from the end of the step before. Pauses
+// The wall-clock times of the parts of one step, measured from the end of the previous step. Pauses
 // do not count.
 struct StepTimes {
   std::int64_t step = 0;
@@ -27,8 +27,9 @@ struct StepTimes {
   std::chrono::nanoseconds bodies{0};      // motion and contacts
   std::chrono::nanoseconds observers{0};   // recorders and viewers
   std::chrono::nanoseconds idle{0};        // in real time: waiting until the step was due
-  // The robot whose behaviour delayed the step. It is the last robot for which the step waited, or
-  // else the robot with the longest turn. Empty if no behaviour delayed the step.
+  // The robot whose behaviour delayed the step. This is the last robot for which the step waited.
+  // If the step waited for no robot, it is the robot with the longest turn. Empty if no behaviour
+  // delayed the step.
   std::string held_up_by;
 
   std::chrono::nanoseconds total() const {
@@ -40,8 +41,8 @@ struct StepTimes {
 class Observer {
  public:
   virtual ~Observer() = default;
-  // Whether OnTimes() shall be called. The result must not change. Steps are timed only while at
-  // least one observer returns true.
+  // Whether OnTimes() shall be called. The result must always be the same. Steps are timed only if
+  // wants_times() of at least one observer returns true.
   virtual bool wants_times() const { return false; }
   // Receives the times of a step, after OnSnapshot(), on the stepping thread.
   virtual void OnTimes(const StepTimes&) {}

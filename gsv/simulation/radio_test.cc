@@ -45,7 +45,7 @@ Inbox Listen(Agent& agent) {
   return inbox;
 }
 
-// A behaviour that opens its radio and calls `what` once, 100 ms later.
+// A behaviour that opens its radio, waits 100 ms, and then calls `what` once.
 std::shared_ptr<ThreadBehaviour> Speaks(std::function<void(Agent&)> what) {
   return std::make_shared<ThreadBehaviour>([what](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.OpenSensor("radio"));
@@ -77,7 +77,8 @@ std::shared_ptr<ThreadBehaviour> Hears(std::vector<SimTime> instants,
 TEST(Radio, DeliversWithTheNextStepInTheOrderOfSenders) {
   std::map<SimTime, Inbox> heard;
   auto simulation = Make(Lockstep(300ms));
-  // The robots are not added in the order of their names: the first sender is the last by name.
+  // The robots are added in another order than that of their names: the robot that is added first
+  // has the last name.
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("zoe", 0, 2, Says({"z1", "z2"}))));
   ASSERT_TRUE(
       simulation->AddRobot(RobotWithRadio("ear", 0, 0, Hears({100ms, 110ms, 200ms}, heard))));

@@ -1,7 +1,7 @@
 // A simulation: a world, its robots and their agents, a clock, and the loop that steps it.
 //
-// Threads      every public member may be called from any thread. None blocks for longer than a
-//              step, unless its comment says so.
+// Threads      every public member may be called from any thread. A member blocks for at most one
+//              step, unless its comment says otherwise.
 // Determinism  in lockstep the state after each step is a function of the specification, the robots
 //              and the commands of their behaviours; see "Time" in ARCHITECTURE.md.
 #pragma once
@@ -24,7 +24,7 @@ namespace gsv::simulation {
 
 // A robot that is added to the world.
 struct RobotSpecification {
-  std::string name;  // if empty: the model's name, with a number if that is taken
+  std::string name;  // if empty: the model's name, with a number if this name is taken
   std::shared_ptr<const model::Model> model;
   geometry::Pose world_from_robot;
   // Whether the robot is moved vertically so that it stands on the floor, see sensing/ground.h.
@@ -34,14 +34,14 @@ struct RobotSpecification {
   bool allow_unmanaged = false;
   bool is_avatar = false;
   std::optional<model::Movement> movement;  // if not set, the movement of the model
-  // A text as in model/drive_choice.h. If empty: the model's own drive, or else a guessed one.
+  // A text as in model/drive_choice.h. If empty: the model's own drive, or a guessed drive if the
+  // model has none.
   std::string drive;
 };
 
 // An object (not a robot) that is added to the world.
 struct ObjectSpecification {
-  std::string name;                           // if empty: the model's name, with a number if that
-                                              // is taken
+  std::string name;  // if empty: the model's name, with a number if this name is taken
   std::shared_ptr<const model::Model> model;  // if null, the model of `copy_of`
   // The name of the body to copy: a body of the simulation or of the world file, or a body that a
   // user removed.
@@ -78,8 +78,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   static int AbandonedSimulations();
 
   // Adds a robot and initialises its behaviour; blocks until the behaviour answers. A robot that
-  // would touch a wall is placed beside it, with an event "robot_moved". Returns the robot's name.
-  // Fails if the place or the name is taken, or if the behaviour fails in init.
+  // would overlap a wall is placed beside the wall, with an event "robot_moved". Returns the
+  // robot's name. Fails if the place or the name is taken, or if the behaviour fails in init.
   base::Result<std::string> AddRobot(RobotSpecification robot);
   // Adds many robots at once: all of them, or none in case of an error. See AddRobot().
   virtual base::Result<std::vector<std::string>> AddRobots(
@@ -123,8 +123,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Runs until the simulated time `until` and then pauses. No agent is woken at that instant.
   virtual base::Status RunUntil(SimTime until) = 0;
   // Runs until `until`, which may be the current time. Agents whose waits end at that instant have
-  // their turns. Then the simulation pauses, before the next step. Allowed while it is paused or
-  // created.
+  // their turns. Then the simulation pauses, before the next step. Allowed while the simulation is
+  // paused or created.
   virtual base::Status RunThrough(SimTime until) = 0;
   virtual base::Status Stop() = 0;
   // Resets bodies, time and behaviours. It blocks until the behaviours have answered.
@@ -152,18 +152,18 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // unknown.
   virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
 
-  // Returns a sensor's reading for an observer. It equals the reading that the robot's behaviour
-  // gets at the latest snapshot. This does not change the simulation. The call may be slow, for
-  // example for an image. On the stepping thread, as in Observer::OnSnapshot(), it delays the next
-  // step.
+  // Returns a sensor's reading for an observer. The robot's behaviour gets an equal reading at the
+  // latest snapshot. The call does not change the simulation. The call may be slow, for example for
+  // an image. If the stepping thread makes the call, as in Observer::OnSnapshot(), the next step is
+  // delayed.
   virtual base::Result<sensing::Reading> Watch(const std::string& robot,
                                                const std::string& sensor) = 0;
   // Returns the sensors of a robot: those of its model, and those that were created.
   virtual std::vector<model::SensorDescription> sensors(const std::string& robot) const = 0;
   virtual const sensing::SensorRegistry& sensor_types() const = 0;
 
-  // Returns the events from number `first` on, counted from 0. Only a limited number is kept; the
-  // oldest events are dropped.
+  // Returns the events from number `first` on, counted from 0. Only a limited number of events is
+  // kept; the oldest events are dropped.
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
   // Returns the lines that the behaviours' programs printed, from line number `first` on. Lines and
   // events are numbered separately.
@@ -171,8 +171,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Emits an event at the current step. Must not be called from Observer::OnEvent().
   virtual void Emit(std::string_view kind, const std::string& robot, const std::string& detail) = 0;
 
-  // Sets the source of the states that expectations() returns. It may be destroyed before the
-  // simulation.
+  // Sets the source of the states that expectations() returns. The source may be destroyed before
+  // the simulation.
   virtual void SetExpectations(std::weak_ptr<const ExpectationSource> source) = 0;
   // Returns the states of the expectations; empty if there are none.
   virtual std::vector<ExpectationState> expectations() const = 0;

@@ -164,8 +164,8 @@ TEST(Simulation, AfterTheEndOfTheRunAgentsCallsEnd) {
   EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
 }
 
-// Regression: waits have leases. A wait that was repeated during such a pause ended, and changed
-// the state hash.
+// Regression: a wait must be repeated after its lease. When a wait for the instant of a pause was
+// repeated during the pause, it ended at once, and this changed the state hash.
 TEST(Simulation, AWaitForTheInstantOfAPauseEndsWithTheResume) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<int> leases = 0;
@@ -242,8 +242,7 @@ TEST(Simulation, ActionsThatThePhaseDoesNotAllowAreRefusedWithASentence) {
 
 TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunContinues) {
   Specification specification = Lockstep(200ms);
-  specification.deadline = 500ms;  // on a busy machine, a correct behaviour also meets this
-                                   // deadline
+  specification.deadline = 500ms;  // long enough for a correct behaviour on a busy machine
   auto simulation = Make(specification);
   std::atomic<bool> release = false;
   auto stuck = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
@@ -395,10 +394,11 @@ TEST(Simulation, ResumeDuringRequestedStepsContinuesBeyondThem) {
   EXPECT_EQ(simulation->status().phase, Phase::kRunning);
 }
 
-// Regression: a run that was paused at its end took one step too many when it was resumed.
+// Regression: if a run was paused at its end and then resumed, it took one step too many.
 TEST(Simulation, RunPausedDuringItsLastStepTakesNoFurtherStep) {
   auto simulation = Make(Lockstep(20ms));
-  // With this number of attempts, some pause usually comes during the last step.
+  // With 400 robots, a step takes so long that some of the pauses usually come during the last
+  // step.
   for (int i = 0; i < 400; ++i) {
     const int row = i / 20;
     ASSERT_TRUE(simulation->AddRobot(Robot("", -1 - row, i % 20)));
@@ -470,7 +470,7 @@ TEST(Simulation, ARobotThatTouchesAWallStartsBesideItWithAnEvent) {
   EXPECT_NE(events.front().detail.find("wall"), std::string::npos);
 }
 
-// A sensor that measures the heading. Its type is defined only here.
+// A sensor that measures the heading. Only this test defines its type.
 class Compass final : public sensing::Sensor {
  public:
   using Sensor::Sensor;

@@ -55,11 +55,10 @@ struct Specification {
   FailurePolicy on_failure = FailurePolicy::kContinue;
   // The wall-clock time that an agent may run before it counts as unresponsive.
   std::chrono::milliseconds deadline{10'000};
-  bool keep = false;                                // whether the simulation stays when its creator
-                                                    // has gone
-  std::vector<model::PedestrianGroup> pedestrians;  // groups of pedestrians in addition to those of
-                                                    // the world
-  std::vector<scenario::Fault> faults;              // see scenario/fault.h
+  bool keep = false;  // whether the simulation continues to exist after its creator has ended
+  // groups of pedestrians that are added to those of the world
+  std::vector<model::PedestrianGroup> pedestrians;
+  std::vector<scenario::Fault> faults;  // see scenario/fault.h
   // Number of threads for bodies and local behaviours. 0 means: all processors in lockstep, else
   // one thread.
   int threads = 0;
@@ -73,14 +72,14 @@ enum class AgentPhase { kNone, kInitialised, kRunning, kWaiting, kFinished, kUnr
 
 const char* ToString(AgentPhase phase);
 
-// The recent motion of a robot's base, sampled every 0.1 s of simulated time
+// The recent motion of a robot's base. It is sampled every 0.1 s of simulated time
 // (history/motion_history.h).
 struct Motion {
   bool is_moving = false;
   bool has_moved = false;  // whether the robot has moved since the start, or since it was added
-  SimTime since{0};        // since when the robot has been moving, or has not been moving
+  SimTime since{0};        // time since which the robot has been moving, or at rest
   bool is_stuck = false;   // whether it was commanded to move for stuck_after, without effect
-  // Simulated time for which the robot was commanded to move since its last motion.
+  // Simulated time for which the robot has been commanded to move since its last motion.
   SimTime commanded_for{0};
   world::DriveCommand command;  // current command; zero after the drive's command timeout
   double linear = 0;            // speed of the robot's origin, m/s
@@ -94,8 +93,8 @@ struct Motion {
 struct RobotStatus {
   std::string name;
   std::string model;
-  std::string behaviour;        // name of its behaviour; empty if it has none
-  std::string behaviour_place;  // "host:pid" of its program
+  std::string behaviour;        // name of the robot's behaviour; empty if there is none
+  std::string behaviour_place;  // "host:pid" of the behaviour's program
   bool is_avatar = false;
   bool is_station = false;  // whether this is an object with sensors (world/station.h)
   AgentPhase phase = AgentPhase::kNone;
@@ -108,8 +107,8 @@ struct RobotStatus {
   // number of readings that the behaviour received, by sensor type
   std::map<std::string, std::uint64_t> readings;
   Motion motion;
-  // The wall-clock time for which the behaviour has run without waiting. 0 while it waits, and if
-  // the simulation does not manage its time.
+  // The wall-clock time for which the behaviour has run without waiting. 0 while the behaviour
+  // waits, and if the simulation does not manage the behaviour's time.
   std::chrono::nanoseconds running_for{0};
 };
 
@@ -122,7 +121,8 @@ struct SimulationStatus {
   SimTime time{0};
   SimTime step_size{0};
   double target_factor = 1;
-  // The actual real-time factor: over about the last second while running, else over the whole run.
+  // The actual real-time factor. While the simulation runs: over about the last second. Otherwise:
+  // over the whole run.
   double real_time_factor = 0;
   std::chrono::nanoseconds wall_time{0};  // wall-clock time spent running
   std::uint64_t late_steps = 0;
@@ -151,8 +151,8 @@ struct Event {
   std::shared_ptr<const Edit> edit;  // null if the event is not an edit
 };
 
-// These events are the output of behaviours' programs: a line on stdout, a line on stderr, and the
-// end of a program. They depend on the wall clock, and are stored separately.
+// The kinds of events that are output of behaviours' programs: a line on stdout, a line on stderr,
+// and the end of a program. These events depend on the wall clock, and are stored separately.
 inline constexpr std::string_view kStdoutEvent = "stdout";
 inline constexpr std::string_view kStderrEvent = "stderr";
 inline constexpr std::string_view kProgramEndedEvent = "program_ended";
@@ -173,8 +173,9 @@ struct ExpectationState {
   Verdict verdict = Verdict::kPending;
   std::int64_t step = 0;  // step of the verdict
   SimTime time{0};
-  // The smallest distance to the limit so far, negative beyond the limit. For a condition that must
-  // become true once, the largest distance. Not set if the expectation has no margin.
+  // The margin is the distance to the limit, negative beyond the limit. This is the smallest margin
+  // so far. For a condition that must become true once, it is the largest margin so far. Not set if
+  // the expectation has no margin.
   std::optional<double> margin;
   std::string unit;  // unit of the margin; empty if it has none
   SimTime margin_at{0};

@@ -13,8 +13,8 @@ namespace gsv::simulation {
 // Returns an error unless the name has 1 to 128 characters and no "/".
 base::Status CheckBodyName(const std::string& name);
 
-// Returns a name that no body in `layout` has: the model's name, with a number from 2 if it is
-// taken.
+// Returns a name that no body in `layout` has. This is the model's name if it is free. Otherwise, a
+// number is appended, which starts at 2.
 std::string FreeName(const world::Layout& layout, const std::string& model);
 
 // Gives robots without a name the name of their model. Fails if a name is invalid, or if a body of

@@ -6,8 +6,8 @@
 namespace gsv::simulation {
 
 // Returns a state for `layout`. Bodies that are also in `old_layout` get their state from
-// `old_state`, and the others start at their initial poses. The states of devices are not changed;
-// see CarryOverDevices().
+// `old_state`. The other bodies start at their initial poses. The states of devices are not
+// changed; see CarryOverDevices().
 world::State CarryOver(const world::Layout& old_layout, const world::State& old_state,
                        const world::Layout& layout);
 

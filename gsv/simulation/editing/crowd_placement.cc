@@ -16,7 +16,7 @@ namespace {
 using geometry::Vector2;
 
 constexpr double kGap = 0.05;  // minimum gap between two pedestrians, m
-constexpr double kCell = 2;    // cell size, m; larger than two pedestrians of the largest radius
+constexpr double kCell = 2;    // cell size, m; larger than two of the largest pedestrians together
 constexpr double kOverlap = 1e-3;  // overlap that is tolerated, m
 constexpr std::uint32_t kAttempts = 400;
 constexpr int kRounds = 40;
@@ -33,8 +33,8 @@ class CrowdPlacement {
       do {
         body.name = group->name + "_" + std::to_string(++numbers_[group->name]);
       } while (layout_.Find(body.name) >= 0);
-      // A sensor's random stream is named after its robot and the sensor, so no sensor uses this
-      // one.
+      // The random streams of sensors are named after a robot and a sensor. So no sensor uses this
+      // stream.
       const std::uint64_t stream = base::StableId("pedestrian " + body.name);
       body.model = looks[stream % looks.size()];
       body.kind = world::BodyKind::kPedestrian;

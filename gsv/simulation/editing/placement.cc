@@ -86,7 +86,8 @@ base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
     // If two new bodies are at the same place, only the second body is refused.
     if (std::find(name + 1, placed.end(), other.name) != placed.end()) continue;
     const std::string wanted = PlaceText(body.initial_pose);
-    // A robot whose larger part is outside of a wall is moved to a place beside the wall.
+    // If the larger part of a robot is outside of a wall, the robot is moved to a place beside the
+    // wall.
     if (body.is_robot() && !other.is_robot() && PushOut(engine, layout, index, state)) {
       const geometry::Pose& now = state.bodies[static_cast<std::size_t>(index)].world_from_model;
       pushed_out.push_back({*name, "starts at " + PlaceText(now) + ", since at " + wanted +

@@ -34,8 +34,8 @@ class EventLog {
   std::vector<Event> Since(std::uint64_t first) const;
   // The number of events so far, including dropped events.
   std::uint64_t count() const;
-  // OutputsSince() and output_count() are for lines of output (IsOutput()), which Since() and
-  // count() leave out.
+  // OutputsSince() and output_count() are for lines of output (IsOutput()). Since() and count()
+  // leave these lines out.
   std::vector<Event> OutputsSince(std::uint64_t first) const;
   std::uint64_t output_count() const;
 

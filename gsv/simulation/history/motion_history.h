@@ -54,8 +54,8 @@ class MotionHistory {
   SimTime sampled_{0};
 };
 
-// Returns, for each body, the first other body that it touches, or -1. Bodies that carry it are
-// ignored.
+// Returns, for each body, the first other body that it touches, or -1. Contacts with a body that
+// supports the other body are ignored.
 std::vector<int> ContactPartners(const world::Snapshot& snapshot);
 
 }  // namespace gsv::simulation

@@ -74,7 +74,7 @@ class SnapshotHistory {
  private:
   struct Samples {
     SnapshotPtr arrived;
-    // snapshots that are not available yet; their number is at most the latency divided by the
+    // snapshots whose latency has not passed; their maximum number is the latency divided by the
     // period
     std::deque<SnapshotPtr> coming;
   };

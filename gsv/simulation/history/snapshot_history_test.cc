@@ -33,8 +33,8 @@ TEST(SnapshotHistory, SampleIsTakenAtTheFirstStepAtOrAfterItsInstant) {
 }
 
 TEST(SnapshotHistory, SensorWithALatencyReadsOlderSamples) {
-  // The samples of 0, 20, 40, … ms are available from 35, 55, 75, … ms on, so at the steps 40, 60,
-  // 80, … ms.
+  // The samples of 0, 20, 40, … ms are available from 35, 55, 75, … ms on. The first steps at which
+  // they can be read are at 40, 60, 80, … ms.
   SnapshotHistory history(At(0, 10ms));
   const Cadence late{20ms, 35ms};
   history.Use({20ms});

@@ -1,4 +1,4 @@
-// A pool of snapshots that nobody reads any more. Later steps reuse their memory.
+// A pool of snapshots that have no reader any more. Later steps reuse their memory.
 //
 // Threads  any. Snapshots may outlive the pool.
 #pragma once

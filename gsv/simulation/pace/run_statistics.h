@@ -18,8 +18,8 @@ class RunStatistics {
   // are stored.
   void Stepped(WallTime wall, base::SimTime time, WallDuration duration);
 
-  // The actual real-time factor over the last second. When the simulation does not run: over its
-  // whole running time.
+  // While the simulation runs: the actual real-time factor over the last second. Otherwise: the
+  // real-time factor over the whole time for which the simulation ran.
   double real_time_factor() const;
   // The wall-clock time for which the simulation has run, up to the last call of Stepped() or
   // Stopped().

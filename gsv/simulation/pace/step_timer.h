@@ -1,4 +1,4 @@
-// Measures the wall-clock time of each part of a step. Every moment belongs to one part.
+// Measures the wall-clock time of each part of a step. The parts do not overlap and have no gaps.
 //
 // Threads  the stepping thread.
 #pragma once

@@ -20,7 +20,7 @@ bool AgentClocks::WaitUntil(ClockId id, base::SimTime until, base::SimTime now) 
   Clock* const found = Find(id);
   GSV_CHECK(found != nullptr);
   Clock& clock = *found;
-  // In a pause, the instant may be reached although the agent has not been woken.
+  // During a pause, the instant may be reached before the agent is woken.
   if (clock.waiting && clock.until == until) return false;
   if (until <= now) {
     clock.waiting = false;

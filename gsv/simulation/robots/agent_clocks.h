@@ -1,8 +1,8 @@
 // The clocks of one agent, which determine whether the simulation waits for the agent. The class
 // holds data only, without threads or time.
 //
-// An open clock either runs or waits for an instant. An agent runs from its start, and until all
-// its open clocks wait. It has finished when all its clocks are closed.
+// An open clock either runs or waits for an instant. An agent runs from its start until all its
+// open clocks wait. It has finished when all its clocks are closed.
 #pragma once
 
 #include <algorithm>

@@ -21,8 +21,8 @@ base::Result<CycleMemory> RobotAgent::ShareMemory(ClockId clock) {
   return added->memory;
 }
 
-// Does the same as Exchange() and SleepAndRead() until they wait. If they would fail, the client
-// repeats the cycle by a call, which then reports the error.
+// Does the first part of Exchange() and SleepAndRead(), until they wait. If this part fails, the
+// client repeats the cycle by a call, and the call reports the error.
 void RobotAgent::BeginCycle(const std::shared_ptr<CycleChannel>& channel,
                             EventSignaler::Events& due) {
   auto request = channel->Take();

@@ -75,7 +75,7 @@ std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
 void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
   for (const AgentPtr& agent : WithBehaviour()) {
     caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
-      // If a behaviour fails to handle a pause, its clocks are stopped nevertheless.
+      // The clocks stop also if the behaviour fails to handle the pause.
       if (const auto status = (behaviour.get()->*call)(); !status) {
         events_.Emit(
             "behaviour_silent", agent->robot(),
@@ -90,7 +90,7 @@ void AgentPopulation::End(std::string reason, bool is_stuck) {
   shared_->channels.CloseAll();
   for (const auto& [name, agent] : agents_) agent->wait_event()->Open();
   for (const AgentPtr& agent : WithBehaviour()) {
-    // a behaviour that does not return from its turn would not return from this call either
+    // If a behaviour does not return from its turn, its Stop() would not return either.
     if (is_stuck && agent->in_turn_since()) continue;
     caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { (void)behaviour->Stop(); });
   }
@@ -134,7 +134,7 @@ void AgentPopulation::ReportIfFailed(RobotAgent& agent, const char* what,
 
 void AgentPopulation::CheckForDeaths() {
   for (const auto& [name, agent] : agents_) {
-    // A behaviour in this process ends only with the process, so it is not checked.
+    // A behaviour in this process lives as long as the process, so it is not checked.
     if (agent->is_hosted() || !agent->is_watched()) continue;
     if (!liveness_checks_.insert(name).second) continue;
     caller_.Post("watch " + name, [this, held = agent, behaviour = agent->behaviour()] {

@@ -57,7 +57,8 @@ class AgentPopulation {
   // Resets all agents after the calls that End() posted have returned. Behaviours then wait for
   // Init().
   void Reset() GSV_REQUIRES(simulation_mutex);
-  // Starts to check whether behaviours have died. Each death is reported when its check ends.
+  // Starts to check whether behaviours have died. A death is reported when the check of this
+  // behaviour ends.
   void CheckForDeaths() GSV_REQUIRES(simulation_mutex);
   // Marks an agent as dead if the call of its behaviour failed.
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
@@ -66,8 +67,8 @@ class AgentPopulation {
   // Returns the status of each robot.
   std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot, SimTime stuck_after) const
       GSV_REQUIRES(simulation_mutex);
-  // The first robot for which the simulation has waited longer than 0.1 s, with this time. Empty if
-  // there is none.
+  // If the simulation has waited for a robot longer than 0.1 s, returns the first such robot and
+  // the time of the wait. Otherwise empty.
   std::string WaitingFor() const GSV_REQUIRES(simulation_mutex);
 
  private:

@@ -13,8 +13,9 @@ using exchange::CycleState;
 using exchange::StateOf;
 using exchange::WithState;
 
-// The largest file, in bytes. A slot is never used twice, because the client of a closed slot may
-// still write to it. So a simulation has at most 16,383 slots; further clocks use calls.
+// The maximum size of the file, in bytes. A slot is never used twice, because the client of a
+// closed slot may still write to the slot. So a simulation has at most 16,383 slots. Further clocks
+// use calls.
 constexpr std::uint64_t kMaxFileSize = 16'384 * exchange::kSlotSize;
 
 }  // namespace

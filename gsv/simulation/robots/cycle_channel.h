@@ -1,5 +1,5 @@
-// The simulation's side of a slot in shared memory (gsv/exchange/cycle_memory.h), by which the
-// behaviour of one clock exchanges its control cycles.
+// The simulation's side of a slot in shared memory (gsv/exchange/cycle_memory.h). Through the slot,
+// the behaviour of one clock exchanges its control cycles.
 //
 // Threads  Take(), SetDue() and Close() with the simulation's mutex held. Open() from any thread.
 #pragma once
@@ -42,20 +42,20 @@ class CycleChannel final : public Wakeable {
   // Whether a client has opened the slot.
   bool is_used() const { return exchange::StateOf(slot_.state) != exchange::CycleState::kNew; }
   bool is_closed() const { return exchange::StateOf(slot_.state) == exchange::CycleState::kClosed; }
-  // Whether a client waits for the answer of a request that was taken.
+  // Whether a client waits for the answer to a request that Take() has returned.
   bool is_waiting() const { return exchange::StateOf(slot_.state) == exchange::CycleState::kTaken; }
 
-  // Takes the request that the client has posted, if there is one. Then call Accept() or Refuse().
+  // Returns and removes the client's request, if there is one. Then call Accept() or Refuse().
   std::optional<Request> Take();
-  // The command of the request has been applied, and its wait has begun.
+  // Accepts the request. Call this when its command has been applied and its wait has begun.
   void Accept(Request request);
-  // The client repeats the cycle by a call.
+  // Refuses the request. The client then repeats the cycle by a call.
   void Refuse();
-  // The wait is over. The next Open() writes the answer.
+  // Reports that the wait of the request is over. The next Open() writes the answer.
   void SetDue(base::SimTime reached, bool holds_time);
-  // Measures, and answers the client.
+  // Reads the sensors and answers the client.
   void Open() override;
-  // The client uses calls from now on.
+  // Closes the channel. From now on, the client uses calls.
   void Close();
 
  private:
@@ -63,7 +63,8 @@ class CycleChannel final : public Wakeable {
     std::uint32_t state = 0;  // the slot's state at SetDue()
     exchange::CycleAnswer answer;
   };
-  // Changes the state of the slot, unless the client has changed it, and wakes the client.
+  // Changes the state of the slot and wakes the client. If the client has already changed the
+  // state, does nothing.
   void Change(std::uint32_t from, exchange::CycleState to);
 
   const std::unique_ptr<exchange::Mapping> memory_;
@@ -75,7 +76,7 @@ class CycleChannel final : public Wakeable {
   std::optional<Due> due_ GSV_GUARDED_BY(mutex_);
 };
 
-// All channels of a simulation, and their memory. The memory is made with the first channel.
+// All channels of a simulation, and their memory. The memory is created with the first channel.
 //
 // Threads  with the simulation's mutex held.
 class CycleChannels {
@@ -85,7 +86,7 @@ class CycleChannels {
     RobotAgent* agent = nullptr;
   };
 
-  // Makes the memory, if there is none yet.
+  // Creates the memory if it does not exist yet.
   base::Status Prepare();
   exchange::Bell* bell() const {
     return bell_ != nullptr ? static_cast<exchange::Bell*>(bell_->data()) : nullptr;
@@ -110,7 +111,7 @@ class CycleChannels {
 
   std::unique_ptr<exchange::SharedFile> file_;
   std::unique_ptr<exchange::Mapping> bell_;
-  std::uint64_t size_ = 0;  // of the file; slots are not used twice
+  std::uint64_t size_ = 0;  // size of the file in bytes; slots are not used twice
   std::vector<Channel> channels_;
 };
 

@@ -23,9 +23,9 @@ class EventSignaler {
   EventSignaler& operator=(const EventSignaler&) = delete;
   ~EventSignaler();
 
-  // Signals the events and clears `events`. The caller's thread signals a few events itself. If
-  // there are many, the signaler's thread signals them soon, in this order. An agent waits again
-  // only after its event was signalled, so the queue holds at most one event per agent.
+  // Signals the events and clears `events`. If there are few events, the caller's thread signals
+  // them. If there are many, the signaler's thread signals them soon, in this order. An agent waits
+  // again only after its event was signalled, so the queue contains at most one event per agent.
   void Open(Events& events);
 
  private:

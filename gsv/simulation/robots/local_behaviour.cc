@@ -9,7 +9,7 @@ void Turn::Instant::Prepare(base::ThreadTeam& team) {
 
 sensing::Sampling Turn::Instant::MakeSampling() const {
   sensing::Sampling sampling(snapshots.latest(), -1, seed, *rays);
-  if (scene != nullptr) (void)sampling.Rays();  // finds `scene`, so that turns need not
+  if (scene != nullptr) (void)sampling.Rays();  // finds `scene` now, so that turns need not do it
   return sampling;
 }
 

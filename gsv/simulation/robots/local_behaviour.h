@@ -25,9 +25,9 @@
 
 namespace gsv::simulation {
 
-// A turn is one execution of a local behaviour between two steps. This class has the operations
-// that the behaviour may use meanwhile. The last call of WaitUntil(), Block(), Finish() or Fail()
-// decides what happens after the turn. Without such a call, the behaviour has finished.
+// A turn is one execution of a local behaviour between two steps. The behaviour uses the members of
+// this class during its turn. The last call of WaitUntil(), Block(), Finish() or Fail() decides
+// what happens after the turn. If the turn contains no such call, the behaviour has finished.
 class Turn {
  public:
   // The data that all turns at one instant share.
@@ -39,8 +39,8 @@ class Turn {
     bool is_timed = false;  // whether the durations of turns are measured, see
                             // RobotAgent::turn_took()
 
-    // Builds the ray scene, on the threads of the team, if turns at the last instant have cast
-    // rays.
+    // Builds the ray scene, on the threads of the team. Builds it only if a turn at the previous
+    // instant has cast rays.
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 
@@ -124,10 +124,11 @@ class LocalBehaviour : public BehaviourPort {
 
   // The clock on which the turns wait. Start() opened it.
   virtual ClockId clock() const = 0;
-  // Loads the data that the turn needs into the processor's cache. Called shortly before the turn.
+  // Loads the data of the next turn into the processor's cache. Called shortly before the turn.
   virtual void PrefetchTurn() const {}
-  // Executes a turn. The function must return, because nothing can interrupt it. If it exceeds the
-  // deadline, the simulation fails, and requests that need the world are refused until it returns.
+  // Executes a turn. The function must return, because nothing can interrupt it. If the turn
+  // exceeds the deadline, the simulation fails. Requests that need the world are then refused until
+  // the function returns.
   virtual void TakeTurn(Turn& turn) = 0;
 };
 

@@ -10,8 +10,8 @@
 namespace gsv::simulation {
 namespace {
 
-// The maximum number of samples that wait for their latency; each keeps a snapshot of the whole
-// world.
+// The maximum number of samples whose latency has not passed. Each of them keeps a snapshot of the
+// whole world.
 constexpr double kMaxUnderWay = 100;
 
 // Reads the parameter `latency` (s, default 0), which sensors of all types have.

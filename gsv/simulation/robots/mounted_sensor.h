@@ -19,7 +19,7 @@ namespace gsv::simulation {
 // A sensor of a model, which all robots of the model share.
 struct SensorDesign {
   model::SensorDescription description;
-  // null if the parameters are invalid; `refusal` has the reason
+  // null if the parameters are invalid; then `refusal` contains the reason
   std::unique_ptr<const sensing::Sensor> sensor;
   base::Error refusal;
   Cadence cadence;
@@ -27,7 +27,7 @@ struct SensorDesign {
 
 using SensorDesignPtr = std::shared_ptr<const SensorDesign>;
 
-// `where` is the place that errors name, such as "robot_3/front".
+// Error messages name the sensor as `where`, such as "robot_3/front".
 base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription description,
                                                const sensing::SensorRegistry& types,
                                                const std::string& where);
@@ -79,15 +79,15 @@ class MountedSensor {
     return device != nullptr ? std::shared_ptr<const sensing::Device>(design_, device) : nullptr;
   }
 
-  // Returns the sample at the instant of `sampling`. If it was not taken yet, it is taken now.
+  // Returns the sample at the instant of `sampling`. Takes the sample if it does not exist yet.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
   // Like Read(), but for a caller that is not the robot's behaviour, such as a live topic.
   base::Result<sensing::Reading> Watch(const sensing::Sampling& sampling);
 
-  // From now on, each of these sweeps also counts as a reading of this sensor.
+  // From now on, each sweep that `sweeps` counts is also a reading of this sensor.
   void Join(std::shared_ptr<Sweeps> sweeps);
 
-  // Applies a fault. From now on, the newest sample is that of `snapshot`. If `snapshot` is null,
+  // Applies a fault. From now on, the sensor reads the state in `snapshot`. If `snapshot` is null,
   // readings fail.
   void Fail(std::shared_ptr<const world::Snapshot> snapshot);
 
@@ -95,11 +95,11 @@ class MountedSensor {
   void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
   std::uint64_t readings() const;
 
-  // Returns to the initial state.
+  // Resets the sensor to its initial state.
   void Forget();
 
  private:
-  // Returns the reading of this step, and takes it if it was not taken yet.
+  // Returns the reading of this step. Takes the sample if it does not exist yet.
   base::Result<sensing::Reading> SampleOnce(const sensing::Sampling& sampling) GSV_REQUIRES(mutex_);
   // From now on, the behaviour must read the sensors of the sweep one by one.
   void ForbidSweeps() GSV_REQUIRES(mutex_);
@@ -108,9 +108,8 @@ class MountedSensor {
   std::atomic<std::uint64_t> readings_{0};
 
   mutable base::Mutex mutex_;
-  std::shared_ptr<Sweeps> sweeps_ GSV_GUARDED_BY(mutex_);   // null: none
-  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // number of sweeps when Join() was
-                                                            // called
+  std::shared_ptr<Sweeps> sweeps_ GSV_GUARDED_BY(mutex_);  // null if the sensor belongs to no sweep
+  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // number of sweeps at Join()
   std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;   // step of the newest sample, or -1
   std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;
   sensing::Reading newest_ GSV_GUARDED_BY(mutex_);

@@ -46,8 +46,8 @@ void RobotAgent::UpdateRunningCount() {
   is_counted_ = holds_up;
   shared_->running += holds_up ? 1 : -1;
   const bool is_waited_for = shared_->mode == Mode::kLockstep;
-  // A client with a channel rings only if all others with a channel have posted, so the stepping
-  // thread looks again after each wait by a call.
+  // A client with a channel rings only if all other clients with channels have posted. A client
+  // that waits by a call does not ring, so the stepping thread must look again here.
   if (!is_waited_for || (shared_->running > 0 && shared_->channels.empty())) return;
   if (shared_->is_timed) shared_->held_up_by = robot_;
   shared_->changed.notify_all();
@@ -321,7 +321,7 @@ base::Status RobotAgent::CloseSensor(const std::string& name) {
   const auto sensor = rack_.Find(name);
   if (auto ok = rack_.Close(name); !ok) return ok;
   auto device = (*sensor)->device();
-  // If an actuator belongs to the model, closing it does not end its command.
+  // Closing an actuator of the model does not end the actuator's command.
   const bool ends = device != nullptr && (device->IsOnWhileOpen() || !rack_.Find(name));
   if (ends && CheckAlive()) {
     Commands().Add({DeviceAction::Kind::kSwitchOff, std::move(device)});
@@ -441,8 +441,9 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-// The next three functions need no lock. The index of the body changes only with the world's lock
-// held, which the stepping thread holds now. The behaviour changes only before the run has started.
+// The next three functions need no lock. The stepping thread has locked the world now, and only
+// with this lock can the index of the body change. The behaviour can change only before the run
+// starts.
 void RobotAgent::PrefetchBehaviour(const world::Snapshot& snapshot) const
     GSV_NO_THREAD_SAFETY_ANALYSIS {
   PrefetchLines(local_, kBehaviourLines);
@@ -475,7 +476,7 @@ RobotAgent::UsualEnd RobotAgent::ApplyUsualTurn(SimTime now) {
   const auto* const waiting = std::get_if<Turn::Waiting>(&turn_.end_);
   if (waiting == nullptr || waiting->until <= now) return {};
   if (is_removed_ || fate_ != Fate::kAlive || death_reported_ || has_given_up_) return {};
-  // If the agent has a second clock, it may still run.
+  // If the agent has a second clock, that clock may still run.
   if (clocks_.count() != 1 || !clocks_.IsOpen(clock) || clocks_.IsWaiting(clock)) return {};
   UsualEnd end{.is_usual = true, .until = waiting->until};
   clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);

@@ -66,17 +66,17 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     bool has_passed = false;
     bool has_died = false;  // whether a death that was reported now takes effect
   };
-  // Begins the cycle that the client has posted to the channel, if there is one. If its wait is
-  // over already, the channel is added to `due`.
+  // Begins the cycle that the client has posted to the channel, if there is one. If the wait of
+  // this cycle is already over, the channel is added to `due`.
   void BeginCycle(const std::shared_ptr<CycleChannel>& channel, EventSignaler::Events& due)
       GSV_REQUIRES(simulation_mutex);
-  // Adds what must be opened after Wake() to `due`: the event of waiting calls, and channels.
+  // Adds the events and channels that must be opened after Wake() to `due`.
   void CollectWoken(const Woken& woken, EventSignaler::Events& due) GSV_REQUIRES(simulation_mutex);
   // Whether the clock of the channel delays the next step.
   bool IsAwaited(const CycleChannel& channel) const GSV_REQUIRES(simulation_mutex) {
     return BlocksStep() && !clocks_.IsWaiting(channel.clock());
   }
-  // Measures with the sensors of a cycle.
+  // Reads the sensors of a cycle and writes their readings to `content`.
   CycleChannel::Readings WriteReadings(const CycleChannel::Request& request,
                                        exchange::ContentWriter& content);
   void CloseChannel(ClockId clock);
@@ -113,8 +113,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
   // Marks the agent as unresponsive, because it runs and does not wait.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
-  // Reports the behaviour's death. It takes effect when the agent wakes next, or at once if the
-  // agent runs.
+  // Reports the behaviour's death. If the agent runs, the death takes effect at once. If the agent
+  // waits, the death takes effect when the agent wakes.
   void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
   // Whether the behaviour is neither dead nor unresponsive.
   bool is_alive() const GSV_REQUIRES(simulation_mutex) {
@@ -129,14 +129,14 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   RobotCommands TakeCommands() GSV_REQUIRES(simulation_mutex);
   // Applies the initial commands of the robot's devices.
   void StartDevices() GSV_REQUIRES(simulation_mutex);
-  // Apply faults: from the next step on, the drive stops, or the joint has no motor.
+  // Applies a fault: the drive stops from the next step on.
   void LoseMotor() GSV_REQUIRES(simulation_mutex);
   // Applies a fault: the joint has no motor from the next step on.
   void LoseJoint(int joint) GSV_REQUIRES(simulation_mutex);
   // Records that the robot was removed. Calls of its behaviour then fail.
   void MarkRemoved() GSV_REQUIRES(simulation_mutex);
   bool is_removed() const GSV_REQUIRES(simulation_mutex) { return is_removed_; }
-  // Resets the agent for a new run: its clocks, commands, faults and state of life.
+  // Resets the agent for a new run: its clocks, its commands, its faults, and whether it is alive.
   void ResetClocks() GSV_REQUIRES(simulation_mutex);
   void FillStatus(RobotStatus& status) const GSV_REQUIRES(simulation_mutex);
   // Returns a text such as "robot_3 (wander on host:pid)".
@@ -147,24 +147,21 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void AddToHash(base::Hash& hash) const GSV_REQUIRES(simulation_mutex);
   SensorRack& rack() { return rack_; }
 
-  // The turn of a local behaviour. TakeTurn() needs no lock. ApplyTurn() applies the turn's result
-  // and returns the work that the behaviour waits for, if there is any.
+  // The turn of a local behaviour. TakeTurn() needs no lock.
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
   // The start of the current turn; empty between turns. Any thread may call this.
   std::optional<WallTime> in_turn_since() const;
   // How long the last timed turn took. Only the stepping thread may call this, after the turn.
   WallDuration turn_took() const { return turn_took_; }
-  // Applies the result of the last turn. Returns the slow work for which the behaviour waits, if
-  // any.
+  // Applies the result of the last turn. If the behaviour waits for slow work, returns this work.
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
-  // The changes of SharedState's lists that must follow ApplyUsualTurn().
+  // After ApplyUsualTurn(), the lists of SharedState must be changed as this structure says.
   struct UsualEnd {
     bool is_usual = false;     // false: nothing was applied, and ApplyTurn() must be called
     bool has_command = false;  // whether the agent must be added to SharedState::commanded
     bool has_drive = false;    // whether `drive` must be added to SharedState::drives
     bool was_counted = false;  // whether the agent no longer counts in SharedState::running
-    SimTime until{0};          // the agent must be added to SharedState::turn_sleepers for this
-                               // instant
+    SimTime until{0};          // time at which to add the agent to SharedState::turn_sleepers
     world::DriveCommand drive;
   };
   // Applies the turn if it ended in a wait for a later instant, as almost all turns do. Changes
@@ -213,7 +210,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Status CheckAlive() const GSV_REQUIRES(simulation_mutex);
   // Fails if the clock is not open.
   base::Status CheckClock(ClockId clock) const GSV_REQUIRES(simulation_mutex);
-  // Waits on the clock. Releases `lock` while it waits.
+  // Waits on the clock. `lock` is released during the wait.
   base::Result<Wait> WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,
                             std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
   // Returns the present readings of all sensors that are open.
@@ -243,8 +240,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     }
   }
 
-  // The members that each turn uses come first and fill these cache lines. Usual turns change no
-  // member of the first cache line, so that several threads can keep it in their caches.
+  // The members that each turn uses are the first ones, and fill these cache lines. Usual turns
+  // change no member of the first cache line, so several threads can keep this line in their
+  // caches.
   static constexpr std::size_t kPrefetchedLines = 6;
   alignas(64) const std::shared_ptr<SharedState> shared_;
   std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
@@ -277,7 +275,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const bool is_avatar_;
   SensorRack rack_;
   WaitEvent wait_event_;
-  // The channels of its clocks, of which some may be closed.
+  // The channels of this agent's clocks. Some of them may be closed.
   std::vector<std::shared_ptr<CycleChannel>> channels_ GSV_GUARDED_BY(simulation_mutex);
   // The number of calls that wait on wait_event_.
   int waiting_calls_ GSV_GUARDED_BY(simulation_mutex) = 0;

@@ -30,7 +30,7 @@ struct DeviceAction {
 // Whether the sensor accepts Agent::CommandDevice().
 bool TakesCommands(const MountedSensor& sensor);
 // Converts a command to an action. Fails if the sensor accepts no commands, or if the command is
-// invalid. `robot` is the place that errors name.
+// invalid. Error messages name `robot`.
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot);
 

@@ -49,7 +49,8 @@ class SensorRack {
   };
   // Returns null if the name is unknown.
   const Slot* FindSlot(const std::string& name) const GSV_REQUIRES(mutex_);
-  // The index of the first slot whose name is `name` or sorted after it.
+  // The index of the slot with the name `name`. If there is none, the index at which this slot
+  // would be inserted.
   std::size_t PlaceOf(const std::string& name) const GSV_REQUIRES(mutex_);
   base::Error NoSuchSensor(const std::string& name) const;
 

@@ -1,5 +1,6 @@
-// The state that a simulation, its stepping thread and its agents share, under one mutex. Agents
-// keep the state alive, so that a late call finds that the simulation has ended.
+// The state that a simulation, its stepping thread and its agents share, under one mutex. The
+// agents keep this state alive. So a call after the end of the simulation can still read that the
+// simulation has ended.
 #pragma once
 
 #include <string>
@@ -74,13 +75,13 @@ struct SharedState {
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);
   // The local behaviours that have a turn now.
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);
-  // The agents from turn_sleepers whose instant has come. They still wait, so they do not count in
-  // `running`.
+  // The agents from turn_sleepers whose instant is reached. They still wait, so they do not count
+  // in `running`.
   std::vector<RobotAgent*> due GSV_GUARDED_BY(simulation_mutex);
   bool has_turns() const GSV_REQUIRES(simulation_mutex) { return !ready.empty() || !due.empty(); }
   // Whether deaths of agents were reported. The dead agents may still count as running.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
-  // Whether steps are timed, and the robot whose behaviour the step waited for last (empty if there
+  // Whether steps are timed, and the last robot for whose behaviour the step waited (empty if there
   // is none).
   bool is_timed GSV_GUARDED_BY(simulation_mutex) = false;
   std::string held_up_by GSV_GUARDED_BY(simulation_mutex);
@@ -108,8 +109,8 @@ class GSV_SCOPED_CAPABILITY SimulationLock {
 };
 
 // A lock of SharedState::mutex for calls of agents. There may be a thousand such calls at once, so
-// they first queue at `line`. The stepping thread locks the mutex directly, so it waits for at most
-// one of them.
+// they first queue at `line`. The stepping thread locks the mutex directly. So the stepping thread
+// waits for at most one of these calls.
 class GSV_SCOPED_CAPABILITY AgentCallLock {
  public:
   explicit AgentCallLock(SharedState& state) GSV_ACQUIRE(simulation_mutex) : state_(state) {

@@ -1,5 +1,5 @@
-// Wakes the stepping thread. A thread of this process wakes it, or a client by the memory that it
-// shares with the simulation.
+// Wakes the stepping thread. A thread of this process can wake it. A client can also wake it,
+// through the memory that the client shares with the simulation.
 //
 // Threads  any.
 #pragma once
@@ -33,15 +33,15 @@ class StepSignal {
   void Use(exchange::Bell& bell) {
     bell_ = &bell;
     own_.rings.fetch_add(1);
-    exchange::FutexWake(own_.rings);  // threads that still sleep on the bell of before
+    exchange::FutexWake(own_.rings);  // wakes the threads that still sleep on the previous bell
   }
 
-  // A number that changes with each signal. A wait with this number returns at once if there was a
-  // signal since.
+  // A number that changes with each signal. If there was a signal after mark(), a wait with the
+  // returned number returns at once.
   std::uint32_t mark() const { return bell_.load()->rings.load(); }
 
-  // Waits until there is a signal after `mark`, or, without it, after this call has begun. May also
-  // return early. `lock` is released meanwhile.
+  // Waits until there is a signal after `mark`. If `mark` is not set, waits for a signal after the
+  // beginning of this call. May also return early. `lock` is released during the wait.
   std::cv_status wait_until(base::MutexLock& lock, std::optional<WallTime> until,
                             std::optional<std::uint32_t> mark = std::nullopt) {
     exchange::Bell& bell = *bell_.load();
@@ -68,7 +68,7 @@ class StepSignal {
  private:
   exchange::Bell own_{};
   std::atomic<exchange::Bell*> bell_{&own_};
-  std::atomic<int> sleepers_{0};  // threads that wait; also in the bell, for clients
+  std::atomic<int> sleepers_{0};  // number of waiting threads; the bell also stores it, for clients
 };
 
 }  // namespace gsv::simulation

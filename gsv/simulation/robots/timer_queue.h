@@ -31,7 +31,7 @@ class TimerQueue {
     return !entries_.empty() && entries_.begin()->first <= now;
   }
 
-  // Removes the sleepers whose instant has come, and calls `wake` for each in the order of the
+  // Removes the sleepers whose instant is reached, and calls `wake` for each in the order of the
   // instants. Sleepers with equal instants wake in the order in which they were added.
   template <typename Wake>
   void TakeDue(base::SimTime now, const Wake& wake) {
@@ -49,7 +49,8 @@ class TimerQueue {
     }
   }
 
-  // Removes these sleepers and appends them to `due`, in the same order.
+  // Removes the sleepers whose instant is reached, and appends them to `due` in the order in which
+  // the other TakeDue() would wake them.
   void TakeDue(base::SimTime now, std::vector<Sleeper*>& due) {
     while (HasDue(now)) {
       std::vector<Sleeper*> first = std::move(entries_.begin()->second);

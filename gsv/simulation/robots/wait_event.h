@@ -21,15 +21,15 @@ class Wakeable {
 // An event on which threads wait, and which another thread signals.
 class WaitEvent final : public Wakeable {
  public:
-  // The number of signals so far. To wait for a condition, a thread reads this number while it
-  // holds the lock of the condition, and then passes it to WaitAfter(). So it also notices a signal
-  // that comes between the two calls.
+  // The number of signals so far. To wait for a condition, a thread first reads this number while
+  // it holds the lock of the condition. Then it passes the number to WaitAfter(). So the thread
+  // also notices a signal between the two calls.
   std::uint64_t signals() const {
     const base::MutexLock lock(mutex_);
     return signals_;
   }
 
-  // Signals the event and so wakes all waiting threads. If there are any, this takes a system call.
+  // Signals the event and so wakes all waiting threads. Waking threads takes a system call.
   void Open() override {
     {
       const base::MutexLock lock(mutex_);

@@ -123,8 +123,8 @@ base::Status Perform(Simulation& simulation, const Request& request) {
 }
 
 Observed Observe(const Simulation& simulation) {
-  // Reads phase and time together. Otherwise, a last step between the two reads would look like a
-  // pause at the end of the run.
+  // Reads phase and time together. If they were read separately, a last step could be taken between
+  // the two reads. This would look like a pause at the end of the run.
   const SimulationStatus status = simulation.status();
   return {status.phase == Phase::kStarting ? Phase::kRunning : status.phase, status.step};
 }

@@ -11,7 +11,8 @@
 namespace gsv::simulation {
 namespace {
 
-// Wall-clock time limit for behaviours in other processes to end their turn after a pause.
+// Wall-clock time limit within which behaviours in other processes must end their turn after a
+// pause.
 constexpr std::chrono::seconds kTurnTimeout{2};
 
 base::Status CheckBehaviour(const BehaviourPort& behaviour, Mode mode, const std::string& robot) {

@@ -118,7 +118,7 @@ TEST(Editing, AStaticObjectThatWasAddedCanBeMovedAndRemoved) {
   ASSERT_TRUE(simulation->AddObject(Thing(Crate(0.5, true), 1, 1, "shelf")));
   ASSERT_TRUE(simulation->PlaceBody("shelf", PlanarPose(1, -1, 0, 0), true));
   EXPECT_NEAR(PoseOf(*simulation, "shelf").position.y, -1, 1e-12);
-  // There is not enough space for a robot at the object's new place, but there is at its old place.
+  // At the object's new place there is not enough space for a robot. At its old place there is.
   EXPECT_FALSE(simulation->AddRobot(Robot("robot", 1, -1)));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   EXPECT_TRUE(simulation->RemoveObject("shelf"));
@@ -139,7 +139,7 @@ TEST(Editing, OverlappingObjectIsRejected) {
   EXPECT_EQ(Find(*simulation, "new"), -1);
   EXPECT_FALSE(simulation->PlaceBody("crate", PlanarPose(3, 0, 0, 0), true));
   EXPECT_FALSE(simulation->AddObject(Thing(Crate(0.5, true), 0.1, -2, "new")));
-  // The objects touch side by side, which is allowed.
+  // The objects touch side by side, and this is allowed.
   EXPECT_EQ(refusal(0.4, -2), "");
 }
 
@@ -203,8 +203,8 @@ TEST(Editing, RecordsWhetherAllBehavioursHadTheirTurnBeforeTheEdit) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-// Returns the hash of a run with edits at two instants: one in a pause before the turns, and one
-// after the turns.
+// Returns the hash of a run with two edits: one during a pause before the turns, and one after the
+// turns.
 std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   auto simulation = Make(Room(1s));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.3))));

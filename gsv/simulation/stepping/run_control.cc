@@ -127,11 +127,11 @@ RunControl::Change RunControl::EndTurns(SimTime now) {
 
 RunControl::Change RunControl::EndStep(SimTime now) {
   turns_have_begun_ = false;
-  // Steps that were requested after a pause do not include a step that was in progress during the
-  // pause.
+  // If a pause was requested during a step, that step does not count among the steps that are
+  // requested after the pause.
   if (steps_left_ > 0 && run_of_step_ == run_) --steps_left_;
-  // A run that was paused during its last step also finishes here. Otherwise, resuming it would
-  // take one step more.
+  // A run that was paused during its last step also finishes here. If it did not finish here, it
+  // would take one step too many after a resume.
   if (duration_ > SimTime(0) && now >= duration_) {
     const bool ends = phase_ != Phase::kStopped && phase_ != Phase::kFailed;
     return ends ? Enter(Phase::kFinished, Change::kFinished) : Change::kNone;

@@ -40,8 +40,8 @@ class RunControl {
   bool is_running() const { return phase_ == Phase::kRunning; }
   // Whether the phase is stopped, finished or failed.
   bool has_ended() const;
-  // Fails with kNotRunning unless the phase is among `allowed`. `action` completes "to …" in the
-  // error.
+  // Fails with kNotRunning unless the phase is among `allowed`. `action` completes the words "to …"
+  // in the error message.
   base::Status Require(std::initializer_list<Phase> allowed, const char* action) const;
 
   // The requests, as in the class Simulation.
@@ -107,8 +107,8 @@ class RunControl {
 
   Phase phase_ = Phase::kCreated;
   int starts_pending_ = 0;
-  // The instants at which the run pauses by itself. They are set at a start or a resume.
-  std::optional<SimTime> run_until_;    // pauses after the step that reaches it
+  // The instants at which the run pauses by itself. A start or a resume sets them.
+  std::optional<SimTime> run_until_;    // pauses after the step that reaches this time
   std::optional<SimTime> run_through_;  // pauses after the turns at this instant
   std::int64_t steps_left_ = -1;        // pauses after this number of steps; -1: no limit
 

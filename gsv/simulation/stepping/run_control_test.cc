@@ -17,12 +17,12 @@ using life_cycle::Observed;
 using life_cycle::Request;
 using Change = RunControl::Change;
 
-// A run without a world, in which a step is one nanosecond. It calls RunControl as LifeCycle and
-// StepLoop do, but on one thread.
+// A run without a world, in which a step is one nanosecond. This class calls RunControl like
+// LifeCycle and StepLoop, but on one thread.
 class BareRun {
  public:
-  // `starts` is the number of behaviours that start with the run. They answer when the test
-  // decides.
+  // `starts` is the number of behaviours that start with the run. The test decides when these
+  // behaviours answer.
   BareRun(std::int64_t duration, int starts) : run_("run", SimTime(duration)), starts_(starts) {}
 
   RunControl& control() { return run_; }
@@ -118,8 +118,7 @@ constexpr Request kRequests[] = {
 
 constexpr const char* kNames[] = {"start", "pause", "resume", "step", "run_until", "stop", "reset"};
 
-// Tries every continuation of a sequence. After each, the run must agree with the
-// model.
+// Tries every continuation of a sequence. After each of them, the run must agree with the model.
 class Explorer {
  public:
   // Returns the first sequence that disagrees with the model, or an empty text.

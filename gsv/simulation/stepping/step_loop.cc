@@ -13,9 +13,10 @@
 namespace gsv::simulation {
 namespace {
 
-// Each thread repeatedly takes a number of turns and executes them, which takes some microseconds.
-// The number is from kMinTurnsAPiece to kMaxTurnsAPiece. With few agents, it is chosen such that
-// each thread does this kPiecesOfAThread times, so that all threads end at about the same time.
+// Each thread repeatedly takes a piece of work (some turns) and executes it, which takes some
+// microseconds. A piece has kMinTurnsAPiece to kMaxTurnsAPiece turns. If there are few agents, the
+// pieces are small enough that each thread gets kPiecesOfAThread of them. So all threads end at
+// about the same time.
 constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThread = 8;
 
 // The number of agents whose commands a thread applies at a time.
@@ -25,7 +26,7 @@ constexpr std::size_t kAgentsAtOnce = 128;
 // kAgentsAhead places later, and of the drive kDrivesAhead places later.
 constexpr std::size_t kAgentsAhead = 8, kDrivesAhead = 4;
 
-// The `wanted` number of a bell that is not reached.
+// `Bell::wanted` is set this far ahead if no client shall ring.
 constexpr std::uint32_t kNever = 1U << 30U;
 
 // In lockstep, the stepping thread looks for requests after this wall-clock time even if no client
@@ -38,9 +39,9 @@ constexpr int kTries = 200;
 // The reason in the event of a pause at the end of Step(), RunUntil() or RunThrough().
 constexpr const char* kReachedTarget = "the requested time is reached";
 
-// Raises the priority of the calling thread above that of behaviours, which all want to run at the
-// instant of a step. The system may refuse this: a higher priority needs CAP_SYS_NICE or a limit
-// (ulimit -e) of 30 or more.
+// Raises the priority of the calling thread above the priority of behaviours. All behaviours become
+// ready to run at the instant of a step. The system may refuse this: a higher priority needs
+// CAP_SYS_NICE or a limit (ulimit -e) of 30 or more.
 void RaiseThreadPriority() { (void)setpriority(PRIO_PROCESS, 0, -10); }
 
 }  // namespace
@@ -141,9 +142,10 @@ void StepLoop::WakeAgents() {
   for (const auto& [name, agent] : parts_.agents.all()) wake(*agent);
 }
 
-// Takes the requests that clients have posted to their channels. Also decides which clients ring. In
-// lockstep, the last of those that the next step waits for rings. In real time, none does, because
-// the next step comes soon. In both modes, a client also rings if its instant has passed.
+// Takes the requests that clients have posted to their channels. Also decides which clients ring.
+// In lockstep, the next step waits for some clients, and the last of these clients to post rings.
+// In real time, no client rings, because the next step comes soon. In both modes, a client also
+// rings if its instant has passed.
 void StepLoop::TakeCycles() {
   SharedState& shared = *parts_.shared;
   mark_ = shared.changed.mark();
@@ -152,7 +154,7 @@ void StepLoop::TakeCycles() {
   exchange::Bell& bell = *shared.channels.bell();
   bell.now_ns.store(shared.now.count(), std::memory_order_relaxed);
   const std::uint32_t posted =
-      bell.posted;  // before the requests, so that no client rings too late
+      bell.posted;  // read before the requests are taken, so that no client rings too late
   std::uint32_t awaited = 0;
   for (const CycleChannels::Channel& each : shared.channels.all()) {
     each.agent->BeginCycle(each.channel, woken_);
@@ -164,8 +166,8 @@ void StepLoop::TakeCycles() {
     awaited = kNever;
   }
   bell.wanted = posted + awaited;
-  // A client that posted before this change has compared its request with the number of before, so
-  // it may not have rung.
+  // A client may have posted before this change. It has then compared its request with the previous
+  // number, so it may not have rung.
   may_have_missed_a_ring_ = awaited > 0 && exchange::HasReached(bell.posted, bell.wanted);
 }
 
@@ -223,8 +225,8 @@ void StepLoop::TakeTurns() {
       continue;
     }
     if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
-    // A turn may end in a wait for an instant that is already past. The agent then still blocks the
-    // step, and its deadline applies.
+    // A turn may end in a wait for an instant that has already passed. The agent then still blocks
+    // the step, and the deadline of the agent applies.
     if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
   if (shared.running == 0) shared.changed.notify_all();
@@ -241,7 +243,7 @@ void StepLoop::TakePiece(std::size_t begin, std::size_t end, TurnThread& thread)
   const auto prefetch_turn = [&](std::size_t i) {
     if (i < end) turns_[i]->PrefetchTurn();
   };
-  // Each stage finds its addresses in the data that the stage before it has loaded.
+  // Each stage needs addresses that the previous stage has loaded.
   for (std::size_t i = begin; i < begin + 4; ++i) prefetch_behaviour(i);
   for (std::size_t i = begin; i < begin + 2; ++i) prefetch_turn(i);
   for (std::size_t i = begin; i < end; ++i) {
@@ -252,10 +254,11 @@ void StepLoop::TakePiece(std::size_t begin, std::size_t end, TurnThread& thread)
   thread.begin = begin, thread.end = end;
 }
 
-// Locks the mutex once for two pieces, because another thread has usually locked it last. The agents
-// of the last piece are still in the cache. The stepping thread applies the last piece of each
-// thread. Another thread holds the mutex for at most about a microsecond. Sleeping would take
-// longer, so this thread first tries several times to lock it.
+// Applies a thread's previous piece and wakes the agents of its next piece under one lock of the
+// mutex. Locking is slow, because usually another thread was the last one to lock the mutex. The
+// agents of the previous piece are still in the cache. The stepping thread applies the last piece
+// of each thread. Another thread keeps the mutex locked for at most about a microsecond. To sleep
+// would take longer, so this thread first tries several times to lock the mutex.
 void StepLoop::ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread) {
   base::Mutex& mutex = parts_.shared->mutex;
   int tries = 0;

@@ -2,8 +2,8 @@
 // local behaviours. Then it waits until all agents wait (lockstep) or until the step is due (real
 // time), and takes the step.
 //
-// Determinism  in lockstep no value depends on when calls arrive. Commands are applied from the
-//              instant at which their agent runs, and loops follow the order of names.
+// Determinism  in lockstep no value depends on when calls arrive. A command is applied from the
+//              instant at which its agent runs. Loops follow the order of names.
 #pragma once
 
 #include <functional>
@@ -50,7 +50,7 @@ class StepLoop {
   // Waits for the end of the thread. The caller must not hold a lock.
   void Join();
 
-  // Returns the hash of the world, the agents' waits and the applied faults.
+  // Returns a hash of the world, of the agents' waits and of the applied faults.
   std::string HashNow() const GSV_REQUIRES(world_mutex, simulation_mutex);
 
  private:
@@ -73,8 +73,8 @@ class StepLoop {
   };
   // Any thread may call the next three functions, for different ranges of turns_.
   void TakePiece(std::size_t begin, std::size_t end, TurnThread& thread);
-  // Applies those of the thread's turns that ended in a wait, and sets usual_ends_. Then wakes the
-  // agents from `begin` to `end` and sets outcomes_.
+  // For the turns of `thread` that ended in a wait: applies them and sets usual_ends_. Then wakes
+  // the agents from `begin` to `end` and sets outcomes_.
   void ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread);
   // Adds an agent whose turn has ended to the lists of SharedState.
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
@@ -87,8 +87,8 @@ class StepLoop {
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
   // Returns true if every agent waits. Otherwise waits for a change and returns false.
   bool AllWait(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
-  // Returns true if the next step is due. Otherwise waits until it is, or for a change, and returns
-  // false.
+  // Returns true if the next step is due. Otherwise waits until it is due or something changes, and
+  // returns false.
   bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   // Takes one step.
   void TakeStep();
@@ -108,7 +108,8 @@ class StepLoop {
   SnapshotPool snapshots_;
   DeviceActions device_actions_;  // the actions for the next step
   Turn::Instant instant_;         // the instant of the current turns
-  // The agents of the current turns. The first `awake_` are awake. The others wake first.
+  // The agents of the current turns. The first `awake_` agents are awake. The other agents must be
+  // woken before their turns.
   std::vector<RobotAgent*> turns_;
   std::size_t awake_ = 0;
   // kNone: the agent was not woken, so it has no turn.
@@ -118,9 +119,10 @@ class StepLoop {
   std::vector<TurnThread> turn_threads_;          // one for each thread of the team
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // wait events and channels of the agents that were just woken
-  std::uint32_t mark_ = 0;       // of the signal, at the last TakeCycles()
-  bool may_have_missed_a_ring_ = false;  // of a client, at the last TakeCycles()
-  bool is_timed_ = false;                // whether an observer requests the times of steps
+  std::uint32_t mark_ = 0;       // StepSignal::mark() at the last TakeCycles()
+  // whether the last TakeCycles() may have missed a client's ring
+  bool may_have_missed_a_ring_ = false;
+  bool is_timed_ = false;  // whether an observer requests the times of steps
   StepTimer timer_;
 
   std::jthread thread_;

@@ -136,7 +136,7 @@ SteppingSimulation::~SteppingSimulation() {
   }
   watchdog_.Stop();
   step_loop_.Join();
-  caller_.Close();  // closed first, because calls in progress use the other members
+  caller_.Close();  // before the other members are destroyed, because calls in progress use them
 }
 
 int Simulation::AbandonedSimulations() { return left_to_themselves; }

@@ -8,9 +8,9 @@
 //   StepLoop, Watchdog      a thread each
 //
 // Locks, in the order in which they are taken: control_mutex_ (one request at a time),
-// SimulatedWorld::lock(), SharedState::mutex (life cycle, agents, faults that are due), EventLog's.
-// No lock is held across a call to a behaviour, except control_mutex_, and except the world's lock
-// during the turns of behaviours in process.
+// SimulatedWorld::lock(), SharedState::mutex (life cycle, agents, faults that are due), the lock of
+// EventLog. During a call to a behaviour, only control_mutex_ may be locked. During the turn of a
+// behaviour in this process, the world's lock is locked as well.
 #pragma once
 
 #include "gsv/base/thread_team.h"
@@ -87,7 +87,7 @@ class SteppingSimulation final : public Simulation {
   AgentPopulation::AgentPtr FindAgent(const std::string& robot) const;
   // Returns the agent, or an error that names the robot.
   base::Result<AgentPopulation::AgentPtr> RequireAgent(const std::string& robot) const;
-  // Returns the error of a simulation that is stuck, see world_lock.h.
+  // Returns the error of a stuck simulation, see world_lock.h.
   base::Status RefuseStuck() const;
 
   // Calls `request` with run_, with the locks held. `request` returns a Result<RunControl::Change>.

@@ -1,5 +1,6 @@
-// Checks once a second whether behaviours have died, and whether a behaviour in this process
-// exceeds its deadline. If a behaviour exceeds it, the simulation fails, see world_lock.h.
+// Checks once a second whether behaviours have died, and whether a turn of a behaviour in this
+// process exceeds the deadline. If a turn exceeds the deadline, the simulation fails, see
+// world_lock.h.
 #pragma once
 
 #include <chrono>

@@ -38,9 +38,9 @@ struct Interval {
 // A possible state of the simulation.
 struct State {
   Phase phase = Phase::kCreated;
-  Interval step;                    // range of steps that the latest snapshot may have
-  std::optional<Interval> counted;  // while running: the step at which the requested number of
-                                    // steps is complete
+  Interval step;  // range of steps that the latest snapshot may have
+  // only while running: the step at which the requested number of steps is complete
+  std::optional<Interval> counted;
   std::optional<std::int64_t> run_until;
 
   // Returns the step at which the run pauses by itself.
@@ -84,7 +84,8 @@ class LifeCycleModel {
         continue;
       if (state.phase == Phase::kPaused && seen.step >= end_) continue;
       state.step.low = seen.step;
-      // If a pause or stop comes during a step, this step is still completed, and is the last one.
+      // If a pause or stop is requested during a step, this step is still completed. No step
+      // follows it.
       if (state.phase != Phase::kRunning)
         state.step.high = std::min(state.step.high, seen.step + 1);
       next.push_back(state);
@@ -112,7 +113,7 @@ class LifeCycleModel {
   std::vector<State> WithSpontaneousChanges() const {
     std::vector<State> all = states_;
     for (const State& state : states_) {
-      // If a pause came during the last step of the run, the run may also have finished.
+      // If a pause was requested during the last step of the run, the run may also have finished.
       if (state.phase == Phase::kPaused && state.step.high >= end_)
         all.push_back(Frozen(Phase::kFinished, {end_, end_}));
       if (state.phase != Phase::kRunning) continue;

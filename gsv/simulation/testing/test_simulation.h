@@ -142,7 +142,7 @@ inline std::shared_ptr<Simulation> Make(Specification specification) {
   return *simulation;
 }
 
-// A robot with the radius 0.2 m at (x, y), which faces x.
+// A robot with a radius of 0.2 m at (x, y). Its front points along x.
 inline RobotSpecification Robot(std::string name, double x, double y,
                                 std::shared_ptr<BehaviourPort> behaviour = nullptr) {
   RobotSpecification robot;

@@ -47,8 +47,8 @@ void Attachments::Follow(const world::Layout& layout, const world::State& state,
     if (!Contains(held, each)) engine.Detach(each.held_body);
   }
   for (const Attachment& each : held) {
-    // A gripper grasps only dynamic bodies, and only one gripper can hold a body. So attaching
-    // succeeds.
+    // A gripper grasps only dynamic bodies, and a body can be attached to only one gripper. So
+    // attaching succeeds.
     if (!Contains(attached_, each)) GSV_CHECK(engine.Attach(each, state));
   }
   attached_ = std::move(held);

@@ -10,7 +10,7 @@
 namespace gsv::simulation {
 namespace {
 
-// The numbers of bodies that a thread processes at a time: some microseconds of work.
+// The number of bodies that a thread processes at a time. This takes some microseconds.
 constexpr std::size_t kBodiesAtOnce = 128;
 constexpr std::size_t kVelocitiesAtOnce = 512;
 

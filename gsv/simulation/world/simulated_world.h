@@ -36,13 +36,13 @@ class SimulatedWorld {
     return state_.bodies[static_cast<std::size_t>(layout_->Find(body))].world_from_model;
   }
 
-  // Sets the engine's layout, with the attachments of `state`. If this succeeds, call Replace(); if
-  // not, call Restore().
+  // Sets the engine's layout, with the attachments of `state`. Call Replace() if this succeeds, and
+  // Restore() if it fails.
   base::Status TryLayout(const std::shared_ptr<const world::Layout>& layout,
                          const world::State& state) GSV_REQUIRES(world_mutex) {
     return attachments_.SetLayout(layout, state, *engine_);
   }
-  // Sets the engine's layout back to the current one, after TryLayout() failed.
+  // Sets the engine's layout back to the current layout, after TryLayout() failed.
   base::Status Restore() GSV_REQUIRES(world_mutex) { return TryLayout(layout_, state_); }
   // Makes this layout and this state the current ones.
   base::Status Replace(std::shared_ptr<const world::Layout> layout, world::State state)
