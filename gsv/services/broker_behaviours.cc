@@ -12,8 +12,8 @@ namespace gsv::services {
 namespace {
 
 constexpr std::chrono::milliseconds kCreateTimeout{5000};
-// The maximum number of matching offers that are tried. Several are tried, because the programs of
-// some may have died.
+// The maximum number of matching offers that are tried. Several offers are tried, because some of
+// their programs may have died.
 constexpr std::size_t kOffersConsidered = 256;
 
 std::string PlaceOf(const broker::BehaviourOffer& offer) {
@@ -26,7 +26,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const std::string& constraint) {
   const broker::ServiceType& type = broker::AgentBehaviourFactoryType();
   auto offers = broker_.Query(type.name, constraint, "first", kOffersConsidered);
-  // A broker does not know the service type before the first offer of a behaviour. Therefore,
+  // A broker does not know the service type until the first behaviour is offered. Therefore,
   // kNotFound means that there is no offer.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   if (!offers) return base::Fail(offers.error());

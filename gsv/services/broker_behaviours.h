@@ -1,5 +1,5 @@
-// Creates behaviours from the broker's offers. Chooses the matching program that serves the fewest
-// robots.
+// Creates behaviours from the broker's offers. Several programs may match; the program that serves
+// the fewest robots is chosen.
 #pragma once
 
 #include <map>

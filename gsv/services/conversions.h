@@ -40,7 +40,8 @@ sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
 // defaults.
 simulation::SimulationStatus FromIdl(const sba::SimulationState& state);
 sba::RobotHealths ToIdl(const health::Report& report);
-// Converts lines of output (simulation::IsOutput()) of one robot or behaviour, or of all.
+// Converts lines of output (simulation::IsOutput()). The lines of one robot or behaviour can be
+// selected.
 sba::OutputLines OutputToIdl(const std::vector<simulation::Event>& lines, std::string_view robot);
 sba::SimulationPhase ToIdl(simulation::Phase phase);
 simulation::Phase FromIdl(sba::SimulationPhase phase);

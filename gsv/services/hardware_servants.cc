@@ -18,7 +18,7 @@ using simulation::Agent;
 using AgentPtr = std::shared_ptr<Agent>;
 using GroupPtr = std::shared_ptr<ServantGroup>;
 
-// After this wall-clock time, a wait is answered with NOT_YET, and the client waits again.
+// A wait that takes longer than this wall-clock time returns NOT_YET, and the client waits again.
 constexpr std::chrono::milliseconds kLease{2000};
 constexpr unsigned kReadingRaises = orb::kNotRunning | orb::kEnded | orb::kFailed;
 

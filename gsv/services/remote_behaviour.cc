@@ -70,7 +70,7 @@ base::Status RemoteBehaviour::Start() {
 }
 
 base::Status RemoteBehaviour::Stop() {
-  // The limit of the reference overrides that of the thread.
+  // The limit of the reference overrides the limit of the thread.
   orb::LimitCalls(behaviour_, stop_timeout_->limit());
   auto stopped = Call("stop", [this] { behaviour_->stop(); });
   orb::LimitCalls(behaviour_, kCallTimeout);
@@ -87,12 +87,12 @@ base::Status RemoteBehaviour::Resume() {
 }
 
 void RemoteBehaviour::Destroy() {
-  // This process is ending, and the behaviour did not answer stop(). So destroy() is not called: it
-  // would only wait for its time limit.
+  // This process is ending, and the behaviour did not answer stop(). Then destroy() is not called,
+  // because the call would only wait for its time limit.
   const bool is_of_no_use = has_not_stopped_ && stop_timeout_->is_shortened();
   if (!is_of_no_use) {
     orb::LimitCalls(behaviour_, stop_timeout_->limit());
-    // may fail, because the behaviour may have ended
+    // the call may fail, because the behaviour may have ended
     (void)Call("destroy", [this] { behaviour_->destroy(); });
   }
   ReplaceHardware(nullptr);

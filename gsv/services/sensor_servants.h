@@ -68,8 +68,8 @@ PortableServer::ServantBase* MakeSensorServant(std::shared_ptr<simulation::Agent
   return new Servant(std::move(agent), std::move(description), std::move(group));
 }
 
-// The sensor types with an interface of their own. Other types are served as sba::Sensor, or as
-// sba::Actuator if they accept commands.
+// The sensor types that have their own IDL interface. Sensors of other types are served as
+// sba::Sensor, or as sba::Actuator if they accept commands.
 class SensorServants {
  public:
   static void Register(const std::string& type, SensorServantMaker maker);

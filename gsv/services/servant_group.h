@@ -35,7 +35,7 @@ class ServantGroup {
   void DeactivateAll();
 
  private:
-  // `type` is a repository id; null means the servant's own.
+  // `type` is a repository id; null means the id of the servant's own type.
   CORBA::Object_ptr Adopt(PortableServer::ServantBase* servant, const char* type);
   void DeactivateId(const std::string& id);
 

@@ -1,5 +1,5 @@
-// Provides the load of a server as dynamic properties of its offers. The broker evaluates them in
-// queries.
+// Provides the load of a server as dynamic properties of the server's offers. The broker evaluates
+// these properties in queries.
 //
 //   simulations   long    number of simulations
 //   load          double  number of advancing simulations and running scenarios, divided by the

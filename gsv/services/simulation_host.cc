@@ -51,7 +51,7 @@ base::Result<std::shared_ptr<Simulation>> SimulationHost::Create(
 }
 
 base::Status SimulationHost::Remove(const std::string& name) {
-  // destroyed after the lock is released, because destroying a simulation may take long
+  // destroyed after the lock is released, because destroying a simulation may take a long time
   std::shared_ptr<Simulation> removed;
   const base::MutexLock lock(mutex_);
   const auto it = std::find_if(simulations_.begin(), simulations_.end(),

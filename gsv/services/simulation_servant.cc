@@ -356,11 +356,11 @@ void SimulationServiceServant::RunJanitor() {
       if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());
     }
     const bool may_trim = std::exchange(has_destroyed_, false) || ++round % kTrimmingRounds == 0;
-    // Stopping may take long, for example during a reset, so it must not block threads that need
-    // the lock.
+    // Stopping may take a long time, for example during a reset. The lock is released, so that
+    // other threads need not wait for it.
     lock.unlock();
-    // Freed memory of simulations, viewers and messages is in the arenas of many threads. Without
-    // this call, glibc returns only the ends of the arenas to the system.
+    // Memory that simulations, viewers and messages have freed is in the arenas of many threads.
+    // Without this call, glibc returns only the ends of the arenas to the system.
     if (may_trim) malloc_trim(0);
     for (const auto& simulation : abandoned) {
       const Phase phase = simulation->status().phase;

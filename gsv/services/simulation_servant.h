@@ -60,8 +60,8 @@ class SimulationServant final : public POA_sba::Simulation {
   void destroy() override;
 
   const std::shared_ptr<simulation::Simulation>& simulation() const { return simulation_; }
-  // Whether there was no call for too long. Always false for a simulation that was created with
-  // keep.
+  // Whether the simulation has received no call for too long. Always false for a simulation that
+  // was created with keep.
   bool IsAbandoned() const;
 
  private:
@@ -88,8 +88,8 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   sba::Simulation_ptr create_simulation(const sba::SimulationSpecification& specification) override;
   sba::Simulations* list() override;
 
-  // Adds a simulation that was not created through this service. Does nothing if it is already
-  // listed.
+  // Adds a simulation that was not created through this service. Does nothing if the simulation is
+  // already in the list.
   void Publish(std::shared_ptr<simulation::Simulation> simulation);
   // Releases every simulation and deactivates its references.
   void Close();

@@ -9,8 +9,8 @@
 
 namespace gsv::services {
 
-// All behaviours of a process share one StopTimeout. Usually each call has the normal limit. When
-// the process ends, it calls Shorten(). Then all calls together have one second, so that a
+// All behaviours of a process share one StopTimeout. Normally each call has the normal limit. When
+// the process ends, it calls Shorten(). From then on, all calls together have one second, so that a
 // behaviour that does not return cannot delay the end of the process.
 class StopTimeout {
  public:
