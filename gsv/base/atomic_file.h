@@ -20,8 +20,8 @@ enum class Durability { kProcess, kPowerLoss };  // kPowerLoss waits until the d
 Status WriteAtomically(const std::filesystem::path& file, std::string_view text,
                        Durability durability);
 
-// The temporary file that process `pid` uses for `file`. It remains only if the process was killed
-// while it wrote.
+// The temporary file that process `pid` uses for `file`. The temporary file remains only if the
+// process was killed while it wrote this file.
 std::filesystem::path DraftPath(const std::filesystem::path& file, pid_t pid);
 
 }  // namespace gsv::base

@@ -45,8 +45,8 @@ std::optional<std::string> FromBase64(std::string_view text) {
       bytes.push_back(static_cast<char>(three >> (16 - 8 * k) & 255));
     }
   }
-  // The text must be the one that ToBase64() makes. Its unused bits before the padding are
-  // zero.
+  // Accepts only texts that ToBase64() writes. In these texts the unused bits before the padding
+  // are zero.
   if (ToBase64(bytes) != text) return std::nullopt;
   return bytes;
 }

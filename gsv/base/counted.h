@@ -1,4 +1,4 @@
-// The words for a number of items in a message.
+// Writes a number of items as text for a message.
 #pragma once
 
 #include <cstdint>

@@ -6,8 +6,8 @@
 
 extern "C" {
 
-// Returns the function `name` of the library `file` (a soname, or a path) or of a library that it
-// needs. Loads the library if it is not loaded, and keeps it. If the library or the function is
-// missing, prints the reason on stderr and exits with 127, as the dynamic linker does.
+// Returns the function `name` of the library `file` (a soname, or a path), or of a library that
+// `file` needs. Loads the library if it is not loaded, and never unloads it. If the library or the
+// function is missing, prints the reason on stderr and exits with 127, as the dynamic linker does.
 void* gsv_late_function(const char* file, const char* name) noexcept;
 }

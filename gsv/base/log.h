@@ -25,7 +25,7 @@ enum class LogFormat { kText, kJson };
 struct LogOptions {
   spdlog::level::level_enum level = spdlog::level::warn;
   LogFormat format = LogFormat::kText;
-  std::size_t lines_per_second = 20;  // the mean rate; a burst may have fifty times as many lines
+  std::size_t lines_per_second = 20;  // mean rate; a burst may have 50 times this number
   std::size_t line_bytes = 8192;      // the maximum length of a message; longer ones are truncated
 };
 

@@ -18,7 +18,8 @@ class LogRateLimiter {
   explicit LogRateLimiter(std::size_t lines_per_second)
       : rate_(static_cast<double>(lines_per_second)), capacity_(50 * rate_), left_(capacity_) {}
 
-  // Takes a token for one line. If it returns false, the line must not be written.
+  // Takes a token for one line. Returns false if no token is left. Then the line must not be
+  // written.
   bool Take(Time now) {
     const double seconds = std::chrono::duration<double>(now - last_).count();
     if (has_begun_ && seconds > 0) left_ = left_ + seconds * rate_;
@@ -33,7 +34,7 @@ class LogRateLimiter {
     return true;
   }
 
-  // The number of refused lines since the last call.
+  // The number of lines that Take() has refused since the last call of this function.
   std::uint64_t TakeSuppressed() { return std::exchange(suppressed_, 0); }
 
  private:

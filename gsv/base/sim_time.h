@@ -18,7 +18,7 @@ inline SimTime FromSeconds(double seconds) {
   return SimTime(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
 }
 
-// Returns the number for a time in messages. `time` must not be negative.
+// Returns the time as nanoseconds for a message. `time` must not be negative.
 inline std::uint64_t NanosecondsOf(SimTime time) {
   return static_cast<std::uint64_t>(time.count());
 }

@@ -10,9 +10,9 @@ constexpr std::size_t kMinNameLength = 3;
 // Names with at least this many letters may differ by two letters.
 constexpr std::size_t kLongName = 8;
 
-// Returns the only known name that begins with `written`, or that is `written` without its last
-// letter: "comple" gives completion, and "pss" gives ps. Empty if there is none, or if there are
-// several.
+// Returns the only known name that begins with `written` ("comple": completion), or that is
+// `written` without its last letter ("pss": ps). Returns an empty text if no name or several names
+// match.
 std::string OnlyContinuation(std::string_view written, const std::vector<std::string>& known) {
   std::string only;
   for (const std::string& name : known) {

@@ -7,9 +7,9 @@
 
 namespace gsv::base {
 
-// The number of letters to add, remove, change or swap with a neighbour that turns one name into
-// the other (the optimal string alignment distance); at most `limit` + 1. Names of more than 64
-// bytes have the distance `limit` + 1.
+// The number of edits that turn one name into the other (the optimal string alignment distance),
+// but at most `limit` + 1. One edit adds, removes or changes a letter, or swaps two adjacent
+// letters. Names of more than 64 bytes have the distance `limit` + 1.
 int SpellingDistance(std::string_view a, std::string_view b, int limit);
 
 // Whether `written` looks like a misspelling of `known`: they differ by one letter, or by two if
@@ -17,9 +17,10 @@ int SpellingDistance(std::string_view a, std::string_view b, int limit);
 // letters.
 bool LooksLike(std::string_view written, std::string_view known);
 
-// The known name that `written` looks like: the one with the smallest distance, and the first in
-// the list among equals. If there is none, the only known name that continues `written` ("comple":
-// completion), or that `written` continues by one letter ("pss": ps). Otherwise empty.
+// Returns the known name that `written` looks like. If several names look alike, the name with the
+// smallest distance is returned, and of equal distances the first in the list. If `written` looks
+// like no name, returns the only known name that begins with `written` ("comple": completion), or
+// that is `written` without its last letter ("pss": ps). Otherwise returns an empty text.
 std::string ClosestName(std::string_view written, const std::vector<std::string>& known);
 
 // The end of an error message about an unknown name: ". Did you mean NAME?", or empty.

@@ -1,12 +1,13 @@
 // Assertions that a measured value is close to the expected one, which also record the error.
 //
 //   EXPECT_WITHIN(robot.x, 2.0, 1e-9, "m") << "at " << speed;  // |measured - expected| <= 1e-9
-//   EXPECT_WITHIN_PERCENT(period, expected, 0.1);              // of the expected value
-//   EXPECT_WITHIN_3_SIGMA(mean, 0.0, 1 / std::sqrt(count));    // of the statistic's deviation
+//   EXPECT_WITHIN_PERCENT(period, expected, 0.1);              // error <= 0.1 % of `expected`
+//   EXPECT_WITHIN_3_SIGMA(mean, 0.0, 1 / std::sqrt(count));    // error <= 3 * sigma
 //
-// The running test keeps the largest error for each bound and unit as its property (GoogleTest's
-// RecordProperty) "within BOUND UNIT", as in "within 1e-09 m": "3.2e-14";
-// tools/make_fidelity_tables reads these from GoogleTest's reports. A NaN fails the assertion.
+// The largest error for each bound and unit becomes a property of the running test (GoogleTest's
+// RecordProperty). The property's name is "within BOUND UNIT", for example "within 1e-09 m", and
+// its value is the error, for example "3.2e-14". tools/make_fidelity_tables reads these properties
+// from GoogleTest's reports. A NaN fails the assertion.
 #pragma once
 
 #include <cmath>

@@ -13,11 +13,13 @@ namespace {
 // Jobs often follow each other quickly, and waking a worker takes longer than these checks.
 constexpr int kPolls = 400;
 
-// The number of checks that a caller makes before it yields its processor between checks.
+// A caller that waits for its workers pauses between its first checks. After this number of checks,
+// it yields its processor between the checks.
 constexpr int kPauses = 50;
 
-// The number of further checks, about 0.1 ms in total. Between them, an idle worker yields its
-// processor to other threads. A sleeping worker would join a short job too late to help.
+// The number of further checks that an idle worker makes after kPolls checks, about 0.1 ms in
+// total. Between these checks it yields its processor to other threads. It does not sleep yet,
+// because a sleeping worker would join a short job too late to help.
 constexpr int kYields = 300;
 
 }  // namespace

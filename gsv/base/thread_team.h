@@ -68,12 +68,12 @@ class ThreadTeam {
   void RunPieces(std::size_t self);
   // Waits for an open job and processes pieces of it. Returns false when the team ends.
   bool Join();
-  // Adds the calling thread to the workers of the open job, for which ParallelFor() then waits.
-  // Returns false if no job is open.
+  // Adds the calling thread to the workers of the open job. ParallelFor() waits for all these
+  // workers. Returns false if no job is open.
   bool TryJoin();
 
-  // Workers may join a job while it is open. The first thread that finds no piece left closes it,
-  // and the caller waits for the workers that have joined. It does not wait for workers that wake
+  // Workers may join a job while the job is open. The first thread that finds no piece left closes
+  // the job. The caller then waits for the workers that have joined, and not for workers that wake
   // later.
   static constexpr unsigned kOpen = 1u << 31;
   Job job_;
@@ -83,7 +83,7 @@ class ThreadTeam {
     std::atomic<std::size_t> next{0};  // index at which the next piece begins
     std::size_t end = 0;
   };
-  std::vector<Part> parts_;         // one per thread; the first is that of the caller
+  std::vector<Part> parts_;         // one per thread; parts_[0] belongs to the caller
   std::atomic<unsigned> state_{0};  // the bit kOpen, and the number of workers that have joined
   std::atomic<bool> is_stopping_{false};
   Mutex mutex_;

@@ -10,8 +10,8 @@
 namespace gsv::base {
 
 // Returns $XDG_RUNTIME_DIR/gsv, or /tmp/gsv-UID if that variable is not set. Creates the folder if
-// it does not exist. Fails if that is not possible, or if others may write to the folder,
-// because anybody may create folders in /tmp.
+// it does not exist. Fails if the folder cannot be created. Anybody may create folders in /tmp, so
+// the function also fails if another user owns the folder or may write to it.
 Result<std::filesystem::path> UserFolder();
 
 }  // namespace gsv::base

@@ -51,9 +51,9 @@ class ContentWriter {
   bool is_ok_ = true;
 };
 
-// Reads what ContentWriter has written. The other process may change the bytes meanwhile: a value
-// may then be wrong, but the reader stays inside the buffer. After the first item that does not
-// fit, ok() is false, and numbers are 0 and lists empty.
+// Reads what ContentWriter has written. The other process may change the bytes during the read.
+// Then a value may be wrong, but the reader stays inside the buffer. After the first item that does
+// not fit, ok() is false, numbers are 0, and lists are empty.
 class ContentReader {
  public:
   explicit ContentReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -84,7 +84,8 @@ class ContentReader {
   bool ok() const { return is_ok_; }
 
  private:
-  // Returns the start of the next `count` elements of `each` bytes, or null if there are fewer.
+  // Returns the start of the next `count` elements of `each` bytes, or null if the buffer has fewer
+  // elements.
   const std::byte* Skip(std::uint64_t count, std::size_t each) {
     if (count > (bytes_.size() - used_) / each) is_ok_ = false;
     if (!is_ok_) return nullptr;

@@ -1,14 +1,15 @@
 // The layout of the memory by which a behaviour exchanges its control cycles with a simulation on
 // the same host. The memory replaces the calls Clock::exchange() and BatchClock::sleep_and_read().
-// It carries only what succeeds: after an error, or if the answer does not come, the client repeats
-// the cycle by the call (docs/adr/111-cycles-by-shared-memory.md).
+// The memory carries only successful cycles. After an error, or if no answer arrives in time, the
+// client repeats the cycle with a call (docs/adr/111-cycles-by-shared-memory.md).
 //
-// The memory is a shared file: first a Bell, from kSlotSize on one CycleSlot for each clock. A
-// client maps the bell and its own slot. Each side copies what the other side wrote before it
-// checks it. A client that writes arbitrary bytes into its slot harms only its own cycles. With
-// arbitrary bytes in the bell, it can delay each step in lockstep by up to 20 ms.
+// The memory is a shared file. The file begins with a Bell. From the offset kSlotSize on, it
+// contains one CycleSlot for each clock. A client maps the bell and its own slot. Each side first
+// copies the data of the other side, and then checks the copy. A client that writes arbitrary bytes
+// into its slot harms only its own cycles. With arbitrary bytes in the bell, it can delay each step
+// in lockstep by up to 20 ms.
 //
-// Threads  the members that are no atomics belong to one side at a time, see CycleState.
+// Threads  a member that is not atomic belongs to one side at a time, see CycleState.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,7 @@ namespace gsv::exchange {
 
 // The bell wakes the stepping thread. All clients of a simulation share it.
 struct Bell {
-  Word rings;                        // changes whenever the stepping thread must look
+  Word rings;                        // changes whenever the stepping thread must check the slots
   Word sleepers;                     // number of threads of the simulator that sleep on `rings`
   Word posted;                       // number of requests that clients have posted
   Word wanted;                       // a client rings if `posted` has reached this number

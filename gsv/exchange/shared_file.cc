@@ -43,7 +43,8 @@ base::Result<std::unique_ptr<SharedFile>> SharedFile::Make() {
 base::Result<std::unique_ptr<SharedFile>> SharedFile::Open(const FileAddress& address) {
   const std::string path =
       "/proc/" + std::to_string(address.process) + "/fd/" + std::to_string(address.descriptor);
-  // O_NONBLOCK: in another container, the same numbers may belong to a pipe
+  // In another container, this process id and descriptor may belong to a pipe. O_NONBLOCK keeps
+  // open() from waiting for the other end of the pipe.
   const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return base::Fail(Unavailable("cannot open " + path));
   std::unique_ptr<SharedFile> file(new SharedFile(descriptor));

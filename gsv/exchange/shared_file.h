@@ -1,7 +1,6 @@
-// A file without a name, in memory, that two processes of one user map. The owner makes it. The
-// other process opens it by /proc, so it needs no name that would have to be removed later.
-//
-// Threads  any.
+// A file without a name, in memory, that two processes of one user map. The owner makes the file.
+// The other process opens it through /proc. So the file needs no name, which would have to be
+// removed later.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +11,8 @@
 
 namespace gsv::exchange {
 
-// Where another process finds the file. `process` is a process id, and `descriptor` a file
-// descriptor of that process.
+// The address by which another process opens the file. `process` is a process id, and `descriptor`
+// a file descriptor of that process.
 struct FileAddress {
   std::uint32_t process = 0;
   std::uint32_t descriptor = 0;

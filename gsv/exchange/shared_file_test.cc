@@ -10,7 +10,8 @@
 namespace gsv::exchange {
 namespace {
 
-// A process that was started before the file was made finds it by its address, and wakes this one.
+// The child process starts before the file exists. It opens the file by its address, and wakes this
+// process.
 TEST(SharedFile, AnotherProcessOpensAndMapsIt) {
   int pipe_ends[2];
   ASSERT_EQ(pipe(pipe_ends), 0);
