@@ -7,7 +7,8 @@
 
 namespace gsv::geometry {
 
-// Returns the corners: x changes fastest and z slowest, as in the order of binary numbers.
+// Returns the corners. Corner i is at the box's maximum x if bit 0 of i is set, at the maximum y if
+// bit 1 is set, and at the maximum z if bit 2 is set; else at the minimum.
 inline std::array<Vector3, 8> CornersOf(const Bounds& box) {
   std::array<Vector3, 8> corners;
   for (unsigned i = 0; i < corners.size(); ++i) {

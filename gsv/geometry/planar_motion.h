@@ -1,7 +1,7 @@
 // Computes motion in the plane at a constant twist, in closed form.
 //
 // A base that moves at (vx, vy) in its own frame while it turns at w follows a circular arc. With a
-// = w t, its displacement in its frame at the start is
+// = w t, the base's displacement, in the base's frame at the start, is
 //   x = (vx sin a - vy (1 - cos a)) / w,   y = (vx (1 - cos a) + vy sin a) / w.
 //
 // Units  metres, radians, seconds.

@@ -1,7 +1,7 @@
 // Rotations and rigid transforms.
 //
-// Frames  REP-103: x forward, y left, z up. A pose named a_from_b takes points in b to points in
-//         a, so that a_from_c = a_from_b * b_from_c.
+// Frames  REP-103: x forward, y left, z up. A pose named a_from_b transforms points from frame b
+//         to frame a, so that a_from_c = a_from_b * b_from_c.
 // Units   metres, radians.
 #pragma once
 

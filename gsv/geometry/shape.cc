@@ -35,7 +35,8 @@ Vector2 Direction(int step, int segments) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-// Rotates a profile, given from bottom to top, about z. Rings at the axis become points.
+// Adds the surface of a profile that is rotated about z. The profile must be given from bottom to
+// top. At a profile point with radius 0, the surface ends in a point.
 void AddRevolution(std::span<const ProfilePoint> profile, int segments, TriangleMesh& mesh) {
   const std::uint32_t first = NextVertex(mesh);
   const auto columns = static_cast<std::uint32_t>(segments) + 1;

@@ -32,7 +32,8 @@ struct Ellipsoid {
 struct Cone {
   double radius = 0.5, length = 1;
 };
-// A collision is a half-space below the plane. A visual is a rectangle of this size.
+// As a collision shape, this is the half-space below the plane. As a visual, it is a rectangle of
+// this size.
 struct Plane {
   Vector3 normal{0, 0, 1};  // unit length
   Vector2 size{1, 1};
@@ -47,7 +48,8 @@ using Shape = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone, Plan
 
 // Returns the surface as triangles with normals and texture coordinates; for a Mesh, a scaled copy.
 // Round shapes have `segments` (at least 3) around the axis, with vertices on the true surface. The
-// maximum deviation is radius * (1 - cos(pi / segments)), or twice that if doubly curved.
+// maximum distance from the true surface is radius * (1 - cos(pi / segments)). For doubly curved
+// shapes such as spheres, it is twice this value.
 TriangleMesh Tessellate(const Shape& shape, int segments = 32);
 
 // Returns the smallest box around the shape along its frame's axes. The box of a Plane is that of

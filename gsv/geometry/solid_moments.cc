@@ -38,8 +38,8 @@ SolidMoments Of(const Cylinder& cylinder) {
   return Symmetric(pi * r * r * l, {}, r * r / 4, r * r / 4, l * l / 12);
 }
 
-// A capsule is a cylinder between two hemispheres. The centroid of each is 3/8 of the radius
-// outside the end face of the cylinder.
+// A capsule is a cylinder between two hemispheres. The distance between the centroid of a
+// hemisphere and the end face of the cylinder is 3/8 of the radius.
 SolidMoments Of(const Capsule& capsule) {
   const double r = capsule.radius, l = capsule.length;
   const SolidMoments middle = Of(Cylinder{r, l}), ball = Of(Sphere{r});
@@ -59,7 +59,8 @@ SolidMoments Of(const Cone& cone) {
 SolidMoments Of(const Plane&) { return {}; }
 
 // The tetrahedron has the volume V, one corner at the origin, and three other corners v. The
-// integral of x_i x_j is V/20 (sum of v_i v_j + (sum of v_i) (sum of v_j)), each sum over v.
+// integral of x_i x_j is V/20 (sum of v_i v_j + (sum of v_i) (sum of v_j)). Each sum is over the
+// three corners v.
 void AddTetrahedron(const Vector3& a, const Vector3& b, const Vector3& c, SolidMoments& sum) {
   const double volume = Dot(a, Cross(b, c)) / 6;
   const Vector3 total = a + b + c;
@@ -115,8 +116,8 @@ SolidMoments MomentsOf(const Shape& shape) {
 }
 
 VolumeBelow BelowHeight(const TriangleMesh& mesh, const Pose& world_from_mesh, double height) {
-  // Positions are relative to a point in the cutting plane, because tetrahedra between that point
-  // and the cut face then have no volume.
+  // Positions are relative to a point in the cutting plane. Then the tetrahedra between this point
+  // and the cut face have no volume, and need not be added.
   const Vector3 origin{world_from_mesh.position.x, world_from_mesh.position.y, height};
   VolumeBelow sum;
   for (const auto& triangle : mesh.triangles) {

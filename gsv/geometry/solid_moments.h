@@ -1,7 +1,8 @@
 // Volume, centroid and second moments of solid shapes.
 //
-// Source  textbooks for shapes with a closed form; of a mesh by the divergence theorem, as the sum
-//         over the tetrahedra that its triangles span with the origin.
+// Source  Closed forms are from textbooks. The moments of a mesh follow from the divergence
+//         theorem: each triangle and the origin form a tetrahedron, and the moments of these are
+//         added.
 #pragma once
 
 #include "gsv/geometry/shape.h"
@@ -17,7 +18,8 @@ struct SolidMoments {
 };
 
 // Returns the moments in the shape's frame. A plane has no volume. A mesh must be closed, because
-// the result for an open mesh depends on the position of its origin. It may be inside out.
+// the result for an open mesh depends on the position of the mesh's origin. The normals of a mesh
+// may point inwards.
 SolidMoments MomentsOf(const Shape& shape);
 
 // The part of a closed mesh below the plane z = `height` in the world: its volume, and the integral
