@@ -35,8 +35,8 @@ enum class Level : std::uint8_t { kFine = 0, kWarning = 1, kError = 2 };
 // standing, moving.
 int Severity(State state, Level level);
 
-// A short distance that a range sensor measures: the nearest obstacle, which may be why the robot
-// does not move.
+// A short distance that a range sensor measures. The obstacle at this distance may be the reason
+// why the robot does not move.
 struct Limit {
   std::string sensor;
   double value = 0;  // m
