@@ -1,5 +1,5 @@
-// A behaviour in this process that does not return cannot be interrupted. The tests check that no
-// thread waits for it.
+// A behaviour in this process cannot be interrupted if it does not return. The tests check that no
+// thread waits for such a behaviour.
 #include <future>
 
 #include "gsv/hosting/hosted_behaviour.h"

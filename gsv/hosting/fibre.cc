@@ -56,8 +56,8 @@ void Fibre::Resume() {
 }
 
 void Fibre::Suspend() {
-  // Notifies the sanitizer that the thread is on the fibre's stack again. The destructor runs there
-  // when resume() returns, and when it throws the exception that unwinds the body.
+  // The destructor notifies the sanitizer that the thread is on the fibre's stack again. It runs
+  // both when resume() returns and when resume() throws the exception that unwinds the body.
   struct Arrival {
     SanitizerStack& stack;
     ~Arrival() { stack.AfterEntering(); }

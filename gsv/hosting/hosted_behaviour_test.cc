@@ -102,8 +102,8 @@ TEST(HostedBehaviour, ControllerEqualsTheSameLoopOnAFibre) {
   EXPECT_EQ(HashOfACrowd(3, 1, as_controller), HashOfACrowd(3, 1, as_loop));
 }
 
-// The second run executes the behaviour on a separate thread, and makes the calls that the servants
-// make for a remote behaviour.
+// One of the two runs imitates a remote behaviour: it executes the behaviour on a separate thread,
+// and makes the calls that the servants make for remote behaviours.
 TEST(HostedBehaviour, HasTheSameHashAsTheRemoteBehaviour) {
   auto outside = simulation::Make(Lockstep(2s));
   auto behaviour = std::make_shared<simulation::ThreadBehaviour>(

@@ -79,8 +79,9 @@ class alignas(64) LocalRobot final : public Robot {
   base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
 
   void PlanSweeps();
-  // Reads the beams of all open sensors together. Returns false if that is not allowed, or if there
-  // are only a few beams. `readings` must have the names of the sensors.
+  // Reads the beams of all open sensors together. Reads nothing and returns false if there is no
+  // current turn, if the simulation does not allow sweeps, or if there are fewer than kMinSweep
+  // beams. `readings` must have the names of the sensors.
   bool SweepInto(std::vector<Reading>& readings);
   void ReadInto(std::vector<Reading>& readings);
 

@@ -13,8 +13,8 @@
 
 namespace gsv::hosting {
 
-// Returns the file of the behaviour, from the first folder that contains this file. Returns an
-// empty text if no folder contains it.
+// Returns the path of the behaviour's file (gsv-NAME.so) in the first of `folders` that contains
+// this file. Returns an empty text if no folder contains this file.
 std::string FindPlugin(const std::string& behaviour, const std::vector<std::string>& folders);
 
 // Fails if the file is not a library, if it is not a behaviour, or if it was built for another

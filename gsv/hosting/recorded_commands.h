@@ -29,8 +29,8 @@ using TimedCommands = std::vector<TimedCommand>;  // Commands in ascending order
 
 class RecordedCommands final : public simulation::LocalBehaviour {
  public:
-  // `name` is that of the recorded behaviour. If `uses_radio` is true, its radios are on from the
-  // start.
+  // `name` is the name of the recorded behaviour. If `uses_radio` is true, the robot's radios are
+  // on from the start.
   RecordedCommands(std::string name, TimedCommands commands, bool uses_radio = false);
 
   base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;
