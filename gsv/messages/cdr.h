@@ -85,8 +85,8 @@ class CdrReader {
   std::size_t ReadCount(std::size_t element_size);
   void ReadBlock(void* data, std::size_t size, std::size_t alignment);
 
-  // Returns an error if a value exceeded the message, or if more bytes remain than the padding that
-  // some writers add.
+  // Returns an error if a value exceeded the message, or if unread bytes remain. Up to three unread
+  // bytes are allowed, because some writers add padding.
   base::Status Finish() const;
 
  private:
@@ -105,7 +105,8 @@ void Encode(const Message& message, Bytes& out) {
   Encode(message, writer);
 }
 
-// Decodes the message in `bytes`. Returns kCorrupt with the type and the place if they are invalid.
+// Decodes the message in `bytes`. If the bytes are invalid, returns kCorrupt with the message's
+// type and the position of the error.
 template <typename Message>
 [[nodiscard]] base::Result<Message> Decode(std::span<const std::byte> bytes) {
   CdrReader reader(bytes);

@@ -1,5 +1,5 @@
-// Decodes messages whose types are known only from the text of a schema, such as those of a
-// recording of any program.
+// Decodes messages whose types are known only from the text of a schema, such as the messages in a
+// recording that another program wrote.
 //
 // Input    untrusted: text and data come from a file. Nesting, lengths and the size of the result
 //          are limited.

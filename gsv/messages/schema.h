@@ -10,8 +10,9 @@ namespace gsv::messages {
 struct Schema {
   std::string_view name;      // such as "sensor_msgs/msg/Range"
   std::string_view encoding;  // always "ros2msg"
-  // The definition of the type, followed by those of all types that it uses, each after a line of
-  // eighty '=' and "MSG: package/Name". Readers of rosbag2 and MCAP expect this form.
+  // The definition of the type, followed by the definitions of all types that it uses. In front of
+  // each of these are a line of eighty '=' and the line "MSG: package/Name". Readers of rosbag2 and
+  // MCAP expect this form.
   std::string_view text;
 };
 

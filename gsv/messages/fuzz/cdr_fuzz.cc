@@ -1,5 +1,6 @@
-// Fuzz test: decodes arbitrary bytes as a message, whose type the first byte selects. The decoder
-// must reject the message, or the message must not change when it is encoded and decoded again.
+// Fuzz test: decodes arbitrary bytes as a message. The first byte selects the type of the message.
+// The decoder may reject the message. Otherwise, the message must not change when it is encoded and
+// decoded again.
 #include <cstdint>
 
 #include "gsv/base/check.h"

@@ -1,5 +1,5 @@
 // Fuzz test: parses arbitrary text, up to a NUL, as the definition of a message type. Decodes the
-// bytes after it as a message of that type.
+// bytes after the NUL as a message of that type.
 #include <algorithm>
 #include <cstdint>
 
