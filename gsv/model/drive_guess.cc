@@ -13,7 +13,7 @@ namespace {
 using geometry::Vector3;
 
 constexpr double kAcross = 0.9;  // minimum cosine between an axle and the model's y axis
-// Wheels below this fraction of the largest wheel's radius are not driven.
+// Wheels whose radius is below this fraction of the largest wheel's radius are not driven.
 constexpr double kIdlerRadius = 0.8;
 // Wheels nearer to the middle than this fraction of the half track are casters.
 constexpr double kMiddle = 0.25;
@@ -86,8 +86,8 @@ void KeepDriven(const Model& model, std::vector<Wheel>& wheels) {
   }
 }
 
-// Finds the wheels to the left and to the right of the middle of the outermost wheels, and adds
-// them to the drive.
+// Adds the left and the right wheels to the drive. Left and right are relative to the middle
+// between the two outermost wheels.
 bool AddSides(const std::vector<Wheel>& wheels, Drive& drive) {
   if (wheels.empty()) return false;
   const auto [right, left] =

@@ -30,7 +30,8 @@ struct Material {
   // Baked light, sRGB. The surface reflects it as diffuse light: it adds light map times diffuse
   // colour, as Gazebo does.
   std::shared_ptr<const Image> light_map;
-  // If true, the map's alpha is a mask (transparent below one half); otherwise alpha is blended.
+  // If true, the alpha of base_colour_map is a mask: a pixel is transparent if its alpha is below
+  // one half. If false, alpha is blended.
   bool alpha_mask = false;
   bool double_sided = false;
 };

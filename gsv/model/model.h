@@ -24,7 +24,8 @@ struct Visual {
   std::string name;
   geometry::Pose link_from_visual;
   geometry::Shape shape;
-  // The materials of a mesh's slots, one each; other shapes use the first. Never empty.
+  // One material for each material slot of a mesh. Other shapes use the first material. Never
+  // empty.
   std::vector<Material> materials{Material{}};
   bool cast_shadows = true;
   std::optional<double> temperature = std::nullopt;  // in K; nullopt: the temperature of the air
@@ -83,8 +84,8 @@ struct Link {
   // The fraction of its velocity that the link loses in each step of the world's length, in [0, 1]:
   // SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
   double linear_decay = 0, angular_decay = 0;
-  // For a link that is a wheel: set if the wheel slips by itself or rolls on soft ground. Its axle
-  // is the axis of the joint above it.
+  // Set if the link is a wheel that has its own slip or may roll on soft ground. The wheel's axle
+  // is the axis of the joint whose child is this link.
   std::optional<SlippingWheel> wheel = std::nullopt;
 };
 

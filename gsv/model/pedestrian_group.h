@@ -24,9 +24,9 @@ struct PedestrianGoal {
 struct PedestrianGroup {
   std::string name = "pedestrian";  // pedestrians are called NAME_1, NAME_2, …
   int count = 1;
-  // The goals in their order; after the last one the first follows. If there is a single goal,
-  // pedestrians stay within its disc. There is no path planning, so each goal must be in sight of
-  // the previous goal.
+  // The goals in their order. After the last goal, the route begins again at the first goal. If
+  // there is a single goal, pedestrians stay within its disc. There is no path planning, so each
+  // goal must be in sight of the previous goal.
   std::vector<PedestrianGoal> route;
   double z = 0;                                 // height of the floor
   double speed = 1.34, speed_deviation = 0.26;  // in m/s; desired speeds have a normal distribution

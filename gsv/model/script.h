@@ -1,7 +1,7 @@
 // The motion of an actor: SDFormat's <script> with its animation.
 //
-// Frames  waypoints are poses of the actor's frame in the frame of its trajectory, which its <pose>
-//         places in the world.
+// Frames  a waypoint is a pose of the actor's frame in the frame of its trajectory. The actor's
+//         <pose> is the pose of the trajectory's frame in the world.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct Waypoint {
 
 // A path of the actor through waypoints.
 struct Trajectory {
-  std::vector<Waypoint> waypoints;  // in ascending order of time, each time once, the first at 0
+  std::vector<Waypoint> waypoints;  // times are strictly ascending; the first time is 0
   double tension = 0;               // in [0, 1]; 1 means straight lines between waypoints
   // interpolate_x: the gait follows the travelled distance (true) or the time (false)
   bool animated_by_distance = false;

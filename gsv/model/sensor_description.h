@@ -9,8 +9,9 @@
 
 namespace gsv::model {
 
-// Parameters by name; docs/sensors.md lists those of each type. A nested element of SDFormat
-// becomes a dotted name ("horizontal.samples") with the unit of SDFormat (metres, radians, hertz).
+// Parameters by name; docs/sensors.md lists the parameters of each sensor type. A nested element of
+// SDFormat becomes a dotted name ("horizontal.samples") with the unit of SDFormat (metres, radians,
+// hertz).
 using ParameterValue = std::variant<double, bool, std::string>;
 using Parameters = std::map<std::string, ParameterValue>;
 
