@@ -1,7 +1,7 @@
 // Access control of CORBA. Without a certificate, only programs on this machine may call this
-// process. With a certificate, a program on any host may call it by TLS if its certificate is of
-// the same authority. The process then accepts no calls by plain TCP, and makes plain TCP calls
-// only to services on this machine.
+// process. With a certificate, a program on any host may call this process by TLS if both have
+// certificates of the same authority. The process then accepts no calls by plain TCP, and makes
+// plain TCP calls only to services on this machine.
 // GSV_CORBA_CERTIFICATE  a PEM file, such as `gsv certificates make` writes
 // GSV_CORBA_KEY          its key (default: NAME-key.pem beside NAME.pem)
 // GSV_CORBA_AUTHORITY    the trusted authority (default: ca.pem beside NAME.pem)
@@ -38,8 +38,9 @@ struct OrbAccess {
   std::array<const char*, 2> client_rules;  // clientTransportRule, each
 };
 
-// Call this before each CORBA::ORB_init() of a process that listens on `host`; port 0: any.
-// Installs the transports. Fails with a sentence that names the file or the missing setting.
+// Call this before each CORBA::ORB_init() of a process that listens on `host`. Port 0 lets the
+// system choose the port. Installs the transports. Fails with a sentence that names the file or the
+// missing setting.
 base::Result<OrbAccess> PrepareAccess(const std::string& host, int port);
 
 }  // namespace gsv::orb

@@ -31,7 +31,7 @@ struct OrbOptions {
 };
 
 // Starts the ORB and its root POA. Fails with a sentence if the port is in use, if a certificate is
-// invalid, or if the address requires one.
+// invalid, or if the address requires a certificate and there is none.
 base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options);
 
 // Returns this process's ORB. If there is none, starts one for outgoing calls only.

@@ -5,8 +5,8 @@ namespace {
 
 using base::CdrReader;
 
-// Skips a list of service contexts, or of a reference's profiles: a number and a sequence of octets
-// each.
+// Skips a list of service contexts, or of a reference's profiles. Each entry of such a list is a
+// number and a sequence of octets.
 void SkipTaggedOctets(CdrReader& in) {
   for (std::uint32_t left = in.Count(); left > 0 && in.ok(); --left) {
     in.ULong();

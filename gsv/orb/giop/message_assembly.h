@@ -1,6 +1,6 @@
 // Reassembles one GIOP message at a time from the received bytes. Fragments of GIOP 1.2 are
-// joined. Fragments of GIOP 1.1, compressed messages, and messages whose fragments alternate are
-// refused.
+// joined. Fragments of GIOP 1.1, compressed messages, and interleaved fragments of several messages
+// are refused.
 //
 // Source  CORBA 3.1 part 2, 9.4.
 #pragma once
@@ -46,8 +46,8 @@ class MessageAssembly {
   std::string frame_;  // the message or fragment that is being received
   std::size_t received_ = 0;
   std::size_t wanted_ =
-      kGiopHeaderBytes;        // size of the frame, or of its header until that has arrived
-  std::string message_;        // the fragments that were joined so far
+      kGiopHeaderBytes;  // size of the frame; until its header has arrived, size of the header
+  std::string message_;  // the fragments that were joined so far
   std::uint32_t request_ = 0;  // id of the request whose fragments are joined
 };
 

@@ -18,7 +18,8 @@ namespace gsv::orb {
 //
 //   1 2 4 8        a value of this number of bytes, aligned to its size, such as an enumeration
 //   s o a t        a string, an object reference, an any, a TypeCode
-//   [TYPES]        a sequence; TYPES are those of an element. A struct is the types of its members.
+//   [TYPES]        a sequence; TYPES are the types of one element. A struct is written as the types
+//                  of its members.
 //   <SIZE;LABEL:TYPES;LABEL:TYPES;*:TYPES;>
 //                  a union: its discriminator's size, each member with its label as an unsigned
 //                  decimal number, the default member last
@@ -41,8 +42,8 @@ void CheckRequest(const Signatures& signatures, std::string& message);
 // Whether the encapsulation begins with values of these types.
 bool HasTypes(std::string_view encapsulation, std::string_view types);
 
-// Checks the replies that arrive on one connection. It remembers the operations of the connection's
-// requests, because replies do not contain them.
+// Checks the replies that arrive on one connection. A reply does not name its operation, so this
+// class remembers the operations of the connection's requests.
 class ReplyCheck {
  public:
   // `signatures` must outlive this object.
@@ -51,7 +52,7 @@ class ReplyCheck {
   // Call this before `bytes` are sent, in order. All bytes of one call belong to one message. The
   // header of a request must be in one piece.
   void Sending(std::string_view bytes);
-  // Call this after the first `count` of these bytes were sent.
+  // Call this after the first `count` of the bytes of Sending() were sent.
   void Sent(std::size_t count);
   // Checks `message`, which must be complete, if it is a reply. A reply without a request is
   // rejected.

@@ -70,8 +70,8 @@ struct ConnectionPolicy {
   MakeHooks made;
   // Decides whether the ORB reads from an accepted connection now; empty means always. The thread
   // that accepts connections calls it when bytes arrive and no thread of the ORB waits for them.
-  // The ORB may already have destroyed the connection. So the function must compare the pointer
-  // with those of its existing hooks before it uses the pointer.
+  // The ORB may already have destroyed the connection. So the function may use the pointer only if
+  // one of its existing hooks has the same pointer.
   std::function<bool(ConnectionControl*)> shall_read;
 };
 

@@ -31,7 +31,8 @@ class Endpoint final : public Base {
     if (!listener_.speaks_tls()) {
       return Base::publish(specifications, all_specifications, all_endpoints, published);
     }
-    // Publishes the endpoint's own addresses, as omniORB does by default. TLS has no others.
+    // Publishes the endpoint's own addresses, as omniORB does by default. A TLS endpoint has no
+    // other addresses.
     const omni::orbServer::EndpointList& own = *this->addresses();
     const CORBA::ULong count =
         all_endpoints ? own.length() : std::min<CORBA::ULong>(own.length(), 1);

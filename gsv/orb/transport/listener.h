@@ -43,7 +43,8 @@ class Listener {
   void AddConnection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses);
   // Continues a handshake, and makes a connection of the socket when the handshake is complete.
   void Proceed(PendingHandshake* pending);
-  // Destroys handshakes that have ended, that take too long, or that are too many.
+  // Destroys handshakes that have ended or take too long. If there are too many handshakes, also
+  // destroys the oldest ones.
   void Dismiss();
 
   omni::SocketCollection& collection_;

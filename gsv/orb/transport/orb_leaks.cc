@@ -6,7 +6,8 @@
 #include "gsv/orb/transport/omniorb_internals.h"
 
 // Frees a text without a terminating null. Otherwise a client could use up all memory with some
-// hundred requests, because _is_a takes such a text from any client and for any object.
+// hundred requests: every object has the operation _is_a, which has such a text as its argument and
+// which any client may call.
 char* cdrStream::unmarshalRawString() {
   const auto refuse = [this](CORBA::ULong minor) {
     throw CORBA::MARSHAL(minor, static_cast<CORBA::CompletionStatus>(completion()));

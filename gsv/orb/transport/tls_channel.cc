@@ -148,7 +148,8 @@ int TlsChannel::Receive(void* buffer, std::size_t size, const omni_time_t& deadl
   size = std::min<std::size_t>(size, INT_MAX);
   const int moved = Await(
       [&](std::size_t* count) { return SSL_read_ex(session_, buffer, size, count); }, deadline);
-  // With TLS 1.3, only a read shows a client whether the server accepts its certificate.
+  // With TLS 1.3, a server can reject the client's certificate after the client's part of the
+  // handshake is complete. Then the client's first read fails.
   if (moved < 0) last_failure = failure();
   return moved;
 }

@@ -59,8 +59,8 @@ class TlsChannel final : public Channel {
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 
-// Returns the reason why the last TLS connection that this thread requested has failed, and clears
-// it. Empty if it has not failed.
+// Returns the reason why the last TLS connection that this thread requested has failed, and deletes
+// the stored reason. Returns an empty text if that connection has not failed.
 std::string TakeTlsFailure();
 void NoteTlsFailure(std::string why);
 
