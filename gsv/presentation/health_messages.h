@@ -9,7 +9,8 @@ namespace gsv::presentation {
 
 // Makes the message. It lists only robots that do not move.
 messages::gsv_msgs::Health HealthMessage(const health::Report& report);
-// Whether `message` differs from `sent` in more than time and actual motion, and so must be sent.
+// Returns true if `message` must be sent: if it differs from `sent`, the message that was sent
+// last, in more than the time and the actual motion.
 bool NeedsSending(const messages::gsv_msgs::Health& message,
                   const messages::gsv_msgs::Health& sent);
 

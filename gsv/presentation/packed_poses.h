@@ -8,8 +8,8 @@
 
 namespace gsv::presentation {
 
-// `list` must be the list of the snapshot's layout. Positions are rounded to 0.1 mm. An orientation
-// is changed by a rotation of less than 0.0002 rad.
+// `list` must be PoseListOf() for the snapshot's layout. Positions are rounded to 0.1 mm. An
+// orientation is changed by a rotation of less than 0.0002 rad.
 messages::gsv_msgs::PackedPoses PackedPosesMessage(const world::Snapshot& snapshot,
                                                    const std::vector<PoseEntry>& list);
 

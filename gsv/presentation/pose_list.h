@@ -18,7 +18,7 @@ struct PoseEntry {
 // Lists each non-static body in the order of the layout, followed by its moving links.
 std::vector<PoseEntry> PoseListOf(const world::Layout& layout);
 
-// Returns the pose of each entry. `list` must be the list of the snapshot's layout.
+// Returns the pose of each entry. `list` must be PoseListOf() for the snapshot's layout.
 std::vector<geometry::Pose> PosesOf(const world::Snapshot& snapshot,
                                     const std::vector<PoseEntry>& list);
 

@@ -29,8 +29,8 @@ std::string SceneJson(const SceneSource& source);
 std::string SceneJson(const simulation::Simulation& simulation, const IdentifyModel& identify,
                       const IdentifyModel& identify_collisions);
 
-// Returns a model whose visuals are the collision shapes of the given one. Planes are left out,
-// because they are unbounded.
+// Returns a model whose visuals are the collision shapes of `model`. Planes are left out, because
+// they are unbounded.
 model::Model CollisionModel(const model::Model& model);
 bool HasCollisions(const model::Model& model);
 

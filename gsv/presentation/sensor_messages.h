@@ -29,8 +29,8 @@ void AppendSensorTransform(const world::Layout& layout, int body,
                            const model::SensorDescription& sensor, const sensing::SensorType& type,
                            base::SimTime time, messages::tf2_msgs::TFMessage& message);
 
-// Whether viewers draw lines for the sensor's readings. If the sensor type has beams, they always
-// do. If it has points, they do so only if the model file sets <visualize> for the sensor.
+// Whether viewers draw lines for the sensor's readings. Viewers always draw the beams of a sensor.
+// They draw a sensor's points only if the model file sets <visualize> for the sensor.
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
 // Collects the lines of all robots at one instant. The message has a marker for each robot, and a
@@ -55,8 +55,8 @@ class BeamMarkers {
   int body_ = -1;
   int link_ = -1;
   geometry::Pose world_from_link_;
-  // The robots that had lines, with the number of messages that still delete these lines once the
-  // robot has none.
+  // For each robot that had lines: the number of messages that will repeat the deletion of these
+  // lines after the robot has no more lines.
   std::map<std::string, int> deletions_left_;
 };
 

@@ -22,7 +22,7 @@ using sensing::FrameOf;
 
 inline constexpr std::size_t kMaxContacts = 1000;  // maximum number of contacts in a message
 
-// `poses` are those of PosesOf().
+// `poses` must be the result of PosesOf().
 messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
                                        std::span<const geometry::Pose> poses);
 
@@ -38,8 +38,9 @@ std::string LinkFrame(const world::Body& body, const model::Link& link);
 // Returns the transforms map → body for entries of bodies, and body → link for entries of links.
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list);
-// Sets the stamps and transforms of `message`, which TransformsMessage() made with the same list,
-// to those of `snapshot`. The layout must be the same. `poses` are those of PosesOf().
+// Changes the stamps and transforms in `message` to the time and poses of `snapshot`. `message`
+// must be a result of TransformsMessage() for the same list and the same layout. `poses` must be
+// the result of PosesOf().
 void UpdateTransforms(const world::Snapshot& snapshot, const std::vector<PoseEntry>& list,
                       std::span<const geometry::Pose> poses,
                       messages::tf2_msgs::TFMessage& message);
@@ -49,7 +50,7 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
 // Returns the contacts of the snapshot's last step, at most kMaxContacts.
 messages::gsv_msgs::Contacts ContactsMessage(const world::Snapshot& snapshot);
 
-// Returns the command that an actuator applies. The device must have one.
+// Returns the command that an actuator applies. The device must have a command.
 messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& device,
                                                     const world::State& state);
 

@@ -1,6 +1,6 @@
 // The topics of a simulation, in one table for live streams, recordings, replays and relays. A
-// constant such as topics::kPoses has the name and the message type of a topic. The table has its
-// other properties. The topics of sensors are named after robots and sensors, see
+// constant such as topics::kPoses has the name and the message type of a topic. The table has the
+// other properties of the topic. The topics of sensors are named after robots and sensors, see
 // sensor_messages.h.
 #pragma once
 
