@@ -146,7 +146,8 @@ struct Touch {
   std::string other;
   Vector point, normal;
   double depth = 0;
-  double closing_speed = 0;  // speed at which the bodies met; 0 if they touched before this step
+  // Approach speed at which the contact began; 0 if the contact began before this step.
+  double closing_speed = 0;
   Vector force;
   static constexpr auto kFields = std::make_tuple(
       Value("other", "", &Touch::other), Value("point", "m", &Touch::point),
