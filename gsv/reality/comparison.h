@@ -71,7 +71,7 @@ struct FittedDevice {
   std::string warning = {};  // as in Comparison
 };
 // Fits the parameters to the readings of the log's even blocks (world_fit.h), or for odometry to
-// all windows. For a ring of sonars, returns one device for each beam, in their order. Fails with
+// all windows. For a ring of sonars, returns one device for each beam, in beam order. Fails with
 // kInvalidArgument in the same cases as Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 

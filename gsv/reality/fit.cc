@@ -136,8 +136,8 @@ class SonarFit {
 
   base::Result<std::vector<FittedDevice>> Run() {
     // The simulated shares are computed at the poses of the odd blocks, because the world was not
-    // fitted to the readings there. The real shares are those of the even blocks. The readings of
-    // the odd blocks are not used.
+    // fitted to the readings there. The real shares are computed from the readings of the even
+    // blocks. The readings of the odd blocks are not used.
     auto placed = PlaceScans(log_, options_, false);
     if (!placed) return base::Fail(placed.error());
     placed_ = *std::move(placed);

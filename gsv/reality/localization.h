@@ -1,9 +1,9 @@
 // Estimates the poses of a robot with a lidar in a world, from its scans and its odometry.
 //
 // Method  a likelihood field (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.4): the
-//         distance from each cell to the nearest occupied one. The first pose is searched for
-//         everywhere, by several scans along the first metres of odometry; each later pose is
-//         searched for near the previous pose.
+//         distance from each cell to the nearest occupied cell. The search for the first pose
+//         covers the whole map, and uses several scans along the first metres of odometry. The
+//         search for each later pose covers only the neighbourhood of the previous pose.
 // Errors  kInvalidArgument if no pose matches the scans.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace gsv::reality {
 
-// For each cell of a map, the distance to the nearest occupied cell. Rates how well a scan fits the
-// map.
+// Stores the distance from each cell of a map to the nearest occupied cell, and rates how well a
+// scan fits the map.
 class LikelihoodField {
  public:
   explicit LikelihoodField(const OccupancyMap& map);

@@ -8,9 +8,9 @@
 
 namespace gsv::reality {
 
-// Returns the path of the robot, from the origin, by exact arcs. It is computed from the odometry,
-// from the wheels (whose distance is `wheel_distance`, m), or from the commands: the first of these
-// that the log contains. `start` is the first pose.
+// Returns the estimated path of the robot. If the log contains poses from odometry, returns these.
+// Otherwise, computes the path from `start` on by exact arcs: from the wheels (whose distance is
+// `wheel_distance`, m) or, if the log has no wheel readings, from the commands.
 std::vector<TimedPose> ReckonedPath(const Log& log, double wheel_distance, TimedPose start = {});
 
 // The estimated ("reckoned") and the true motion in a time window: the length of the displacement,
@@ -33,8 +33,8 @@ struct MotionStatistics {
 };
 MotionStatistics StatisticsOf(const std::vector<MotionWindow>& windows);
 
-// Returns the path that GSV's odometer reports with its error model (odometry_drift.h) for the true
-// poses, one for each half second.
+// Simulates GSV's odometer with its error model (odometry_drift.h) along the true poses. Returns
+// the poses that the odometer reports, one for each half second.
 std::vector<TimedPose> SimulatedOdometry(const std::vector<TimedPose>& truth,
                                          const sensing::OdometryDrift& drift, std::uint64_t seed);
 

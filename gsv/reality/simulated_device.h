@@ -1,4 +1,5 @@
-// A simulated sensor that is read at given poses, those of a real sensor, in a static world.
+// A simulated robot with sensors in a static world. The sensors are read at given poses of the
+// robot, such as the poses of a real robot.
 //
 // Determinism  Read() is a function of the seed, the description, the pose and the step.
 // Threads      one at a time.

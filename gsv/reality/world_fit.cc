@@ -105,7 +105,7 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
   }
 }
 
-// Returns the distance from the path within which nearly all echoes of a laser are.
+// Returns a distance from the path, m. Nearly all echoes of a laser are nearer to the path.
 double ReachOfEchoes(const std::vector<RangeScan>& scans) {
   constexpr double kNearlyAll = 0.98;
   std::vector<double> ranges;

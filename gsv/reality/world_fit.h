@@ -8,7 +8,7 @@
 namespace gsv::reality {
 
 // A log is divided into blocks of four seconds. A world and a device are fitted to the scans of the
-// even blocks, and validated with those of the odd blocks.
+// even blocks, and validated with the scans of the odd blocks.
 inline constexpr double kBlockSeconds = 4;
 bool IsForFitting(double time);
 // Whether the time is in the second half of its block.

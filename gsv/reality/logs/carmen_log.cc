@@ -185,8 +185,9 @@ class CarmenReader {
     return WrappedAngle(yaw);
   }
 
-  // FLASER does not state the scanner's maximum, which is its reading without an echo. The largest
-  // reading is the maximum if it occurs many times: echoes do not repeat one distance so often.
+  // A reading without an echo equals the scanner's maximum range, which FLASER messages do not
+  // contain. The largest reading in the log is the maximum range if it occurs many times, because
+  // echoes do not repeat one distance so often.
   void FindMaximum() {
     constexpr double kShare = 0.001, kShortestMaximum = 2;  // m
     constexpr std::size_t kMinCount = 20;
@@ -227,7 +228,8 @@ base::Result<Log> ReadCarmen(const std::filesystem::path& path, base::Problems& 
   auto rows = TextRows::Open(path, problems);
   if (!rows) return base::Fail(rows.error());
   Log log;
-  // Maximum range of the SICK LMS, which most of these logs use; a ROBOTLASER1 message has its own.
+  // Maximum range of the SICK LMS, the scanner of most of these logs. ROBOTLASER1 messages contain
+  // the maximum range of their scanner.
   log.max_range = 81;
   if (auto read = CarmenReader(*std::move(rows), log).Read(); !read) {
     return base::Fail(read.error());

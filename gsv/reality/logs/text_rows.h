@@ -34,11 +34,11 @@ class TextRows {
   // fewer than `count` words, or if a word is not a finite number.
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
-  // Returns whether the caller may use this row. Rows must be in the order of time, so a row with
-  // an earlier time than the row before it is left out. Exception: if at most five earlier rows are
-  // later than both this row and the next one, the times of those earlier rows are wrong. The
-  // caller has already used these rows, so RemoveMisdated() must remove their values. Reports a gap
-  // of more than 10 s.
+  // Returns whether the caller may use this row. Rows must be in the order of time, so a row is
+  // left out if its time is earlier than the time of the row before it. Exception: at most five of
+  // the rows before this row have later times than this row and the row after it. Then the times of
+  // these rows are wrong. The caller has already used them, so RemoveMisdated() must remove their
+  // values. Reports a gap of more than 10 s.
   bool InOrder(double time);
 
   // Removes the values that were made from misdated rows from a series, whose elements have a
