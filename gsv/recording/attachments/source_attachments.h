@@ -1,8 +1,8 @@
 // Attaches the files of the world and the robots (SDFormat, URDF) to a recording.
 //
 // Attachments  `world/FILE`, and `robots/FOLDER/FILE` once for the model of each robot and avatar.
-//              The media type is application/xml. If two files have the same name, the later one is
-//              `robots/2/…`.
+//              The media type is application/xml. If two attachments would have the same name, the
+//              later attachment is named `robots/2/…`.
 // Limits       files above 4 MiB, and files after the hundredth, are skipped with a warning.
 #pragma once
 

@@ -1,8 +1,9 @@
 // Keeps the newest part of a recording in memory. It is an output for McapWriter. If all records
 // together exceed the capacity, the oldest chunks are dropped.
 //
-// Kept     schemas, channels and metadata always; the newest chunks; of attachments with equal
-//          names, the newest one and those that a kept chunk may need.
+// Kept     All schemas, channels and metadata are kept, and the newest chunks. If several
+//          attachments have the same name, the newest one is kept, and each one that a kept chunk
+//          may need.
 // Threads  any.
 #pragma once
 

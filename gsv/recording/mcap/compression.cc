@@ -18,8 +18,8 @@ GSV_CARRY_LESS inline __m128i Folded(__m128i x, __m128i by, __m128i next) {
       _mm_xor_si128(_mm_clmulepi64_si128(x, by, 0x00), _mm_clmulepi64_si128(x, by, 0x11)), next);
 }
 
-// Returns the remainder of at least 64 bytes, a multiple of 16. `remainder` is that of the bytes
-// before them. A checksum is an inverted remainder.
+// Returns the remainder of `bytes`. `size` must be a multiple of 16, and at least 64. The argument
+// `remainder` is the remainder of the data before `bytes`. A checksum is an inverted remainder.
 // Source  V. Gopal et al., "Fast CRC computation for generic polynomials using PCLMULQDQ
 //         instruction", Intel, 2009. The constants are those for the reflected polynomial of CRC-32.
 GSV_CARRY_LESS std::uint32_t Remainder(const std::byte* bytes, std::size_t size,
@@ -39,7 +39,7 @@ GSV_CARRY_LESS std::uint32_t Remainder(const std::byte* bytes, std::size_t size,
   for (const __m128i& next : {b, c, d}) a = Folded(a, by_16_bytes, next);
   for (; size >= 16; ++at, size -= 16) a = Folded(a, by_16_bytes, _mm_loadu_si128(at));
 
-  // From 16 bytes to 8, and then to 4 by Barrett reduction.
+  // Reduces the 16 bytes to 8 bytes, and then to 4 bytes by Barrett reduction.
   const __m128i low = _mm_setr_epi32(~0, 0, ~0, 0);
   a = _mm_xor_si128(_mm_srli_si128(a, 8), _mm_clmulepi64_si128(a, by_16_bytes, 0x10));
   a = _mm_xor_si128(

@@ -6,8 +6,7 @@
 // Errors   the first error ends the recording, and status() and all later calls return it. Complete
 //          records stay readable: the file is truncated after the last complete record, and Close()
 //          still tries to write the summary.
-// Threads  one at a time. McapWriter is the class for several threads, which never waits for the
-//          disk.
+// Threads  one at a time. For several threads, use McapWriter, which writes on its own thread.
 #pragma once
 
 #include "gsv/base/error.h"

@@ -1,8 +1,8 @@
-// Records messages to an MCAP file. Producers do not wait for the disk.
+// Records messages to an MCAP file on a separate thread.
 //
 // Producers put messages into a bounded queue. The writer's thread compresses them and writes the
-// file. A failing disk ends the recording, not the program: status() has the reason, and later
-// messages are discarded.
+// file. Producers wait for the disk only if the queue is full, see WhenFull. A failing disk ends
+// the recording, not the program: status() has the reason, and later messages are discarded.
 //
 // Threads  every member may be called from any thread, at any moment.
 // Time     log times are simulated. Only FlushIfOlderThan() reads the wall clock.

@@ -57,8 +57,11 @@ struct Difference {
   std::string topic;
   // Such as "pose.position.x"; empty if the message is missing in one of the recordings.
   std::string field;
-  std::string in_first, in_second;  // the values as JSON, or "missing"
-  // The content of the message: of the first recording, or of the only one that has it.
+  // The values of the field as JSON. If only one recording has the message: "there" for this
+  // recording, and "missing" for the other one.
+  std::string in_first, in_second;
+  // The content of the message in the first recording. If the message is missing there, its content
+  // in the second recording.
   nlohmann::ordered_json message = {};
   std::string Sentence() const;
 };

@@ -1,6 +1,6 @@
 // Finds messages that stay valid until the next message of their kind: transforms of sensors, the
-// last command of a robot, edits of the world. An excerpt of a recording must begin with those
-// messages from before its start that are still valid.
+// last command of a robot, edits of the world. An excerpt of a recording must begin with the
+// messages that were recorded before the excerpt's start and are still valid at its start.
 #pragma once
 
 #include <vector>

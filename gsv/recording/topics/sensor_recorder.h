@@ -39,7 +39,8 @@ using WritePng = std::function<base::Result<std::vector<std::uint8_t>>(const mod
 struct SensorRecorderOptions {
   SensorRates rates{};
   Selection selection{};  // the selected topics
-  // Encodes images as PNG that sensors encode as JPEG. If empty, the images are recorded as JPEG.
+  // Encodes images of cameras as PNG. If empty, these images are recorded as JPEG, as the sensors
+  // encode them.
   WritePng write_png{};
   bool slow_sensors = true;  // whether to record sensors whose readings take long, such as cameras
 };
@@ -67,8 +68,8 @@ class SensorRecorder {
     std::vector<std::uint8_t> message;    // empty if only the sensor's beams are recorded
     std::vector<std::uint8_t> companion;  // message such as CameraInfo; empty if there is none
   };
-  // The sensors with beams of one robot that were last sampled together. The set is made again only
-  // if other sensors are due.
+  // The sensors with beams of one robot that were last sampled together. A new set is made only if
+  // the next sample is of different sensors.
   struct RobotBeams {
     std::vector<const Sensor*> sensors;
     sensing::BeamSet set;
