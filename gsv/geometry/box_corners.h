@@ -7,8 +7,8 @@
 
 namespace gsv::geometry {
 
-// Returns the corners. Corner i is at the box's maximum x if bit 0 of i is set, at the maximum y if
-// bit 1 is set, and at the maximum z if bit 2 is set; else at the minimum.
+// Returns the corners. Bits 0, 1 and 2 of a corner's index are for x, y and z: if the bit is set,
+// the corner is at the maximum of this coordinate, else at the minimum.
 inline std::array<Vector3, 8> CornersOf(const Bounds& box) {
   std::array<Vector3, 8> corners;
   for (unsigned i = 0; i < corners.size(); ++i) {
