@@ -6,8 +6,8 @@
 // message of the process's ORB to 64 KiB. This also limits the content of an `any`, see
 // docs/broker.md.
 //
-// Errors   kUnavailable if the port is in use, or if the host is not this machine's; those of
-//          OfferFile, and of orb::PrepareAccess().
+// Errors   kUnavailable if the port is in use, or if the host is no address of this machine; the
+//          errors of OfferFile and of orb::PrepareAccess().
 // Threads  every member may be called at any time.
 #pragma once
 
@@ -25,15 +25,15 @@ struct BrokerOptions {
   std::string host = "127.0.0.1";  // the address to listen on
   std::uint16_t port = 0;          // 0 if the system chooses the port
   TraderLimits limits;
-  // The file that keeps offers and service types from one start to the next. If it is empty, they
-  // are in memory only.
+  // The file in which offers and service types survive a restart. If the name is empty, offers and
+  // types are in memory only.
   std::string data_file{};
   LivenessOptions liveness{};
 };
 
 class Broker {
  public:
-  // Starts the broker, which serves requests when this returns.
+  // Starts the broker. The broker serves requests when this function returns.
   [[nodiscard]] static base::Result<std::unique_ptr<Broker>> Start(const BrokerOptions& options);
   // Ends all calls and closes the port.
   ~Broker();
@@ -43,7 +43,8 @@ class Broker {
   const std::string& reference() const;
   std::uint16_t port() const;
 
-  // Closes the data file, which then has all acknowledged changes. Later changes are refused.
+  // Closes the data file. The file then contains all acknowledged changes. Later changes are
+  // refused.
   void Close();
 
  private:

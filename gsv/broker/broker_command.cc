@@ -52,7 +52,7 @@ int BrokerMain(const BrokerCommand& command) {
   sigaddset(&ends, SIGTERM);
   struct sigaction hang_up {};
   sigaction(SIGHUP, nullptr, &hang_up);
-  // nohup has set the signal to be ignored
+  // if nohup started this process, SIGHUP is ignored, and remains ignored
   if (hang_up.sa_handler != SIG_IGN) sigaddset(&ends, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &ends, nullptr);
   if (command.parent != 0 && !EndWith(command.parent)) return kOk;

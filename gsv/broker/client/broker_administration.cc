@@ -141,8 +141,7 @@ base::Status BrokerAdministration::AddLink(const std::string& name, const std::s
         return base::Fail(ErrorCode::kUnavailable, "the object at this address is not a broker",
                           *reference);
       }
-      // This is the reference that the other trader gives, which may differ from the address in
-      // `target`.
+      // The other trader returns its own reference, which may differ from the address in `target`.
       const CosTrading::Lookup_var itself = other->lookup_if();
       return Guarded(broker_, [&]() -> base::Status {
         link->add_link(name.c_str(), itself, static_cast<CosTrading::FollowOption>(def_pass_on),

@@ -21,7 +21,7 @@ struct LinkDescription {
   std::string address;
   FollowOption def_pass_on = FollowOption::kAlways;
   FollowOption limiting = FollowOption::kAlways;
-  bool answers = false;  // whether it answered a call within a second
+  bool answers = false;  // whether the other trader answered a call within a second
 };
 
 // Returns "local_only", "if_no_local" or "always".
@@ -35,8 +35,8 @@ class BrokerAdministration {
 
   // Lists the links by name. This process, and not the broker, calls each target.
   [[nodiscard]] base::Result<std::vector<LinkDescription>> ListLinks() const;
-  // Adds a link. `target` is another broker's address. If it is an "IOR:…" with a type id, the
-  // other broker need not be running.
+  // Adds a link. `target` is another broker's address. If `target` is an "IOR:…" with a type id,
+  // the other broker need not be running.
   [[nodiscard]] base::Status AddLink(const std::string& name, const std::string& target,
                                      FollowOption def_pass_on, FollowOption limiting) const;
   [[nodiscard]] base::Status RemoveLink(const std::string& name) const;

@@ -37,7 +37,8 @@ TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
   EXPECT_TRUE(administration.ListLinks()->empty());
 }
 
-// A service that answers only when this many calls are in progress at the same time.
+// A service whose calls wait for each other. A call returns only when `others` has counted the
+// expected number of calls in progress.
 class ConcurrentEvaluator : public POA_CosTradingDynamic::DynamicPropEval {
  public:
   explicit ConcurrentEvaluator(std::latch& others) : others_(others) {}

@@ -3,9 +3,9 @@
 // It works with any Trading Service. Every call ends within the timeout. Every failure is an Error
 // whose sentence names the broker's address.
 //
-// Errors   kInvalidArgument for a wrong argument; for a constraint, the error has its position.
-//          kNotFound if there is no such service type, offer or property. kUnavailable if nothing
-//          answers at the address, kTimeout if the answer is late.
+// Errors   kInvalidArgument for a wrong argument. For a wrong constraint, the error contains the
+//          position in the text. kNotFound if there is no such service type, offer or property.
+//          kUnavailable if nothing answers at the address, kTimeout if the answer is late.
 // Threads  every member may be called at any time.
 #pragma once
 
@@ -39,7 +39,7 @@ struct DescribedOffer {
 class BrokerClient {
  public:
   // Connects to a broker. `reference` is "corbaloc::host:port/TradingService" ("1.2@" is added if
-  // it is missing) or an "IOR:…". If it is empty, the value of omniORB's -ORBInitRef
+  // it is missing) or an "IOR:…". If `reference` is empty, the value of omniORB's -ORBInitRef
   // TradingService=… is used.
   [[nodiscard]] static base::Result<BrokerClient> Connect(
       CORBA::ORB_ptr orb, const std::string& reference,

@@ -18,9 +18,9 @@ using Repository = CosTradingRepos::ServiceTypeRepository;
 constexpr ErrorCode kWrong = ErrorCode::kInvalidArgument;
 constexpr ErrorCode kMissing = ErrorCode::kNotFound;
 
-// Returns the reason why the broker rejected a constraint or preference. The exception contains
-// only the text, so `parsed` is the result of parsing it here again. If it parses, an operand has
-// the wrong type.
+// Returns the reason why the broker rejected a constraint or preference. The broker's exception
+// contains only the text, so the caller parses the text here again. `parsed` is the result. If
+// parsing succeeded, an operand has the wrong type.
 std::string WhyRefused(const base::Status& parsed) {
   return parsed ? "its operands do not have the types that the service type declares"
                 : parsed.error().Sentence();

@@ -17,7 +17,7 @@ base::Result<std::string> NormaliseReference(std::string_view reference);
 // Whether the address belongs to a broker that accepts only TLS.
 bool TakesTls(std::string_view reference);
 
-// Returns the host in a normalised reference, or an empty text if it names none.
+// Returns the host in a normalised reference, or an empty text if the reference contains no host.
 std::string HostOf(std::string_view reference);
 
 }  // namespace gsv::broker

@@ -21,7 +21,7 @@ struct BehaviourOffer {
   std::string description;
   std::string host;
   std::int32_t pid = 0;
-  // whether it uses the robot's clock, so that the simulation may wait for it
+  // whether the behaviour uses the robot's clock, so that the simulation may wait for it
   bool time_managed = true;
 };
 std::vector<Property> PropertiesOf(const BehaviourOffer& offer);

@@ -30,7 +30,8 @@ std::optional<PropertyType> TypeOf(std::string_view spelling) {
   return std::nullopt;
 }
 
-// Removes `word` and a space from the start of `text`. Returns false if `text` does not start so.
+// Removes `word` and a space from the start of `text`. Returns false if `text` does not start with
+// `word` and a space.
 bool Take(std::string_view word, std::string_view& text) {
   if (!text.starts_with(word) || text.size() == word.size() || text[word.size()] != ' ') {
     return false;

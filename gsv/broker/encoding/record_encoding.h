@@ -4,7 +4,7 @@
 //         CosTradingRepos::ServiceTypeRepository::TypeStruct.
 // The process needs an ORB.
 //
-// Errors  kCorrupt for bytes that cannot be decoded as one of these.
+// Errors  kCorrupt for bytes that do not have this format.
 #pragma once
 
 #include <string>

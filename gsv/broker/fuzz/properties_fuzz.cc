@@ -1,6 +1,6 @@
-// Fuzz target: decodes the input as the properties of an offer, as from a message or a file. If it
-// is valid, encoding and decoding it again must give equal properties. Only the padding may differ,
-// because omniORB does not set it.
+// Fuzz target: decodes the input as the properties of an offer, like bytes from a message or a
+// file. If the input is valid, it is encoded and decoded again. The properties must then be equal.
+// Only the padding may differ, because omniORB does not set it.
 #include <cstdint>
 #include <string>
 

@@ -14,7 +14,7 @@ struct EqualityTerm {
   ScalarValue value;
 };
 
-// Returns the equality terms in order: those that `and` joins at the top level of the constraint.
+// Returns the equality terms that `and` joins at the top level of the constraint, in their order.
 std::vector<EqualityTerm> EqualityTerms(const Expression& constraint);
 
 }  // namespace gsv::broker

@@ -151,7 +151,7 @@ struct PreferenceExpr : peg::must<Space, PreferenceBody, EndOfText> {};
 struct Building {
   const ExpressionLimits& limits;
   Expression expression{};
-  std::vector<std::size_t> operands{};  // indices of nodes that are not yet an operand
+  std::vector<std::size_t> operands{};  // indices of nodes that no operator uses yet
   std::size_t depth = 0;
   Preference::Kind preference = Preference::Kind::kFirst;
 

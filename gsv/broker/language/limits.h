@@ -26,8 +26,9 @@ struct DynamicLimits {
 
 // Limits on queries to other traders.
 struct FederationLimits {
-  // Time limit of one hop, from a trader to the next one. With H hops left, a trader waits H times
-  // as long. So each trader still has time to answer if the traders behind it do not answer.
+  // Time limit of one hop, from a trader to the next trader. A trader from which H hops remain
+  // waits H times this limit. So each trader still has time to answer if the traders behind it do
+  // not answer.
   std::chrono::milliseconds per_hop{500};
   std::size_t links = 100;
   std::size_t proxies = 16;      // maximum number of proxies that one query uses

@@ -13,7 +13,7 @@ namespace gsv::broker {
 
 // The additional members of a proxy offer, which stands for another trader's offers of its type.
 struct ProxyPart {
-  bool if_match_all = false;  // whether it matches every constraint
+  bool if_match_all = false;  // whether the proxy matches every constraint
   std::string recipe{};       // see recipe.h
   std::string policies{};     // policies to be passed on, as CDR of a CosTrading::PolicySeq
 };

@@ -102,7 +102,7 @@ class Value {
   bool Is(const PropertyType& type) const;
   PropertyType Type() const;
 
-  // An upper bound of its encoded size, in bytes.
+  // An upper bound of the encoded size of the value, in bytes.
   std::size_t EncodedSize() const;
 
   friend bool operator==(const Value& a, const Value& b);

@@ -21,8 +21,8 @@ Truth ToTruth(const Operand& operand) {
   return truth == nullptr ? kNoTruth : *truth ? kTrue : kFalse;
 }
 
-// One operand of an operator, for many offers: a literal that is the same for all, a column, or
-// computed numbers.
+// One operand of an operator, for many offers: one literal for all offers, a column, or computed
+// numbers.
 struct Operands {
   const ScalarValue* literal = nullptr;
   const PropertyColumn* column = nullptr;
@@ -181,8 +181,8 @@ class Evaluation {
     return truths;
   }
 
-  // Evaluates `and` or `or`. If an offer's left operand is `deciding`, it is the result. If it has
-  // no value, the result has no value.
+  // Evaluates `and` or `or`. If an offer's left operand is `deciding` or has no value, the left
+  // operand is the result. Otherwise the right operand is the result.
   Truths Decide(const Node& node, Truth deciding) const {
     Truths left = TruthsOf(node.left);
     const Truth other = deciding == kTrue ? kFalse : kTrue;
@@ -226,8 +226,8 @@ class Evaluation {
     return ForEach([&](std::size_t i) { return broker::Compare(op, left.At(i), right.At(i)); });
   }
 
-  // The parameters and the local variables let the compiler know that the stores do not change
-  // them, so that it compares several numbers in one instruction.
+  // The operands are parameters, and `results` and `count` are local variables. So the compiler
+  // knows that the stores do not change them, and compares several numbers in one instruction.
   template <typename Left, typename Right, typename Holds>
   static void Compare(Left a, Right b, const Holds& holds, Truths& truths) {
     Truth* const results = truths.data();
@@ -352,7 +352,7 @@ void MarkUnknown(const PropertyColumn& column, std::vector<Choice>& choices) {
   }
 }
 
-// Adds a term: sets each choice to the result of `and`.
+// Restricts the choices by a term: each choice becomes the result of `choice and term`.
 void Restrict(const std::vector<Choice>& term, std::vector<Choice>& choices) {
   std::transform(term.begin(), term.end(), choices.begin(), choices.begin(),
                  [](Choice a, Choice b) { return std::min(a, b); });

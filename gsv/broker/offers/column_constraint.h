@@ -31,15 +31,15 @@ class ColumnConstraint {
 
   // The names of the properties in the constraint. Each name occurs once.
   const std::vector<std::string>& properties() const { return properties_; }
-  // Returns one choice per offer. `columns` are the columns of properties(), in the same order.
-  // Each column has a cell for each of `offers` offers, or is null. The terms with the property of
-  // a null column are unknown.
+  // Returns one choice per offer. `columns` are the columns of properties(), in the same order. A
+  // column is null, or has one cell for each of `offers` offers. A term that uses the property of a
+  // null column is unknown.
   std::vector<Choice> Choose(const Columns& columns, std::size_t offers) const;
 
  private:
   // A part of the constraint. All terms must be TRUE for the constraint to be TRUE.
   struct Term {
-    std::size_t root = 0;                   // index of its last node
+    std::size_t root = 0;                   // index of the term's last node
     std::vector<std::size_t> properties{};  // indices in properties_
   };
 
@@ -48,7 +48,7 @@ class ColumnConstraint {
 
   const Expression& constraint_;
   std::vector<std::string> properties_;
-  std::vector<std::size_t> column_of_node_;  // for each node, the index in properties_
+  std::vector<std::size_t> column_of_node_;  // per node, the index of its property in properties_
   std::vector<Term> terms_;                  // the operands of `and` at the top level, in order
 };
 

@@ -5,8 +5,9 @@
 namespace gsv::broker {
 namespace {
 
-// A list keeps its views alive if they have at most this number of offers for each offer of the
-// list. Otherwise ReleaseViews() copies the offers, so that the memory of the others can be freed.
+// A list keeps its views alive if the views have at most this number of offers for each offer of
+// the list. Otherwise ReleaseViews() copies the offers of the list, so that the memory of all other
+// offers can be freed.
 constexpr std::size_t kKeptForOne = 4;
 
 }  // namespace

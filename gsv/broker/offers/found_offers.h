@@ -16,7 +16,7 @@
 
 namespace gsv::broker {
 
-// Keeps found offers alive. Several lists may share it.
+// Keeps found offers alive. Several lists may share one KeptOffers.
 struct KeptOffers {
   std::vector<OfferView> views{};
   std::deque<OfferPtr> others{};  // offers that are not in a view, at constant addresses

@@ -84,7 +84,7 @@ std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers) {
 }
 
 std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers, std::size_t count) {
-  // With more, sorting all numbers is as fast.
+  // If more than this part of the numbers is needed, sorting all numbers is as fast.
   constexpr std::size_t kMaxPart = 8;
   if (count > numbers.size() / kMaxPart) {
     std::vector<std::uint32_t> order = AscendingOrder(numbers);
@@ -92,9 +92,9 @@ std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers, std::
     return order;
   }
   if (count == 0) return {};
-  // Collects the numbers that may be among the first ones. When there are twice
-  // as many as needed, the larger half is removed. Its smallest key is a bound
-  // for all later numbers.
+  // Collects the numbers that may be among the first `count`. When there are twice as many as
+  // needed, the larger half is removed. Then the largest remaining key is a bound for all later
+  // numbers.
   const auto is_before = [](const Keyed& a, const Keyed& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
   };
@@ -109,7 +109,7 @@ std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers, std::
   std::uint64_t bound = std::numeric_limits<std::uint64_t>::max();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::uint64_t key = KeyOf(numbers[i]);
-    // A later number that equals the bound comes after it.
+    // A later number that equals the bound comes after the number of the bound.
     if (key >= bound && first.size() >= count) continue;
     first.push_back({key, static_cast<std::uint32_t>(i)});
     if (first.size() == 2 * count) bound = remove_larger();

@@ -73,7 +73,7 @@ TEST(NumberOrder, EqualsStandardSortForManyNumbers) {
       return numbers[a] < numbers[b];
     });
     EXPECT_EQ(AscendingOrder(numbers), expected);
-    if (large) continue;  // the others are doubles
+    if (large) continue;  // these numbers are no doubles
     const std::vector<double> doubles(numbers.begin(), numbers.end());
     EXPECT_EQ(AscendingOrder(std::span<const double>(doubles)), expected);
   }

@@ -8,7 +8,7 @@
 namespace gsv::broker {
 namespace {
 
-// A chunk with fewer offers has no property columns: each of its offers is evaluated.
+// A chunk with fewer offers has no property columns. Its offers are evaluated one by one.
 constexpr std::size_t kMinOffersForColumns = OfferColumn::kChunk / 4;
 
 bool IsBefore(const OfferPtr& offer, std::uint64_t number) { return offer->number < number; }
@@ -108,7 +108,8 @@ Offers& OfferColumn::Own(std::size_t chunk) {
   return own->offers_;
 }
 
-// The last chunk grows by exports. If it is full, a new chunk is begun instead of splitting it.
+// Exports enlarge only the last chunk. If the last chunk is full, it is not split: the new offer
+// begins a new chunk.
 void OfferColumn::SplitIfFull(std::size_t chunk) {
   Offers& offers = chunks_[chunk]->offers_;
   if (offers.size() <= kChunk) return;

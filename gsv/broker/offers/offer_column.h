@@ -73,7 +73,7 @@ class OfferColumn {
   // Returns all offers.
   Offers All() const;
 
-  // Adds the offer, or replaces the offer with its number.
+  // Adds the offer, or replaces the offer that has the same number.
   void Put(OfferPtr offer);
   // Removes an offer, which must exist.
   void Remove(std::uint64_t number);
@@ -81,8 +81,8 @@ class OfferColumn {
  private:
   using Place = std::pair<std::size_t, std::size_t>;  // a chunk, and an index in the chunk
 
-  // The place of the first offer whose number is not less than `number`, in the chunk to which
-  // `number` belongs. Numbers above all others belong to the last chunk.
+  // The place of the first offer whose number is at least `number`, in the chunk to which `number`
+  // belongs. A number above the numbers of all offers belongs to the last chunk.
   Place PlaceOf(std::uint64_t number) const;
   // Returns the chunk's offers, which the caller may change.
   Offers& Own(std::size_t chunk);

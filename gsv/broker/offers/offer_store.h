@@ -40,9 +40,9 @@ class OfferStore {
   // Returns all offers in the order of export.
   Offers All() const;
 
-  // Returns the offers that the index of one of `terms` finds, in the order of OfTypes(). They
-  // include all offers for which this term is TRUE. If several terms have indices, the store uses
-  // the term that finds the fewest offers. Returns nullopt if no term has an index in every type.
+  // Returns offers that include all offers for which every one of `terms` is TRUE, in the order of
+  // OfTypes(). For each type, the store uses the index of one term: the one that finds the fewest
+  // offers. Returns nullopt if a type with offers has no index for any of the terms.
   std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
                                                     const std::vector<EqualityTerm>& terms) const;
   // Makes indices for the first few of `terms`. Each type stores a few indices. The oldest index is

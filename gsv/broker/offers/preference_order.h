@@ -1,7 +1,7 @@
-// Orders offers by a preference. `min` and `max` order by a number. `with` puts the offers first
-// for which the expression is TRUE. `random` is a random order, and `first` the order in which they
-// were found. Offers without a value of the expression come last. Equal offers keep the order in
-// which they were found.
+// Orders offers by a preference. `min` and `max` order by a number. With `with`, the offers for
+// which the expression is TRUE come first. `random` is a random order, and `first` is the order in
+// which the offers were found. Offers for which the expression has no value come last. Equal offers
+// keep the order in which they were found.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), "preference".
 #pragma once
@@ -27,17 +27,17 @@ const std::string* PropertyToOrderBy(const Preference& preference);
 class RankedOffers {
  public:
   RankedOffers() = default;
-  // The offers are in order.
+  // Makes a list of offers that are in order already.
   explicit RankedOffers(FoundOffers offers);
-  // Offers with smaller ranks come first, those with NaN last. `ranks` has one
-  // rank per offer.
+  // Offers with smaller ranks come first. Offers whose rank is NaN come last. `ranks` has one rank
+  // per offer.
   RankedOffers(FoundOffers offers, std::vector<double> ranks);
 
   std::size_t size() const { return size_; }
   // Removes the offers after the first `size`.
   void Truncate(std::size_t size);
-  // Returns the first `count` offers in order, or all if there are fewer.
-  // Invalid after ReleaseViews() and Sorted().
+  // Returns the first `count` offers in order, or all offers if there are fewer. The pointers are
+  // invalid after ReleaseViews() and Sorted().
   std::vector<const OfferPtr*> First(std::size_t count) const;
   // See FoundOffers.
   void ReleaseViews() { offers_.ReleaseViews(); }
@@ -51,7 +51,8 @@ class RankedOffers {
 };
 
 // Orders `offers`. `seed` is the seed of the preference `random`. If min or max orders by a
-// property, `known` has the numbers of the first few offers, or NaN for an offer without a number.
+// property, `known` has a number for each of the first known.size() offers, or NaN for an offer
+// without a number.
 RankedOffers Rank(const Preference& preference, std::uint64_t seed, std::vector<double> known,
                   DynamicValues& values, FoundOffers offers);
 

@@ -142,7 +142,8 @@ TEST(PropertyColumns, OrderLikeAnEvaluationOfEachOffer) {
       ASSERT_TRUE(found);
       EXPECT_EQ(OfferNumbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
     }
-    // The offers have changed, so only the second query for them makes the column.
+    // Every second round changes the offers. Then only the second query of this property makes its
+    // column.
     if (round % 2 == 1) {
       ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
     }
@@ -170,8 +171,8 @@ TEST(PropertyColumns, OrderDynamicPropertiesAmongTheOthers) {
     DynamicValues values(&five, std::chrono::seconds(1));
     const auto found = trader.Find({.type = "Robot", .preference = "min b"}, values);
     ASSERT_TRUE(found);
-    // Offers 1, 11, … have the number 0. Those with 1 to 4 come before the dynamic one, which has
-    // 5.
+    // Offers 1, 11, … have the number 0. The offers with the numbers 1 to 4 come before the offer
+    // with the dynamic property, whose value is 5.
     EXPECT_EQ(found->offers[0]->number, 1u);
     EXPECT_EQ(found->offers[200 + 200 + 200 + 199 + 200]->number, 4u);
   }

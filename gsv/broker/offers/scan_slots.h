@@ -30,8 +30,8 @@ class ScanSlots {
   std::uint64_t released_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
-// Holds a slot during its lifetime. With a null argument it does nothing, for a scan that needs no
-// slot.
+// Holds a slot during its lifetime. For a scan that needs no slot, pass null; then the object does
+// nothing.
 class ScanSlot {
  public:
   explicit ScanSlot(ScanSlots* slots) : slots_(slots) { Resume(); }

@@ -72,7 +72,7 @@ struct Redefinition {
   PropertyDefinition definition_2;
 };
 
-// A service type whose interface does not derive from that of its super type.
+// A service type whose interface does not derive from the interface of its super type.
 struct InterfaceMismatch {
   std::string base_service;
   std::string base_interface;

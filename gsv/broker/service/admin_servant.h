@@ -41,7 +41,7 @@ class AdminServant : public POA_CosTrading::Admin,
 
   CORBA::Boolean set_supports_proxy_offers(CORBA::Boolean value) override;
 
-  // Throws CORBA::NO_IMPLEMENT for any repository other than its own.
+  // Throws CORBA::NO_IMPLEMENT for any repository other than the trader's own repository.
   CORBA::Object_ptr set_type_repos(CORBA::Object_ptr repository) override;
 
   void list_offers(CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,

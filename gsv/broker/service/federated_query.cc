@@ -62,8 +62,8 @@ void AddLinks(TradingObjects& objects, const FederatedQuery& query,
   }
 }
 
-// Adds a destination for each proxy offer. The target of a proxy must answer within the remaining
-// time, but the call does not count as a hop.
+// Adds a destination for each proxy offer. The call of a proxy's target is possible even if no hops
+// remain. The target gets one hop less, so that it answers within the remaining time.
 void AddProxies(TradingObjects& objects, const FederatedQuery& query, std::uint32_t hops,
                 MatchingOffers& matches, DynamicValues& values, Destinations& destinations) {
   const std::size_t most = objects.trader.limits().federation.proxies;

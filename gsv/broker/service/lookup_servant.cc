@@ -49,7 +49,8 @@ std::size_t EncodedSize(const Offer& offer, const DesiredProperties& desired,
   return size;
 }
 
-// Converts an offer and evaluates its dynamic properties. Omits those whose value is not available.
+// Converts an offer and evaluates its dynamic properties. Omits each dynamic property whose value
+// is not available.
 CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer, const DesiredProperties& desired,
                           DynamicValues& values) {
   CosTrading::Offer result;
@@ -91,8 +92,8 @@ std::chrono::milliseconds DynamicBudget(const TraderLimits& limits, const Import
 }
 
 // Calls `query`, which forwards the query to the trader in the policy starting_trader. If that
-// trader is unavailable, it throws TIMEOUT, because after TRANSIENT or COMM_FAILURE the client's
-// ORB would repeat the call.
+// trader is unavailable, this function throws TIMEOUT. After TRANSIENT or COMM_FAILURE, the
+// client's ORB would repeat the call.
 template <typename Call>
 void QueryStartingTrader(const Call& query) {
   try {
@@ -170,8 +171,8 @@ CORBA::Boolean OfferIteratorServant::next_n(CORBA::ULong n, CosTrading::OfferSeq
   const std::size_t count = std::min(n, objects_.trader.attributes().max_list);
   const DynamicLimits& dynamic = objects_.trader.limits().dynamic;
   const std::uint64_t key = CurrentIterator(objects_.orb);
-  // Keeps the offers alive, and sorts them before Take(), so that other
-  // iterators need not wait.
+  // Take() locks the table of all iterators. So the offers are sorted before Take(), and other
+  // iterators need not wait. `remaining` keeps the offers alive.
   const auto remaining = objects_.offer_cursors.EntriesOf(key);
   if (!remaining) throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
   remaining->Sorted();

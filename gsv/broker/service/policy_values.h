@@ -22,8 +22,8 @@ inline CosTrading::FollowOption ToCorba(FollowOption option) {
 // Errors  throws IllegalPolicyName, DuplicatePolicyName, PolicyTypeMismatch, InvalidPolicyValue.
 ImportPolicies ToImportPolicies(const CosTrading::PolicySeq& policies);
 
-// The policies that replace those of the importer when the query is forwarded to another trader. An
-// absent policy keeps the importer's value, except starting_trader, which is removed.
+// The policies that replace the importer's policies when the query is forwarded to another trader.
+// An absent policy keeps the importer's value, except starting_trader, which is removed.
 struct PassedPolicies {
   TraderName starting_trader{};
   std::optional<std::uint32_t> hop_count{};

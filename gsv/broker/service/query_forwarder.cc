@@ -22,7 +22,7 @@ constexpr CORBA::ULong kForwardedBatch = 500;
 // The first number for offers of other traders. The numbers of this trader's own offers begin at 1.
 constexpr std::uint64_t kFirstForeignNumber = std::uint64_t{1} << 63;
 
-// Limits the next call on `reference`, which no other thread uses, to the remaining time.
+// Limits the next call on `reference` to the remaining time. No other thread may use `reference`.
 // Errors  throws CORBA::TIMEOUT if no time remains.
 void LimitCall(CORBA::Object_ptr reference, Deadline deadline) {
   const auto left =

@@ -1,8 +1,8 @@
 // Forwards a query to other traders, to all at the same time, within the query's time limit. A
 // trader that did not answer the last call is called by only one query at a time.
 //
-// Errors   a trader that does not answer, or refuses, contributes no offers. When a trader becomes
-//          silent, and when it answers again, this is logged on stderr.
+// Errors   a trader that does not answer, or refuses, contributes no offers. The class logs on
+//          stderr when a trader becomes silent, and when it answers again.
 // Threads  any; no lock is held during a call.
 #pragma once
 

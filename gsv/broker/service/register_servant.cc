@@ -67,7 +67,8 @@ void RegisterServant::withdraw_using_constraint(const char* type, const char* co
   ValueOrRaise(objects_.trader.WithdrawMatching(type, constr, &objects_.dynamic));
 }
 
-// The first name is that of a link. The trader at the end of this link resolves the other names.
+// The first name is the name of a link. The trader at the end of this link resolves the other
+// names.
 CosTrading::Register_ptr RegisterServant::resolve(const CosTrading::TraderName& name) {
   bool legal = name.length() > 0;
   for (CORBA::ULong i = 0; i < name.length(); ++i) {

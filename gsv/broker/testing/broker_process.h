@@ -12,8 +12,8 @@ namespace gsv::broker {
 
 class TestProcess {
  public:
-  // Starts `program`, which is beside the tests. Returns when the process has printed a line, or
-  // has ended.
+  // Starts `program`, which is in the folder of the tests. Returns when the process has printed a
+  // line, or has ended.
   TestProcess(const std::string& program, std::vector<std::string> arguments);
   // Ends the process.
   ~TestProcess();
@@ -27,7 +27,8 @@ class TestProcess {
   void Send(int signal);
   // Sends SIGSTOP. Returns when the process has stopped.
   void Stop();
-  // Waits for the end. Returns the exit code, or minus the number of the signal that ended it.
+  // Waits for the end of the process. Returns the exit code, or minus the number of the signal that
+  // ended the process.
   int Wait();
   // Returns everything that the process wrote on stderr. Call it after Wait().
   std::string Stderr();
@@ -44,7 +45,8 @@ class BrokerProcess : public TestProcess {
   explicit BrokerProcess(std::vector<std::string> arguments = {"0"})
       : TestProcess("gsv_broker_test_server", std::move(arguments)) {}
 
-  // For example "corbaloc::1.2@127.0.0.1:…/TradingService"; empty if the process ended without it.
+  // For example "corbaloc::1.2@127.0.0.1:…/TradingService"; empty if the process ended before it
+  // printed its reference.
   const std::string& reference() const { return first_line(); }
   std::string port() const;
 };

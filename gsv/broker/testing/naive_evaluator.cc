@@ -8,8 +8,8 @@
 namespace gsv::broker {
 namespace {
 
-// Letters are those of ISO Latin-1. The signs for times and divided by are in the same range and
-// are no letters.
+// Letters are those of ISO Latin-1. The characters × and ÷ are in the same range, but are no
+// letters.
 bool IsInName(char character) {
   const auto code = static_cast<unsigned char>(character);
   if (code >= 0xC0) return code != 0xD7 && code != 0xF7;
@@ -189,7 +189,8 @@ class Reader {
     return Number{false, 0, Real(sign, a, b)};
   }
 
-  // Returns the exact integer, or the result computed with doubles if there is none.
+  // Returns `exact` if it is an integer. Otherwise returns the result of a calculation with
+  // doubles.
   static Result Reals(const Number& exact, const Number& a, const Number& b, char sign) {
     if (exact.integer) return exact;
     return Number{false, 0, Real(sign, a, b)};

@@ -23,8 +23,8 @@ class RandomConstraints {
     return offer;
   }
 
-  // Returns an offer whose properties have the types of those of `model`. A property is sometimes
-  // missing.
+  // Returns an offer whose properties have the types of the properties of `model`. A property is
+  // sometimes missing.
   PropertyList OfferLike(const PropertyList& model) {
     PropertyList offer;
     for (const auto& [name, value] : model) {

@@ -13,7 +13,7 @@ CORBA::Object_ptr IteratorReference(PortableServer::POA_ptr poa, std::uint64_t k
                                     const char* repository_id);
 
 // Returns the key of the iterator that the current request addresses.
-// Errors  throws OBJECT_NOT_EXIST if the id is not one of this trader's.
+// Errors  throws OBJECT_NOT_EXIST if the request's object id is not the key of an iterator.
 std::uint64_t CurrentIterator(CORBA::ORB_ptr orb);
 
 }  // namespace gsv::broker

@@ -14,21 +14,21 @@
 
 namespace gsv::broker {
 
-// An offer that is new, or replaces the offer with its number.
+// An offer that is new, or replaces the offer that has the same number.
 struct OfferStored {
   OfferPtr offer;
 };
 struct OffersRemoved {
   std::vector<std::uint64_t> numbers;
 };
-// A service type that is new, or replaces the type with its name.
+// A service type that is new, or replaces the type that has the same name.
 struct TypeStored {
   ServiceType type;
 };
 struct TypeRemoved {
   std::string name;
 };
-// A link that is new, or replaces the link with its name.
+// A link that is new, or replaces the link that has the same name.
 struct LinkStored {
   TraderLink link;
 };

@@ -1,10 +1,10 @@
 // Withdraws the offers of services that no longer exist.
 //
-// The monitor calls every offered service once per period. The calls are spread over the period. A
-// few of them are in progress at a time, and each ends after `timeout`. A service is dead at once
-// if it reports its end, or if its port refuses connections. A service that does not answer is dead
-// after `max_silence`. An address that does not answer is called once per period, for all its
-// services.
+// The monitor calls every offered service once per period. The calls are spread over the period. At
+// most `concurrent` calls are in progress at a time, and each call ends within `timeout`. A service
+// is dead at once if it reports its end, or if its port refuses connections. A service that does
+// not answer is dead after `max_silence`. If an address does not answer, the monitor calls it only
+// once per period, for all services at this address.
 //
 // The offer of a dead service is visible for at most two periods plus the time for silent
 // addresses. This time is the number of these addresses times `timeout` / `concurrent`.
@@ -43,8 +43,8 @@ enum class Liveness {
 
 class LivenessMonitor {
  public:
-  // Calls the service of a stringified reference, with this time limit. Several threads call it at
-  // the same time.
+  // Calls the service of a stringified reference, with this time limit. Several threads call this
+  // function at the same time.
   using Ask =
       std::function<Liveness(const std::string& reference, std::chrono::milliseconds timeout)>;
 

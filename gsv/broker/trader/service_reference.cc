@@ -35,8 +35,8 @@ std::string ReadText(base::CdrReader& in) {
   return std::string(text);
 }
 
-// Reads the port for TLS from `profile`, which is at its object key. Leaves `result` unchanged if
-// there is none.
+// Reads the port for TLS from `profile`. The next value of `profile` must be its object key. Leaves
+// `result` unchanged if the profile has no port for TLS.
 void ReadTlsPort(base::CdrReader& profile, ServiceReference& result) {
   profile.Octets();  // skips the object key
   const std::uint32_t components = profile.ULong();

@@ -17,7 +17,7 @@ struct ServiceReference {
   std::uint16_t port = 0;
   bool takes_tls = false;  // whether the address accepts only TLS
 
-  // Returns "127.0.0.1:4321", "[::1]:4321", or an empty text.
+  // Returns "127.0.0.1:4321" or "[::1]:4321", or an empty text if there is no host.
   std::string Address() const;
 };
 

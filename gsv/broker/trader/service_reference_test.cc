@@ -34,7 +34,7 @@ TEST(ServiceReference, ReadsTypeHostAndPort) {
 }
 
 TEST(ServiceReference, RejectsEveryTruncation) {
-  // No field ends within the last three bytes, so they may be missing.
+  // The last three bytes belong to no field, so they may be missing.
   for (std::size_t length = 0; length + 6 < kBigEndian.size(); ++length) {
     const auto reference = ReadReference(kBigEndian.substr(0, length));
     EXPECT_FALSE(reference) << length;

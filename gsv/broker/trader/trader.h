@@ -71,7 +71,7 @@ struct Modification {
 class Trader {
  public:
   // `stem` is part of every offer's id, so that this trader recognises ids of other traders as
-  // unknown. `seed` is that of the preference "random".
+  // unknown. `seed` is the seed of the preference "random".
   Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
   // Restores the state of an earlier trader, including its stem, and stores every later change in
@@ -198,8 +198,8 @@ class Trader {
   Journal::ChangeNumber last_change_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
-// A change is on disk before its caller gets an answer. No thread holds the lock while it waits for
-// the disk, so that the changes of many callers become one transaction.
+// A change is in the data file before its caller gets an answer. No thread holds the lock while it
+// waits for the file, so that the changes of many callers become one transaction.
 template <typename Apply>
 std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
   const TradingError not_stored{.refusal = Refusal::kNotStored};

@@ -59,7 +59,7 @@ struct Trader::Candidates {
   bool with_proxies = true;
   bool with_dynamic = true;
   bool with_modifiable = true;
-  // the types, with their descriptions if not with_modifiable
+  // the types; with their descriptions if with_modifiable is false
   std::map<std::string, ServiceType> types{};
 
   // Estimates the number of steps of the search.
@@ -128,12 +128,13 @@ class Trader::Search {
     return candidates_.cardinalities.match - matches_.offers.size() - matches_.proxies.size();
   }
 
-  // Adds the chosen offers of a plain chunk, without reading the offers. All of them are admitted.
+  // Adds the chosen offers of a plain chunk, without reading the offers. The policies exclude no
+  // offer of the chunk.
   void TakeChosen(const OfferChunk& chunk, const std::vector<Choice>& choices,
                   const PropertyColumn* order) {
     chosen_.resize(choices.size());
     std::size_t count = 0;
-    for (std::size_t i = 0; i < choices.size(); ++i) {  // without a branch, as it is unpredictable
+    for (std::size_t i = 0; i < choices.size(); ++i) {  // no branch: it is unpredictable
       chosen_[count] = static_cast<std::uint32_t>(i);
       count += choices[i] == Choice::kYes ? 1 : 0;
     }

@@ -120,7 +120,7 @@ TradingResult<void> TypeRepository::CheckSuperTypes(const ServiceType& type) con
     const auto super_type = Find(name);
     if (!super_type) return Refuse(super_type.error());
     // Without an interface repository, only one thing can be checked: an empty interface name (any
-    // interface) does not derive from a certain interface.
+    // interface) does not derive from a specific interface.
     const std::string& base_interface = (*super_type)->interface_name;
     if (IsAnyInterface(type.interface_name) && !IsAnyInterface(base_interface)) {
       return Refuse(

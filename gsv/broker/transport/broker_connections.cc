@@ -22,9 +22,9 @@ constexpr std::size_t kMessageBytes = 65'536;  // the value of giopMaxMsgSize, w
 constexpr std::chrono::seconds kMessageTime{3};
 
 // Limits the number of requests in progress to about the number of processors. Dozens of threads
-// that wait for the ORB's lock and the trader's lock would switch at each lock. A request that has
-// waited for a millisecond continues without a slot, so that a request that waits for another
-// broker does not delay others.
+// that wait for the ORB's lock and the trader's lock would switch at each lock. A request waits at
+// most a millisecond for a slot, and then continues without a slot. So a request that holds a slot
+// while it waits for another broker does not delay others.
 //
 // Threads  any.
 class RequestSlots {
@@ -57,7 +57,7 @@ class ConnectionTable {
  private:
   struct Entry {
     ClientConnection* connection = nullptr;
-    SteadyClock::time_point incomplete{};  // the time at which its message began, or the epoch
+    SteadyClock::time_point incomplete{};  // begin of an incomplete message; epoch if there is none
   };
 
   void EndLate(SteadyClock::time_point now) GSV_REQUIRES(mutex_);

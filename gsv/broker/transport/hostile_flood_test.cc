@@ -178,8 +178,8 @@ TEST_F(HostileFloodTest, SurvivesTenThousandConnections) {
   Judge(bystander, "connections");
 }
 
-// The test opens more connections than the broker keeps. The broker closes those that have been
-// silent longest.
+// The test opens more connections than the broker keeps. The broker closes the connections that
+// have been silent longest.
 TEST_F(HostileFloodTest, SurvivesManyIdleConnections) {
   rlimit descriptors{};
   getrlimit(RLIMIT_NOFILE, &descriptors);

@@ -16,8 +16,8 @@ class Reserve {
  public:
   explicit Reserve(std::size_t bytes) : bytes_(bytes) { (void)Refill(); }
 
-  // Reserves the range if necessary. Returns true if it is reserved, or if as much memory is free
-  // in the heap.
+  // Reserves the range if necessary. Returns true if the range is reserved, or if the heap has as
+  // much free memory.
   bool Refill() {
     const base::MutexLock lock(mutex_);
     if (range_ != MAP_FAILED) return true;

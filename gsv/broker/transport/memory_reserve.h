@@ -1,7 +1,8 @@
-// A memory reserve for a broker with limited address space (process_limits.h). It is freed when an
-// allocation fails. Operations that would store more data are then refused until as much memory is
-// free again. So a full broker still answers queries, also over new connections, and clients can
-// withdraw offers. The ORB's threads, which do not catch bad_alloc, do not run out of memory.
+// A memory reserve for a broker with limited address space (process_limits.h). The reserve is freed
+// when an allocation fails. Operations that would store more data are then refused until as much
+// memory as the reserve is free again. So a full broker still answers queries, also over new
+// connections, and clients can withdraw offers. The ORB's threads, which do not catch bad_alloc, do
+// not run out of memory.
 //
 // Threads  any; call HoldMemoryReserve() before other threads start.
 #pragma once
