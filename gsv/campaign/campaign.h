@@ -1,4 +1,5 @@
-// A campaign: a scenario, and those of its parameters that vary (docs/campaigns.md).
+// A campaign: a scenario, and the parameters of the scenario that vary from run to run
+// (docs/campaigns.md).
 //
 // Determinism  the runs, their numbers and their random draws depend only on the file.
 // Errors       name the file, the line and the column.
@@ -37,8 +38,8 @@ struct Campaign {
   std::uint64_t draw_seed = 0;
 
   std::size_t runs() const;  // The number of runs, at most kMaxRuns.
-  // Returns the values of a run, which is counted from 0, in the order of the parameters. From run
-  // to run, the number of the draw changes fastest, then the value of the last list.
+  // Returns the values of run `run` in the order of the parameters. Runs are counted from 0. From
+  // run to run, the number of the draw changes fastest, then the value of the last list.
   std::vector<std::string> ValuesOf(std::size_t run) const;
   // Returns the scenario with these values, as YAML. Fails if the scenario does not have the path
   // of a parameter.

@@ -15,7 +15,7 @@ inline constexpr std::string_view kSucceeded = "exit code 0";
 
 struct CommandOutcome {
   std::string ending;  // how the command ended, such as "exit code 0" or "signal 9"
-  std::string output;  // its stdout and stderr together
+  std::string output;  // stdout and stderr of the command together
 };
 
 // A program that runs in the background. Its stdin stays open until this object is destroyed. The

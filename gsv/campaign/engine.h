@@ -30,7 +30,7 @@ using MakeQueue = std::function<std::unique_ptr<JobQueue>(const QueueContext&)>;
 // An option of `gsv campaign run` that sets a key of the engine in the campaign file.
 struct EngineOption {
   std::string flag;  // "--partition"
-  std::string key;   // of the engine, in the campaign file
+  std::string key;   // the engine's key in the campaign file
   std::string help;
   bool is_list = false;  // whether values are appended to the list under the key
 };

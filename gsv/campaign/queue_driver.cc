@@ -18,7 +18,7 @@ constexpr auto kSilence = std::chrono::seconds(30);
 constexpr std::size_t kFewTasks = 1000;
 // a run becomes an error after tasks have ended this many times during the run
 constexpr std::size_t kMaxAttempts = 3;
-// number of consecutive queries that must not list a task before it counts as lost
+// a task counts as lost if this number of consecutive queries did not list it
 constexpr int kMissedQueriesUntilGone = 2;
 // maximum number of bytes of a task's log in an error message
 constexpr std::size_t kMaxLogBytes = 1000;

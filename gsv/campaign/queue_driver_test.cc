@@ -55,7 +55,7 @@ class QueueDriverTest : public ::testing::Test {
   }
 
   // Simulates a node that executes the first `count` runs of the task. If `crashes` is true, the
-  // node begins one more run, and the task ends during it. Then the task leaves the queue.
+  // node begins one more run, and the task ends during this run. Then the task leaves the queue.
   void Do(const std::string& share, std::size_t count = 1000, bool crashes = false) {
     const auto task = queue_.held.extract(share);
     ASSERT_FALSE(task.empty()) << share;

@@ -3,9 +3,10 @@
 //
 // The driver itself manages the queue and keeps the tasks that wait for a slot. A running task ends
 // with its connection, because its stdin closes. A host counts as failed if it is unreachable, or
-// if a task ends there before its journal exists. That task goes to another host. The host gets no
-// tasks for a while, longer after each failure. A task that ends later without success is dropped,
-// and the driver submits the rest of its runs again.
+// if a task ends there before its journal exists. Then another host executes the task. The failed
+// host gets no tasks for a while, and this pause gets longer after each failure. If a task with a
+// journal ends without success, the queue drops the task, and the driver submits the rest of its
+// runs again.
 #include <algorithm>
 #include <charconv>
 #include <deque>
@@ -94,7 +95,7 @@ class SshQueue final : public JobQueue {
   struct Host {
     SshOptions::Host settings;
     std::size_t running = 0,
-                connecting = 0;  // numbers of tasks: all, and those that have not begun
+                connecting = 0;  // number of all tasks, and number of tasks that have not begun
     int failures = 0;            // consecutive failures
     SshClock::time_point rests_until{};
     std::string reason;

@@ -10,8 +10,8 @@ namespace {
 constexpr double kNormal975 = 1.959963984540054;
 
 // Returns the 97.5 % quantile of Student's t. For 1 to 30 degrees of freedom, the value is from a
-// table. For more, it is computed from the first terms of Cornish and Fisher's expansion
-// (Abramowitz and Stegun 26.7.5).
+// table. For more degrees of freedom, the value is computed from the first terms of Cornish and
+// Fisher's expansion (Abramowitz and Stegun 26.7.5).
 double Student975(std::size_t degrees) {
   constexpr double kTable[]{12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060,
                             2.2622,  2.2281, 2.2010, 2.1788, 2.1604, 2.1448, 2.1314, 2.1199,
