@@ -3,7 +3,7 @@
 //
 // A page from any site may try to reach 127.0.0.1 (cross-site requests, WebSockets, DNS rebinding).
 // The Host header has the name under which the browser reached the server, and the Origin header
-// has the origin of the page. Browsers prevent pages from forging them.
+// has the origin of the page. Browsers prevent pages from forging these two headers.
 #pragma once
 
 #include <cstdint>

@@ -24,8 +24,8 @@ class Api {
   // Makes the live stream advertise the topics of a robot's sensors.
   using ListSensors = std::function<void(const SimulationPointer&, const std::string& robot)>;
 
-  // `recordings` and `factory` may be null, or must outlive this. `has_replays`: the server also
-  // lists and replays recordings.
+  // `recordings` and `factory` may be null; otherwise they must outlive this object. `has_replays`:
+  // the server also lists and replays recordings.
   Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
       RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr,
       bool has_replays = false, ListSensors list_sensors = nullptr);

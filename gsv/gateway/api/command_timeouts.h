@@ -1,4 +1,4 @@
-// A dead man's switch: it stops a robot that a user drives if no further command comes in time.
+// A dead man's switch: a robot that a user drives is stopped if no further command arrives in time.
 //
 // A page repeats its command while a key is held. If the page, its browser or the network fails,
 // the repetition ends, and the robot must not continue for ever.

@@ -229,7 +229,7 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
     routes.push_back({"GET", std::move(pattern), Permission::kWatch, false, Pool::kReaders,
                       OfReplay(find, handler), std::move(summary)});
   };
-  // Changes of a replay run on the threads for readers, because none of them takes long.
+  // These requests change a replay. They run on the threads for readers, because none takes long.
   const auto change = [&](std::string method, std::string_view below, ReplayHandler handler,
                           std::string_view summary) {
     routes.push_back({std::move(method), simulation + std::string(below), Permission::kControl,

@@ -24,7 +24,7 @@ class CurvePoints {
   // `start` and `end` are the range of the samples' times. Keeps at most `max_points`, >= 2.
   CurvePoints(base::SimTime start, base::SimTime end, std::size_t max_points);
 
-  // Adds a sample. A sample outside of the range is assigned to the nearer end of it.
+  // Adds a sample. A sample outside of the time range is assigned to the nearer end of the range.
   void Add(base::SimTime time, double value);
 
   std::size_t samples() const { return samples_; }  // number of samples so far

@@ -16,8 +16,8 @@ namespace gsv::gateway::curves {
 
 // Names a curve by one of these combinations:
 //   topic, key     a number of the topic's messages, see field_value.h
-//   robot, key     x, y, z (m), roll, pitch, yaw (rad), speed (m/s), turn_rate (rad/s) of its
-//                  poses, and distance (m), collisions of its status
+//   robot, key     x, y, z (m), roll, pitch, yaw (rad), speed (m/s), turn_rate (rad/s) from the
+//                  robot's poses; distance (m), collisions from the robot's status
 //   key            real_time_factor or late_steps of the simulation
 struct CurveRequest {
   std::string topic, robot, key;

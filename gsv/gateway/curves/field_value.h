@@ -1,9 +1,13 @@
-// Finds a number in a message by its key. Keys are those of the viewer's list of values
-// (web/src/live/values.ts): names of fields joined with dots, and then one of these endings
-//   [I]            the number at index I of a list with at most eight numbers [NAME] the number
-//   that belongs to this name in the message's list of names (JointState) .min .max .mean of the
-//   finite numbers of a longer list .count the number of objects in a list [0].KEY a number in the
-//   first object of a list .roll .pitch .yaw of a rotation, in radians
+// Finds a number in a message by its key. The viewer's list of values uses the same keys
+// (web/src/live/values.ts). A key consists of names of fields joined with dots, and perhaps one of
+// these endings:
+//
+//   [I]               the number at index I of a list with at most eight numbers
+//   [NAME]            the number at the index of NAME in the message's list of names (JointState)
+//   .min .max .mean   minimum, maximum and mean of the finite numbers of a longer list
+//   .count            the number of objects in a list
+//   [0].KEY           a number in the first object of a list
+//   .roll .pitch .yaw an angle of a rotation, in radians
 //
 // Input  untrusted message and key.
 #pragma once

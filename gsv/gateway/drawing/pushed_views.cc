@@ -178,8 +178,8 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
   if (seat == nullptr) {
     auto taken = drawer_.Take(view);
     if (!taken && detail > 0) {
-      // A smaller image is a further view, and the limit on views is reached. Another viewer may
-      // have this view in full size, so that both can share it. So the full size is tried next.
+      // A smaller image counts as a separate view, and the limit on the number of views is reached.
+      // Try the full size: if another viewer has this view in full size, both can share it.
       {
         const base::MutexLock lock(mutex_);
         watched->detail = 0;
@@ -191,8 +191,8 @@ base::Status PushedViews::Ask(const WatchedPtr& watched) {
     if (!taken) return base::Fail(taken.error());
     seat = *std::move(taken);
     const base::MutexLock lock(mutex_);
-    // If the client has chosen another camera since then, this image is still drawn. The next image
-    // uses the new camera.
+    // If the client has chosen another camera in the meantime, this image still uses the old
+    // camera, and the next image uses the new one.
     if (watched->sequence == sequence && !watched->client.expired()) watched->seat = seat;
   }
   drawer_.SetSource(world->name, world->identity, world->make);

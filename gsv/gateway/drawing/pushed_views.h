@@ -3,11 +3,13 @@
 //
 // An image is drawn when the world or the camera has changed, at most as often as the client wants.
 // The client reports each image that it has shown. The next image is drawn only after this report.
-// If the last report came fast, one more image is drawn before the report. So a slow client gets
-// fewer images, and never outdated images. If the connection is too slow for an image
-// (Client::slow_rate), the next images are coarser. First the JPEG quality is lower, then the
-// images have fewer pixels than the client requested. When the connection has been fast enough for
-// some time, the images become finer again. This time doubles each time the images become coarser.
+// If the client has reported the previous image quickly, one more image is drawn before the next
+// report. So a slow client gets fewer images, and never outdated images.
+//
+// If the connection is too slow for an image (Client::slow_rate), the next images are coarser.
+// First the JPEG quality is lower, then the images have fewer pixels than the client requested. The
+// images become finer again when the connection is fast enough, but not before a waiting time has
+// passed. The waiting time doubles each time the images become coarser.
 //
 // Format   docs/formats/live.md: a message on the client's subscription with the header
 //          `kImageHeaderSize`, then a JPEG.
@@ -82,7 +84,7 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   void Continue(const WatchedPtr& watched);
   // Requests an image from the ViewDrawer.
   base::Status Ask(const WatchedPtr& watched);
-  // Sends an image. `earliest`: the value with which it was requested (ViewDrawer::Ask()).
+  // Sends an image. `earliest`: the value that was passed to ViewDrawer::Ask() for this image.
   void OnImage(const WatchedPtr& watched, std::uint32_t sequence, Clock::time_point earliest,
                const base::Result<DrawnImage>& image);
   // Chooses the detail of the next image. `slow_rate`: see Client. `bytes`: size of this image.

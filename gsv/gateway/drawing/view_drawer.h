@@ -2,10 +2,11 @@
 // do not wait for it.
 //
 // A viewer asks for the next image with the number of the last image that it got. So images are
-// drawn only if something has changed, and only as fast as the viewer takes them. Requests with the
-// same camera share one image.
+// drawn only if something has changed, and only as fast as the viewer requests them. Requests with
+// the same camera share one image.
 //
-// Threads  any; answers come from its thread, or from the caller's if a request is refused.
+// Threads  any. Answers are called on the drawer's thread. The answer to a refused request is
+//          called on the thread of the caller.
 // Bounded  views: see DrawingLimits.
 #pragma once
 

@@ -16,7 +16,7 @@ namespace gsv::gateway::drawing {
 
 // The state of a world at one instant, ready to render.
 struct ViewInstant {
-  // The current snapshot. If anything has changed, this is another object than before.
+  // The current snapshot. If anything has changed since the last Now(), this is another object.
   std::shared_ptr<const world::Snapshot> snapshot;
   view::SceneLookup lookup;  // valid until the next Now()
   base::SimTime time{};

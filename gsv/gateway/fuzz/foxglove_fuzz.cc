@@ -1,6 +1,6 @@
-// Fuzz test: passes each line of the input to the hub of a simulation as a viewer's message. A line
-// that begins with a tab is a binary message, in which \\ and
-// are escapes. The lines are also passed to a relay, as messages of the other instance.
+// Fuzz test: passes each line of the input to the hub of a simulation as a viewer's message. In a
+// line, \\ and \n are escapes. A line that begins with a tab is a binary message. The whole input
+// is also parsed as one message of another instance, as a relay does.
 #include <atomic>
 #include <cstdint>
 #include <set>

@@ -100,8 +100,8 @@ Router::Match Router::Find(std::string_view method, const Target& target) const 
   Match match;
   match.permission = root_->least;
   const Node* node = root_.get();
-  // The deepest "{path...}" on the path, below the first segment, and the parameters up to it. It
-  // is used if no other route matches the path.
+  // The node of the deepest "{path...}" below the first segment, and the parameters up to this
+  // node. The node is used if no other route matches the path.
   const Node* rest = nullptr;
   auto parameters_of_rest = match.parameters;
   for (const std::string& segment : target.segments) {

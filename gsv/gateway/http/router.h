@@ -25,8 +25,9 @@ class Router {
     // The permission that the answer requires. Without a route: the lowest permission of all routes
     // whose paths begin with the same segment.
     Permission permission = Permission::kNone;
-    std::string allow;  // the methods of the address, such as "GET, POST"; empty if no route has it
-    // values by name, without that of "{path...}"
+    // The methods of the address, such as "GET, POST"; empty if no route has this address.
+    std::string allow;
+    // Values of the pattern's parameters by name, except "{path...}".
     std::map<std::string, std::string, std::less<>> parameters;
   };
 

@@ -2,7 +2,7 @@
 // changes.
 //
 // Bounded  the number of messages per call of Publish(). If a robot's command changes several times
-//          in between, only the newest is sent.
+//          between two messages about this robot, only the newest command is sent.
 // Threads  Publish() from one thread.
 #pragma once
 

@@ -42,18 +42,19 @@ struct SensorTopics::Sensor {
   const sensing::SensorMessages messages;
   const Made made;  // encodes the sensor's messages
   std::string frame() const { return presentation::FrameOf(robot, description.name); }
-  // A companion topic belongs to the topic of readings, such as camera_info to the images. Returns
-  // whether each reading has a companion message. If not, each new subscriber gets one message.
+  // Returns whether the companion topic has a message for each reading, as camera_info has one for
+  // each image. If not, each new subscriber to the companion topic gets one message.
   bool has_companion_of_readings() const {
     return messages.companion && messages.companion->of_readings;
   }
 
   foxglove::ChannelId channel = 0;            // 0: none
   foxglove::ChannelId companion_channel = 0;  // 0: none
-  bool is_wanted = false;                     // whether it has channels because its robot was
-                                              // requested
+  // True if the sensor's channels exist because a client has requested the robot.
+  bool is_wanted = false;
   Pacing pacing;
-  std::optional<std::int64_t> asked_at_step;  // step of the latest snapshot at the last reading
+  // Step of the latest snapshot when the last reading was requested.
+  std::optional<std::int64_t> asked_at_step;
   WallTime asked_at{};
   std::atomic<std::chrono::nanoseconds> took{};  // duration of the last reading
   std::atomic<bool> is_busy{false};

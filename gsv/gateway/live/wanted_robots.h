@@ -25,9 +25,9 @@ class WantedRobots {
 
   // Processes the requests since the last call. Returns false if there were none.
   bool TakeRequests();
-  // If there are too many robots, removes robots that `subscribed` does not return, the oldest
-  // request first. `subscribed` returns the robots with subscribers, and is called only if it is
-  // needed. Returns the removed robots.
+  // If there are too many robots, removes robots without subscribers, beginning with the robot
+  // whose request is the oldest. Returns the removed robots. `subscribed` must return the robots
+  // with subscribers. It is called only if there are too many robots.
   std::set<std::string> EvictUnsubscribed(const std::function<std::set<std::string>()>& subscribed);
   // Whether the topics of this robot were requested.
   bool Contains(const std::string& robot) const { return wanted_.contains(robot); }

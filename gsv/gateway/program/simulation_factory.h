@@ -77,8 +77,8 @@ class SimulationFactory {
     std::vector<std::string> warnings;                   // problems of the files
   };
 
-  // The present state of a world, and a scenario with what a world file cannot have: behaviours,
-  // avatars, seed, faults.
+  // The present state of a world, and a scenario with the parts that a world file cannot contain:
+  // behaviours, avatars, seed, faults.
   struct SavedWorld {
     std::string sdf, scenario;          // the texts of the world file and of the scenario file
     std::vector<std::string> warnings;  // the parts that are not saved

@@ -23,7 +23,7 @@
 
 namespace gsv::gateway::recordings {
 
-// A line of the list of recordings: what the index of the recording says about it.
+// One recording in the list of recordings. The data come from the index of the recording.
 struct RecordingLine {
   enum class State {
     kComplete,

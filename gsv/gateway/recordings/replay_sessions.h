@@ -1,5 +1,5 @@
-// ReplaySessions holds the open replays of recordings. Each has its own player, so that viewers
-// control their replays independently.
+// ReplaySessions stores the open replays of recordings. Each replay has its own player, so that
+// viewers control their replays independently.
 //
 // A session ends half a minute after its last viewer has left.
 //

@@ -57,7 +57,7 @@ class ReplayStream {
   struct Track {
     Kind kind = Kind::kPlain;
     foxglove::ChannelId channel = 0;  // 0 if the track is not published
-    bool is_wanted = false;           // whether it was advertised by request
+    bool is_wanted = false;           // true if it is advertised because its robot was requested
     std::optional<Hub::Message> latest;
     bool is_fresh = false;
   };

@@ -177,8 +177,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return is_head_ ? std::string_view("GET") : View(parser_->get().method_string());
   }
 
-  // Returns a query parameter if the request is for a WebSocket or an image. A page cannot set
-  // headers of these requests. Other requests give an empty text.
+  // Returns a query parameter if the request is for a WebSocket or an image, because a page cannot
+  // set headers of these requests. For other requests, returns an empty text.
   std::string SocketQuery(const std::string& name) const {
     const bool is_read = match_.route != nullptr && (match_.route->find_hub != nullptr ||
                                                      match_.route->accepts_token_in_query);

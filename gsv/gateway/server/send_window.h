@@ -2,18 +2,19 @@
 // the number of bytes that the connection transfers in a fraction of a second. Without this limit,
 // operating systems and proxies buffer megabytes, which a slow connection delivers seconds late.
 // Confirmations are the pongs to WebSocket pings (RFC 6455, section 5.5.3). Every client answers
-// pings, and a ping arrives after the messages before it.
+// pings, and a ping arrives after the messages that were sent before the ping.
 //
-// If the delay of a pong exceeds the minimum delay, the messages before its ping have waited in
-// buffers for the excess. Then the connection was busy. Its rate is the number of bytes that this
-// pong confirms, divided by the time since the last pong. At this rate, a full window should not
-// take longer than the minimum delay plus kMaxDelay. If it does, the window shrinks to a size that
-// takes the minimum delay plus kAimedDelay. If messages had to wait for the window and the excess
-// is below half of kAimedDelay, the window doubles.
+// The delay of a pong is the time from its ping to the pong. The part of this delay that exceeds
+// the minimum delay is the excess: the messages before the ping have waited in buffers for this
+// time. After an excess the connection was busy, so its rate is known: the number of bytes that the
+// pong confirms, divided by the time since the previous pong. At this rate, a full window should
+// not take longer than the minimum delay plus kMaxDelay. If it takes longer, the window shrinks to
+// a size that takes the minimum delay plus kAimedDelay. The window doubles if messages had to wait
+// for the window and the excess is below half of kAimedDelay.
 //
-// The minimum delay may increase, for example with another route. If it was measured longer than
-// kMinDelayAge ago and pongs exceed it, the window closes until all data are confirmed. Then a ping
-// without data measures the minimum delay again.
+// The minimum delay may increase, for example after a change of the route. If it was measured
+// longer than kMinDelayAge ago, and the delay of a pong exceeds it, the window closes until all
+// data are confirmed. Then a ping without data measures the minimum delay again.
 //
 // Threads  one thread.
 #pragma once
@@ -36,8 +37,8 @@ class SendWindow {
   static constexpr std::size_t kMinBytes = 8u << 10;
   static constexpr std::size_t kMaxBytes = 4u << 20;
   static constexpr std::chrono::milliseconds kAimedDelay{200}, kMaxDelay{300};
-  // Upper limit for a minimum delay that was measured by a ping after data, because the connection
-  // may have been busy.
+  // A ping that is sent after data may have to wait for the data, so its delay may be longer than
+  // the minimum delay. A minimum delay that was measured in this way is limited to this value.
   static constexpr std::chrono::milliseconds kMaxMinDelay{500};
   static constexpr std::chrono::seconds kMinDelayAge{30};
   static constexpr std::chrono::milliseconds kPingPeriod{100};
