@@ -1,5 +1,5 @@
-// An actuator: a device that behaviours command and whose readings report its state. It is opened,
-// created, recorded and shown like a sensor.
+// An actuator: a device that behaviours command and whose readings report its state. Actuators are
+// opened, created, recorded and shown like sensors.
 //
 // Time  A command is applied from the instant at which it is given, like a robot's other commands.
 #pragma once
@@ -21,7 +21,7 @@ class Actuator : public Device {
  protected:
   using Device::Device;
 
-  // Returns the state of the actuator from `followed.since` on, when it follows this command. An
+  // Returns the state of the actuator that follows this command, from `followed.since` on. An
   // actuator with light, sound or an attached body returns its own class of state. `before` is null
   // before the first command.
   virtual world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,

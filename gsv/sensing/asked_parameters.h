@@ -1,4 +1,5 @@
-// The names of the parameters that a type of sensor has, found by creating a sensor of this type.
+// The names of the parameters that a sensor type has. They are found by creating a sensor of this
+// type.
 #pragma once
 
 #include <set>

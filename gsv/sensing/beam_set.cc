@@ -15,7 +15,8 @@ using geometry::Pose;
 constexpr std::size_t kMinPacket = 3;
 
 // Computes the rays of the beams. The results are bit-identical to world_from_link *
-// link_from_sensor, and to its orientation applied to the x axis, because the operations and their
+// link_from_sensor and to the x axis rotated by this orientation, because the operations and their
+// order are the same.
 // order are the same.
 GSV_FOR_EACH_PROCESSOR
 void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPacket& rays) {
@@ -39,8 +40,8 @@ void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPack
     const double x = aw * bx + ax * bw + ay * bz - az * by;
     const double y = aw * by - ax * bz + ay * bw + az * bx;
     const double z = aw * bz + ax * by - ay * bx + az * bw;
-    // Products with the zeros of the x axis are kept, because their sign affects the bits of the
-    // result.
+    // Products with the zeros of the x axis are kept, because the sign of these products affects
+    // the bits of the result.
     const double cx = (y * 0.0 - z * 0.0) + 1.0 * w;
     const double cy = (z * 1.0 - x * 0.0) + 0.0 * w;
     const double cz = (x * 0.0 - y * 1.0) + 0.0 * w;

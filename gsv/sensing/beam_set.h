@@ -1,7 +1,7 @@
 // The beams of one robot's sensors, cast together. For eight sonars, this takes a third of the time
-// of separate readings.
+// of eight separate readings.
 //
-// Determinism  a value is bit-identical to that of the sensor's Sample().
+// Determinism  a value is bit-identical to the value of the sensor's Sample().
 // Threads      const members may run concurrently, with a Sampling for each.
 #pragma once
 
@@ -18,10 +18,10 @@ namespace gsv::sensing {
 // Casts the beams of one robot's range sensors together, which is faster than one by one.
 class BeamSet {
  public:
-  // Adds the sensor's beam, which it must have.
+  // Adds the sensor's beam. The sensor must have one (Sensor::beam()).
   void Add(const Sensor& sensor);
   std::size_t size() const { return size_; }
-  // Whether both sets have the same beams in the same order, bit-identical.
+  // Whether both sets have bit-identical beams in the same order.
   bool IsIdenticalTo(const BeamSet& other) const;
 
   // Sets values[i] to the value of a reading of the sensor that was added as number i.

@@ -17,9 +17,9 @@ class Device : public Sensor {
  public:
   const Device* device() const final { return this; }
 
-  // Whether the device is on exactly while it is open, as a radio is. Opening such a device
-  // switches it on, and closing it switches it off. Other devices get their state from their first
-  // command, and keep it until they are removed from the robot.
+  // Whether the device is switched on by opening it and switched off by closing it, like a radio.
+  // Other devices get their state from their first command, and keep the state until they are
+  // removed from the robot.
   virtual bool IsOnWhileOpen() const { return false; }
   // Whether each command is a message to send, with the receiving robot in `word` and the message
   // in `content`. For other devices, only the last command of a step applies.

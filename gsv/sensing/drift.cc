@@ -7,7 +7,7 @@
 namespace gsv::sensing {
 namespace {
 
-constexpr double kBlock = 64;  // correlation times
+constexpr double kBlock = 64;  // interval length, in correlation times
 constexpr int kHalvings = 16;  // intervals are halved down to a thousandth of the correlation time
 
 }  // namespace
@@ -23,7 +23,7 @@ double DriftAt(base::SimTime time, double correlation_time, std::uint64_t seed,
   double first = draw(block, 0), last = draw(block + 1, 0);
   double place = blocks - block;  // position in the interval, as a fraction in [0, 1)
   double length = kBlock;         // length of the interval, in correlation times
-  std::uint64_t node = 1;         // number of the interval, as of a node in a binary heap
+  std::uint64_t node = 1;         // number of the interval, counted like a node of a binary heap
   for (int i = 0; i < kHalvings; ++i) {
     length /= 2;
     const double rho = std::exp(-length);

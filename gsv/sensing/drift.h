@@ -1,14 +1,15 @@
 // Random drift of a sensor's bias: an Ornstein–Uhlenbeck process with mean 0 and variance 1. The
 // value at any instant can be computed directly, without the values at earlier instants.
 //
-// Method       bisection. The time axis is divided into intervals of 64 correlation times, and the
-//              values at their ends count as independent. The interval that contains the instant is
-//              halved repeatedly, down to a thousandth of the correlation time. The value at each
-//              midpoint has a normal distribution, because the process is Markov and Gaussian. Its
-//              mean and variance follow from the values at both ends. Each drawn value has its own
-//              random number, keyed by its position on the time axis.
-// Source       for the distribution between two values: Rasmussen and Williams, "Gaussian Processes
-//              for Machine Learning", appendix B.2.
+// Method       bisection. The time axis is divided into intervals of 64 correlation times. The
+//              values at the ends of the intervals count as independent. The interval that contains
+//              the instant is halved repeatedly, down to a thousandth of the correlation time. The
+//              value at each midpoint has a normal distribution, because the process is Markov and
+//              Gaussian. The mean and the variance of this distribution follow from the values at
+//              both ends. Each drawn value has its own random number, keyed by its position on the
+//              time axis.
+// Source       Rasmussen and Williams, "Gaussian Processes for Machine Learning", appendix B.2, for
+//              the distribution between two values.
 // Determinism  a function of the arguments.
 #pragma once
 

@@ -1,6 +1,9 @@
-// The names of frames, by REP-105. The world is "map". A robot's base is ROBOT/base_link, its
-// odometry frame ROBOT/odom. A moving link is ROBOT/LINK, a sensor ROBOT/SENSOR, the frame of its
-// images ROBOT/SENSOR/optical. Another body is NAME, its moving links NAME/LINK.
+// The names of frames, by REP-105:
+// - The world is "map".
+// - The base of a robot is ROBOT/base_link, and its odometry frame is ROBOT/odom.
+// - A moving link of a robot is ROBOT/LINK.
+// - A sensor is ROBOT/SENSOR, and the frame of its images is ROBOT/SENSOR/optical.
+// - A body that is not a robot is NAME, and its moving links are NAME/LINK.
 #pragma once
 
 #include <string>

@@ -4,9 +4,9 @@
 //   base::Status Add(sensing::SensorRegistry& registry) { return registry.Add(...); }
 //   GSV_SENSOR_MODULE(Add)
 //
-// The library does not link to GSV: the program that loads it provides the symbols. A type with an
-// IDL interface registers its servant there too (services/sensor_servants.h). docs/sensors.md
-// describes how to build and load it; examples/infrared is an example.
+// The library does not link to GSV: the program that loads the library provides the symbols. A type
+// with an IDL interface also registers its servant in this function (services/sensor_servants.h).
+// docs/sensors.md describes how to build and load the library; examples/infrared is an example.
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -38,8 +38,8 @@ NoisyReading::NoisyReading(const Sampling& sampling, const model::SensorDescript
       time_(sampling.snapshot()->state.time) {}
 
 std::uint64_t NoisyReading::StreamOf(std::uint64_t channel, std::uint64_t purpose) const {
-  // Fibonacci hashing separates the streams: those of names are spread over all numbers, but those
-  // of channels are consecutive.
+  // Fibonacci hashing separates the streams. It is needed because the numbers of channels are
+  // consecutive, whereas the numbers of names are spread over all values.
   return stream_ ^ ((channel * kPurposes + purpose + 1) * 0x9E3779B97F4A7C15u);
 }
 
@@ -64,8 +64,8 @@ double NoisyReading::Read(const NoiseModel& model, std::uint64_t channel, double
   if (model.is_none()) return value;
   if (IsDropped(model, channel)) return std::numeric_limits<double>::quiet_NaN();
   base::Noise noise(seed_, StreamOf(channel, kWhite), step_);
-  // All numbers are drawn even if they are not used, so that one parameter does not affect the
-  // random numbers of another.
+  // All random numbers are drawn, even if some are not used. So one parameter does not affect the
+  // random numbers of another parameter.
   const double white = noise.Gaussian(), strike = noise.Uniform(), stray = noise.Gaussian();
   value += model.mean + model.stddev * white + Bias(model, channel);
   if (strike < model.outlier_probability) value += model.outlier_stddev * stray;

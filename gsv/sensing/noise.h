@@ -3,8 +3,8 @@
 // Parameters  under a prefix that the sensor documents, such as "noise" or
 //             "angular_velocity.x.noise". SDFormat has no outliers and dropouts.
 //   type                    "none" switches all noise off
-//   mean, stddev            of the white noise
-//   bias_mean, bias_stddev  of a bias that is drawn once per run
+//   mean, stddev            mean and standard deviation of the white noise
+//   bias_mean, bias_stddev  mean and standard deviation of a bias that is drawn once per run
 //   dynamic_bias_stddev (unit per root second), dynamic_bias_correlation_time (s)   of a drifting
 //                           bias
 //   precision               readings are rounded to multiples of this value

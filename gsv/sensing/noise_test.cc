@@ -49,8 +49,8 @@ TEST(Drift, HasVarianceOneAtEveryInstant) {
 
 TEST(Drift, CorrelationFallsWithTheCorrelationTime) {
   // The correlation of two values at a distance of t is exp(-t / correlation time). This must also
-  // hold across the border between two blocks (at 640 s), or between two halves of a block (at 320
-  // s).
+  // be true if the two values are in different blocks (border at 640 s) or in different halves of a
+  // block (border at 320 s).
   for (const double lag : {0.5, 5.0, 10.0, 20.0}) {
     for (const double middle : {55.0, 320.0, 640.0}) {
       double sum = 0;
@@ -140,8 +140,8 @@ TEST_F(NoiseTest, ReadingsAreMultiplesOfThePrecision) {
   }
 }
 
-// If the deviation d is well below the precision s, most readings stay the same. Over all true
-// values, two readings are then equal with the probability 1 - 2 d / (sqrt(pi) s).
+// If the deviation d is well below the precision s, most readings do not change. Averaged over all
+// true values, two readings are then equal with the probability 1 - 2 d / (sqrt(pi) s).
 TEST_F(NoiseTest, ReadingsStayIfTheDeviationIsBelowThePrecision) {
   const double deviation = 0.0012, step = 0.01;
   const int values = 400, pairs = 10;

@@ -10,8 +10,8 @@
 
 namespace gsv::sensing {
 
-// Reads one sensor's parameters and keeps the first error, so that the caller checks once, at the
-// end:
+// Reads one sensor's parameters and keeps the first error. So the caller checks for errors only
+// once, at the end:
 //   ParameterReader reader(description);
 //   settings.max = reader.Number("max", 5, 0, 1000);
 //   if (auto status = reader.status(); !status) return base::Fail(status.error());
@@ -20,10 +20,12 @@ class ParameterReader {
   explicit ParameterReader(const model::SensorDescription& description)
       : description_(description) {}
 
-  // Returns the number with that name, or `otherwise` if it is absent. It must be in [low, high].
+  // Returns the number with that name, or `otherwise` if it is absent. A number must be in [low,
+  // high].
   double Number(const std::string& name, double otherwise, double low, double high);
 
-  // Returns the integer with that name, or `otherwise` if it is absent. It must be in [low, high].
+  // Returns the integer with that name, or `otherwise` if it is absent. An integer must be in [low,
+  // high].
   int Count(const std::string& name, int otherwise, int low, int high);
 
   // Returns a flag. A number is true unless it is 0.

@@ -1,7 +1,8 @@
 // Named parameter sets of commercial or measured devices.
 //
-// A sensor selects one with the parameter "preset" (<gsv:preset>hc_sr04</gsv:preset>). Parameters
-// of the sensor itself override those of the preset. A sensor without a preset is not changed.
+// A sensor selects a preset with the parameter "preset" (<gsv:preset>hc_sr04</gsv:preset>).
+// Parameters of the sensor itself override the parameters of the preset. A sensor without a preset
+// is not changed.
 #pragma once
 
 #include <string>
@@ -22,8 +23,8 @@ struct Preset {
 // All presets, ordered by type and then by name.
 const std::vector<Preset>& Presets();
 
-// Returns the description with its preset's parameters filled in. `type` is the sensor type's own
-// name, not an alias. An unknown preset is a kInvalidArgument error that lists the known ones.
+// Returns the description with the parameters of its preset added. `type` is the sensor type's own
+// name, not an alias. An unknown preset is a kInvalidArgument error that lists the known presets.
 base::Result<model::SensorDescription> WithPreset(const std::string& type,
                                                   const model::SensorDescription& description);
 

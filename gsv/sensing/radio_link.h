@@ -19,12 +19,12 @@ using world::Antenna;
 double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup& receiver,
                         double distance, int walls);
 
-// Returns the number of solids between two antennas, without the robots that carry them. It is half
-// of the number of surfaces on the line of sight, rounded up.
+// Returns the number of solids between two antennas, without the robots that carry the antennas.
+// The number is half of the number of surfaces on the line of sight, rounded up.
 int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenna& to);
 
-// Returns the strength (dBm) at which `to` receives a message from `from`; nullopt if `to` does not
-// receive it. Casts rays only if walls affect the result.
+// Returns the strength (dBm) at which the antenna `to` receives a message of the antenna `from`;
+// nullopt if the message is not received. Casts rays only if walls affect the result.
 std::optional<double> HeardAt(const Antenna& from, const Antenna& to, const world::RayCaster& rays);
 
 }  // namespace gsv::sensing

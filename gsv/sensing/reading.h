@@ -15,7 +15,7 @@
 namespace gsv::sensing {
 
 // The sensor type's struct defines the layout of `values` and `labels` (gsv/readings/catalogue.h).
-// `image` is null for all but cameras, `labels` for types without labels.
+// `image` is null except for cameras. `labels` is null for types without labels.
 struct Reading {
   using Values = boost::container::small_vector<double, 1>;  // a single value needs no allocation
 
@@ -26,8 +26,8 @@ struct Reading {
   std::shared_ptr<const std::vector<std::string>> labels;
 };
 
-// Returns the struct of a reading, whose spans refer to the reading. Fails with kCorrupt, and names
-// the sensor, if the reading does not have the size of the layout.
+// Returns the struct of a reading. Spans in the struct refer to the reading. Fails with kCorrupt if
+// the reading does not have the size of the layout; the error names the sensor.
 template <typename Struct>
 base::Result<Struct> ValuesOf(const Reading& reading, const std::string& sensor) {
   std::span<const std::string> labels;
@@ -37,7 +37,7 @@ base::Result<Struct> ValuesOf(const Reading& reading, const std::string& sensor)
 template <typename Struct>
 void ValuesOf(Reading&& reading, const std::string& sensor) = delete;  // spans would dangle
 
-// Sets the values, and the labels if the struct has any, of the reading.
+// Sets the values of the reading. If the struct has labels, also sets the labels.
 template <typename Struct>
 void Fill(const Struct& from, Reading& reading) {
   std::vector<std::string> labels;

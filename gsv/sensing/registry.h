@@ -1,5 +1,5 @@
-// The registry of sensor types. A new type is one registration, which MakeSensorType() makes from a
-// class (sensor_type.h). No other code depends on the set of types.
+// The registry of sensor types. A new type needs only one registration, which MakeSensorType()
+// makes from a class (sensor_type.h). No other code depends on the set of types.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ namespace gsv::sensing {
 // The way in which viewers draw a reading.
 enum class Overlay { kNone, kLines, kPoints, kImage };
 
-// A second message beside a reading, at its instant, on the topic /ROBOT/SENSOR/`topic`.
-// Sensor::EncodeCompanionOf() makes it.
+// A second message beside the message of a reading, with the same time, on the topic
+// /ROBOT/SENSOR/`topic`. Sensor::EncodeCompanionOf() creates it.
 struct Companion {
   std::string topic;
   const messages::Schema* schema = nullptr;
@@ -30,7 +30,8 @@ struct Companion {
   bool of_readings = false;
 };
 
-// The messages of a sensor. `schema` is that of Sensor::Encode(); null: no message.
+// The messages of a sensor. `schema` is the schema of Sensor::Encode(); null if there is no
+// message.
 struct SensorMessages {
   const messages::Schema* schema = nullptr;
   std::optional<Companion> companion;
@@ -38,8 +39,8 @@ struct SensorMessages {
 
 // A sensor type: its name, how a sensor is created, and its readings and messages.
 struct SensorType {
-  std::string name;                  // name in services and recordings: "lidar"
-  std::vector<std::string> aliases;  // other names in model files: "ray", "gpu_lidar"
+  std::string name;                  // name in services and recordings, such as "lidar"
+  std::vector<std::string> aliases;  // other names in model files, such as "ray" and "gpu_lidar"
 
   // Creates a sensor. If a parameter is invalid, returns an error that names it.
   std::function<base::Result<std::unique_ptr<Sensor>>(const model::SensorDescription&)> create;
@@ -50,8 +51,8 @@ struct SensorType {
   std::optional<Companion> companion;  // set for cameras, whose frames include an optical frame
   Overlay overlay = Overlay::kNone;
 
-  // Set only if the messages depend on the sensor's description. If it is empty, the messages above
-  // apply.
+  // Set only if the messages depend on the sensor's description. If it is empty, `schema` and
+  // `companion` apply to all sensors of the type.
   std::function<SensorMessages(const model::SensorDescription&)> messages_of;
 
   // Returns the messages of a sensor with this description.
@@ -66,7 +67,8 @@ class SensorRegistry {
   // Adds a type. Fails if its name or an alias is taken.
   base::Status Add(SensorType type);
 
-  // Returns a type by name or alias, or null. It is valid during the registry's lifetime.
+  // Returns the type with this name or alias, or null. The pointer is valid during the registry's
+  // lifetime.
   const SensorType* Find(std::string_view name) const;
 
   // The names of all types.

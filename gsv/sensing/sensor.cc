@@ -26,7 +26,7 @@ double Sampling::Range(const Ray& ray) const {
   const geometry::Vector3& place = snapshot_->state.bodies[body_].world_from_model.position;
   const double reach = Norm(ray.origin - place) + ray.max_distance + kSpread;
   has_gathered_ = scene.Gather(place, reach, body_, *candidates_);
-  // If gathering failed, it is not tried again for each ray.
+  // If gathering fails, it is not tried again for the next rays.
   if (!has_gathered_) expected_rays_ = 0;
   return has_gathered_ ? scene.Range(ray, body_, *candidates_) : scene.Range(ray, body_);
 }

@@ -1,7 +1,8 @@
-// A sensor of a model. It has no state of a robot: one Sensor serves all robots of the model.
+// A sensor of a model. It has no state that belongs to one robot: one Sensor serves all robots of
+// the model.
 //
 // Threads      a Sensor's const members may run concurrently; a Sampling belongs to one thread.
-// Determinism  Sample() is a function of the sampling's snapshot, robot and seed alone.
+// Determinism  Sample() depends only on the sampling's snapshot, robot and seed.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +22,8 @@
 
 namespace gsv::sensing {
 
-// All inputs of a reading. Sensors of a robot should share a sampling, because it caches common
-// data.
+// All inputs of a reading. Sensors of a robot should share a sampling, because the sampling caches
+// data that they have in common.
 class Sampling {
  public:
   // `body` is the robot's index in the snapshot's layout. `rays` outlives the sampling.
@@ -32,7 +33,8 @@ class Sampling {
 
   // Makes this sampling refer to another robot at the same instant.
   void MoveTo(int body);
-  // Returns the sampling at another instant. `body` is an index in that snapshot's layout.
+  // Returns a sampling of the same robot at another instant. `body` is an index in the layout of
+  // `snapshot`.
   Sampling At(std::shared_ptr<const world::Snapshot> snapshot, int body) const {
     return {std::move(snapshot), body, seed_, rays_};
   }
@@ -52,7 +54,8 @@ class Sampling {
   // none within the ray's length.
   double Range(const Ray& ray) const;
 
-  // Announces `count` rays from near the robot, so that gathering a candidate set may save time.
+  // Announces `count` rays from near the robot. If there are many, gathering a candidate set saves
+  // time.
   void ExpectRays(std::size_t count) const { expected_rays_ += count; }
 
   // Returns the pose of a sensor of this robot in the world.
@@ -107,8 +110,8 @@ struct Frustum {
 struct Beam {
   double min = 0, max = 0;  // m
 
-  // Returns the value of the reading for the distance to the nearest surface within `max`; the
-  // distance is infinite if there is none.
+  // Returns the value of the reading. `echo` is the distance to the nearest surface within `max`;
+  // infinite if there is none.
   double ValueOf(double echo) const { return echo >= min ? std::min(echo, max) : max; }
 };
 
@@ -122,8 +125,8 @@ class Sensor {
 
   const model::SensorDescription& description() const { return description_; }
 
-  // Takes a reading. May be slow (an image): on the stepping thread it delays the next step. Fails
-  // only if resources are missing, such as a renderer for a camera.
+  // Takes a reading. May be slow, for example for an image. A slow call on the stepping thread
+  // delays the next step. Fails only if resources are missing, such as a renderer for a camera.
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
   // Whether Sample() waits for another thread, such as a renderer.
   virtual bool TakesLong() const { return false; }
@@ -136,9 +139,9 @@ class Sensor {
   virtual const Beam* beam() const { return nullptr; }
 
   using Bytes = std::vector<std::uint8_t>;
-  // Encodes a reading as the type's message, in CDR; `frame_id` is the sensor's frame. Returns no
-  // bytes for a type without a message. Fails with kCorrupt for a reading whose size is not that
-  // of the type's layout.
+  // Encodes a reading as the type's message, in CDR; `frame_id` is the sensor's frame. If the type
+  // has no message, returns no bytes. Fails with kCorrupt if the reading does not have the size of
+  // the type's layout.
   virtual base::Result<Bytes> Encode(const Reading& /*reading*/,
                                      const std::string& /*frame_id*/) const {
     return Bytes();
@@ -147,17 +150,18 @@ class Sensor {
   virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {
     return {};
   }
-  // Encodes the companion message for one reading (Companion::of_readings). By default it is the
-  // same for all readings of one instant.
+  // Encodes the companion message for one reading (Companion::of_readings). By default, the message
+  // is the same for all readings of one instant.
   virtual Bytes EncodeCompanionOf(const Reading& reading, const std::string& frame_id) const {
     return EncodeCompanion(reading.time, frame_id);
   }
-  // Returns the beams of a reading for viewers. Types that are drawn as points use their ends.
+  // Returns the beams of a reading for viewers. For sensor types that are drawn as points, the ends
+  // of the beams are drawn.
   virtual std::vector<Segment> Beams(const Reading& /*reading*/) const { return {}; }
   // The field of view, if the sensor has one.
   virtual std::optional<Frustum> frustum() const { return std::nullopt; }
 
-  // Returns this sensor as a device, or null if it keeps no state from one step to the next.
+  // Returns this sensor as a device, or null if it keeps no state between steps.
   virtual const Device* device() const { return nullptr; }
 
  private:

@@ -1,5 +1,5 @@
-// Creates sensors from their descriptions. Equal descriptions, for example of two robots of one
-// model, share one Sensor.
+// Creates sensors from their descriptions. Equal descriptions share one Sensor. For example, two
+// robots of one model have equal descriptions.
 //
 // Threads  one thread at a time.
 #pragma once
@@ -19,13 +19,13 @@ class SensorSet {
   // `types` must outlive this object.
   explicit SensorSet(const SensorRegistry& types) : types_(types) {}
 
-  // Returns kNotFound for an unknown type, and the type's error for invalid parameters.
+  // Fails with kNotFound for an unknown type, and with the type's error for invalid parameters.
   base::Result<std::shared_ptr<const Sensor>> Of(const model::SensorDescription& description);
 
  private:
   const SensorRegistry& types_;
-  // The sensors by name, because few models use one name for different sensors. Expired sensors are
-  // removed when another sensor with their name is made.
+  // The sensors by name, because few models use one name for different sensors. An expired sensor
+  // is removed when another sensor with the same name is created.
   std::map<std::string, std::vector<std::weak_ptr<const Sensor>>, std::less<>> known_;
 };
 

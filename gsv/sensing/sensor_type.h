@@ -47,8 +47,8 @@ class SensorOf : public Base {
   }
 
  private:
-  // Converts a reading to a message. The header may be left empty, unless its frame is not the
-  // sensor's.
+  // Converts a reading to a message. The header may be left empty if its frame is the sensor's
+  // frame.
   virtual Message ToMessage(const Values& values, const Reading& reading,
                             const std::string& frame_id) const = 0;
   // Returns the beams of a reading for viewers; see Sensor::Beams().

@@ -13,7 +13,7 @@ std::size_t BytesOf(const Reading& reading) {
          (reading.image != nullptr ? reading.image->pixels.size() : 0);
 }
 
-// Compares all parts of two descriptions on which a reading depends.
+// Compares the parts of two descriptions on which a reading depends.
 bool SameSensor(const model::SensorDescription& a, const model::SensorDescription& b) {
   return a.name == b.name && a.type == b.type && a.link == b.link &&
          a.link_from_sensor == b.link_from_sensor && a.parameters == b.parameters;
@@ -69,7 +69,7 @@ void SharedReadings::Account(const Sensor& sensor, const Sampling& sampling,
                              const base::Result<Reading>& taken) {
   const base::MutexLock lock(mutex_);
   std::erase_if(entries_, [&](Entry& entry) GSV_REQUIRES(mutex_) {
-    if (entry.bytes == 0) {  // some thread takes this reading now
+    if (entry.bytes == 0) {  // the reading is not finished yet
       if (!IsOf(entry, sensor, sampling)) return false;
       if (!taken) return true;
       bytes_ += entry.bytes = BytesOf(*taken);

@@ -1,9 +1,10 @@
-// A cache of readings of slow sensors: an image of one instant is rendered once for the behaviour,
-// the recording and all viewers.
+// A cache of readings of slow sensors. For example, an image of one instant is rendered only once
+// for the behaviour, the recording and all viewers.
 //
-// Bounded      by the bytes of readings; the oldest are removed first. Readings of destroyed
-//              snapshots are removed at the next reading.
-// Threads      any; a thread that needs a reading which another thread takes waits for it.
+// Bounded      by the total size of the readings in bytes; the oldest readings are removed first.
+//              Readings of destroyed snapshots are removed at the next reading.
+// Threads      any. If a thread needs a reading that another thread is taking, it waits for this
+//              reading.
 // Determinism  a reading is a function of its key.
 #pragma once
 
@@ -42,8 +43,8 @@ class SharedReadings {
 
   // Whether the entry is the reading of this sensor at this sampling.
   bool IsOf(const Entry& entry, const Sensor& sensor, const Sampling& sampling) const;
-  // Stores a finished reading, or removes its entry if reading failed, and frees the oldest
-  // readings.
+  // Stores a finished reading and frees the oldest readings. If taking the reading failed, removes
+  // its entry.
   void Account(const Sensor& sensor, const Sampling& sampling, const base::Result<Reading>& taken);
 
   const std::size_t capacity_;

@@ -15,20 +15,20 @@ namespace {
 
 using geometry::Vector3;
 
-// A contact is with the ground if the z component of its normal is below this value, so that the
-// normal is within about 45 degrees of downwards.
+// A contact is with the ground if the z component of its normal is below this value. The normal is
+// then within about 45 degrees of downwards.
 constexpr double kGroundSlope = -0.70;
 constexpr double kNormalLength = 0.3;  // m
-// Two collisions share the point of a contact if their distances from it differ by less than this
-// (m).
+// A contact point belongs to two collisions if the point's distances from them differ by less than
+// this (m).
 constexpr double kSamePlace = 1e-3;
 
 readings::Vector ToVector(const Vector3& v) { return {v.x, v.y, v.z}; }
 Vector3 FromVector(const readings::Vector& v) { return {v.x, v.y, v.z}; }
 
-// Finds the contacts that touch one of the collisions which a bumper names. For such a contact, a
-// named collision is at least as near to its point as any other collision of the robot. This is
-// needed because an engine reports the bodies of a contact, and not their collisions.
+// Finds the contacts of the collisions that a bumper names. An engine reports the bodies of a
+// contact, and not their collisions. So a contact counts if no other collision of the robot is
+// nearer to the contact point than a named collision.
 class NamedCollisions {
  public:
   NamedCollisions(const model::SensorDescription& sensor, std::vector<std::string> names)

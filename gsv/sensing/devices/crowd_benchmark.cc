@@ -2,7 +2,7 @@
 //
 // Robots are on a walled square with 10 m² per robot. There is a box for every four robots, and
 // each robot has eight sonars. All sonars are read at one instant, then the robots move, and this
-// repeats. A measured time is that of one instant: preparing the scene and casting all rays.
+// repeats. A measured time is the time for one instant: to prepare the scene and to cast all rays.
 
 #include <benchmark/benchmark.h>
 
@@ -111,9 +111,9 @@ double ProcessorTime() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Calls `read` once per instant; the robots move between instants. Besides the mean it reports the
-// fastest instant and the minimum processor time of an instant, for machines that also do other
-// work.
+// Calls `read` once per instant; the robots move between instants. Reports the mean time of an
+// instant. Also reports the time of the fastest instant and the minimum processor time, because
+// other programs may run on the machine.
 template <class Read>
 void RunCrowd(benchmark::State& bench, Crowd& crowd, const Read& read) {
   using Clock = std::chrono::steady_clock;

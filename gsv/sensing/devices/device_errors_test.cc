@@ -118,7 +118,7 @@ TEST_F(DeviceErrors, LidarNoiseGrowsWithRange) {
 TEST_F(DeviceErrors, LidarNoiseGrowsWithTheAngleOfIncidence) {
   for (const double angle : {0.0, 30 * kDegree, 60 * kDegree}) {
     Place({Wall(4, 20, 20, angle)});
-    // The tangent is measured between adjacent beams.
+    // The sensor computes the tangent from the ranges of adjacent beams.
     const auto lidar = Create("lidar", {{"scan.horizontal.samples", 3.0},
                                         {"scan.horizontal.min_angle", -1e-3},
                                         {"scan.horizontal.max_angle", 1e-3},
@@ -141,7 +141,8 @@ TEST_F(DeviceErrors, LidarMissesSlantedSurfaces) {
   const std::vector<double> ranges = Read(*lidar);
   EXPECT_TRUE(std::isfinite(ranges[50]));
   EXPECT_EQ(ranges[0], kInfinity);
-  // 2 / cos t = 6 sqrt(cos t) at 61.3 degrees. A tenth of the reach on both sides is not tested.
+  // The reach ends at 61.3 degrees, where 2 / cos t = 6 sqrt(cos t). Angles from 50 to 70 degrees
+  // are not tested, because some echoes are lost in the last tenth of the reach.
   for (int i = 0; i < 101; ++i) {
     const double angle = std::abs(-1.4 + 2.8 * i / 100);
     if (angle < 50 * kDegree) {
@@ -165,10 +166,10 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
       if (range > 2.2 && range < 3.8) ++between;
     }
   }
-  // The expected number of mixed ranges. There are two edges, and each is between two beams, so
-  // four beams are beside an edge. A beam looks at the edge's side in half of the scans. The beam
-  // then covers the edge with the probability divergence / step = 0.6. Of the mixed ranges, the
-  // fraction 0.8 is between 2.2 and 3.8 m, where the test counts them.
+  // The expected number of mixed ranges. There are two edges. Each edge is between two beams, so
+  // four beams are beside an edge. In half of the scans, a beam looks towards the edge beside it.
+  // The beam then covers the edge with the probability divergence / step = 0.6. Of the mixed
+  // ranges, the fraction 0.8 is between 2.2 and 3.8 m, where the test counts them.
   const double expected = 4 * 0.5 * 0.6 * 0.8 * scans;
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }
@@ -190,8 +191,8 @@ double DeviceErrors::RateAt(const Sensor& imu, double seconds, std::uint64_t see
   return reading->values[2];
 }
 
-// A random walk K: the bias changes in a time t by a normal value of the variance K^2 t (IEEE 952,
-// C.1.4).
+// A random walk K: in a time t, the bias changes by a normally distributed value with the variance
+// K^2 t (IEEE 952, C.1.4).
 TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
   Place({});
   const double walk = 1e-3;
@@ -204,17 +205,17 @@ TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
       changes.push_back(RateAt(*imu, 50 + seconds, run) - RateAt(*imu, 50, run));
     }
     const double expected = walk * std::sqrt(seconds);
-    // The walk is a drift with a correlation time of an hour. This reduces the variance after 20 s
-    // by 0.3 %.
+    // The walk is simulated as a drift with a correlation time of an hour. This reduces the
+    // variance after 20 s by 0.3 %.
     EXPECT_WITHIN(Spread(changes).deviation, expected,
                   (0.01 + 3 / std::sqrt(2.0 * kRuns)) * expected, "rad/s")
         << seconds;
   }
 }
 
-// The Allan deviation of a bias that drifts with the correlation time T and the deviation d has its
-// maximum, 0.617 d, at 1.89 T (IEEE 952, C.1.5). This maximum equals the configured instability
-// within 10 %.
+// The test uses a bias that drifts with the correlation time T and the deviation d. The Allan
+// deviation of this bias has its maximum, 0.617 d, at 1.89 T (IEEE 952, C.1.5). The maximum equals
+// the configured instability within 10 %.
 TEST_F(DeviceErrors, ImuBiasHasTheConfiguredInstability) {
   Place({});
   const double instability = 1e-3, time = 189;
@@ -279,7 +280,7 @@ TEST_F(DeviceErrors, OdometryErrorsAccumulateOverTheDistance) {
   }
   snapshot_->state.devices = std::make_shared<world::DeviceStates>(world::DeviceStates{state});
   const std::vector<double> read = Read(*odometer, 90);
-  // The estimate is an arc of 1.1 times the length and 0.9 times the angle.
+  // The odometry estimates an arc of 1.1 times the length and 0.9 times the angle.
   const double turn = 81 * kDegree, radius = 1.1 / 0.9;
   EXPECT_WITHIN(read[0], radius * std::sin(turn), 0.02, "m");
   EXPECT_WITHIN(read[1], radius * (1 - std::cos(turn)), 0.02, "m");
@@ -304,7 +305,8 @@ TEST_F(DeviceErrors, WideTransducerDetectsAPanelBesideItsAxis) {
 }
 
 TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
-  // A strip of 25 mm fills 25 mm / sqrt(wave length x distance / 2) of the first Fresnel zone.
+  // A strip of 25 mm fills the fraction 25 mm / sqrt(wave length x distance / 2) of the first
+  // Fresnel zone.
   const double wave_length = 343.0 / 40e3;
   const auto is_heard = [&](double distance) {
     Place({Wall(distance, 0.025, 2)});
@@ -312,7 +314,7 @@ TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
                                   {"threshold", 0.14},
                                   {"gain_range", 1.55}}))[0] < 3.9;
   };
-  // A target is detected if it fills at least this fraction of the zone: threshold * max(1,
+  // A target is detected if the fraction of the zone that it fills is at least threshold * max(1,
   // distance / gain range).
   double expected = 0.1;
   while (0.025 / std::sqrt(wave_length * expected / 2) > 0.155 * std::max(1.0, expected / 1.55)) {
@@ -323,8 +325,8 @@ TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
 }
 
 TEST_F(DeviceErrors, CornerIsDetectedByItsSecondReflection) {
-  // Two smooth walls are at right angles to each other, 45 degrees to either side of the axis, and
-  // meet 2 m ahead.
+  // Two smooth walls form a right angle whose edge is 2 m ahead. Each wall is at 45 degrees to the
+  // sonar's axis.
   const auto wall = [](const char* name, double side) {
     return testing::Placed{
         name, testing::ModelOf(geometry::Box{{3, 0.02, 3}}),
@@ -340,8 +342,8 @@ TEST_F(DeviceErrors, CornerIsDetectedByItsSecondReflection) {
 }
 
 TEST_F(DeviceErrors, SonarsThatFireTogetherHaveCrosstalk) {
-  // Two sonars are 0.5 m apart. Both are turned by 25 degrees to the point 1 m ahead of their
-  // middle. Each alone detects nothing of a smooth wall there.
+  // Two sonars are 0.5 m apart. Both point at the same point of a smooth wall, 1 m in front of the
+  // middle between them. So each is turned by 25 degrees, and detects nothing if it fires alone.
   const auto turned = [](const char* name, double y) {
     model::SensorDescription sonar;
     sonar.name = name;
@@ -400,7 +402,7 @@ TEST_F(DeviceErrors, RangingNoiseGrowsWithDistance) {
     sum += off, squares += off * off;
   }
   EXPECT_WITHIN(sum / kReadings, 0, 0.005, "m");
-  // the standard deviation from combining 0.03 and 0.04
+  // the standard deviation of two errors with the standard deviations 0.03 and 0.04
   EXPECT_WITHIN(std::sqrt(squares / kReadings), 0.05, 0.003, "m");
 }
 

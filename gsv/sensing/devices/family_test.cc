@@ -101,7 +101,7 @@ void ExpectValues(const Reading& reading, const std::vector<double>& expected,
 
 TEST_F(SensorTypesTest, ImuAtRestReadsTheSupportingForce) {
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 0, 9.8}, kImu);
-  // The robot lies on its left side, so the supporting force comes from its right, along its own y.
+  // The robot lies on its right side, so the supporting force acts to its left, along its own y.
   body().world_from_model.orientation = geometry::FromRollPitchYaw({kPi / 2, 0, 0});
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 9.8, 0}, kImu);
 }
@@ -127,7 +127,7 @@ TEST_F(SensorTypesTest, ImuOnATurretReadsItsTurningRate) {
   snapshot_->state.joint_positions[0] = 1.1;
   snapshot_->state.joint_velocities[0] = 2;
   ExpectValues(Sample(description), {0, 0, 2, -4 * 0.2, 0, 9.8}, kImu);
-  // The turret stands still in the world, because its base turns the other way.
+  // The turret does not rotate in the world, because the base rotates in the opposite direction.
   body().angular_velocity = {0, 0, -2};
   ExpectValues(Sample(description), {0, 0, 0, 0, 0, 9.8}, kImu);
 }
@@ -164,7 +164,7 @@ TEST_F(SensorTypesTest, ImuReadsItsOrientationInTheGivenFrame) {
         Case{"NWU", {s, -c, 0}, {0, 0, 1}},
         // The robot's forward axis is up, and up points to the right of the world's x.
         Case{"GRAV_UP", {0, 0, 1}, {0, -1, 0}}, Case{"GRAV_DOWN", {0, 0, -1}, {0, 1, 0}},
-        // This frame turns with the robot.
+        // This reference frame has the orientation of the robot.
         Case{"CUSTOM", {1, 0, 0}, {0, 0, 1}}}) {
     const auto values =
         Sample(DescriptionOf("imu",
@@ -238,8 +238,8 @@ TEST_F(SensorTypesTest, OdometerReadsTheWheelOdometry) {
 TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   EXPECT_TRUE(Sample(DescriptionOf("bumper")).values.empty());
   const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
-  // The contacts are with the other robot, whose index is lower, straight ahead; with the floor;
-  // and with a body behind.
+  // There are three contacts: with the other robot, whose index is lower, straight ahead; with the
+  // floor; and with a body behind.
   snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}, 0.01, true, 0.4},
                          {body_, floor, {1, 0, 0}, {0, 0, -1}, 0.001},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}, 0.02}};
@@ -251,7 +251,7 @@ TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   const Reading ahead = Sample(DescriptionOf("contact", {{"field_of_view", kPi}}));
   EXPECT_EQ(*ahead.labels, std::vector<std::string>{"other"});
   EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 33u);
-  // A body that carries the robot counts as ground, whatever its normal is.
+  // A body that supports the robot counts as ground, even if the normal is not vertical.
   snapshot_->contacts[2].supports = true;
   EXPECT_EQ(Sample(DescriptionOf("contact")).values.size(), 11u);
   EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 33u);
@@ -275,11 +275,10 @@ TEST_F(SensorTypesTest, BumperReadsTheForceOnTheRobot) {
   snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}}};
   snapshot_->contacts[0].points = {{{1, 0.5, 0.3}, {0, -1, 0}, 0, {0.01, -0.2, 0}}};
-  snapshot_->contacts[1].impulse = 0.3;  // the force is along the normal, because the contact has
-                                         // no points
+  snapshot_->contacts[1].impulse = 0.3;  // without contact points, the force is along the normal
   const Reading reading = Sample(DescriptionOf("contact"));
   ASSERT_EQ(reading.values.size(), 22u);
-  // The robot looks along the world's y axis.
+  // The robot faces the world's y axis.
   EXPECT_NEAR(reading.values[8], -20, 1e-12);
   EXPECT_NEAR(reading.values[9], -1, 1e-12);
   EXPECT_NEAR(reading.values[10], 0, 1e-12);

@@ -77,7 +77,8 @@ class ForceTorque final
     return message;
   }
 
-  // The axes of the other frames are not known here.
+  // Returns lines only for the sensor's frame, because the axes of the other frames are not known
+  // here.
   std::vector<Segment> BeamsOf(const Values& values) const override {
     if (!description().visualize || frame_ != "sensor") return {};
     return {{{}, kDrawnPerNewton * Vector3{values.force.x, values.force.y, values.force.z}}};

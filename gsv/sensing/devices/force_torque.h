@@ -1,11 +1,12 @@
 // The sensor type "force_torque" of a joint, as in SDFormat: the force and torque that the joint
 // transmits.
 //
-// Frame       that of the parameter `frame`. The torque is about the joint's origin.
+// Frame       the frame that the parameter `frame` names. The torque is about the joint's origin.
 // Parameters  (with their default values)
 //   frame ("child")         "child", "parent" or "sensor": the axes of the reading
-//   measure_direction ("child_to_parent")   "child_to_parent": what the child exerts on the parent;
-//                           "parent_to_child": the opposite
+//   measure_direction ("child_to_parent")
+//                           "child_to_parent": the wrench that the child exerts on the parent;
+//                           "parent_to_child": the wrench that the parent exerts on the child
 //   force.{x,y,z}.noise (N), torque.{x,y,z}.noise (N m)   see noise.h
 // Model       joint_wrench.h. The sensor belongs to the joint above its link.
 // Readings    values {force x, y, z (N), torque x, y, z (N m)}. As a message:

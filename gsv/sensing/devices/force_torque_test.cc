@@ -1,5 +1,5 @@
-// Tests force-torque sensors with the equations of mechanics. The test sets how the links move;
-// values that engines compute are compared in gsv/simulation/gazebo_values_test.cc.
+// Tests force-torque sensors with the equations of mechanics. The tests set the motion of the
+// links. The test gsv/simulation/gazebo_values_test.cc uses motions that engines compute.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
@@ -55,8 +55,8 @@ class ForceTorqueTest : public ::testing::Test {
     description_.name = "wrist", description_.type = "force_torque", description_.link = 1;
   }
 
-  // Reads the sensor. By default, the reading is what the parent exerts on the child, in the
-  // child's axes.
+  // Reads the sensor. By default, the reading is the wrench that the parent exerts on the child, in
+  // the child's axes.
   readings::ForceTorque Read(model::Parameters parameters = {
                                  {"measure_direction", std::string("parent_to_child")}}) {
     description_.parameters = std::move(parameters);
@@ -91,7 +91,8 @@ TEST_F(ForceTorqueTest, DirectionAndFrameAreThoseOfTheDescription) {
   Place(Arm({kMass}, {kLength}), {{0, 0, 2}, geometry::FromAxisAngle({1, 0, 0}, kPi / 2)});
   snapshot_->state.joint_positions[0] = 0.4;
   const double weight = kMass * kG;
-  // With default parameters, the reading is in the child's frame, and is what the child exerts.
+  // With the sensor's default parameters, the reading is the wrench that the child exerts on the
+  // parent, in the child's frame.
   Expect(Read({}).force, {0, -weight, 0}, "N");
   Expect(Read({{"frame", std::string("parent")}}).force, {0, -weight, 0}, "N");
   const Vector3 torque{std::sin(0.4) * kLength * weight, 0, -std::cos(0.4) * kLength * weight};

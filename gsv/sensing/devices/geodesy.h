@@ -1,7 +1,7 @@
 // Converts positions in a world to positions on the earth.
 //
-// Model    the world's z points up at its origin. Its x and y lie in the tangent plane of the
-//          ellipsoid (WGS84) there.
+// Model    at the world's origin, z points up, and x and y lie in the tangent plane of the
+//          ellipsoid (WGS84).
 // Sources  National Imagery and Mapping Agency, TR8350.2, "Department of Defense World Geodetic
 //          System 1984", chapter 3, for the ellipsoid; B. R. Bowring, "Transformation from spatial
 //          to geographical coordinates", Survey Review 23 (1976), for the inverse, iterated until
@@ -23,7 +23,7 @@ struct GeodeticPlace {
 geometry::Vector3 EcefOf(const GeodeticPlace& place);
 GeodeticPlace PlaceOf(const geometry::Vector3& point_in_ecef);
 
-// Converts a vector in the world's axes to east, north and up at its origin.
+// Converts a vector in the world's axes to east, north and up at the world's origin.
 geometry::Vector3 EastNorthUp(const model::GeodeticOrigin& origin,
                               const geometry::Vector3& vector_in_world);
 // Converts a point of the world to a position on the earth.

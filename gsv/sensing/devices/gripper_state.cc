@@ -36,7 +36,8 @@ std::optional<Between> FindBetween(const world::DeviceStep& step, const Pose& wo
                                    const GripperSetup& gripper, int robot) {
   // positions of the rays, as fractions of the fingers' length
   constexpr std::array<double, 3> kAlong = {1.0 / 6, 0.5, 5.0 / 6};
-  constexpr std::array<double, 3> kUp = {-1.0 / 3, 0, 1.0 / 3};  // as fractions of their height
+  // heights of the rays, as fractions of the fingers' height
+  constexpr std::array<double, 3> kUp = {-1.0 / 3, 0, 1.0 / 3};
   const auto cast = [&](double x, double side, double z) {
     const Vector3 from{x * gripper.reach, side * gripper.opening / 2, z * gripper.height};
     return step.rays.Cast({world_from_gripper * from,
@@ -52,7 +53,8 @@ std::optional<Between> FindBetween(const world::DeviceStep& step, const Pose& wo
       const world::Body& body = step.now->layout->bodies[static_cast<std::size_t>(left->body)];
       if (!CanBeGrasped(body) || held.contains(body.name)) continue;
       // If the body extends beyond a finger, the ray of this finger starts inside the body and hits
-      // its far side. Then there is no width left, and the body is not grasped.
+      // the far side of the body. The computed width is then not positive, and the body is not
+      // grasped.
       const double width = gripper.opening - left->distance - right->distance;
       if (width > 0 && (!found || width > found->width)) found = Between{left->body, width};
     }
@@ -98,7 +100,7 @@ world::ActuatorState::GraspForHash GripperState::grasp_for_hash() const {
 world::DeviceStatePtr GripperState::BeforeStep(world::DeviceStep& step) const {
   if (opens() || hold_) return nullptr;
   const base::SimTime time = step.state.time;
-  if (OpeningAt(time) <= 0) return nullptr;  // the fingers have closed and hold nothing
+  if (OpeningAt(time) <= 0) return nullptr;  // the fingers have closed, and nothing is between them
   const int index = step.now->layout->Find(robot());
   if (index < 0) return nullptr;
   const Pose world_from_link = world::LinkPose(*step.now, index, mount().link);

@@ -1,9 +1,9 @@
 // The state of a gripper that follows a command: its fingers and its attachment.
 //
-// Held         an attached body collides as a part of the robot that holds it. It has no weight,
-//              and nothing else moves it.
-// Determinism  grippers are stepped in the order of their robots' names. If two of them close on
-//              one body, the first attaches it.
+// Attachment   an attached body collides as a part of the robot. It has no weight, and only the
+//              gripper moves it.
+// Determinism  grippers are stepped in the order of their robots' names. If two grippers close on
+//              one body, the first gripper in this order attaches it.
 #pragma once
 
 #include <memory>
@@ -36,8 +36,8 @@ class GripperState final : public world::ActuatorState {
   GripperState(world::DeviceMount mount, world::FollowedCommand followed, GripperSetupPtr setup,
                double opening_before, std::optional<Hold> hold = std::nullopt);
 
-  // Returns the state of a gripper that was in the state `before` (null: no command yet). Fingers
-  // continue from their opening, and keep an attachment until they open.
+  // Returns the state after a new command. `before` is the gripper's previous state (null: no
+  // command yet). Fingers continue from their opening, and keep an attachment until they open.
   static std::shared_ptr<const GripperState> After(const world::DeviceState* before,
                                                    world::DeviceMount mount,
                                                    world::FollowedCommand followed,

@@ -107,8 +107,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   const bool has_orientation_;
   const OrientationReference reference_;
   std::array<NoiseModel, 6> noise_;
-  // allan_[term][quantity]. Term 0 is white noise and bias instability, and term 1 random walk.
-  // Quantity 0 is the angular velocity, and quantity 1 the specific force.
+  // The index is allan_[term][quantity]. Term 0 is white noise and bias instability, and term 1 is
+  // the random walk. Quantity 0 is the angular velocity, and quantity 1 is the specific force.
   std::array<std::array<NoiseModel, 2>, 2> allan_;
 };
 

@@ -3,7 +3,7 @@
 // Parameters  (with their default values)
 //   joint (all)             name of one joint; default: all movable joints
 //   counts_per_turn (0)     positions are rounded down to multiples of 2 pi / counts_per_turn; 0:
-//                           they are exact
+//                           positions are exact
 //   position.noise (rad or m), velocity.noise (rad/s or m/s)   see noise.h
 // Readings    for each joint, in the order of the model, the values {position, velocity} and the
 //             label of its name. As a message: sensor_msgs/JointState.

@@ -1,11 +1,13 @@
-// The force and torque that a joint transmits, by inverse dynamics of the links below it.
+// The force and torque that a joint transmits, computed by inverse dynamics of the links below the
+// joint.
 //
 // Equations  Newton-Euler equations for each link below the joint, with the velocities and mean
-//            accelerations of the snapshot, minus gravity and contact forces. Motors and friction
-//            of joints are internal forces of the links, or a part of the result.
-// Contacts   a contact acts on the link with the collision that is nearest to its point. Planar
-//            kinematics computes no contact forces, so they are missing for planar robots.
-// Left out   wind, fluids, and the joint that closes a loop below this joint.
+//            accelerations of the snapshot. Gravity and contact forces are subtracted. Motors and
+//            friction of the joints below are internal forces. Motor and friction of this joint are
+//            a part of the result.
+// Contacts   a contact force acts on the link whose collision is nearest to the contact point.
+//            Planar kinematics computes no contact forces, so they are missing for planar robots.
+// Left out   wind, fluids, and a joint that closes a loop of links below this joint.
 // Frames     world axes.
 #pragma once
 

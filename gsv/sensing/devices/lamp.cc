@@ -10,7 +10,8 @@
 namespace gsv::sensing {
 namespace {
 
-// Returns the lamp of the parameters, switched off. Its colour is used for commands without one.
+// Returns the lamp that the parameters describe, switched off. Commands without a colour use its
+// colour.
 world::Glow ReadLamp(ParameterReader& reader) {
   world::Glow lamp;
   const geometry::Vector3 colour = reader.Triple("colour", {1, 1, 1}, 0, 1);

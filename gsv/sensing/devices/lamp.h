@@ -7,7 +7,7 @@
 //   colour ("1 1 1")        red, green and blue, for commands without a colour
 //   brightness (0)          brightness at the start
 //   radius (0.02 m)         radius of the glowing sphere
-//   range (0 m)             distance up to which the lamp lights objects; 0: it lights none
+//   range (0 m)             distance up to which the lamp lights objects; 0: it lights no objects
 //   angle (6.2832 rad)      all around, or the width of a cone about the x axis
 //   intensity (1)           with 1, full brightness makes a white surface at 1 m fully white
 // Message     gsv_msgs/Lamp

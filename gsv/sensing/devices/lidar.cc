@@ -129,8 +129,8 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
   }
 
   double Measured(double distance, base::Noise& noise) const {
-    // Every beam draws a number, so that the noise of one beam does not depend on what another beam
-    // hits.
+    // A random number is drawn for every beam, even if the beam hits nothing. So the noise of one
+    // beam does not depend on the hits of other beams.
     const double error = settings_.noise_stddev > 0
                              ? settings_.noise_mean + settings_.noise_stddev * noise.Gaussian()
                              : settings_.noise_mean;

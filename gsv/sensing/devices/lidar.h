@@ -3,13 +3,14 @@
 // Frame       sensor frame: a beam at azimuth a (about z, counter-clockwise from x) and elevation e
 //             (upwards) points to (cos e cos a, cos e sin a, sin e). The robot's own body is not
 //             hit.
-// Reading     ranges in metres, by elevation from the lowest row, and within a row by azimuth from
-//             the smallest. As in REP-117, a hit nearer than range.min reads -infinity, and no hit
-//             within range.max reads +infinity.
+// Reading     ranges in metres. Rows are ordered by elevation, from the lowest. Within a row, beams
+//             are ordered by azimuth, from the smallest. As in REP-117, a hit nearer than range.min
+//             reads -infinity, and a beam without a hit within range.max reads +infinity.
 // Parameters  the elements of SDFormat's <lidar> as paths (with their default values)
 //   scan.horizontal.samples (360), .resolution (1)   their product is the number of beams
 //   scan.horizontal.min_angle (-pi), .max_angle (pi minus the width of one beam)
-//   scan.vertical.*         the same for the rows (1 sample at 0); a single beam is at min_angle
+//   scan.vertical.*         the same parameters for the rows (1 sample at 0); if there is only one
+//                           row, it is at min_angle
 //   range.min (0.08 m), range.max (10 m); range.resolution has no effect, as in Gazebo
 //   noise (m)               see noise.h. Each beam has its own bias. A dropout reads as no hit, and
 //                           noise does not move a range beyond the limits.
@@ -21,9 +22,9 @@
 //             (intensity_range / distance)², as for a surface that is larger than the beam (Höfle
 //             and Pfeifer, ISPRS Journal of Photogrammetry and Remote Sensing 62 (2007)). The
 //             reflectance follows from the colour (rays/echo.h).
-// Message     sensor_msgs/LaserScan for one fan, with its intensities. For several fans
-//             gsv_msgs/LidarScan, which has all ranges, and in addition (/ROBOT/SENSOR/points) a
-//             sensor_msgs/PointCloud2, see lidar_messages.h.
+// Message     sensor_msgs/LaserScan for one fan, with its intensities. For several fans there are
+//             two messages: gsv_msgs/LidarScan with all ranges, and a sensor_msgs/PointCloud2 on
+//             the topic /ROBOT/SENSOR/points, see lidar_messages.h.
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -11,7 +11,7 @@ namespace {
 using geometry::kInfinity;
 
 constexpr double kMaxTangent = 20;  // the tangent at a grazing angle of 3 degrees
-// two ranges that differ by more than this (m) are of different surfaces
+// two ranges that differ by more than this (m) belong to different surfaces
 constexpr double kEdge = 0.1;
 
 // The tangent of the angle of incidence, from the adjacent beams that hit the same surface.

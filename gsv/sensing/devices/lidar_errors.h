@@ -1,19 +1,19 @@
 // Errors of real lidars besides white noise. They depend on the distance of a surface, on its angle
 // (from the ranges of the adjacent beams), and on its edges.
 //
-// Parameters  (default 0 except short_range: no errors)
+// Parameters  (default 0, which means no error; short_range has its own default)
 //   range_noise (m per metre)   standard deviation that grows with the range
 //   incidence_noise (m)     standard deviation per unit of the tangent of the angle of incidence
 //   beam_divergence (rad)   width of a beam. A beam that covers an edge measures a range between
 //                           the two surfaces (mixed pixel).
 //   reach (m)               maximum range of an echo from a surface at right angles to the beam. At
-//                           an angle of incidence a, it is multiplied by sqrt(cos a).
-//   short_probability       fraction of beams that hit objects which the world does not have, such
-//                           as dust or people
+//                           the angle of incidence a, the maximum range is reach × sqrt(cos a).
+//   short_probability       fraction of beams that hit objects which are not in the world, such as
+//                           dust or people
 //   short_range (1 m)       mean range of these hits, which is exponentially distributed
 //
-// Source      for the fractions: Thrun, Burgard and Fox, "Probabilistic Robotics", section 6.3. For
-//             the cosine: Lambert's law and the equation of the lidar.
+// Source      Thrun, Burgard and Fox, "Probabilistic Robotics", section 6.3, for the fractions;
+//             Lambert's law and the equation of the lidar for the cosine.
 // Determinism random numbers are keyed by (seed, robot, sensor, step) and the beam.
 #pragma once
 

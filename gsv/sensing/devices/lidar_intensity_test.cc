@@ -69,8 +69,7 @@ class LidarIntensity : public ::testing::Test {
 };
 
 TEST_F(LidarIntensity, FollowsTheAngleOfIncidenceAndTheColour) {
-  // The wall is across the x axis, rotated by 0.5 rad. Of its red, green and blue, only green is
-  // not zero.
+  // The wall is across the x axis, rotated by 0.5 rad. Its colour is green: red and blue are zero.
   const auto wall = Coloured(geometry::Box{{0.2, 40, 4}}, 0, 1, 0);
   for (const bool is_static : {true, false}) {
     const Reading reading = Sample(wall, geometry::PlanarPose(5, 0, 0, 0.5),
@@ -104,7 +103,8 @@ TEST_F(LidarIntensity, OfABallFollowsFromItsNormal) {
       Sample(ball, geometry::PlanarPose(5, 0.5, 0, 0), Beams({{"intensity_scale", 1.0}}));
   for (std::size_t i = 0; i < 3; ++i) {
     const double azimuth = -0.3 + 0.3 * static_cast<double>(i);
-    // The beam passes the centre at the distance d, so the sine of the angle of incidence is d / 2.
+    // The distance of the beam from the sphere's centre is d, so the sine of the angle of incidence
+    // is d / 2.
     const double d = std::abs(0.5 * std::cos(azimuth) - 5 * std::sin(azimuth));
     EXPECT_WITHIN(reading.values[3 + i], std::sqrt(1 - d * d / 4), 1e-6, "") << i;
   }

@@ -12,7 +12,7 @@ using geometry::Vector3;
 using messages::sensor_msgs::PointCloud2;
 using messages::sensor_msgs::PointField;
 
-// bytes: x, y and z of 4 each, ring of 2, and 2 of padding
+// in bytes: 4 each for x, y and z, 2 for the ring, and 2 of padding
 constexpr std::uint32_t kPointSize = 16;
 constexpr std::uint32_t kRingOffset = 12;
 constexpr std::uint32_t kIntensityOffset = 16;  // a point with an intensity has 20 bytes

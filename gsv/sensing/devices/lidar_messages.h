@@ -11,17 +11,17 @@
 
 namespace gsv::sensing {
 
-// Writes a scan. Values are in rows, from the lowest one. LidarScan has no intensities: they are in
-// the point cloud.
+// Writes a scan. Values are in rows, from the lowest row. LidarScan has no intensities, because
+// they are in the point cloud.
 void Write(const LidarSettings& settings, const readings::Lidar& measured,
            messages::sensor_msgs::LaserScan& scan);
 void Write(const LidarSettings& settings, const readings::Lidar& measured,
            messages::gsv_msgs::LidarScan& scan);
 
-// Returns a point for each beam in the sensor's frame, ordered by rows; NaN where nothing was
-// measured. The fields are x, y, z in m as float32, and ring, the row counted from the lowest, as
-// uint16. With `intensities` there is a further field, intensity, as float32. `directions` has as
-// many unit vectors as `ranges` has values.
+// Returns one point for each beam, in the sensor's frame, ordered by rows. The points of beams
+// without a measurement are NaN. The fields are x, y, z in m as float32, and ring as uint16, which
+// is the row counted from the lowest. With `intensities` there is another field, intensity, as
+// float32. `directions` and `ranges` have equal sizes; directions are unit vectors.
 messages::sensor_msgs::PointCloud2 PointsOf(std::span<const geometry::Vector3> directions, int rows,
                                             std::span<const double> ranges,
                                             std::span<const double> intensities = {});

@@ -118,8 +118,8 @@ class MotionReader {
     motion.world_from_link = poses_[of];
   }
 
-  // Passes a ball joint. The rates of its three joints are about axes of the link below the last
-  // one.
+  // Passes a ball joint. The rates of the ball joint's three joints are about the axes of the link
+  // below the third joint.
   void PassBall(int last, const Pose& world_from_joint, LinkMotion& motion) {
     const Vector3 around = motion.angular_velocity;
     for (int joint = last, i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// The motion of each link of a body: velocities of the snapshot, and mean accelerations over its
-// last step. Both include the motion of the joints.
+// The motion of each link of a body: the velocities of the snapshot, and the mean accelerations
+// over the body's last step. Both include the motion of the joints.
 //
 // Frames  world axes.
 #pragma once
@@ -13,7 +13,8 @@ namespace gsv::sensing {
 // The velocities and accelerations of a link, in world axes.
 struct LinkMotion {
   geometry::Pose world_from_link;
-  // `place` is a point of the link, and `velocity` and `acceleration` are those of this point.
+  // `place` is a point of the link; `velocity` and `acceleration` describe the motion of this
+  // point.
   geometry::Vector3 place, velocity, acceleration;
   geometry::Vector3 angular_velocity, angular_acceleration;
 

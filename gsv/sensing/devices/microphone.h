@@ -4,10 +4,11 @@
 //             times the distance (inverse-square law), and is constant nearer than 0.1 m. Sounds
 //             and ambient noise add as powers. There are no walls, echoes or delays.
 // Reading     level (dB re 20 µPa), frequency (Hz) of the loudest sound; 0 if no sound is louder
-//             than the ambient noise. Label: its ROBOT/SPEAKER, or empty.
+//             than the ambient noise. Label: the source of the loudest sound as ROBOT/SPEAKER, or
+//             empty.
 // Parameters  (with their default values)
 //   ambient (30 dB)         level of the ambient noise
-//   noise (dB)              of the measured level, see noise.h
+//   noise (dB)              noise of the measured level, see noise.h
 // Message     gsv_msgs/Microphone
 #pragma once
 

@@ -10,8 +10,8 @@
 //   random.angular_per_radian (0 rad)
 //                           standard deviations after one metre and one radian. They grow with the
 //                           root of the distance; see odometry_drift.h.
-// Readings    readings::Odometry; the lateral velocity is the one that the drive commands to its
-//             wheels. As a message: nav_msgs/Odometry from ROBOT/odom to ROBOT/base_link.
+// Readings    readings::Odometry; the lateral velocity is the velocity that the drive commands to
+//             its wheels. As a message: nav_msgs/Odometry from ROBOT/odom to ROBOT/base_link.
 #pragma once
 
 #include "gsv/sensing/registry.h"

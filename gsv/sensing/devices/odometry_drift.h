@@ -1,13 +1,13 @@
-// Errors of odometry that accumulate. They come from wheels whose size or distance differs from the
-// robot's parameters, and from random slip.
+// Errors of odometry that accumulate. They have two causes: the true size or distance of the wheels
+// differs from the robot's parameters, and the wheels slip randomly.
 //
 // Model        in each step, the robot travels the distance ds and turns by da. The odometry
 //              measures ds' = scale.linear ds + a random part of variance random.linear_per_metre^2
 //              |ds|. It measures da' = scale.angular da + a random part of variance
 //              random.angular_per_metre^2 |ds| + random.angular_per_radian^2 |da|. So the variance
 //              over a distance does not depend on the length of the steps.
-// Source       Thrun, Burgard and Fox, "Probabilistic Robotics", section 5.4, whose coefficients
-//              are variances.
+// Source       Thrun, Burgard and Fox, "Probabilistic Robotics", section 5.4. The coefficients
+//              there are variances.
 // Determinism  each step's draws are keyed by (seed, robot, sensor, step).
 #pragma once
 
@@ -39,8 +39,8 @@ OdometryDrift ReadOdometryDrift(ParameterReader& reader);
 struct OdometryStep {
   double way = 0, turn = 0;
 };
-// Returns the odometry's estimate of the exact step. `first` to `third` are standard normal
-// numbers.
+// Returns the odometry's estimate of the exact step. `first`, `second` and `third` are standard
+// normal numbers.
 OdometryStep Drifted(const OdometryDrift& drift, OdometryStep exact, double first, double second,
                      double third);
 

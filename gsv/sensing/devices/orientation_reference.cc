@@ -16,7 +16,8 @@ std::string NameOfParameter(const char* name) {
 // The rotation from the world to a frame whose z axis is `z`, and whose x axis is the horizontal
 // part of `along_x`. Both are unit vectors at right angles.
 Quaternion QuaternionToFrame(const Vector3& along_x, const Vector3& z) {
-  // The shortest rotation of z to (0, 0, 1). If z points straight down, it is half a turn about x.
+  // The shortest rotation from z to (0, 0, 1). If z points straight down, this is half a turn about
+  // x.
   const bool is_below = z.z < -1 + 1e-12;
   const Quaternion upright =
       is_below ? Quaternion{0, 1, 0, 0} : geometry::Normalized({1 + z.z, z.y, -z.x, 0});
@@ -56,7 +57,7 @@ Quaternion OrientationReference::AlongGravity(const Vector3& gravity) const {
   const Vector3 down = geometry::Normalized(gravity);
   const Vector3 z = kind_ == Kind::kGravityUp ? -down : down;
   Vector3 level = along_x_ - Dot(along_x_, z) * z;
-  // the vector points along gravity, so any direction is valid
+  // `along_x` is parallel to gravity, so any direction is valid
   if (!(geometry::Norm(level) > 1e-9)) {
     const Vector3 other = std::abs(z.x) < 0.5 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
     level = other - Dot(other, z) * z;

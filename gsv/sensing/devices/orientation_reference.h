@@ -8,8 +8,9 @@
 
 namespace gsv::sensing {
 
-// The reference frame of an orientation. East, north and up are those at the world's position on
-// the earth. x points east, turned by the heading of <spherical_coordinates>, if there is one.
+// The reference frame of an orientation. East, north and up are the directions at the world's
+// position on the earth. The world's x points east, rotated by the heading of
+// <spherical_coordinates> (default: 0).
 class OrientationReference {
  public:
   // Parameters orientation_reference_frame.localization (default: the world's frame),

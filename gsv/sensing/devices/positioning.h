@@ -1,5 +1,5 @@
-// The sensor type "positioning": the true pose of the sensor in the world, with optional noise, as
-// an indoor positioning system measures it.
+// The sensor type "positioning": the true pose of the sensor in the world, with optional noise. It
+// models an indoor positioning system.
 //
 // Reading     values {x, y, z (m), roll, pitch, yaw (rad)} of the sensor's frame in the world. Roll
 //             and yaw are in (-pi, pi], and the pitch is in [-pi/2, pi/2].

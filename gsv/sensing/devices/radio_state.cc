@@ -41,7 +41,7 @@ std::vector<std::optional<double>> RadioState::Arriving(const world::DeviceStep&
       arriving.back() = HeardAt(sent.from, here, step.rays);
       continue;
     }
-    // Fading may amplify a message. So a message is considered even if it is too weak without
+    // Fading may amplify a message. So a message is also considered if it would be too weak without
     // fading.
     world::RadioSetup keen = *setup_;
     keen.sensitivity = -300;
@@ -81,7 +81,7 @@ world::DeviceStatePtr RadioState::BeforeStep(world::DeviceStep& step) const {
   // The strength of each transmission. Needed only if one of the radio's errors is on.
   std::vector<std::optional<double>> arriving;
   if (!errors_.is_none()) arriving = Arriving(step, here);
-  std::shared_ptr<RadioState> changed;  // null until it receives a message
+  std::shared_ptr<RadioState> changed;  // null until the radio receives a message
   for (std::size_t i = 0; i < step.transmissions.size(); ++i) {
     world::Transmission& sent = step.transmissions[i];
     const world::RadioMessage& message = *sent.message;

@@ -26,8 +26,8 @@ struct HeardMessage {
 struct RadioErrors {
   double fading = 0;            // deviation of each message's strength, dB
   double loss_probability = 0;  // probability that a message is lost although it is strong enough
-  // required margin above everything else that is sent in the same step, dB; 0: radios do not
-  // disturb each other
+  // the strength that a message must have above the sum of all other messages of the same step, dB;
+  // 0: radios do not disturb each other
   double capture_ratio = 0;
   bool is_none() const { return fading == 0 && loss_probability == 0 && capture_ratio == 0; }
 };
@@ -38,22 +38,23 @@ class RadioState final : public world::DeviceState {
   RadioState(world::DeviceMount mount, world::RadioSetupPtr setup, const RadioErrors& errors = {})
       : DeviceState(std::move(mount)), setup_(std::move(setup)), errors_(errors) {}
 
-  // The number of messages received since it was switched on.
+  // The number of messages received since the radio was switched on.
   std::uint64_t heard() const { return heard_; }
   // The latest messages, the oldest first.
   const std::vector<HeardMessage>& inbox() const { return inbox_; }
   const world::RadioSetup& setup() const { return *setup_; }
 
   void AddToHash(base::Hash& hash) const override;
-  // Receives the transmissions of this step at its antenna, and adds itself to their receivers.
+  // Receives the transmissions of this step at the radio's antenna, and adds the radio to their
+  // receivers.
   world::DeviceStatePtr BeforeStep(world::DeviceStep& step) const override;
 
-  // Puts a message into the inbox. If it is full, the oldest message is removed.
+  // Puts a message into the inbox. If the inbox is full, its oldest message is removed.
   void Hear(const world::RadioMessagePtr& message, double strength);
 
  private:
-  // The strength (dBm) at which each transmission arrives, including fading; nullopt for those that
-  // do not arrive. The radio's own transmissions do not arrive.
+  // The strength (dBm) at which each transmission arrives, including fading; nullopt if it does not
+  // arrive. The radio's own transmissions do not arrive.
   std::vector<std::optional<double>> Arriving(const world::DeviceStep& step,
                                               const world::Antenna& here) const;
   // Whether a message is lost by chance or because other messages are too strong. `place` is the

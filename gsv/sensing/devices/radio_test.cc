@@ -78,7 +78,8 @@ TEST_F(RadioLink, EndsAtTheSendersRange) {
   EXPECT_TRUE(Heard());
   from_.range = 7.999;
   EXPECT_FALSE(Heard());
-  from_.range = 0, to_.range = 1;  // the range of the receiver limits only what it sends
+  // the receiver's range limits only the messages that the receiver sends
+  from_.range = 0, to_.range = 1;
   EXPECT_TRUE(Heard());
 }
 
@@ -217,7 +218,7 @@ TEST(Radio, HashIncludesReceivedMessages) {
   expected.Add(std::string_view("robot"));
   expected.Add(std::string_view("radio"));
   expected.Add(std::uint64_t{1});  // the number of received messages
-  expected.Add(std::uint64_t{1});  // the number of the message in its inbox
+  expected.Add(std::uint64_t{1});  // the number of the message in the inbox
   expected.Add(-41.5);
   expected.Add(message->digest);
   EXPECT_EQ(hash.Digest(), expected.Digest());

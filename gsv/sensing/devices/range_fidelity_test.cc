@@ -1,5 +1,5 @@
-// Compares the readings of lidar and sonar with closed forms in the world's frame. They measure a
-// plane, a sphere, a cylinder and a box. The shapes and the sensor have random poses.
+// Compares readings of lidar and sonar with closed forms in the world's frame. The sensors measure
+// a plane, a sphere, a cylinder and a box. The shapes and the sensors have random poses.
 // docs/fidelity.md lists the tolerances.
 #include <cmath>
 #include <string>
@@ -62,7 +62,7 @@ double ToSphere(const Line& line, const Pose& pose) {
   const double b = Dot(line.direction, from_centre);
   const double root =
       std::sqrt(b * b - Dot(from_centre, from_centre) + kSphere.radius * kSphere.radius);
-  Nearest nearest;  // without a root the distance is NaN, which Nearest ignores
+  Nearest nearest;  // without a root, the distance is NaN, and Nearest ignores NaN
   nearest.Offer(-b - root);
   nearest.Offer(-b + root);
   return nearest.distance();
@@ -123,7 +123,7 @@ class RangeFidelity : public ::testing::Test {
     return {reading->values.begin(), reading->values.end()};
   }
 
-  // Tests 160 random poses, each of the shape, the robot and the sensor.
+  // Tests 160 random combinations of poses of the shape, the robot and the sensor.
   template <typename Distance>
   void Compare(const geometry::Shape& shape, const Distance& distance_to) {
     testing::Random random(3);

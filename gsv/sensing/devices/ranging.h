@@ -1,10 +1,10 @@
-// The sensor type "ranging": the distance to a radio anchor, as tags of ultra-wideband (UWB) radio
-// measure it by the time of flight.
+// The sensor type "ranging": the distance to a radio anchor. It models tags of ultra-wideband (UWB)
+// radio, which measure the distance by the time of flight.
 //
 // Model       true distance + noise + bias_per_metre x distance + wall_delay x walls. The white
 //             noise has the variance noise.stddev^2 + (range_noise x distance)^2 + wall_noise^2 x
 //             walls. A wall is a solid on the line of sight, as for radios (radio_link.h). The
-//             distance is that of the sampled instant; the time of flight is ignored.
+//             distance is the distance at the sampled instant; the time of flight is ignored.
 // Parameters  (with their default values)
 //   anchor (required)       name of the model to which the distance is measured
 //   min (0 m), max (50 m)   limits of the distance

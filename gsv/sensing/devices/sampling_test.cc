@@ -1,6 +1,6 @@
 // Compares the readings of a crowd. Sensors may share a sampling and run on any number of threads.
-// Their readings must equal those of sensors that are read alone, and those of a brute-force
-// search.
+// Their readings must equal the readings of sensors that are read alone, and the results of a
+// brute-force search.
 #include <gtest/gtest.h>
 
 #include "gsv/base/thread_team.h"

@@ -25,7 +25,8 @@ struct Frame {
     place = to;
   }
 
-  // Passes a joint at this point to the link that it moves. `rate` is along or about `axis`.
+  // Passes a joint, which is at this point, to the link below the joint. `rate` is along or about
+  // `axis`.
   void PassJoint(const model::Joint& joint, const Vector3& axis, double rate) {
     if (joint.kind == model::JointKind::kPrismatic) {
       velocity += rate * axis;

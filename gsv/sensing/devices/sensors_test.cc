@@ -110,7 +110,8 @@ model::Parameters Scan(double samples, double min_angle, double max_angle) {
 TEST_F(SensorTest, LidarMeasuresAlongItsAngles) {
   const Reading reading = Sample(DescriptionOf("lidar", Scan(5, -kPi / 2, kPi / 2)));
   ASSERT_EQ(reading.values.size(), 5u);
-  // The wall is across the path, 3.8 m ahead. 3.8 / cos(45°) is beyond 5 m.
+  // The wall is across the robot's path, 3.8 m ahead. At 45°, its distance of 3.8 m / cos(45°) is
+  // more than the maximum of 5 m.
   EXPECT_EQ(reading.values[0], kInfinity);
   EXPECT_EQ(reading.values[1], kInfinity);
   EXPECT_NEAR(reading.values[2], 3.8, 1e-12);
@@ -149,8 +150,8 @@ TEST_F(SensorTest, SingleRowLidarBecomesALaserScanMessage) {
   EXPECT_FLOAT_EQ(scan.ranges[2], 3.8f);
 }
 
-// Three rows of two beams, with the middle row level. One beam hits the wall 3.8 m ahead. The other
-// points 45° to the side, where the wall is beyond 5 m.
+// Three rows of two beams, with the middle row level. The first beam of a row hits the wall 3.8 m
+// ahead. The second beam points 45° to the side, where the wall is beyond 5 m.
 model::Parameters ThreeRows() {
   auto parameters = Scan(2, 0, kPi / 4);
   parameters["scan.vertical.samples"] = 3.0;

@@ -1,9 +1,10 @@
 // The sensor type "sonar": the distance to the nearest surface that returns an echo.
 //
 // Frame       sensor frame: the beam is along x. The robot's own body gives no echo.
-// Beam        "ray" casts one ray to the maximum range. If there is no echo, or one nearer than the
-//             minimum range (the transducer still rings), the reading is the maximum. "cone" models
-//             a transducer, see sound_cone.h, within the same limits.
+// Beam        "ray" casts one ray to the maximum range. If there is no echo, the reading is the
+//             maximum. If the echo is nearer than the minimum range (the transducer still rings),
+//             the reading is also the maximum. "cone" models a transducer, see sound_cone.h, within
+//             the same limits.
 // Reading     readings::Sonar.
 // Parameters  (with their default values)
 //   beam ("ray")            see above; a cone also has the parameters of sound_cone.h

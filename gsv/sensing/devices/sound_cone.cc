@@ -45,8 +45,8 @@ double Directivity(const SoundSettings& sound, double angle) {
 SoundCone::SoundCone(const SoundSettings& sound)
     : sound_(sound),
       spacing_(std::clamp(sound.specular_width, kMaxConeAngle / kMaxRings, kMaxSpacing)) {
-  // The beams are rings of rays, so close to each other that one of them is nearly perpendicular to
-  // any surface.
+  // The beams are rings of rays. The rays are so close to each other that one of them is nearly
+  // perpendicular to any surface.
   beams_.push_back({{1, 0, 0}, 1});
   for (int ring = 1; ring * spacing_ <= kMaxConeAngle; ++ring) {
     const double angle = ring * spacing_;
@@ -160,8 +160,8 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
                                      std::span<const std::optional<Hit>> hits, double max_distance,
                                      std::vector<Echo>& echoes) const {
   constexpr double kOffTheSurface = 1e-6;
-  // Angle between the sound and the normal, rad. Below it, the first echo returns to the sonar, so
-  // no second reflection is needed.
+  // Angle between the sound and the normal, rad. Below this angle, the first echo returns to the
+  // sonar, so no second reflection is needed.
   constexpr double kOblique = 0.2;
   std::vector<Ray> mirrored;
   std::vector<std::size_t> places;
@@ -186,15 +186,15 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
     const Vector3& onward = mirrored[i].direction;
     const double cosine = std::clamp(-Dot(onward, seconds[i]->normal), -1.0, 1.0);
     // There are two ways back. If the second surface is perpendicular to the sound, the sound
-    // returns along its path, and is reflected twice more. If the two surfaces form a corner, it
-    // returns beside its path.
+    // returns along its path, and is reflected twice more. If the two surfaces form a corner, the
+    // sound returns beside its path.
     const double same_way = once * once * Mirrored(std::acos(cosine));
     const Vector3 home = onward + 2 * cosine * seconds[i]->normal;
     const double corner = once * Mirrored(std::acos(std::clamp(-Dot(home, out), -1.0, 1.0)) / 2);
     const double first = hits[place]->distance, second = seconds[i]->distance;
     const double whole = first + second;
     // From a corner, the sound returns beside its own path. The last leg goes from the second
-    // surface to the sensor. Half of the total path is the distance of the corner's edge.
+    // surface to the sensor. The distance of the corner's edge is half of the total path.
     const double by_corner = first + second * (1 + Dot(out, onward)) / 2;
     const double strength = beams_[place].strength * std::max(same_way, corner);
     const double distance = same_way >= corner ? whole : by_corner;

@@ -1,28 +1,30 @@
 // The beam of an ultrasonic transducer: a piston that sends a short tone and receives its echo.
 //
-// Directivity  of a circular piston of radius a at the wave number k: 2 J1(k a sin t) / (k a sin t)
-//              at the angle t off its axis. It applies twice: when the sound is sent and when it is
-//              received. A Polaroid transducer (a = 19 mm, 49.4 kHz) is down by 6 dB at 7.4 degrees
-//              and has its first null at 12.9: SensComp's data sheet of the 600 series has a beam
-//              of 15 degrees at -6 dB.
+// Directivity  the directivity of a circular piston of radius a at the wave number k: 2 J1(k a sin
+//              t) / (k a sin t) at the angle t off its axis. It applies twice: when the sound is
+//              sent and when it is received. For a Polaroid transducer (a = 19 mm, 49.4 kHz), this
+//              is -6 dB at 7.4 degrees, and the first null is at 12.9 degrees. SensComp's data
+//              sheet of the 600 series gives a beam of 15 degrees at -6 dB.
 // Surfaces     smooth surfaces are mirrors for waves of 7 mm: an echo returns from points where the
 //              surface is at right angles to the sound. So a wall is detected at its perpendicular
-//              distance, and beyond a critical angle not at all. Rough surfaces return a part of
-//              the sound from everywhere.
+//              distance. Beyond a critical angle, the wall is not detected. Rough surfaces return a
+//              part of the sound from everywhere.
 // Source       R. Kuc and M. W. Siegel, "Physically based simulation model for acoustic sensor
 //              robot navigation", IEEE PAMI 9(6), 1987.
 // Full model   Each further effect of real sonars has a parameter that is off by default.
 //   gain_range           the amplifier compensates attenuation with distance up to this range.
-//                        Beyond it, an echo must be stronger by distance / gain_range.
-//   target_size          a target smaller than the first Fresnel zone reflects less, by the
-//                        fraction of the zone that it fills across and up (Kirchhoff's
-//                        approximation). The zone is sqrt(wave length x distance / 2) wide.
+//                        Beyond this range, the weakest detectable echo is stronger by distance /
+//                        gain_range.
+//   target_size          a target smaller than the first Fresnel zone reflects less sound. The
+//                        factor is the fraction of the zone that the target fills, horizontally and
+//                        vertically (Kirchhoff's approximation). The zone is sqrt(wave length x
+//                        distance / 2) wide.
 //   second_reflections   a smooth surface may reflect sound to a second surface. The sound returns
-//                        if the second surface is at right angles to it, or if the two surfaces
-//                        form a corner.
+//                        if it hits the second surface at right angles, or if the two surfaces form
+//                        a corner.
 //   firing_slot          sonars of one robot with the same slot (above 0) fire together, and detect
 //                        each other's echoes.
-// Left out     diffraction at edges; echoes of an earlier slot that arrive late.
+// Left out     diffraction at edges; late echoes of the sound of an earlier slot.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -81,7 +83,7 @@ class SoundCone {
 
   struct Echo {
     double distance = 0, strength = 0;
-    Ray ray;  // the ray to the surface that returns the echo
+    Ray ray;  // the ray that hits the reflecting surface
     Hit hit;
   };
 
@@ -103,8 +105,8 @@ class SoundCone {
   // Adds the echoes of the sound of another sonar.
   void AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
                     std::span<const std::optional<Hit>> hits, std::vector<Echo>& echoes) const;
-  // Returns the echo of the nearest point of the hit body, searched in steps from the hit. It is
-  // for bodies that are thinner than the spacing of the rays, such as posts.
+  // Returns the echo of the nearest point of the hit body. The point is searched in steps from the
+  // hit. This finds bodies that are thinner than the spacing of the rays, such as posts.
   Echo EchoNear(const Sampling& sampling, Ray ray, Hit hit, const geometry::Vector3& axis) const;
 
   const SoundSettings sound_;

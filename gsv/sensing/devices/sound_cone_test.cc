@@ -79,8 +79,8 @@ TEST(SoundCone, DetectsNoSmoothWallBeyondTheCriticalAngle) {
 }
 
 TEST(SoundCone, DetectsARoughWallWhereTheBeamFirstMeetsIt) {
-  // At 45 degrees, the near edge of the beam, some 11 degrees off its axis, meets the wall first: 2
-  // / cos(45° - 11°).
+  // At 45 degrees, the near edge of the beam hits the wall first. This edge is some 11 degrees off
+  // the axis, so the distance is 2 / cos(45° - 11°).
   const double heard = Heard(WallAt(45 * kDegrees), {{"roughness", 0.7}});
   EXPECT_GT(heard, 2 / std::cos(33 * kDegrees));
   EXPECT_LT(heard, 2 / std::cos(38 * kDegrees));

@@ -26,9 +26,9 @@ RTCDevice EmbreeDevice() {
   return device;
 }
 
-// Returns the padding of all boxes, in metres. Single precision has a relative error of 6e-8. It
-// affects the corners of boxes, the origin of a ray, and its direction over the extent of the
-// scene.
+// Returns the padding of all boxes, in metres. Single precision has a relative error of 6e-8. The
+// error affects the corners of boxes, the origin of a ray, and the ray's direction over the extent
+// of the scene.
 double PaddingFor(const std::vector<Bounds>& boxes) {
   double furthest = 0;
   for (const Bounds& b : boxes) {
@@ -39,8 +39,8 @@ double PaddingFor(const std::vector<Bounds>& boxes) {
   return 1e-6 + 2e-6 * furthest;
 }
 
-// Returns the length of a ray in single precision, slightly enlarged. A box that is found beyond
-// the true length does no harm.
+// Returns the length of a ray in single precision, slightly enlarged. If this finds a box beyond
+// the true length, it does no harm.
 float LengthFor(double length, double padding) {
   return static_cast<float>(length + padding + 1e-6 * std::abs(length));
 }

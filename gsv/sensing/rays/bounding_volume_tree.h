@@ -1,9 +1,10 @@
 // A bounding volume hierarchy (BVH, Embree's) that finds all boxes on a ray.
 //
-// Boxes are given in double precision, rounded outwards and padded; the caller computes the
-// intersection in each. The tree finds every box on the ray within its current length, if the ray
-// starts within ten times the extent of the boxes. For such rays, the error of single precision is
-// smaller than the padding, which is 2e-6 of that extent.
+// The caller gives boxes in double precision. The boxes are rounded outwards and padded. The caller
+// computes the intersection with the content of each box. The tree finds every box on the ray
+// within the ray's current length, if the ray starts within ten times the extent of the boxes. For
+// such rays, the error of single precision is smaller than the padding, which is 2e-6 of that
+// extent.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -25,15 +26,15 @@ class BoundingVolumeTree {
   BoundingVolumeTree(const BoundingVolumeTree&) = delete;
   BoundingVolumeTree& operator=(const BoundingVolumeTree&) = delete;
 
-  // Replaces all boxes. `often` means that the boxes are replaced often, so a fast build matters
+  // Replaces all boxes. If `often` is true, the boxes are replaced often, so a fast build matters
   // more than fast rays.
   void Build(std::span<const geometry::Bounds> boxes, bool often);
 
   class Visitor {
    public:
     virtual ~Visitor() = default;
-    // Called for a box that the ray may hit. Returns the new length of the ray, at most the present
-    // one.
+    // Called for a box that the ray may hit. Returns the new length of the ray, which must not
+    // exceed the present length.
     virtual double Visit(std::uint32_t box) = 0;
   };
   // Calls Visit() for each box that the ray may hit.

@@ -18,8 +18,8 @@ namespace gsv::sensing {
 // Finds the boxes that a ray passes through, by the method that suits the boxes.
 class BoxIndex {
  public:
-  // Replaces all boxes. `often`: the boxes are replaced often, so a quick build matters more than
-  // quick rays.
+  // Replaces all boxes. If `often` is true, the boxes are replaced often, so a fast build matters
+  // more than fast rays.
   void Build(std::span<const geometry::Bounds> boxes, bool often);
 
   // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
@@ -40,7 +40,8 @@ class BoxIndex {
   }
 
   // Adds to `found` every box within `reach` of the place, once, and possibly boxes further away.
-  // If there is no space or no fast method, returns false, and some boxes are missing.
+  // If there is no space in `found`, or no fast method for these boxes, returns false, and some
+  // boxes are missing.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
     if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMax) return false;

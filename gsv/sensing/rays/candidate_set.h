@@ -2,7 +2,8 @@
 // this point.
 //
 // Exactness  candidates are culled by bounding spheres in single precision. The spheres are
-//            enlarged by more than its error, so that no solid on a ray is omitted.
+//            enlarged by more than the error of single precision, so that no solid on a ray is
+//            omitted.
 // Threads    const members may run concurrently.
 #pragma once
 
@@ -24,19 +25,20 @@ struct BoundingSphere {
   double radius = 0;
 };
 
-// The solids near a point, which rays from there may hit.
+// The solids near a point. Rays from there may hit these solids.
 class CandidateSet {
  public:
   // Maximum number of solids. Larger sets are slower than the broad phase.
   static constexpr std::size_t kMax = 64;
 
-  // Clears the set, for solids within `reach` of `place`.
+  // Clears the set. From now on, it is for solids within `reach` of `place`.
   void Begin(const geometry::Vector3& place, double reach);
 
   const geometry::Vector3& place() const { return place_; }
   double reach() const { return reach_; }
 
-  // Adds a solid with its bounding sphere if `counts` is true. `number` is its number in the scene.
+  // Adds a solid with its bounding sphere if `counts` is true. `number` is the solid's number in
+  // the scene.
   void Add(const BoundingSphere& ball, std::uint32_t number, bool counts) {
     if (count_ == kMax) {
       is_overfull_ = is_overfull_ || counts;
@@ -57,12 +59,12 @@ class CandidateSet {
   // Ends the gathering. Returns false if there were too many solids.
   bool Finish();
 
-  // Whether the set contains all solids that the ray may meet.
+  // Whether the set contains all solids that the ray may hit.
   bool Covers(const Ray& ray) const {
     return Norm(ray.origin - place_) + ray.max_distance <= reach_;
   }
 
-  // Calls visit(number) for every solid that the ray may touch within `length`, which `visit` may
+  // Calls visit(number) for every solid that the ray may hit within `length`, which `visit` may
   // shorten.
   template <class Visit>
   void Find(const Ray& ray, const double& length, const Visit& visit) const {
@@ -84,16 +86,17 @@ class CandidateSet {
   }
 
  private:
-  // Spheres are enlarged by this fraction of the coordinates. It exceeds the rounding error: single
-  // precision has a relative error of 6e-8, and the gap between ray and centre takes a dozen
-  // operations.
+  // Spheres are enlarged by this fraction of the coordinates. The fraction exceeds the rounding
+  // error: single precision has a relative error of 6e-8, and the distance between ray and centre
+  // takes a dozen operations.
   static constexpr double kRounding = 4e-6;
 
   static __m128 Four(double x) { return _mm_set1_ps(static_cast<float>(x)); }
 
   geometry::Vector3 place_;
   double reach_ = -1;
-  std::size_t count_ = 0;  // number of solids; up to three entries that no ray touches follow
+  // number of solids; after them there are up to three entries that no ray hits
+  std::size_t count_ = 0;
   bool is_overfull_ = false;
   // Centres relative to place_.
   alignas(16) std::array<float, kMax + 4> x_, y_, z_, squared_radius_;

@@ -65,8 +65,8 @@ void ColumnGrid::Build(std::span<const Bounds> boxes) {
     Divide(cell *= 1.5, width, depth);
   }
 
-  // Each count becomes the end of its column's entries. Inserting the entries turns it into their
-  // start.
+  // Each count becomes the end of its column's entries. When all entries are inserted, this number
+  // has become the start of the entries.
   double squares = 0;
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) {
@@ -95,15 +95,15 @@ bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& 
   const int right = index(place.x + reach - low_x_, columns_);
   const int front = index(place.y - reach - low_y_, rows_);
   const int back = index(place.y + reach - low_y_, rows_);
-  // A box may have several entries in the square of columns. Only the first one counts.
+  // A box may have several entries in the searched columns. Only the first entry counts.
   std::uint32_t row_mark = 0;
   std::size_t count = found.count;
   for (int row = front; row <= back; ++row, row_mark = kFirstRow) {
     const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
     const std::uint32_t begin = starts[left], second = starts[left + 1], end = starts[right + 1];
     if (count + (end - begin) > FoundBoxes::kMax) return false;
-    // Each entry is written, and the next entry overwrites it if it does not count. This needs no
-    // branch, which the processor could hardly predict.
+    // Each entry is written. If it does not count, the next entry overwrites it. So no branch is
+    // needed; the processor could hardly predict it.
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t mark = row_mark | (i < second ? 0 : kFirstColumn);
       found.boxes[count] = entries_[i] & kBox;

@@ -2,8 +2,8 @@
 //
 // The grid is fast if boxes are side by side, like robots and obstacles; see occupancy().
 //
-// Exactness    a box is listed in every column within kMargin. So it is found even if rounding
-//              moves the ray across a border (up to kMaxCoordinate).
+// Exactness    a box is listed in every column within kMargin. So the box is found even if rounding
+//              moves the ray into the adjacent column (for coordinates up to kMaxCoordinate).
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -49,7 +49,8 @@ class ColumnGrid {
     x.Clip(low_x_, low_x_ + columns_ * cell_, begin, end);
     y.Clip(low_y_, low_y_ + rows_ * cell_, begin, end);
     if (!(begin <= std::min(end, length))) return;
-    // A ring of empty columns around the grid is for rays that rounding moves over its edge.
+    // The grid has a ring of empty columns around it, for rays that rounding moves over the grid's
+    // edge.
     const int column = IndexOf(x.At(begin) - low_x_), row = IndexOf(y.At(begin) - low_y_);
     double next_x = x.Reaches(low_x_ + (column - x.is_falling) * cell_);
     double next_y = y.Reaches(low_y_ + (row - y.is_falling) * cell_);
@@ -72,7 +73,8 @@ class ColumnGrid {
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const;
 
  private:
-  // An entry has a box's number and whether it is in the box's first column and first row.
+  // An entry contains a box's number, and whether the column is the box's first column or first
+  // row.
   static constexpr std::uint32_t kFirstColumn = 1u << 31, kFirstRow = 1u << 30;
   static constexpr std::uint32_t kBox = kFirstRow - 1;
 

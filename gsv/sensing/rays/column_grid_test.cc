@@ -15,7 +15,7 @@ using testing::Random;
 
 Bounds BoxAt(const Vector3& centre, const Vector3& half) { return {centre - half, centre + half}; }
 
-// Returns boxes of many sizes, a few of which are as long as walls.
+// Returns boxes of many sizes. A few of them are as long as walls.
 std::vector<Bounds> RandomBoxes(Random& random, int count) {
   std::vector<Bounds> boxes;
   for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
-// The echoes of light pulses: the nearest surface on each ray, with the quantities that determine
-// how much light returns.
+// The echoes of light pulses: the nearest surface on each ray, and how much of the light this
+// surface returns.
 //
 // Threads  as for RayScene.
 #pragma once
@@ -16,7 +16,7 @@ namespace gsv::sensing {
 // The echo of one ray.
 struct Echo {
   double distance = 0;     // m
-  double cosine = 1;       // of the angle of incidence; 1 at right angles to the surface
+  double cosine = 1;       // cosine of the angle of incidence; 1 at right angles to the surface
   double reflectance = 0;  // the fraction of light that the surface reflects, from 0 to 1
 };
 
@@ -24,10 +24,10 @@ struct Echo {
 void FindEchoes(const RayScene& scene, std::span<const Ray> rays, int ignored_body,
                 std::span<std::optional<Echo>> echoes);
 
-// Returns the reflectance of the collision with this index: the luminance (ITU-R BT.709, linear
-// light) of a visual's base colour. The visual is the one with the collision's name, else the one
-// with the same index, else the first one. For a texture, the mean of some of its pixels is used.
-// The reflectance of a link without visuals is 0.5.
+// Returns the reflectance of the collision with this index. This is the luminance (ITU-R BT.709,
+// linear light) of the base colour of a visual. The visual is the one with the collision's name. If
+// there is none, it is the visual with the same index, or else the first visual. For a texture, the
+// mean of some of its pixels is used. The reflectance of a link without visuals is 0.5.
 double ReflectanceOf(const model::Link& link, std::size_t collision);
 
 }  // namespace gsv::sensing

@@ -1,4 +1,4 @@
-// Tests that a scan has the same result as its rays one by one, and as a brute-force search.
+// Tests that a scan has the same result as its rays cast one by one, and as a brute-force search.
 #include "gsv/sensing/rays/fan.h"
 
 #include <set>
@@ -71,8 +71,8 @@ struct Scanner {
 };
 
 Scanner AnyScanner(Random& random, int round) {
-  // The fan is level, as on most robots, or has any orientation. It spans from a sector to more
-  // than a turn, and points up or down.
+  // The fan is level, as on most robots, or has any orientation. Its width is from a small sector
+  // to more than a turn. It points up or down.
   const Pose place = round % 2 == 0 ? geometry::PlanarPose(random.Uniform(-4, 4),
                                                            random.Uniform(-4, 4), 0.1, round)
                                     : random.AnyPose(4);
@@ -176,8 +176,8 @@ TEST(Fan, SectorIsAsWideAsTheBox) {
   EXPECT_NEAR(sector->nearest, 2, 1e-5);
   EXPECT_NEAR(sector->from, -std::atan2(1, 2), 1e-5);
   EXPECT_NEAR(sector->to, std::atan2(1, 2), 1e-5);
-  EXPECT_FALSE(SectorOf(fan, {{0, 0, 1}, {}}, box));    // above it
-  EXPECT_FALSE(SectorOf(fan, {{-20, 0, 0}, {}}, box));  // too far
+  EXPECT_FALSE(SectorOf(fan, {{0, 0, 1}, {}}, box));    // the fan is above the box
+  EXPECT_FALSE(SectorOf(fan, {{-20, 0, 0}, {}}, box));  // the box is too far away
   EXPECT_TRUE(SectorOf(fan, {{2.5, 0, 0}, {}}, box)->is_all);
 }
 

@@ -12,9 +12,9 @@
 namespace gsv::sensing {
 
 // The solids of one link, or of all links of a model that do not move relative to each other. All
-// bodies of the model share it.
+// bodies of the model share these solids.
 struct Part {
-  int link = -1;   // the solids are in the frame of this link; -1: of the model
+  int link = -1;   // the solids are in the frame of this link; -1: in the frame of the model
   int number = 0;  // index of the part in its model
   SolidSet solids;
   BoundingSphere ball;  // bounding sphere of the solids, unless they are unbounded

@@ -23,22 +23,22 @@ using geometry::Bounds;
 using geometry::Pose;
 using geometry::Vector3;
 
-// The number of parts that a thread places at a time. For fewer than the second number, a second
-// thread saves no time.
+// kPartsAtOnce is the number of parts that a thread places at a time. For fewer parts than
+// kMinParts, a second thread saves no time.
 constexpr std::size_t kPartsAtOnce = 128, kMinParts = 400;
 
-// If a part has at most this number of shapes, rays are cast at all of them. Otherwise they are
-// cast at the shapes that its index finds.
+// If a part has at most this number of shapes, rays are cast at all of its shapes. Otherwise, rays
+// are cast only at the shapes that the part's index finds.
 constexpr std::uint32_t kFewShapes = 4;
 
-// If more rays of a packet than this touch a shape's bounding sphere, the shape may be long. Then
-// each ray is tested with the bounding box first.
+// If more rays of a packet than this hit a shape's bounding sphere, the shape may be long. Then
+// each ray is first tested with the bounding box.
 constexpr int kMaxRaysOfCompact = 4;
 
 // In lists of solids, this bit of the number distinguishes static shapes from moving parts.
 constexpr std::uint32_t kStanding = 1u << 31;
 
-// If the reach of rays is less than this, solids are not sorted by distance, in m.
+// Solids are sorted by distance only if the reach of the rays is at least this, in m.
 constexpr double kMinReach = 1e-6;
 
 bool IsSound(const Ray& ray) {
@@ -62,7 +62,7 @@ double ReachOf(const RayPacket& packet, const Vector3& place) {
     const double away = std::abs(packet.origin_x[i] - place.x) +
                         std::abs(packet.origin_y[i] - place.y) +
                         std::abs(packet.origin_z[i] - place.z);
-    // A product with zero is NaN for numbers that are not finite.
+    // The product of zero and a number that is not finite is NaN.
     const double zero = 0 * (away + length + std::abs(packet.direction_x[i]) +
                              std::abs(packet.direction_y[i]) + std::abs(packet.direction_z[i]));
     reaches[i] = i < count ? away + length : 0;
@@ -83,7 +83,7 @@ Bounds Around(const Ray& ray) {
           {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
-// Moved() without calls.
+// Does the same as Moved(), but is inlined.
 [[gnu::flatten]] Ray MovedInline(const Pose& to_from, const Ray& ray, double length) {
   return Moved(to_from, ray, length);
 }
@@ -96,7 +96,7 @@ bool Passes(const Ray& ray, double length, const BoundingSphere& ball) {
   return Dot(gap, gap) <= ball.radius * ball.radius;
 }
 
-// Calls cast(ray, nearest) for ray i of a row, and sets its range to what it found.
+// Calls cast(ray, nearest) for ray i of a row, and sets the ray's range to the result.
 template <class Cast>
 void ShortenRay(RayRow& row, std::size_t i, const Cast& cast) {
   const Ray ray = row.At(i);
@@ -106,18 +106,19 @@ void ShortenRay(RayRow& row, std::size_t i, const Cast& cast) {
   if (nearest.body >= 0) row.SetRange(i, nearest.distance);
 }
 
-// Solids and the rays of a packet that are cast at them, at least one ray each.
+// Solids, and for each solid the rays of a packet that are cast at it. Each solid has at least one
+// ray.
 class CastList {
  public:
-  // Adds a solid, or does nothing if there are no rays. This is branch-free, because the processor
-  // could hardly predict whether there are.
+  // Adds a solid. Does nothing if `rays` is 0. The function is branch-free, because the processor
+  // could hardly predict whether `rays` is 0.
   void Add(std::uint32_t number, unsigned rays) {
     list_[count_] = {number, rays};
     count_ += rays != 0;
   }
 
-  // Calls cast(number, i) for each ray i of each solid. Uses one loop for both, because the
-  // processor could hardly predict the number of rays of each solid.
+  // Calls cast(number, i) for each ray i of each solid. One loop is used instead of two nested
+  // loops, because the processor could hardly predict the number of rays of each solid.
   template <class Cast>
   void ForEach(const Cast& cast) {
     list_[count_] = {};
@@ -136,15 +137,15 @@ class CastList {
   std::size_t count_ = 0;
 };
 
-// Casts rays of a packet at cylinders and boxes, several pairs at a time. For each hit, sets only
-// two members of `nearest`: the distance, and the body, which becomes 0 for any body.
+// Casts rays of a packet at cylinders and boxes, several pairs at a time. For a hit, sets only the
+// distance and the body in `nearest`. The body is set to 0 for every hit body.
 class PacketCaster {
  public:
   PacketCaster(const RayPacket& packet, std::span<Nearest> nearest)
       : packet_(packet), nearest_(nearest) {}
 
-  // Casts ray i at a shape of a set, whose frame is that of a part, or the world if
-  // `part_from_world` is null. Returns false if the caller must do this.
+  // Casts ray i at a shape of a set. The set's frame is the frame of a part, or the world if
+  // `part_from_world` is null. Returns false if the caller must cast this ray at this shape itself.
   bool Add(std::size_t i, const Pose* part_from_world, const SolidSet& set, std::uint32_t shape) {
     if (!is_fast_) return false;
     const geometry::Shape& at = set.ShapeAt(shape);
@@ -252,8 +253,8 @@ const BoxIndex& PlacedSolids::index() const {
 }
 
 Bearer PlacedSolids::BearerOf(std::size_t part) const {
-  // The upper bits of a solid's number are the number of its part, so that ties are resolved first
-  // by part.
+  // The upper bits of a solid's number are the number of the solid's part. So if two distances are
+  // equal, the hit on the part with the lower number is nearer.
   return {solids_->moving[part].body, static_cast<int>(part),
           static_cast<std::uint32_t>(parts_[part].part->number) << 24};
 }
@@ -267,8 +268,8 @@ void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& neares
   part->solids.Cast(moved, -1, nearest, BearerOf(index));
 }
 
-// Call this after all other casts. There may be many triangles, and the hits found before shorten
-// the ray.
+// Call this after all other casts, so that the hits found before have shortened the ray. There may
+// be many triangles.
 void PlacedSolids::CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
@@ -337,10 +338,12 @@ struct PlacedSolids::Shadings {
   };
 
   std::array<Shading, kMax> all;
-  std::array<std::uint16_t, kMax> order;  // indices of the first `count`, the nearest first
+  // indices of the first `count` solids, ordered by distance
+  std::array<std::uint16_t, kMax> order;
   std::size_t count = 0;
 
-  // Sets `order`. Distances that differ by less than a fraction of the reach may be in any order.
+  // Sets `order`. If the distances of solids differ by less than a fraction of the reach, their
+  // order is undefined.
   void Sort(double reach) {
     constexpr std::size_t kBuckets = 64;
     const double per_metre = reach > kMinReach ? kBuckets / reach : 0;
@@ -514,7 +517,7 @@ void PlacedSolids::CastAtTouched(const TouchedSpheres& moving, const TouchedSphe
   std::optional<PacketBounds> bounds;
   for (const TouchedSpheres::Touched& each : standing.all()) {
     unsigned rays = set.BodyOfShape(each.number) != ignored_body ? each.rays : 0;
-    // Many rays pass the bounding sphere of a long shape, but not its bounding box.
+    // Many rays hit the bounding sphere of a long shape, but not its bounding box.
     if (std::popcount(rays) > kMaxRaysOfCompact) {
       if (!bounds) bounds.emplace(packet);
       rays &= bounds->Touching(set.PaddedBoundsOf(each.number));

@@ -46,7 +46,7 @@ class PlacedSolids final : public RayScene {
     geometry::Pose part_from_world;
     const Part* part;
   };
-  struct Shadings;  // the solids near a fan, each with the sector of rays that may hit it
+  struct Shadings;  // the solids near a fan, and for each solid the sector of rays that may hit it
 
   // Sets the pose of the moving part with this index.
   void Place(std::size_t index, const world::Snapshot& snapshot);
@@ -63,8 +63,8 @@ class PlacedSolids final : public RayScene {
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
   // Finds the bounded solids within the fan's reach. Returns false if there are too many.
   bool FindShadings(const Fan& fan, int ignored_body, Shadings& shadings) const;
-  // Casts the rays of a packet at the solids whose spheres they touch. For each hit, sets the
-  // distance in `nearest`, and the body to some number other than -1. The other members of
+  // Casts the rays of a packet at the solids whose bounding spheres they hit. For each hit, sets
+  // the distance in `nearest`, and sets the body to some number other than -1. The other members of
   // `nearest` may be wrong.
   void CastAtTouched(const TouchedSpheres& moving, const TouchedSpheres& standing,
                      const RayPacket& packet, int ignored_body, std::span<Nearest> nearest) const;
@@ -73,11 +73,12 @@ class PlacedSolids final : public RayScene {
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
-  // Casts at one solid of Shadings the rays in its sector.
+  // Casts the rays of the sector at one solid of Shadings.
   void CastInto(std::uint32_t solid, const Sector& sector, const Fan& fan, RayRow& row) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
-  // Vectors in the order of LayoutSolids::moving. The last two are only for bounded parts.
+  // The next vectors have the order of LayoutSolids::moving. The last two vectors contain only
+  // bounded parts.
   std::vector<PlacedPart> parts_;
   std::vector<BoundingSphere> spheres_;
   std::vector<geometry::Bounds> boxes_;

@@ -20,8 +20,8 @@ struct RayAxis {
 
   // The coordinate of the point at `distance` along the ray.
   double At(double distance) const { return origin + distance * direction; }
-  // Returns the distance along the ray at which it reaches the coordinate. If the ray is nearly
-  // perpendicular to the axis, the result is huge and may have either sign.
+  // Returns the distance along the ray at which the ray reaches the coordinate. If the ray is
+  // nearly perpendicular to the axis, the result is huge and may have either sign.
   double Reaches(double coordinate) const { return (coordinate - origin) * inverse; }
   // Clips the interval [begin, end] of the ray to the part between two coordinates.
   void Clip(double low, double high, double& begin, double& end) const {

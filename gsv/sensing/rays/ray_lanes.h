@@ -1,9 +1,9 @@
 // Intersections of four rays at once, for processors with AVX2. Use these functions only in functions
 // with GSV_AVX2, after HasAvx2() returned true.
 //
-// Exactness  the functions compute the operations of the functions for one ray in ray_shape.cc,
-//            quaternion.h and vector3.h, in the same order, so that results are bit-identical. Both
-//            cases of a branch are computed, and one is selected.
+// Exactness  the functions compute the same operations in the same order as the functions for one
+//            ray in ray_shape.cc, quaternion.h and vector3.h. So the results are bit-identical. For
+//            a branch, both cases are computed, and one is selected.
 #pragma once
 
 #include <cstddef>

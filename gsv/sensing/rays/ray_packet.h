@@ -1,4 +1,5 @@
-// A few rays from near one place, as a structure of arrays, so that they are computed together.
+// A few rays that start near one place, as a structure of arrays, so that they are computed
+// together.
 #pragma once
 
 #include <array>

@@ -1,8 +1,9 @@
 // Pairs of a ray and a shape near it, for packets of rays. The distances of four pairs are computed
 // at once, on processors with AVX2.
 //
-// Exactness  the operations are those of Moved() and DistanceToShape(), in the same order, so that
-//            distances are bit-identical. Both cases of a branch are computed, and one is selected.
+// Exactness  the functions compute the same operations in the same order as Moved() and
+//            DistanceToShape(). So the distances are bit-identical. For a branch, both cases are
+//            computed, and one is selected.
 // Threads    none; each thread has its own pairs.
 #pragma once
 
@@ -42,8 +43,8 @@ class RayPairs {
   bool is_full() const { return count_ == kMax; }
   void Clear() { count_ = 0; }
 
-  // Adds ray i of the packet and a shape in a set. The set is in a part that is at `part_from_world`
-  // (null: the set's frame is the world).
+  // Adds ray i of the packet and a shape in a set. `part_from_world` is the pose of the world in
+  // the frame of the set's part; null if the set's frame is the world.
   void Add(const RayPacket& packet, std::size_t i, const geometry::Pose* part_from_world,
            const geometry::Pose& shape_from_set, const geometry::Box& box) {
     AddRay(packet, i, part_from_world, shape_from_set);
@@ -60,9 +61,9 @@ class RayPairs {
   template <class Shape, bool kHaveParts>
   void Cast();
 
-  // The results of Cast() for pair k: the number of the ray, and the distance, which may be beyond
-  // the ray's length. It is infinite if the ray's line misses the shape, or if the shape is behind the
-  // ray's origin.
+  // The results of Cast() for pair k: the number of the ray, and the distance. The distance may be
+  // beyond the ray's length. It is infinite if the ray's line misses the shape, or if the shape is
+  // behind the ray's origin.
   std::size_t ray(std::size_t k) const { return rays_[k]; }
   double distance(std::size_t k) const { return distances_[k]; }
 
@@ -80,10 +81,11 @@ class RayPairs {
 
   std::size_t count_ = 0;
   std::array<std::uint8_t, kMax> rays_{};
-  // Lanes beyond the last pair keep the values of earlier pairs, with which it is fast to compute.
+  // Lanes beyond the last pair keep the values of earlier pairs, because ordinary values are
+  // computed fast.
   alignas(32) Lanes ox_{}, oy_{}, oz_{}, dx_{}, dy_{}, dz_{};  // in the world
   PoseLanes<kMax> parts_, shapes_;                             // part_from_world, shape_from_set
-  // Halves of a box's size, or the radius (x) and half of the length (z) of a cylinder.
+  // The halves of a box's sides. For a cylinder, x is the radius and z is half of the length.
   alignas(32) Lanes size_x_{}, size_y_{}, size_z_{};
   alignas(32) Lanes distances_{};
 };

@@ -21,7 +21,7 @@ using geometry::Pose;
 using geometry::Vector3;
 using testing::Random;
 
-// Rays of which some are parallel to axes, or begin on a surface or inside.
+// Random rays. Some of them are parallel to axes, or begin on a surface or inside a shape.
 Ray AnyRay(int i, Random& random) {
   Vector3 direction = Normalized(random.Point(1));
   if (i % 5 == 0) direction = {i % 2 == 0 ? 1.0 : -1.0, 0, 0};
@@ -33,7 +33,7 @@ Ray AnyRay(int i, Random& random) {
 
 Pose AnyPose(int i, Random& random) { return i % 3 == 0 ? Pose{} : random.AnyPose(1); }
 
-// Expects that the distances are bit-identical to those of rays alone.
+// Expects that the distances are bit-identical to the distances of rays that are cast one by one.
 template <class Shape, bool kHaveParts>
 void ExpectDistancesOfSingleRays(const std::function<Shape()>& any_shape, Random& random) {
   if (!RayPairs::AreFast()) GTEST_SKIP() << "this processor has no AVX2";

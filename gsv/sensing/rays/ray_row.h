@@ -1,7 +1,7 @@
-// The rays of a fan as a structure of arrays, and the distance to the nearest surface of each.
+// The rays of a fan as a structure of arrays, and for each ray the distance to the nearest surface.
 //
-// Exactness  distances are bit-identical to those of single rays. On processors with AVX2, those to
-//            boxes and cylinders are computed for four rays at once.
+// Exactness  distances are bit-identical to the distances of single rays. On processors with AVX2,
+//            distances to boxes and cylinders are computed for four rays at once.
 // Threads    none; each thread has its own rows.
 #pragma once
 
@@ -20,8 +20,9 @@ namespace gsv::sensing {
 // The origin of a row's rays in a shape's frame, and the rotation of directions into this frame.
 struct ShapeFrame {
   geometry::Vector3 origin;  // origin of the rays in the shape's frame
-  // Rotations of directions from the world to the shape's frame, one (static shapes) or two (parts
-  // and their shapes), in the order in which they are applied.
+  // Rotations of directions from the world to the shape's frame, in the order in which they are
+  // applied. Static shapes have one rotation. Shapes of parts have two: of the part and of the
+  // shape.
   std::span<const geometry::Quaternion> rotations;
 };
 
@@ -42,8 +43,8 @@ class RayRow {
   // Ray i in the world, up to the nearest surface found so far.
   world::Ray At(std::size_t i) const;
 
-  // Casts the rays from `first` to `last` at a shape, except those whose range is shorter than
-  // `nearest`, which is at most the distance to the shape.
+  // Casts the rays from `first` to `last` at a shape. A ray is left out if its range is shorter
+  // than `nearest`. The distance to the shape must not be shorter than `nearest`.
   void CastAt(const geometry::Shape& shape, const ShapeFrame& frame, double nearest,
               std::size_t first, std::size_t last);
 
@@ -72,7 +73,8 @@ class RayRow {
   geometry::Vector3 origin_;
   double max_distance_;
   std::size_t size_;
-  std::unique_ptr<Group[]> groups_;  // the rays beyond the last one repeat it
+  // after the last ray, the last group is filled with copies of this ray
+  std::unique_ptr<Group[]> groups_;
 };
 
 }  // namespace gsv::sensing

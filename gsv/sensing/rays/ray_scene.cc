@@ -33,8 +33,8 @@ struct Pool {
 
 }  // namespace
 
-// The mutex guards only the list of scenes. They are built without it, each by the first thread
-// that needs it.
+// The mutex guards only the list of scenes. A scene is built without the mutex, by the first thread
+// that needs the scene.
 class RaySceneCache::Impl {
  public:
   std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
@@ -46,7 +46,8 @@ class RaySceneCache::Impl {
   }
 
  private:
-  // The number of recent scenes, so that readers that are a few steps late still find theirs.
+  // The number of recent scenes. So readers that are a few steps late still find the scene of their
+  // step.
   static constexpr std::size_t kRecent = 4;
 
   struct Solids {
@@ -70,7 +71,8 @@ class RaySceneCache::Impl {
       solids_ = std::make_shared<Solids>();
       solids_->layout = snapshot->layout;
     }
-    // If nobody else uses the scene of the removed entry, it returns to the pool and is reused.
+    // If nobody else uses the scene of the removed entry, the scene returns to the pool and is
+    // reused.
     if (recent_.size() == kRecent) recent_.pop_front();
     auto entry = std::make_shared<Entry>();
     entry->snapshot = snapshot;

@@ -1,8 +1,8 @@
 // Casts rays against the solids of a world at one instant.
 //
 // Exactness    the broad phase (a grid or Embree) only finds candidates. The distance is then
-//              computed in double precision from the triangle or the analytic shape. It is
-//              bit-identical on every machine and for every number of threads.
+//              computed in double precision from the triangle or the analytic shape. The distance
+//              is bit-identical on every machine and for every number of threads.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -41,12 +41,12 @@ class RayScene : public world::RayCaster {
   // Returns only the distance, which is faster; infinite if Cast() finds nothing.
   virtual double Range(const Ray& ray, int ignored_body) const = 0;
 
-  // Sets ranges[i] to the range of ray i of a fan. This is even faster than Range(): for each
-  // solid, it computes which rays may hit the solid, beginning with the nearest solid.
+  // Sets ranges[i] to the range of ray i of a fan. This is even faster than Range(). It takes the
+  // nearest solid first, and computes for each solid which rays may hit it.
   virtual void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const = 0;
 
-  // Gathers the candidate set within `reach` of `place` without `ignored_body`, which makes several
-  // rays from there faster. Returns false if there are too many candidates.
+  // Gathers the candidate set within `reach` of `place` without `ignored_body`. Several rays from
+  // there are then faster. Returns false if there are too many candidates.
   virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
                       CandidateSet& candidates) const = 0;
 
@@ -55,8 +55,8 @@ class RayScene : public world::RayCaster {
   virtual void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
                       std::span<double> ranges) const = 0;
 
-  // Like Range() above, for a ray within the candidate set (CandidateSet::Covers()). The body that
-  // Gather() ignored is ignored.
+  // Like Range() above, for a ray within the candidate set (CandidateSet::Covers()). `ignored_body`
+  // must be the body that Gather() ignored.
   virtual double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const = 0;
 };
 

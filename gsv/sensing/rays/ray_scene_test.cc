@@ -209,7 +209,7 @@ TEST(RayScene, APacketOfRaysEqualsSingleRays) {
 }
 
 TEST(RayScene, NoRayPassesBetweenTheTrianglesOfAMesh) {
-  // A wavy sheet of 2 × 100 × 100 triangles, hit exactly at its vertices and edges.
+  // A wavy sheet of 2 × 100 × 100 triangles. The rays hit it exactly at its vertices and edges.
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   constexpr int kSide = 100;
   const auto height = [](double x, double y) { return 0.3 * std::sin(3 * x) * std::cos(2 * y); };
@@ -256,8 +256,8 @@ TEST(RayScene, NearerBodyIsHitFromTheNextSnapshotOn) {
   after->state.bodies[0].world_from_model.position.y = 3;
   const auto new_scene = cache.At(after);
   EXPECT_DOUBLE_EQ(new_scene->Cast(ray, -1)->distance, 8.5);
-  EXPECT_DOUBLE_EQ(old_scene->Cast(ray, -1)->distance, 4.5);  // the old scene is still that of its
-                                                              // own snapshot
+  // the old scene still shows its own snapshot
+  EXPECT_DOUBLE_EQ(old_scene->Cast(ray, -1)->distance, 4.5);
 }
 
 TEST(RayScene, OutlivesItsCache) {

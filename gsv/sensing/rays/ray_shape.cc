@@ -37,8 +37,8 @@ struct Chord : Span {
       : Span(from, to), enter_normal(from_normal), leave_normal(to_normal) {}
 };
 
-// The functions below are templates: they return a Span or a Chord (C), because usually only the
-// distance is needed.
+// The functions below are templates. They return a Span or a Chord (type C). Usually only the
+// distance is needed, and a Span is sufficient.
 
 template <class C>
 C Nothing() {
@@ -144,8 +144,9 @@ C Along(const Ray& ray, const geometry::Ellipsoid& ellipsoid) {
           Scaled(nearest + half * direction, shrink)};
 }
 
-// The chord inside the cone, whose apex is at +length/2. With the depth w below the apex and the
-// slope k, a point is inside if x² + y² <= k² w². Along the ray this is A t² + 2 B t + C <= 0.
+// The chord inside the cone. The apex is at +length/2. With the depth w below the apex and the
+// slope k, a point is inside if x² + y² <= k² w². For points of the ray, this is A t² + 2 B t + C
+// <= 0.
 template <class C>
 C Along(const Ray& ray, const geometry::Cone& cone) {
   const double k = cone.radius / cone.length;
@@ -162,7 +163,7 @@ C Along(const Ray& ray, const geometry::Cone& cone) {
     };
     return Intersection(slab, C{from, to, normal(from), normal(to)});
   };
-  if (std::abs(a) < 1e-14) {  // the ray is parallel to the side and crosses it once
+  if (std::abs(a) < 1e-14) {  // the ray is parallel to the side and crosses the side once
     if (b == 0) return c <= 0 ? slab : Nothing<C>();
     const double t = -c / (2 * b);
     return b > 0 ? side(-kInfinity, t) : side(t, kInfinity);

@@ -2,9 +2,9 @@
 //
 // Frames   ray and result are in the shape's frame; distances are along the unit direction.
 // Result   the distance to the first crossing of the surface, from outside or inside, within [0,
-//          ray.max_distance]; nothing if there is none. A touch counts as a crossing. The normal is
-//          that of the surface there, with unit length and against the ray. It is computed only for
-//          a ray that crosses the surface.
+//          ray.max_distance]; nothing if there is none. A ray that only touches the surface also
+//          crosses it. The normal is the surface normal at this point, with unit length, against
+//          the ray. It is computed only for a ray that crosses the surface.
 #pragma once
 
 #include <optional>

@@ -93,8 +93,8 @@ struct Implicit {
   double operator()(const geometry::Mesh&) const { return 1; }
 };
 
-// Returns the distance of the first change of sign along the ray, found by steps and bisection;
-// negative if there is none.
+// Returns the distance to the first change of sign along the ray, which is found by steps and
+// bisection; negative if there is none.
 double MarchedDistance(const Shape& shape, const Ray& ray) {
   const auto side = [&](double t) {
     return std::visit(Implicit{ray.origin + t * ray.direction}, shape) > 0;

@@ -7,13 +7,13 @@ namespace {
 
 using geometry::Vector3;
 
-// Boxes are extended by kGrown, and sectors by kWidened. This is more than their rounding errors.
+// Boxes are extended by kGrown, and sectors by kWidened. Both exceed the rounding errors.
 constexpr double kGrown = 1e-6;        // m, and a fraction of the distance
 constexpr double kWidened = 1e-7;      // rad
 constexpr double kInTheMiddle = 1e-3;  // a solid that is nearer than this covers all directions, m
 
-// The functions below have no branches, so that the compiler computes several boxes at once. It does
-// so only for plain comparisons, not for std::min() and std::max().
+// The functions below have no branches, so that the compiler computes several boxes at once. The
+// compiler does this only for plain comparisons, not for std::min() and std::max().
 
 inline double Smaller(double a, double b) { return a < b ? a : b; }
 inline double Larger(double a, double b) { return a > b ? a : b; }
@@ -50,8 +50,8 @@ inline double QuickAzimuth(double x, double y) {
   return is_steep ? std::copysign(std::numbers::pi / 2, y) - angle : if_flat;
 }
 
-// A point in the fan's plane, as coordinates along `ahead` and perpendicular to it (left), both
-// multiplied by the length of `ahead` in that plane.
+// A point in the fan's plane. The coordinates are along `ahead` and perpendicular to it (to the
+// left). Both are multiplied by the length of `ahead` in that plane.
 struct Turned {
   double along, across;
 
@@ -59,7 +59,8 @@ struct Turned {
       : along(ahead_x * x + ahead_y * y), across(ahead_x * y - ahead_y * x) {}
 };
 
-// The smallest and largest tangent of some directions, relative to the nearest point.
+// The smallest and largest tangent of some directions, measured from the direction of the nearest
+// point.
 struct Tangents {
   double least = 0, most = 0;
 

@@ -1,7 +1,7 @@
 // Sectors: the rays of a fan that may hit a solid.
 //
-// Exactness  the sector of a solid contains every ray that touches it; callers compute the
-//            intersections.
+// Exactness  the sector of a solid contains every ray that hits the solid. It may contain other
+//            rays, so callers compute the intersections.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 
 namespace gsv::sensing {
 
-// The part of a fan that a solid may occlude: azimuths between `from` and `to`, or all.
+// The part of a fan in which a solid may be: azimuths between `from` and `to`, or all azimuths.
 struct Sector {
   double nearest = 0;  // distance from the fan's origin to the solid's box, m
   double from = 0, to = 0;
   bool is_all = false;
 };
 
-// Boxes in their own frames as a structure of arrays, and the poses of the world in these frames.
+// Boxes in their own frames, and the poses of the world in these frames, as a structure of arrays.
 struct BoxBatch {
   static constexpr std::size_t kMax = 64;
   using Lanes = std::array<double, kMax>;
@@ -44,7 +44,8 @@ struct BoxBatch {
     ++count;
   }
 
-  // Repeats the last box up to a multiple of four boxes, without counting it. Returns that multiple.
+  // Repeats the last box until the number of boxes is a multiple of four, and returns this number.
+  // The repeated boxes do not count.
   std::size_t Pad() {
     const std::size_t end = (count + 3) / 4 * 4;
     for (std::size_t i = count; i < end; ++i) {
@@ -71,8 +72,8 @@ struct SectorBatch {
   }
 };
 
-// Computes the sectors of boxes, which it pads. On processors with AVX2, it takes four boxes at a
-// time.
+// Computes the sectors of boxes, and pads the batch. On processors with AVX2, four boxes are
+// computed at a time.
 void FindSectors(const Fan& fan, BoxBatch& boxes, SectorBatch& sectors);
 
 // The smallest whole number that is at least x. Unlike std::ceil(), it needs no call.
@@ -82,8 +83,8 @@ inline double Ceiling(double x) {
   return whole < x ? whole + 1 : whole;
 }
 
-// Calls visit(first, last) for each run of rays in a sector. Together, the runs contain each of
-// these rays once.
+// Calls visit(first, last) for each run of rays in a sector. Each ray of the sector is in exactly
+// one run.
 template <class Visit>
 void ForRunsIn(const Sector& sector, const Fan& fan, const Visit& visit) {
   const auto count = static_cast<std::ptrdiff_t>(fan.directions.size());

@@ -20,7 +20,7 @@ using geometry::Pose;
 using geometry::Shape;
 using geometry::Vector3;
 
-// Up to this number of triangles, each is tested.
+// If there are at most this many triangles, each of them is tested.
 constexpr std::size_t kHandful = 6;
 
 // Tolerance for the rounding errors of boxes and heights: a length times kPadding, plus kPadding
@@ -86,7 +86,7 @@ struct Reach {
   double operator()(const geometry::Mesh&) const { return kInfinity; }
 };
 
-// Tests whether a ray passes through a box. Rays that pass it within rounding errors count as well.
+// Tests whether a ray hits a box. A ray also counts if it misses the box only by rounding errors.
 class BoxTest {
  public:
   explicit BoxTest(const Ray& ray)
@@ -179,7 +179,8 @@ void SolidSet::Commit() {
   triangle_tree_->Build(boxes, /*often=*/false);
 }
 
-// Casting a ray at one shape takes most of the time of a crowd's sonars, so all calls are inlined.
+// Casting a ray at one shape takes most of the time of a crowd's sonars, so all calls in this
+// function are inlined.
 [[gnu::flatten]] void SolidSet::CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray,
                                        int ignored_body, Nearest& nearest, const Bearer& bearer) {
   const int body = bearer.body >= 0 ? bearer.body : shape.body;
@@ -190,9 +191,9 @@ void SolidSet::Commit() {
   nearest.Offer(*distance, body, bearer.first_primitive + shape.primitive, bearer.part, solid);
 }
 
-// Compares the height of the fan's origin over each plane with the maximum height that a ray can
-// lose. Per metre, this is at most the normal's component in the fan's plane plus that of the
-// elevation.
+// Compares the height of the fan's origin over each plane with the largest height that a ray can
+// lose along its length. Per metre, a ray loses at most the normal's component in the fan's plane
+// plus the component that the elevation adds.
 bool SolidSet::OthersReach(const Fan& fan) const {
   if (!triangles_.empty()) return true;
   for (const SolidPlane& plane : planes_) {

@@ -1,8 +1,8 @@
 // A set of shapes with fixed relative poses, for ray casting.
 //
-// Exactness    BoxIndex only finds candidates, with padded boxes. The nearest one and its distance
-//              are computed here in double precision, with ties by order of insertion. So results
-//              depend neither on the index nor on the instruction set.
+// Exactness    BoxIndex finds only candidates, with padded boxes. The nearest hit and its distance
+//              are computed here in double precision. At equal distances, the solid that was added
+//              first counts. So results depend neither on the index nor on the instruction set.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace gsv::sensing {
 
 // The body that a set belongs to, if the set is one part of a moving body.
 struct Bearer {
-  int body = -1;  // body of all shapes; -1: each shape has its own body, given to Add()
+  int body = -1;  // body of all shapes; -1: each shape has its own body, which Add() sets
   int part = -1;  // index of the part in the scene
   std::uint32_t first_primitive = 0;
 };
@@ -34,8 +34,8 @@ struct Nearest {
   int part = -1;            // Bearer::part of the hit set
   std::uint32_t solid = 0;  // number of the solid in its set, for SolidSet::NormalAt()
 
-  // Stores the hit if it is nearer. At equal distance, the hit with the lower body index and then
-  // the lower primitive index is kept.
+  // Stores the hit if it is nearer than the stored hit. At equal distances, the hit with the lower
+  // body index is kept, and then the hit with the lower primitive index.
   void Offer(double at, int whose, std::uint32_t which, int of_part, std::uint32_t in_set) {
     if (at > distance) return;
     if (at == distance && body >= 0 && (whose > body || (whose == body && which >= primitive))) {
@@ -64,10 +64,11 @@ class SolidSet {
   // The bounding sphere.
   BoundingSphere ball() const;
 
-  // Finds a hit on the ray that is nearer than `nearest`, but not of `ignored_body`.
+  // Finds a hit on the ray that is nearer than `nearest`. Ignores the shapes of `ignored_body`.
   void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
 
-  // Casts the ray at a part of the set: all shapes, one shape, or all planes and triangles.
+  // These three functions cast the ray at a part of the set: at all shapes, at one shape, or at all
+  // planes and triangles.
   void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
   // Casts the ray at one shape.
@@ -82,11 +83,12 @@ class SolidSet {
     if (!planes_.empty() || !triangles_.empty()) return 0;
     return static_cast<std::uint32_t>(shapes_.size());
   }
-  // Whether CastAtOthers() may hit something with a ray of the fan, given in the set's frame.
+  // Whether CastAtOthers() may find a hit for a ray of the fan. The fan is in the set's frame.
   bool OthersReach(const Fan& fan) const;
   // Returns a box around a shape, in the set's frame, a little larger than necessary.
   const geometry::Bounds& PaddedBoundsOf(std::uint32_t shape) const { return shape_bounds_[shape]; }
-  // Whether a shape may extend into a box. For long shapes, this is stricter than the sphere.
+  // Whether a shape may extend into a box. For long shapes, this test is stricter than the bounding
+  // sphere.
   bool ShapeReaches(std::uint32_t shape, const geometry::Bounds& into) const {
     const geometry::Bounds& b = shape_bounds_[shape];
     return b.min.x <= into.max.x && into.min.x <= b.max.x && b.min.y <= into.max.y &&
@@ -116,13 +118,15 @@ class SolidSet {
   // Whether the set contains planes or triangles, which CastAtOthers() tests.
   bool HasOthers() const { return !planes_.empty() || !triangles_.empty(); }
 
-  // Adds to `candidates` the shapes within its reach, each with its number combined with `mark` by a
-  // bitwise OR. Returns false, and adds nothing, if this set has no fast search.
+  // Adds to `candidates` the shapes within the reach of `candidates`. The number of each shape is
+  // combined with `mark` by a bitwise OR. Returns false, and adds nothing, if this set has no fast
+  // search.
   bool Gather(CandidateSet& candidates, std::uint32_t mark) const;
 
-  // Returns the normal, against the ray, at the point where the ray hits the solid of Nearest.
+  // Returns the surface normal, against the ray, at the point where the ray hits the solid with
+  // this number (Nearest::solid).
   geometry::Vector3 NormalAt(std::uint32_t solid, const Ray& ray) const;
-  // Returns the reflectance of the solid of Nearest.
+  // Returns the reflectance of the solid with this number (Nearest::solid).
   float ReflectanceOf(std::uint32_t solid) const;
 
  private:
@@ -146,7 +150,7 @@ class SolidSet {
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
   // Extends bounds_ so that it contains these bounds.
   void Include(const geometry::Bounds& bounds);
-  // Numbers of solids: shapes, then planes, then triangles.
+  // Solids are numbered in this order: shapes, planes, triangles.
   static void CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray, int ignored_body,
                      Nearest& nearest, const Bearer& bearer);
   void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;

@@ -21,18 +21,19 @@ using geometry::Vector3;
 constexpr double kCellsPerSphere = 1;
 constexpr double kMaxCoordinate = 1e5;  // m
 
-// Spheres with more than this many cells in their radius are listed separately.
+// Spheres with a radius of more than this number of cells are listed separately.
 constexpr double kLargeCells = 2;
 constexpr std::size_t kMaxLarge = 32;
 
-// With more spheres than this near the rays, single rays are faster.
+// If there are more spheres than this near the rays, single rays are faster.
 constexpr std::size_t kMaxTested = 512, kMaxRows = 128;
 
 // Spheres are read in vectors of this length.
 constexpr std::size_t kRead = 8;
 
-// Single precision has a relative error of 6e-8. Spheres are enlarged by these fractions of the
-// reach and of the coordinates, which are rounded once.
+// Single precision has a relative error of 6e-8. Spheres are enlarged by kRounding times the reach.
+// They are also enlarged by kCoordinateRounding times the coordinates, because these are rounded
+// once.
 constexpr double kRounding = 2e-5, kCoordinateRounding = 1e-6;
 
 double SumOfSizes(const Vector3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
@@ -43,9 +44,9 @@ bool Suits(const BoundingSphere& sphere) {
          fits(sphere.radius);
 }
 
-// Spheres are enlarged by this fraction of the squared distances in their test. It exceeds the
-// rounding error of the squared gap between centre and ray, which takes a dozen operations in
-// single precision.
+// In their test, spheres are enlarged by this fraction of the squared distances. The fraction
+// exceeds the rounding error of the squared distance between centre and ray, whose computation
+// takes a dozen operations in single precision.
 constexpr float kSquareRounding = 1e-6f;
 
 // Spheres that are side by side, in a row of cells.
@@ -53,15 +54,15 @@ struct Run {
   std::uint32_t first, end;
 };
 
-// The spheres of a grid, and the runs of those that may be in reach. The arrays may be read beyond
-// the last sphere, in whole vectors of eight.
+// The spheres of a grid, and the runs of spheres that may be in reach. Whole vectors of eight are
+// read, so the arrays may be read beyond the last sphere.
 struct TestedSpheres {
   const float *x, *y, *z, *radius;
   const std::uint32_t* numbers;
   std::span<const Run> runs;
 };
 
-// For each mask of eight lanes, the indices of its lanes in ascending order.
+// For each mask of eight lanes, the indices of the lanes in the mask, in ascending order.
 constexpr auto kLanesOfMask = [] {
   std::array<std::array<std::uint8_t, kRead>, 1u << kRead> lanes{};
   for (unsigned mask = 0; mask < lanes.size(); ++mask) {
@@ -73,7 +74,8 @@ constexpr auto kLanesOfMask = [] {
   return lanes;
 }();
 
-// The spheres within reach of the place, in their order; positions are relative to the place.
+// The spheres within reach of the place, in the order of the grid. Positions are relative to the
+// place.
 class SpheresInReach {
  public:
   // Sets the spheres. No branch depends on which spheres are in reach, because the processor could
@@ -116,7 +118,8 @@ class SpheresInReach {
   using Floats = std::array<float, kMaxTested + kRead>;
   std::size_t count = 0;
   Floats x, y, z;
-  Floats margin;  // radius² - |c|², for the centre c, so that a gap is compared with few operations
+  // radius² - |c|² for the centre c; with it, the test of a sphere needs few operations
+  Floats margin;
   std::array<std::uint32_t, kMaxTested + kRead> number;
 };
 
@@ -148,7 +151,7 @@ __attribute__((target("avx2,fma,popcnt"))) bool TestByAvx2(const PacketRays& ray
     const __m256 gap = _mm256_fnmadd_ps(along, s + s - along, apart);
     const __m256 touches = _mm256_cmp_ps(gap, _mm256_set1_ps(near.margin[i]), _CMP_LE_OQ);
     const auto mask = static_cast<unsigned>(_mm256_movemask_ps(touches)) & rays.used;
-    // Each sphere is written, and the next sphere overwrites it if no ray touches it. So this is
+    // Each sphere is written. If no ray hits it, the next sphere overwrites it. So this code is
     // branch-free as well.
     found.touched[touched] = {near.number[i], mask};
     touched += mask != 0;
@@ -227,7 +230,8 @@ bool SphereGrid::Divide(std::span<const BoundingSphere> spheres) {
   if (!all_suit) return false;
   const double wide = high_x - low_x_, tall = high_y - low_y_;
   const double max_cells = kCellsPerSphere * static_cast<double>(spheres.size());
-  // The side of a cell, such that there are not many more cells than allowed, even in a thin row.
+  // The side of a cell. Even for a thin row of spheres, the number of cells is not much more than
+  // allowed.
   const double side =
       std::max({std::sqrt(wide * tall / max_cells), wide / max_cells, tall / max_cells, 1e-3});
   cells_per_metre_ = 1 / side;
@@ -253,7 +257,7 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
   for (std::uint32_t i = 0; i < spheres.size(); ++i) {
     const BoundingSphere& sphere = spheres[i];
     cell_of_[i] = kNoCell;
-    // If there are only a few spheres, none is listed separately: they share one cell.
+    // If there are only a few spheres, no sphere is listed separately: they share one cell.
     if (sphere.radius > too_large && spheres.size() > kMaxLarge) {
       large_.push_back({boxes[i], i});
       continue;
@@ -265,7 +269,7 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
   is_suitable_ = large_.size() <= kMaxLarge;
   if (!is_suitable_) return;
 
-  // Each count becomes the end of its cell. Inserting the spheres turns it into the start.
+  // Each count becomes the end of its cell. When all spheres are inserted, it has become the start.
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) start = end += start;
   for (std::vector<float>* each : {&x_, &y_, &z_, &radius_}) each->resize(end + kRead);

@@ -1,9 +1,9 @@
 // A uniform grid of bounding spheres over the ground, for packets of rays. It finds the spheres
-// that the rays of a packet may touch. Spheres of one cell, and of the cells beside it, are side by
-// side in memory.
+// that the rays of a packet may hit. Spheres of one cell, and of the cells beside it, are adjacent
+// in memory.
 //
-// Exactness  spheres are tested in single precision. They are enlarged by more than its error, so
-//            that no sphere on a ray is omitted.
+// Exactness  spheres are tested in single precision. They are enlarged by more than the error of
+//            single precision, so that no sphere on a ray is omitted.
 // Threads    const members may run concurrently.
 // Units      metres, world frame (or the frame of a set).
 #pragma once
@@ -34,7 +34,7 @@ struct TouchedSpheres {
   std::span<const Touched> all() const { return std::span(touched).first(count); }
 };
 
-// Rays of a packet in single precision, as a structure of arrays; positions are relative to a point
+// Rays of a packet in single precision, as a structure of arrays. Positions are relative to a point
 // near the rays (place_x, place_y, place_z).
 struct PacketRays {
   using Floats = std::array<float, RayPacket::kMax>;
@@ -95,8 +95,9 @@ class SphereGrid {
   bool is_suitable_ = true;
   double low_x_ = 0, low_y_ = 0, cells_per_metre_ = 0;
   int columns_ = 0, rows_ = 0;
-  double max_radius_ = 0;  // the radius of the largest sphere in a cell
-  // The first sphere of each cell, row by row, and the number of spheres.
+  double max_radius_ = 0;  // the radius of the largest sphere that is in a cell
+  // The index of the first sphere of each cell, row by row. The last element is the number of
+  // spheres.
   std::vector<std::uint32_t> starts_;
   std::vector<std::uint32_t> cell_of_;  // working memory of Build()
   std::uint32_t count_ = 0;             // the number of spheres in cells

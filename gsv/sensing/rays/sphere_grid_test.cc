@@ -41,8 +41,8 @@ RayPacket PacketFrom(const Vector3& place, std::size_t count, Random& random) {
   return packet;
 }
 
-// Expects that each sphere that a ray touches is found, and no sphere that it passes at a distance
-// of `margin`, except large ones.
+// Expects for each ray that all spheres that the ray hits are found. Other spheres may be found
+// only if the ray misses them by at most `margin`, or if they are large.
 void ExpectTouched(const Solids& solids, const RayPacket& packet, const TouchedSpheres& found,
                    double margin) {
   std::map<std::uint32_t, unsigned> rays_of;
