@@ -1,6 +1,6 @@
 // Computes the mean accelerations of bodies and joints over a step. These functions do the work of
-// KeepVelocities() and FinishAccelerations() (snapshot.h) for a range of bodies or joints. So
-// several threads can divide the bodies of a large world.
+// KeepVelocities() and FinishAccelerations() (snapshot.h), but only for a range of bodies or
+// joints. So several threads can process the bodies of a large world.
 //
 // Threads  calls for different bodies may run concurrently.
 #pragma once

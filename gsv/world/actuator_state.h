@@ -1,5 +1,5 @@
-// The state of an actuator, which applies a command (Agent::CommandDevice()). A type whose state is
-// only the command needs no class of its own.
+// The state of an actuator, which applies a command (Agent::CommandDevice()). If the state of an
+// actuator type is only the command, the type needs no class of its own.
 #pragma once
 
 #include "gsv/world/device_state.h"
@@ -20,8 +20,8 @@ class ActuatorState : public DeviceState {
   void AddToHash(base::Hash& hash) const final;
 
  protected:
-  // The values that a gripper adds to the hash of its command. Other types add the values of an
-  // empty gripper, so that recorded hashes remain valid.
+  // The values that a gripper adds to the hash of its command. Other actuator types add the values
+  // of an empty gripper, so that recorded hashes remain valid.
   struct GraspForHash {
     double opening_before = 0;
     Grasp grasp;

@@ -2,8 +2,8 @@
 // lamp or the attached body of a gripper. Each type derives a class from DeviceState. All other
 // code, such as the step loop, the recorder and the renderer, uses only this interface.
 //
-// Sharing      states are immutable. A device that does not change is copied as one pointer, and a
-//              world without devices has none.
+// Sharing      states are immutable. Snapshots share the state of a device that does not change. A
+//              world without devices has no device states.
 // Determinism  BeforeStep(), AfterMove() and CarryOver() are functions of their arguments alone.
 #pragma once
 
@@ -33,7 +33,7 @@ struct DeviceCommand {
   friend bool operator==(const DeviceCommand&, const DeviceCommand&) = default;
 };
 
-// The command that a device currently applies.
+// The current command of a device.
 struct FollowedCommand {
   DeviceCommand command;
   base::SimTime since{0};  // the instant from which it is applied
@@ -47,7 +47,7 @@ struct Glow {
   double brightness = 0;  // in (0, 1]
   model::Colour colour{};
   double radius = 0.02;   // radius of the glowing sphere, m
-  double range = 0;       // range in m; if 0, the lamp is visible, but lights nothing
+  double range = 0;       // range in m; if 0, the lamp is visible, but lights no objects
   double angle = 6.2832;  // angle of the whole cone, rad; 2 pi means all directions
   double intensity = 1;   // intensity at full brightness
 };
@@ -61,7 +61,7 @@ struct Sound {
   double loudness = 0;           // sound level in dB (re 20 µPa) 1 m away at full volume
 };
 
-// A grasped body, which moves with the device's link.
+// A grasped body. It moves with the device's link.
 struct Grasp {
   std::string held;  // name of the body
   geometry::Pose link_from_held;
@@ -71,7 +71,7 @@ struct Grasp {
 // The robot and the name of a device, and where it is mounted.
 struct DeviceMount {
   std::string robot, device;
-  int link = 0;  // a link of the robot's model
+  int link = 0;  // link of the robot's model on which the device is mounted
   geometry::Pose link_from_device;
 };
 
@@ -117,10 +117,11 @@ class DeviceState {
   const DeviceMount mount_;
 };
 
-// Returns the state of a device; null if it has none. `devices` may be null.
+// Returns the state of a device; null if the device has none. `devices` may be null.
 const DeviceState* FindDevice(const DeviceStates* devices, std::string_view robot,
                               std::string_view device);
-// Returns the index of the device, or the index where it would be inserted.
+// Returns the index of the device. If it has no state, returns the index at which its state would
+// be inserted.
 std::size_t PlaceOf(const DeviceStates& devices, std::string_view robot, std::string_view device);
 
 // Adds the states of all devices to the hash: first devices without commands, then devices with

@@ -14,8 +14,8 @@ struct DeviceStep {
   std::shared_ptr<const Snapshot> now;  // the world before the step
   base::SimTime length{0};              // length of the step
   const RayCaster& rays;                // casts rays at the collision surfaces of `now`
-  // The current state. Poses are those of `now`. Devices that are earlier in the order by robot and
-  // name have already done this step.
+  // The current state. Poses are the poses of `now`. Devices that come before this device (by robot
+  // and name) have already done this step.
   const State& state;
   // Messages that were sent in this step, ordered by sender.
   std::vector<Transmission>& transmissions;

@@ -8,8 +8,8 @@ namespace gsv::world {
 namespace {
 
 // Whether the model is fixed to the world and has movable joints. Rigid-body dynamics moves such a
-// model even if it has no collisions. A model that is not fixed to the world needs collisions,
-// because it would fall through the ground without them.
+// model even if it has no collisions. Other models need collisions, because they would fall through
+// the ground without them.
 bool IsMechanism(const model::Model& model) {
   const auto is_to_world = [](const model::Joint& joint) { return joint.parent < 0; };
   const auto is_movable = [](const model::Joint& joint) {
@@ -27,7 +27,7 @@ BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movem
   const bool collides =
       std::any_of(model.links.begin(), model.links.end(),
                   [](const model::Link& link) { return !link.collisions.empty(); });
-  // A body without any collisions cannot stand on the ground, so it is planar.
+  // A driven body without collisions cannot stand on the ground, so it is planar.
   const bool is_planar = model.drive && (movement == model::Movement::kPlanar || !collides);
   if (is_planar) return BodyKind::kPlanarBase;
   return collides || IsMechanism(model) ? BodyKind::kRigidBody : BodyKind::kUnmoved;

@@ -17,25 +17,26 @@ namespace gsv::world {
 
 // How a body moves.
 enum class BodyKind : std::uint8_t {
-  kStatic,      // never moves, such as a wall
-  kUnmoved,     // not static, but nothing moves it: no drive, collisions or joint to the world
+  kStatic,  // never moves, such as a wall
+  // not static, but nothing moves it: it has no drive, no collisions and no joint to the world
+  kUnmoved,
   kPlanarBase,  // planar kinematics, by its drive
   kAvatar,      // planar kinematics, driven by a user
   kRigidBody,   // rigid-body dynamics: it can fall, tip over and be pushed, and its joints move
-  kActor,       // moved by a script; nothing stops it, and bodies that collide with it stop
+  kActor,       // moved by a script; nothing stops it, but it stops bodies that collide with it
   kPedestrian,  // planar kinematics by the social force model
 };
 
 struct Pedestrian;  // gsv/world/pedestrian.h
 
-// Returns the kind of a body of this model, unless it is an avatar. `movement` applies to a model
-// with a drive; a body without a drive can only be moved by rigid-body dynamics.
+// Returns the kind of a body of this model; not for avatars. `movement` applies only to a model
+// with a drive, because a body without a drive can only be moved by rigid-body dynamics.
 BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement);
 // Returns the kind of a body for a model of a world file.
 BodyKind KindOf(const model::PlacedModel& placed);
 
-// A placed model. `first_joint` and `first_link` are the offsets of its joints and links in arrays
-// over all bodies.
+// A placed model. `first_joint` and `first_link` are the indices of its first joint and first link
+// in arrays over all bodies.
 struct Body {
   std::string name;
   std::shared_ptr<const model::Model> model;
@@ -59,7 +60,7 @@ struct Body {
   int first_link = 0;
 };
 
-// The list of a world's bodies. State has the values that change from step to step.
+// The list of a world's bodies. The values that change from step to step are in State.
 struct Layout {
   std::uint32_t version = 0;  // increases with each change of the layout
   std::vector<Body> bodies;   // ordered by name

@@ -25,7 +25,7 @@ TEST(KindOf, FollowsDriveMovementAndCollisions) {
       {true, true, Movement::kPlanar, BodyKind::kPlanarBase},
       {true, true, Movement::kRigid, BodyKind::kRigidBody},
       {true, false, Movement::kPlanar, BodyKind::kPlanarBase},
-      // A body without collisions cannot stand on the ground, so it is planar.
+      // A driven body without collisions cannot stand on the ground, so it is planar.
       {true, false, Movement::kRigid, BodyKind::kPlanarBase},
       {false, true, Movement::kPlanar, BodyKind::kRigidBody},
       {false, true, Movement::kRigid, BodyKind::kRigidBody},

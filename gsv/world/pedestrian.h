@@ -1,7 +1,7 @@
 // A pedestrian: its desired speed and its goals.
 //
-// Determinism  every draw is a function of the simulation's seed, the pedestrian's stream (its
-//              name) and a number. Pedestrians have different streams.
+// Determinism  every draw is a function of the simulation's seed, the pedestrian's stream (which
+//              follows from its name) and a number. Pedestrians have different streams.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,17 @@ struct Pedestrian {
   std::uint32_t leg = 0;  // index of the first leg of the group's route that this pedestrian walks
 };
 
-// Draws a pedestrian's desired speed, from a third to twice that of the group, and its first leg.
+// Draws a pedestrian's desired speed and its first leg. The speed is from a third to twice the
+// speed of the group.
 Pedestrian DrawPedestrian(std::shared_ptr<const model::PedestrianGroup> group, std::uint64_t seed,
                           std::uint64_t stream);
 
-// Returns the next goal after `reached` goals: a random point in the disc of the route's goal with
-// the index leg + 1 + reached. After the last goal, the route begins again.
+// Returns the next goal after `reached` goals. This is a random point in the disc of the route's
+// goal with the index leg + 1 + reached. After the last goal, the route begins again.
 geometry::Vector2 GoalOf(const Pedestrian& pedestrian, std::uint32_t reached);
 
-// Returns a possible start on the way to the first goal. Each `attempt` gives another place.
+// Returns a possible start on the way to the first goal. Each value of `attempt` gives another
+// start.
 geometry::Vector2 StartOf(const Pedestrian& pedestrian, std::uint32_t attempt);
 
 }  // namespace gsv::world

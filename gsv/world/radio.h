@@ -20,7 +20,7 @@ struct RadioSetup {
   double frequency = 2.442e9;       // Hz
   double power = 14.5, gain = 2.5;  // dBm, dBi
   double sensitivity = -90;         // the weakest signal that the radio receives, dBm
-  double range = 0;                 // m; 0 means as far as power and sensitivity reach
+  double range = 0;                 // m; 0 means no limit other than power and sensitivity
   double path_loss_exponent = 2;    // 2 in free space
   double wall_loss = 10;            // dB for each wall that a signal passes through
   std::size_t inbox = 16;           // maximum number of received messages that are kept
@@ -45,7 +45,7 @@ RadioMessagePtr WithDigest(RadioMessage message);
 struct Antenna {
   RadioSetupPtr setup;
   geometry::Vector3 position;  // world
-  // Index of the body that carries the radio; -1 if it is not in the world.
+  // Index of the body that carries the radio; -1 if this body is not in the world.
   int body = -1;
 };
 

@@ -25,9 +25,9 @@ class RayCaster {
  public:
   virtual ~RayCaster() = default;
 
-  // Returns the nearest point at which the ray crosses a collision surface, from either side.
+  // Returns the nearest point at which the ray crosses a collision surface, from outside or inside.
   // Surfaces of the body `ignored_body` are ignored (-1: none). A ray that starts inside a solid
-  // hits its far side.
+  // hits the far side of the solid.
   virtual std::optional<Hit> Cast(const Ray& ray, int ignored_body) const = 0;
 };
 

@@ -50,8 +50,8 @@ template <class Parent>
 Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions, int link,
                       const Parent& parent_joint) {
   Pose displacement;
-  // The loop goes from the link up to the root. A forest has at most links.size() levels, so it
-  // ends.
+  // The loop starts at the link and ends at the root. It ends, because a forest has at most
+  // links.size() levels.
   std::size_t level = 0;
   for (int j = parent_joint(link); j >= 0; j = link >= 0 ? parent_joint(link) : -1) {
     GSV_CHECK(level++ < model.links.size());

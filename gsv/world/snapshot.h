@@ -21,19 +21,19 @@ struct ContactPoint {
   geometry::Vector3 impulse;
 };
 
-// A contact of two bodies. The normal points from the first to the second. If a robot touches a
-// static body or the ground, the robot is the first. Point, normal and depth are those of the
-// deepest point.
+// A contact of two bodies. The normal points from the first body to the second. If a robot touches
+// a static body or the ground, the robot is the first body. Point, normal and depth are the values
+// of the deepest point.
 struct Contact {
   int first = 0;
   int second = 0;
   geometry::Vector3 point;   // world
   geometry::Vector3 normal;  // normal in the world, unit length
   double depth = 0;          // m
-  bool began = false;        // whether the bodies did not touch one step earlier
-  double closing_speed = 0;  // m/s along the normal when the bodies met; 0 unless `began`
+  bool began = false;        // true if the bodies did not touch one step earlier
+  double closing_speed = 0;  // m/s along the normal at the start of the contact; 0 unless `began`
   // Impulse along the normal over the step, N s, summed over all contact points; NaN if the engine
-  // does not compute it. Planar kinematics computes it only for a push.
+  // does not compute it. Planar kinematics computes the impulse only when a robot pushes a body.
   double impulse = std::numeric_limits<double>::quiet_NaN();
   // Whether the second body, static or planar, supports the first body from below, like the ground.
   // Such a contact is not a collision: only contact sensors report it.
@@ -69,8 +69,8 @@ struct Snapshot {
   std::vector<Transmission> transmissions;
 };
 
-// Returns the mean force over the last step, computed from an impulse (N s); zero before the first
-// step.
+// Returns the mean force over the last step that corresponds to an impulse (N s); zero before the
+// first step.
 geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse);
 
 // Call KeepVelocities() before a step; it stores the velocities. Call the other functions after the
@@ -84,8 +84,8 @@ void FinishAccelerations(const State& state, double step_seconds,
                          std::vector<double>& joint_accelerations);
 
 // Returns model_from_link of a model's links at the given joint positions (one for each joint). A
-// revolute joint rotates its child about its axis, a prismatic joint moves it along the axis, and a
-// screw does both.
+// revolute joint rotates its child about the joint's axis, a prismatic joint moves the child along
+// the axis, and a screw joint does both.
 std::vector<geometry::Pose> LinkPoses(const model::Model& model,
                                       std::span<const double> joint_positions);
 
@@ -98,8 +98,8 @@ geometry::Pose LinkPose(const Snapshot& snapshot, int body, int link);
 // Returns model_from_link for one link of one body, like LinkPoses().
 geometry::Pose ModelFromLink(const Snapshot& snapshot, int body, int link);
 
-// Returns the indices of the links that move relative to the model's frame: those below a joint
-// that is not fixed.
+// Returns the indices of the links that move relative to the model's frame. These are the links
+// below a joint that is not fixed.
 std::vector<int> MovingLinks(const model::Model& model);
 
 }  // namespace gsv::world

@@ -12,8 +12,8 @@ using geometry::Vector3;
 
 using geometry::kPi;
 
-// A mast that rotates about z at (1, 0, 0). On it, a prismatic joint along the mast's x axis
-// carries a hand at (2, 0, 0).
+// A mast that rotates about z at (1, 0, 0). It carries a prismatic joint along the mast's x axis.
+// This joint carries a hand at (2, 0, 0).
 model::Model Arm() {
   model::Model arm;
   arm.links.resize(3);
@@ -82,8 +82,8 @@ TEST(Contacts, ClosingSpeedIsThatOfTheContactPoint) {
   std::vector<double> joints;
   KeepVelocities(state, kept, joints);
   state.bodies[0].linear_velocity = {};  // the contact has stopped the body
-  // The bodies touch 0.4 m to the right of the first body's centre, where its rotation adds 1.2
-  // m/s.
+  // The contact is 0.4 m to the right of the first body's centre. There, the rotation of this body
+  // adds 1.2 m/s.
   std::vector<Contact> contacts(3, {0, 1, {2, -0.4, 0}, {1, 0, 0}, 0.01, true});
   contacts[1].began = false;
   contacts[2].normal = {-1, 0, 0};

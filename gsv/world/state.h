@@ -1,6 +1,6 @@
 // The state on which the next step depends: simple values, and immutable states of devices.
 //
-// Frames  poses are world_from_model; velocities are those of the model's origin, in world axes.
+// Frames  poses are world_from_model; velocities are of the model's origin, in world axes.
 // Units   metres, radians, seconds.
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace gsv::world {
 
-// A command to a base, in its own frame. It is applied from the step at which it is given until the
-// following command, but at most for Drive::command_timeout.
+// A command to a base, in the base's frame. It is applied from the step at which it is given until
+// the next command, but at most for Drive::command_timeout.
 struct DriveCommand {
   double linear = 0;   // m/s, forward
   double lateral = 0;  // velocity to the left, m/s; ignored by drives that cannot move sideways
@@ -37,10 +37,11 @@ struct DriveState {
   DriveCommand actual;            // the current velocity, within acceleration limits
 };
 
-// The pose of a base relative to its start, computed from its wheels (dead reckoning); see
-// wheel_odometry.h.
+// The pose of a base relative to its initial pose, computed from the rotation of its wheels (dead
+// reckoning); see wheel_odometry.h.
 struct Odometry {
-  geometry::PlanarPosition place;  // position of the reference point, in the frame at the start
+  // position of the reference point, in the frame of the initial pose
+  geometry::PlanarPosition place;
   double linear = 0, angular = 0;  // linear and angular velocity over the last step, m/s, rad/s
 };
 
@@ -51,8 +52,9 @@ struct BodyState {
   geometry::Vector3 angular_velocity;
   DriveState drive;
   Odometry odometry;
-  double distance = 0;           // distance that the model's origin has travelled, m
-  std::uint64_t collisions = 0;  // number of contacts that began, not of steps in contact
+  double distance = 0;  // distance that the model's origin has travelled, m
+  // number of contacts that began (a contact counts once, even if it lasts many steps)
+  std::uint64_t collisions = 0;
   // Whether the robot touched a body other than the ground in the last step.
   bool in_contact = false;
 };
@@ -70,8 +72,8 @@ struct JointCommand {
   friend bool operator==(const JointCommand&, const JointCommand&) = default;
 };
 
-// Data that an engine of rigid-body dynamics needs from the last step, such as the impulses with
-// which its solver starts. Immutable, so that states can share it.
+// Data that an engine of rigid-body dynamics needs from the last step. For example, its solver
+// starts with the impulses of the last step. Immutable, so that states can share the data.
 class EngineState {
  public:
   virtual ~EngineState() = default;
@@ -90,12 +92,12 @@ struct State {
   // The command of each joint, in the order of joint_positions; empty before the first command.
   std::vector<JointCommand> joint_commands;
   // N m or N: the integral terms of the joints' controllers (model::JointGains), in the order of
-  // joint_positions; empty if no joint has one
+  // joint_positions; empty if no joint has an integral term
   std::vector<double> joint_integrals;
   // Number of goals that each pedestrian has reached, in the order of `bodies`; may be empty.
   std::vector<std::uint32_t> goals;
   std::shared_ptr<const DeviceStates> devices;  // null while no device has a state
-  std::shared_ptr<const EngineState> engine;    // null if the engine needs none
+  std::shared_ptr<const EngineState> engine;    // null if the engine needs no data of the last step
 };
 
 // Returns the state at the start: initial poses, at rest, with the joint targets of the models.
@@ -104,8 +106,8 @@ State InitialState(const Layout& layout);
 // Whether the joint belongs to a drive: a wheel or a steering joint.
 bool IsOfDrive(const model::Model& model, int joint);
 
-// Fails for commands that are not finite, for efforts on bodies without rigid-body dynamics, and
-// for commands to joints that do not exist, accept none, or belong to the drive.
+// Fails for commands that are not finite, and for efforts on bodies without rigid-body dynamics.
+// Also fails if the joint does not exist, accepts no commands, or belongs to the drive.
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
 // Sets the command of a joint.

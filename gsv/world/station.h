@@ -1,13 +1,13 @@
 // Stations: objects with sensors, such as a camera on a wall or a lidar on a post. A station has an
-// agent like a robot, for its sensors (ADR 042).
+// agent for its sensors, like a robot (ADR 042).
 #pragma once
 
 #include "gsv/world/layout.h"
 
 namespace gsv::world {
 
-// Whether the body is a station. A station has an agent, which reads its sensors, but no drive (ADR
-// 042).
+// Whether the body is a station. A station has no drive. It has an agent, which reads its sensors
+// (ADR 042).
 inline bool IsStation(const Body& body) { return !body.is_robot() && !body.model->sensors.empty(); }
 
 // Whether the body has sensors that are read, recorded and shown: it is a robot, avatar or station.

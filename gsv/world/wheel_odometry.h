@@ -1,15 +1,16 @@
-// Computes the odometry of driven bases from the rotation of their wheels, which a robot's encoders
-// would measure.
+// Computes the odometry of driven bases from the rotation of their wheels, like a robot that
+// measures the rotation with encoders.
 //
 // Differential  drives with two rows of wheels: the wheels of one side roll by their mean angle
-//               times Drive::wheel_radius; the base follows the arc that both sides make with
+//               times Drive::wheel_radius. The base follows the arc of both sides, with
 //               Drive::wheel_separation between them (Siegwart, Nourbakhsh, Scaramuzza,
-//               "Introduction to Autonomous Mobile Robots", chapter 5.2.4). Like real encoders, it
-//               does not measure slip, wheels whose size differs from the drive's parameters, or
+//               "Introduction to Autonomous Mobile Robots", chapter 5.2.4). As with real encoders,
+//               three effects are not measured: slip, wheels whose size differs from the drive's
+//               parameters, and pushes by other bodies.
 //               pushes from outside.
 // Others        all other drives: the integral of DriveState::actual. For a planar base, this is
-//               the actual motion, including stops at obstacles. For a rigid body it is the
-//               commanded motion of the wheels, so it does not measure slip or pushes either.
+//               the actual motion, including stops at obstacles. For a rigid body, this is the
+//               commanded motion of the wheels, so slip and pushes are not measured either.
 // Threads       one at a time, except that Advance() may run concurrently for different bodies.
 #pragma once
 
@@ -39,8 +40,8 @@ class WheelOdometry {
     int joint = 0;              // index of the joint among all bodies' joints
     double metres_per_rad = 0;  // metres that the side travels per radian of this wheel
   };
-  // A base has a row of wheels on the left, in wheels_[left_wheel..right_wheel), and one on the
-  // right, in wheels_[right_wheel..end_wheel). Both are empty if the drive does not have two rows.
+  // A base has two rows of wheels: the left row is wheels_[left_wheel..right_wheel), and the right
+  // row is wheels_[right_wheel..end_wheel). If the drive does not have two rows, both are empty.
   struct Base {
     int body = 0;
     std::uint32_t left_wheel = 0, right_wheel = 0, end_wheel = 0;

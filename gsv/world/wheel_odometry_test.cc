@@ -81,7 +81,7 @@ TEST(WheelOdometry, FollowsTheActualVelocityOfOtherDrives) {
   wheels.SetLayout(*layout);
   State state = InitialState(*layout);
   state.bodies[0].odometry.place = {0, 0, 0, 1};
-  // The base faces along y, so a motion to its left is backwards along x.
+  // The base faces along y, so a motion to its left is in the direction of -x.
   state.bodies[0].drive.actual = {0, 1, 0};
   wheels.KeepWheels(state);
   wheels.Advance(0.5, state);
