@@ -29,14 +29,14 @@ struct Quantity {
     kTurning,          // turning rate of `first` about the vertical, rad/s, absolute value
     kTravelled,        // distance that `first` has travelled, m
     kDistance,         // horizontal distance between the origins of `first` and `second`, m
-    // 1 if `first` touches `second` (if that is empty: anything except the ground), else 0
+    // 1 if `first` touches `second`, else 0. If `second` is empty: anything except the ground.
     kContact,
     kSensor,  // a value that the sensor `second` of the robot `first` measures
     kEnded,   // 1 if the behaviour of `first` has finished or died, else 0
     kTime,    // simulated time, s
-    // The time for which `first` did not move although it was commanded to, s; 0 if it moves or has
-    // no command (simulation/history/motion_history.h). If `first` is empty, the longest such time
-    // of all robots.
+    // The time for which `first` did not move although it was commanded to move, s; 0 if it moves
+    // or has no command (simulation/history/motion_history.h). If `first` is empty, the longest
+    // such time of all robots.
     kStuck,
   };
   // How one number is computed from the values of a reading.
@@ -54,14 +54,14 @@ struct Formula {
   enum class Kind { kAtom, kNot, kAll, kAny, kAlways, kEventually, kUntil };
 
   Kind kind = Kind::kAtom;
-  // For kAtom. The atom holds if the quantity is in [min, max]. If the quantity is not available,
-  // the atom does not hold.
+  // Only for kAtom. The atom is true if the quantity is in [min, max]. If the quantity is not
+  // available, the atom is false.
   Quantity quantity{};
   // For kStuck, a negative minimum stands for Specification::stuck_after.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  // The operands. kUntil has two: the first must hold until the second holds. kNot, kAlways and
-  // kEventually have one.
+  // The operands. kUntil has two operands: the first must be true until the second is true. kNot,
+  // kAlways and kEventually have one.
   std::vector<Formula> parts{};
   double from = 0;             // start of the window, s after the instant of evaluation
   std::optional<double> by{};  // end of the window; nullopt for the end of the run
@@ -71,7 +71,7 @@ struct Formula {
 // A formula that a run must satisfy.
 struct Expectation {
   std::string name;  // the name in reports
-  std::string yaml;  // its YAML in the scenario, complete and on one line
+  std::string yaml;  // the YAML of the expectation, complete and on one line
   Formula formula;
   SourcePlace source{};
 

@@ -72,7 +72,7 @@ class FormulaReader {
     return formula;
   }
 
-  // Whether there are too many formulas. This is reported once, and reading stops.
+  // Whether there are too many formulas. The problem is reported once, and reading stops.
   bool is_too_large() const { return count_ > kMaxFormulas; }
 
  private:
@@ -147,8 +147,8 @@ class FormulaReader {
   Formula Until(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kUntil, Several(node, m, key, depth, 2));
   }
-  // Reads `before: [first, second]`: at some instant, `first` must hold, and `second` must not hold
-  // at this instant or earlier.
+  // Reads `before: [first, second]`. At some instant, `first` must be true, and `second` must not
+  // have been true at or before this instant.
   Formula Before(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     auto parts = Several(node, m, key, depth, 2);
     Formula none_of_second = Not(parts[1]);
@@ -264,7 +264,7 @@ class FormulaReader {
     return Joined(FormulaKind::kAlways, {std::move(atom)});
   }
 
-  // Reads one name, or a list of two names.
+  // Reads the name of one body, or a list of two names.
   Formula Contact(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     Formula atom = Atom(QuantityKind::kContact, "", 1, 1);
     const bool is_pair =

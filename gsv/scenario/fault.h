@@ -9,15 +9,15 @@
 
 namespace gsv::scenario {
 
-// The place of a key in its file, such as "room.yaml:7:5", for messages about errors.
-// operator== always returns true, so that two faults at different places of a file can be equal.
+// The place of a key in its file, such as "room.yaml:7:5", for messages about errors. operator==
+// always returns true, so that faults at different places of a file can be equal.
 struct SourcePlace {
   std::string text;
   friend bool operator==(const SourcePlace&, const SourcePlace&) { return true; }
 };
 
-// A pose in the world, in metres and radians: the start pose of a robot, or the pose that a body is
-// moved to. The numbers are kept unchanged, so that a repeated run starts bit-identical.
+// A pose in the world, in metres and radians: the start pose of a robot, or the pose to which a
+// body is moved. The numbers are kept unchanged, so that a repeated run starts bit-identical.
 struct Place {
   double x = 0;
   double y = 0;

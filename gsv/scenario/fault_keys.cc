@@ -4,7 +4,7 @@
 namespace gsv::scenario {
 namespace {
 
-// The kind of thing that a fault affects. The key of the fault determines it.
+// The kind of object that a fault affects. The key of the fault determines the kind.
 enum class Subject { kSensor, kBehaviour, kMotor, kMove, kJoint };
 constexpr std::pair<const char*, Subject> kSubjects[]{{"sensor", Subject::kSensor},
                                                       {"behaviour", Subject::kBehaviour},

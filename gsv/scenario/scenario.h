@@ -23,7 +23,7 @@ struct RobotEntry {
   std::string model;
   std::string name;            // if empty, the robot gets the name of its model
   std::optional<Place> start;  // if not set, the robot starts at the first free place
-  std::string behaviour;       // name and options of the behaviour; empty if it has none
+  std::string behaviour;       // name and options of the behaviour; empty if the robot has none
   // instead of `behaviour`: a constraint on the behaviour's offer
   std::string behaviour_constraint;
   std::optional<model::Movement> movement;  // if not set, the movement of the model is used
@@ -34,7 +34,7 @@ struct RobotEntry {
   friend bool operator==(const RobotEntry&, const RobotEntry&) = default;
 };
 
-// Options for publishing to ROS 2 nodes. Empty texts mean the defaults of the command line.
+// Options for publishing to ROS 2 nodes. An empty text means the default of the command line.
 struct Ros2Settings {
   std::string range, cmd_vel, distro;
   std::map<std::string, std::string> namespaces;  // namespace of each robot

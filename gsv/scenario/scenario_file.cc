@@ -35,8 +35,8 @@ class Starts final : public YAML::EventHandler {
   YAML::Mark latest;
 };
 
-// Returns the place of a second document, even if its content is invalid. YAML::LoadAll() of
-// yaml-cpp 0.7 is not used, because it never returns for some invalid texts.
+// Returns the place of a second document, even if the content of this document is invalid.
+// YAML::LoadAll() of yaml-cpp 0.7 is not used, because it never returns for some invalid texts.
 std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
@@ -69,8 +69,8 @@ std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
   return std::nullopt;
 }
 
-// Returns the first line with a character that YAML forbids, counted from 1: a control character
-// other than tabs and newlines. YAML readers interpret these characters differently.
+// Returns the first line, counted from 1, with a character that YAML forbids. These are control
+// characters other than tabs and newlines. YAML readers interpret them differently.
 std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   const auto is_control = [](unsigned char c) {
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;

@@ -15,8 +15,8 @@ namespace gsv::scenario {
 
 inline constexpr std::size_t kMaxScenarioBytes = std::size_t{4} << 20;  // bytes
 
-// Parses a scenario. Fails with kBadModel if the text is not YAML or not a scenario. All other
-// mistakes are added to `problems`, which name `file`, and the wrong values are skipped.
+// Parses a scenario. Fails with kBadModel if the text is not YAML or not a scenario. Other mistakes
+// are added to `problems` with the name `file`, and the wrong values are skipped.
 base::Result<Scenario> ParseScenario(const std::string& text, const std::string& file,
                                      base::Problems& problems);
 

@@ -245,7 +245,8 @@ TEST(ScenarioFile, FileThatIsNotAScenarioIsRefused) {
 
 TEST(ScenarioFile, ContentAfterTheScenarioIsRefused) {
   EXPECT_THAT(ProblemsIn("world: a\n, b\n"), ::testing::Not(IsEmpty()));
-  // Regression, found by the fuzzer: reading all documents of this text did not return.
+  // Regression, found by the fuzzer: yaml-cpp's function that reads all documents did not return
+  // for this text.
   EXPECT_THAT(ProblemsIn(", [b: |\n  two\n  *a\nror\nwoe: !!str 0\nm]]\n\n"),
               ::testing::Not(IsEmpty()));
 }
@@ -259,8 +260,8 @@ TEST(ScenarioFile, TextThatIsNotUtf8IsRefused) {
             "\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80");
 }
 
-// Regression, found by the fuzzer: yaml-cpp converts each of these escapes to one byte, and the
-// written scenario could not be read back.
+// Regression, found by the fuzzer: yaml-cpp converts each of these escapes to one byte. So the
+// scenario could be written, but not be read back.
 TEST(ScenarioFile, EscapesThatYamlCppReadsWronglyAreRefused) {
   for (const char* text : {R"(world: "a\_b")", R"(world: "a\Nb")"}) {
     EXPECT_THAT(ProblemsIn(text), ElementsAre(HasSubstr("are misread in quoted texts")));

@@ -6,8 +6,8 @@
 namespace gsv::scenario {
 namespace {
 
-// JSON is read as YAML. Only a few texts are allowed in JSON but not in YAML, such as a key of a
-// thousand letters.
+// JSON is read as YAML. Only a few JSON texts are not allowed in YAML, such as a key of a thousand
+// letters.
 template <typename Read>
 auto ReadJson(const std::string& json, base::Problems& problems, const Read& read) {
   const YamlPlace place(YamlPlace::Naming::kFields, "", problems);

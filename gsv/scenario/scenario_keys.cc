@@ -83,7 +83,7 @@ std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
-    // Adds the error as a problem only if reading this value has not added a problem already.
+    // Adds the error as a problem, unless reading this value has already added a problem.
     if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
       keys.AddProblem(ok.error().message);
     }
@@ -154,7 +154,7 @@ std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   return factor ? factor : former;
 }
 
-// Reads the step. 0, the default, means the world's own step.
+// Reads the step. 0 means the step of the world (default: 0).
 std::optional<double> ReadStep(YamlMapping& mapping) {
   const auto step = mapping.Number("step", 0, 10);
   if (step == 0.0) return std::nullopt;

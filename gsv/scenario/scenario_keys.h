@@ -12,7 +12,7 @@ inline constexpr double kMaxDuration = 1e9;    // s
 
 Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place);
 
-// Reads a robot, or an avatar, which has neither behaviour nor movement.
+// Reads a robot or an avatar. An avatar has neither behaviour nor movement.
 RobotEntry ReadRobotKeys(YamlMapping& mapping, bool is_avatar);
 
 // Reads x, y, z and yaw. Returns nullopt if both x and y are absent.

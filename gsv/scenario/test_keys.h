@@ -17,8 +17,8 @@ inline constexpr int kMaxFormulaDepth = 16;
 
 std::vector<Fault> ReadFaults(YamlMapping& scenario);
 
-// Adds problems for expectations that every run of `duration` (s) would violate, or that no run
-// could violate.
+// Adds problems for expectations that cannot be tested: every run of `duration` (s) would violate
+// them, or no run could violate them.
 std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration);
 
 // Returns the node as equivalent YAML on one line. The caller must have limited its size and

@@ -1,5 +1,5 @@
-// Reads a YAML mapping key by key and collects problems. A problem in a file has line and column. A
-// problem in a request has the field instead, such as "robots[1].x".
+// Reads a YAML mapping key by key and collects problems. A problem in a file names the line and the
+// column. A problem in a request names the field instead, such as "robots[1].x".
 //
 // Bounded  a mapping has at most kMaxKeys keys, and at most kMaxProblems problems are kept, because
 //          YAML aliases can expand to many nodes.
@@ -77,7 +77,7 @@ class YamlMapping {
     }
   }
 
-  // Whether the key was read and is present, whatever its value is.
+  // Whether the key was read and is present, with any value.
   bool Has(const std::string& key) const { return marks_.contains(key); }
   bool is_mapping() const { return is_mapping_; }
   const YamlPlace& place() const { return place_; }

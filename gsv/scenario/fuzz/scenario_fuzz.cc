@@ -1,5 +1,5 @@
-// Fuzz target: reads the input as a scenario. The reader must not crash. A scenario without
-// problems must not change when it is written and read again.
+// Fuzz target: reads the input as a scenario. The reader must not crash. If a scenario without
+// problems is written and read again, it must be unchanged.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
