@@ -61,8 +61,8 @@ void Note(std::optional<double> value, double now, MeasuredAtom& measured) {
   measured.last = *value;
 }
 
-// Returns the formula. Where it has no time after which a robot is stuck, the scenario's time is
-// inserted.
+// Returns the formula. If it does not set the time after which a robot is stuck, inserts the time
+// of the scenario.
 scenario::Formula WithStuckAfter(scenario::Formula formula, base::SimTime stuck_after) {
   if (formula.quantity.kind == scenario::Quantity::Kind::kStuck && formula.min < 0) {
     formula.min = base::ToSeconds(stuck_after);

@@ -41,7 +41,7 @@ Finding One(const std::string& expect, const std::string& more = "") {
 }
 
 TEST(Judge, RobotReachesAPlaceWithinTheTolerance) {
-  // The disc comes within 0.25 m of x = 1.25 m at 2 s.
+  // At 2 s, the disc is within 0.25 m of x = 1.25 m.
   const Finding reaches = One("{reaches: {robot: scout, x: 1.25, y: 0}, by: 3}");
   EXPECT_TRUE(reaches.holds);
   EXPECT_NEAR(base::ToSeconds(reaches.time), 2, 0.011);

@@ -1,6 +1,6 @@
-// The margin of an expectation: how far the measured number was from its limit. This is the
-// robustness of signal temporal logic (A. Donzé and O. Maler, 2010). It is defined here only for an
-// expectation that is one condition over time.
+// The margin of an expectation: the difference between the measured number and its limit. This is
+// the robustness of signal temporal logic (A. Donzé and O. Maler, 2010). Here, only an expectation
+// that is one condition over time has a margin.
 //
 // Units  the unit of the measured number.
 #pragma once
@@ -19,14 +19,15 @@ class Margin {
   // `values` are the values of the formula's atoms at `now`, in the order in which Monitor numbers
   // them.
   void Note(base::SimTime now, const std::vector<std::optional<double>>& values);
-  // Writes the margin, its unit and its instant into `state`.
+  // Writes the margin, the unit of the margin, and its instant into `state`.
   void Fill(simulation::ExpectationState& state) const;
 
  private:
   friend std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
   scenario::Formula condition_;
-  // True for "eventually", whose margin is the largest distance. Otherwise it is the smallest one.
+  // True for "eventually". The margin is then the largest distance. Otherwise, it is the smallest
+  // distance.
   bool must_come_ = false;
   base::SimTime from_{0};
   std::optional<base::SimTime> by_;
@@ -39,8 +40,8 @@ class Margin {
 // time, and for a condition without a number, such as a contact.
 std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
-// Adds the regions of a formula to `state`: circles and boxes in which bodies must be, or must not
-// be.
+// Adds the regions of a formula to `state`. These are the circles and boxes in which bodies must be
+// or must not be.
 void AddShapes(const scenario::Formula& formula, simulation::ExpectationState& state);
 
 }  // namespace gsv::verdict

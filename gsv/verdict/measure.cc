@@ -183,8 +183,8 @@ std::optional<double> Measure::OfContact(const scenario::Quantity& quantity) con
 bool Measure::HasEnded(const std::string& robot) {
   if (!is_status_new_) {
     auto status = simulation_.status();
-    // At the end of a run, the simulation ends all behaviours. So only the state before the last
-    // state shows which behaviours had ended by themselves.
+    // At the end of a run, the simulation ends all behaviours. So the last state does not show
+    // which behaviours have ended by themselves, and the state before it is used.
     using simulation::Phase;
     const bool is_over = status.phase == Phase::kFinished || status.phase == Phase::kFailed ||
                          status.phase == Phase::kStopped;

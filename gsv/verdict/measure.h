@@ -25,15 +25,16 @@ class Measure {
   // `simulation` must outlive this object.
   explicit Measure(simulation::Simulation& simulation) : simulation_(simulation) {}
 
-  // Fails for a quantity of an unknown body, sensor or behaviour, and for a quantity of a camera.
+  // Fails if the body, sensor or behaviour of the quantity is unknown, and for a quantity of a
+  // camera.
   base::Status Check(const scenario::Quantity& quantity) const;
 
   // Sets the snapshot at which Of() measures. It must be the simulation's latest snapshot.
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
   // Returns the value, or nullopt if the body was removed or the sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
-  // Returns the robot that did not move for the longest time although it was commanded to; empty if
-  // there is none.
+  // Returns the robot that has not moved for the longest time although it was commanded to move;
+  // empty if there is none.
   std::string stuck_longest() const;
 
  private:
@@ -48,7 +49,7 @@ class Measure {
   std::shared_ptr<const world::Snapshot> snapshot_;
   simulation::MotionHistory motions_;
   std::optional<simulation::SimulationStatus> status_;
-  bool is_status_new_ = false;  // whether the status is that of the current snapshot
+  bool is_status_new_ = false;  // whether `status_` belongs to the current snapshot
 };
 
 }  // namespace gsv::verdict

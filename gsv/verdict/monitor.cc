@@ -9,8 +9,8 @@ namespace gsv::verdict {
 
 using base::SimTime;
 
-// A formula in negation normal form. For the four temporal operators, `from` and `by` first count
-// from the instant of evaluation. After the evaluation they are instants of simulated time.
+// A formula in negation normal form. For the four temporal operators, `from` and `by` are at first
+// relative to the instant of evaluation. After the evaluation, they are instants of simulated time.
 class Obligation {
  public:
   enum class Kind { kFalse, kTrue, kAtom, kAll, kAny, kAlways, kEventually, kUntil, kRelease };
@@ -49,15 +49,15 @@ int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   return 0;
 }
 
-// Whether `a` and `b` are windows over the same formula that are open now. One of two such windows
-// implies the other.
+// Whether `a` and `b` are windows over the same formula that are open now. If two such windows
+// exist, one of them implies the other.
 bool OpenOverTheSame(const ObligationPtr& a, const ObligationPtr& b, Kind kind, SimTime now) {
   return a->kind == kind && b->kind == kind && a->is_judged && b->is_judged && a->from <= now &&
          b->from <= now && Compare(a->parts[0], b->parts[0]) == 0;
 }
 
-// Keeps only the tightest of several windows for `all`, or the widest for `any`. So the remaining
-// obligation does not grow with the run.
+// If several windows are over the same formula, keeps only the tightest for `all`, and only the
+// widest for `any`. So the remaining obligation does not grow with the run.
 void MergeWindows(Kind join, SimTime now, std::vector<ObligationPtr>& parts) {
   for (const Kind kind : {Kind::kEventually, Kind::kAlways}) {
     const bool keep_earlier = (join == Kind::kAll) == (kind == Kind::kEventually);

@@ -21,12 +21,12 @@ using ObligationPtr = std::shared_ptr<const Obligation>;
 
 class Monitor {
  public:
-  // `number(atom)` gives each atom of the formula a number, which Step() uses.
+  // `number(atom)` gives each atom of the formula a number. Step() uses this number.
   Monitor(const scenario::Formula& formula,
           const std::function<int(const scenario::Formula& atom)>& number);
 
-  // Evaluates the state at `now`. The next state comes `step` later. Does nothing once the verdict
-  // is known.
+  // Evaluates the state at `now`. The next state follows after `step`. Does nothing if the verdict
+  // is already known.
   void Step(base::SimTime now, base::SimTime step, const std::function<bool(int atom)>& holds);
   // Ends the run. Pending "eventually" obligations become violated; pending "always" obligations
   // hold.

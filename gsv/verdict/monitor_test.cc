@@ -169,7 +169,7 @@ TEST(Monitor, AgreesWithTheDefinitionOfTheOperators) {
     }
     const MonitorVerdict judged = RunMonitor(formula, trace);
     ASSERT_EQ(judged.holds, Means(formula, trace, 0)) << "formula " << i;
-    // An early verdict must be the same for every continuation of the run.
+    // If the verdict is early, every continuation of the run must lead to the same verdict.
     for (std::size_t length = judged.at + 1; length < trace.size(); ++length) {
       const Trace shorter(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(length));
       ASSERT_EQ(Means(formula, shorter, 0), judged.holds) << "formula " << i;
