@@ -1,7 +1,7 @@
 // The camera of a view: the parameters that users give, and its pose at an instant.
 //
-// Frames  eye and target in the world; with `follow` in the robot's frame without its pitch and
-//         roll: x ahead, y left, z up.
+// Frames  eye and target are in the world. With `follow`, they are in the robot's frame without its
+//         pitch and roll: x ahead, y left, z up.
 // Units   metres, degrees, pixels.
 // Errors  sentences that name the parameter and its limits (kInvalidArgument), or a missing robot
 //         or camera (kNotFound).
@@ -36,16 +36,16 @@ struct Camera {
 
 // Parses "1280x720". Each side is from kMinSide to rendering::kMaxImageSide.
 base::Status SetSize(std::string_view text, Camera& camera);
-// Checks each side as SetSize() does.
+// Checks each side of the image like SetSize().
 base::Status CheckSize(int width, int height);
-// Parses "1,2.5,-3": three finite numbers. The sentence of an error contains `name`.
+// Parses "1,2.5,-3": three finite numbers. An error message contains `name`.
 base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::string& name);
 // Parses a finite number from kMinFieldOfView to kMaxFieldOfView.
 base::Result<double> ParseFieldOfView(std::string_view text);
 // Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
 base::Status SetSide(const std::string& name, std::string_view text, OverviewSide& side);
-// Fails for an eye without a target, unless the camera follows a robot. Fails if a camera sensor is
-// named together with an eye, a target or a followed robot.
+// Fails if there is an eye without a target, unless the camera follows a robot. Also fails if there
+// is a camera sensor together with an eye, a target or a followed robot.
 base::Status Check(const Camera& camera);
 
 // The view of a camera sensor at an instant.
@@ -54,7 +54,7 @@ struct SensorView {
   double horizontal_fov = 0;  // rad
 };
 
-// Functions that find the parts of a scene that a camera may name.
+// Functions that find the parts of a scene which a camera may name.
 struct SceneLookup {
   // Returns the pose of a body, or nullopt.
   std::function<std::optional<geometry::Pose>(const std::string& body)> pose;

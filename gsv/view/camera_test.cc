@@ -66,7 +66,8 @@ TEST(ViewCamera, TheFieldOfViewIsVertical) {
   camera.target = {1, 0, 1};
   camera.width = 300, camera.height = 100;
   camera.field_of_view = 90;
-  // The image is three times as wide as high: tan(45°) = 1 upwards, so 3 to each side.
+  // The image is three times as wide as high. The tangent of half the vertical angle is tan(45°) =
+  // 1, so the horizontal one is 3.
   EXPECT_NEAR(std::tan(Placed(camera).parameters.horizontal_fov / 2), 3, 1e-12);
 }
 

@@ -23,7 +23,7 @@ const SceneJson& MemberOf(const SceneJson& object, const char* name) {
   return found == object.end() ? kNothing : *found;
 }
 
-// Returns the member, or an empty list if it is no list.
+// Returns the member if it is a list, otherwise an empty list.
 const SceneJson& ListOf(const SceneJson& object, const char* name) {
   static const SceneJson kEmpty = SceneJson::array();
   const SceneJson& list = MemberOf(object, name);
@@ -101,8 +101,8 @@ std::shared_ptr<const model::WorldDescription> DescriptionOf(const SceneJson& sc
   return description;
 }
 
-// Returns the name of the separate body for a moving link. The separator is a character that no
-// body's name contains, so the result is no other body's name.
+// Returns the name of the separate body for a moving link. The separator is a character that is not
+// allowed in names of bodies. So no other body has the returned name.
 std::string NameOfLink(const std::string& body, const std::string& link) {
   return body + '\x1f' + link;
 }

@@ -1,11 +1,11 @@
 // The scene of a recording, prepared for rendering. The poses of its bodies come from the
 // recording's messages.
 //
-// Links   a link that moves relative to its body is a separate body in the snapshots, because
-//         recordings have the poses of links and not the positions of joints.
+// Links   if a link moves relative to its body, it is a separate body in the snapshots, because
+//         recordings contain the poses of links and not the positions of joints.
 // Lamps   the light of robots' lamps is not in a scene, and is not rendered.
-// Input   untrusted: bodies with an unknown model are left out, and poses that are not finite or
-//         missing are those of the scene.
+// Input   untrusted: bodies with an unknown model are left out. If a pose is missing or not finite,
+//         the pose of the scene is used.
 // Threads const members may run concurrently.
 #pragma once
 
@@ -35,8 +35,9 @@ class DrawnScene {
   // Returns the world at the instant of a message, which must have this scene's layout.
   std::shared_ptr<const world::Snapshot> At(const messages::gsv_msgs::Poses& poses) const;
 
-  // The result is valid during the lifetime of this object and of `snapshot`, which must come from
-  // At(). The default view shows the scene's own poses, so that it does not move with the bodies.
+  // The result is valid during the lifetime of this object and of `snapshot`, which must be a
+  // result of At(). The default view uses the poses of the scene, so it does not move with the
+  // bodies.
   SceneLookup LookupAt(const world::Snapshot& snapshot) const;
 
  private:
@@ -50,7 +51,7 @@ class DrawnScene {
 
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;                // the state with the scene's own poses
-  std::vector<int> bodies_of_poses_;  // for each pose of a message, the index of its body, or -1
+  std::vector<int> bodies_of_poses_;  // for each pose of a message: the index of its body, or -1
   std::map<std::pair<std::string, std::string>, Camera> sensors_;  // cameras by robot and name
 };
 

@@ -16,8 +16,8 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kBoundless = std::numeric_limits<double>::infinity();
-// A body is too far away to be shown if its distance exceeds kFarMetres plus kFarRadii times the
-// radius of all nearer bodies.
+// A body is too far away if its distance exceeds kFarMetres plus kFarRadii times the radius of all
+// nearer bodies. It is then not shown.
 constexpr double kFarRadii = 20, kFarMetres = 100;
 // A body counts as ground if its height is at most kFlat times its width, and its area is at least
 // kMuchMore times that of the other bodies.
@@ -101,10 +101,10 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
   const auto distance = [&](const SeenBody& body) { return Norm(body.centre() - middle); };
   std::stable_sort(bodies.begin(), bodies.end(),
                    [&](const SeenBody& a, const SeenBody& b) { return distance(a) < distance(b); });
-  double radius = 0;  // the radius about the centre that contains the bodies so far
+  double radius = 0;  // radius of the sphere about `middle` that contains the bodies so far
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double nearest = distance(bodies[i]) - bodies[i].radius();
-    // Bodies are left out only if at least half of all bodies are nearer.
+    // A body is left out only if at least half of all bodies are nearer.
     if (nearest > kFarRadii * radius + kFarMetres && 2 * i >= bodies.size()) {
       bodies.resize(i);
       return;

@@ -10,8 +10,9 @@
 namespace gsv::view {
 
 // Returns the corners, in the world, of the boxes around the visible bodies. It omits infinite
-// planes, ground that extends far beyond the bodies on it, and bodies so far away that the other
-// bodies would be too small to see. If no body remains, returns a box of 2 m about the origin.
+// planes, ground that extends far beyond the bodies on it, and very distant bodies: with them in
+// view, the other bodies would be too small to see. If no body remains, returns a box of 2 m about
+// the origin.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
 // The direction of a view of the whole world, and its zoom.
@@ -23,7 +24,7 @@ struct OverviewSide {
 };
 
 // Returns the view of these corners from `side` (default: from the front, right and above). The
-// distance is the smallest that shows all corners, divided by the zoom.
+// camera's distance is the smallest distance at which all corners are visible, divided by the zoom.
 rendering::CameraView Overview(const std::vector<geometry::Vector3>& corners, int width, int height,
                                const OverviewSide& side = {});
 
