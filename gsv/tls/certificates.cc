@@ -77,7 +77,8 @@ base::Result<Certificate> ReadCertificate(const fs::path& path) {
 
 base::Result<Key> ReadKey(const fs::path& path) {
   const File file = OpenFile(path);
-  // This callback makes reading fail for a key with a password, because no user can enter it.
+  // A key with a password needs a user who enters the password. This callback makes reading such a
+  // key fail.
   const auto no_password = [](char*, int, int, void*) { return -1; };
   Key read(file ? PEM_read_PrivateKey(file.get(), nullptr, no_password, nullptr) : nullptr);
   if (!read) return base::Fail(CannotRead(path, "a key without a password"));

@@ -17,7 +17,7 @@ namespace gsv::tls {
 
 // The period in which a certificate is valid, relative to now.
 struct Validity {
-  std::chrono::seconds begins{-300};  // begins earlier, to tolerate clocks that differ
+  std::chrono::seconds begins{-300};  // begins 5 minutes earlier, to tolerate clocks that differ
   std::chrono::seconds ends{365 * 86'400};
 };
 
@@ -28,17 +28,18 @@ struct CertificateRequest {
   Validity validity{};
 };
 
-// Writes FOLDER/ca.pem and ca-key.pem. A missing folder is created with access for its owner only.
+// Writes FOLDER/ca.pem and FOLDER/ca-key.pem. A missing folder is created with access only for its
+// owner.
 base::Status MakeAuthority(const std::filesystem::path& folder, const Validity& validity);
 bool HasAuthority(const std::filesystem::path& folder);
 
-// Writes FOLDER/NAME.pem and NAME-key.pem, signed by the folder's authority, valid for servers and
-// clients.
+// Writes FOLDER/NAME.pem and FOLDER/NAME-key.pem. The authority in the folder signs the
+// certificate, which is valid for servers and clients.
 base::Status MakeCertificate(const std::filesystem::path& folder,
                              const CertificateRequest& request);
 
-// Checks that a server can use certificate and key: both are readable, match and are valid now. The
-// error names the file.
+// Checks that a server can use certificate and key: both are readable, belong together and are
+// valid now. The error names the file.
 base::Status CheckKeyPair(const std::filesystem::path& certificate,
                           const std::filesystem::path& key);
 // Checks that the file contains certificates of an authority.

@@ -11,8 +11,8 @@ struct ProbeResult {
   std::string answer;                 // the start of the response; empty if there is none
 };
 
-// Performs a TLS handshake on a connected socket with any peer and sends `request`. The socket's
-// time limits apply.
+// Performs a TLS handshake on a connected socket and sends `request`. Accepts any certificate of
+// the server. The time limits of the socket apply.
 ProbeResult ProbeServer(int descriptor, const std::string& request);
 
 }  // namespace gsv::tls
