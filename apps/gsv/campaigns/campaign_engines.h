@@ -15,7 +15,7 @@ namespace gsv::app {
 
 struct EngineOptions {
   campaign::Engine engine;
-  int jobs = 0;  // concurrent runs; 0 for one per processor, or as many as the servers allow
+  int jobs = 0;  // concurrent runs; 0: one per processor or, with servers, as many as these allow
   double timeout = 300;  // wall-clock time limit of a run, s
   double poll = 0;       // time between queries of the queue, s; 0 for the engine's default
   bool waits = true;     // whether to wait for the submitted runs

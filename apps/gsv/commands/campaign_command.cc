@@ -174,7 +174,8 @@ int ShowRun(const CampaignArguments& arguments) {
 
 using Arguments = std::shared_ptr<CampaignArguments>;
 
-// Adds `--engine`, the options of all job queues, and those of each engine. Returns --engine.
+// Adds `--engine`, the options that all job queues have, and the options of each engine. Returns
+// --engine.
 CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
   EngineOptions& options = arguments->options;
   campaign::EngineRequest& engine = arguments->engine;

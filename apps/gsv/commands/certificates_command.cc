@@ -33,7 +33,8 @@ std::vector<std::string> UsualHosts() {
 
 base::Status MakeCertificates(const CertificatesArguments& arguments) {
   if (!tls::HasAuthority(arguments.folder)) {
-    // The authority's certificate is valid longer than those that it signs, by this factor.
+    // The authority's certificate is valid this many times as long as the certificates that it
+    // signs.
     constexpr int kTimesAsLong = 10;
     if (auto ok = tls::MakeAuthority(arguments.folder, ValidityOf(kTimesAsLong * arguments.days));
         !ok) {

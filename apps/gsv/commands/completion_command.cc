@@ -22,7 +22,7 @@ struct CompletedOption {
   std::string name;  // "--robot"
   std::string help;  // one line
   bool takes_value = false;
-  std::vector<std::string> values;  // the values, if the option takes only these
+  std::vector<std::string> values;  // the accepted values; empty if the option accepts any value
 };
 
 struct CompletedCommand {

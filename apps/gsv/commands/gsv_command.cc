@@ -181,7 +181,7 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   return "gsv: " + what + (what.ends_with('?') ? " See " : ". See ") + words + " --help\n";
 }
 
-// Sets the groups of commands that do not set one themselves.
+// Sets the help group of each command that has not set its group itself.
 void GroupCommands(CLI::App& app) {
   const std::pair<const char*, std::vector<const char*>> groups[]{
       {"Commands to run simulations", {"run", "serve", "view", "test", "campaign"}},

@@ -72,7 +72,8 @@ int Recover(const RecordingArguments& arguments) {
   return kOk;
 }
 
-// Rejects a selection that cannot have content, because its ends or its topics are wrong.
+// Rejects a selection that begins after its end, or that names a topic that is not in the
+// recording.
 base::Status CheckSelection(const RecordingArguments& arguments,
                             const recording::McapReader& reader) {
   if (arguments.from > arguments.to) {
@@ -185,7 +186,7 @@ int Export(const RecordingArguments& arguments) {
                      arguments.output});
 }
 
-// Extracts an attachment: the last one, if several have the name.
+// Extracts an attachment. If several attachments have the name, extracts the last one in the file.
 int Extract(const RecordingArguments& arguments) {
   const auto reader = recording::McapReader::Open(arguments.file);
   if (!reader) return Refuse(reader.error());

@@ -18,8 +18,8 @@ struct Row {
   int severity = 0;
 };
 
-// Returns the robot's state. If the server does not report it, it is derived from the state of the
-// behaviour.
+// Returns the robot's state. If the server does not report the robot's health, derives the state
+// from the state of the behaviour.
 health::State StateOf(const Row& row) {
   if (row.health != nullptr) {
     return health::StateOf(row.health->state).value_or(health::State::kMoving);

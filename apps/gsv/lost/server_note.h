@@ -80,8 +80,9 @@ struct NotesFound {
 // Reads all notes in the folder.
 NotesFound ReadNotes(const std::filesystem::path& folder);
 
-// Returns all lost simulations in the notes: those of ended processes, and those that running
-// processes have taken over. If `broker` is not empty, only those of servers at that broker.
+// Returns all lost simulations in the notes: the simulations of ended processes, and the lost
+// simulations that running processes have taken over. If `broker` is not empty, returns only
+// simulations of servers at that broker.
 std::vector<LostSimulation> LostSimulationsNoted(const std::string& broker);
 
 }  // namespace gsv::app

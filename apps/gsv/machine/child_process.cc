@@ -21,8 +21,8 @@ struct Ends {
   int input = -1, output = -1, errors = -1;  // descriptors of the child; -1: none, or the parent's
 };
 
-// Runs in the child and never returns. Another thread may have held malloc's locks during the fork,
-// so this does not allocate. `arguments` and `environment` end with null.
+// Runs in the child and never returns. During the fork, another thread may have held malloc's
+// locks. So this function must not allocate memory. `arguments` and `environment` end with null.
 [[noreturn]] void Execute(char* const* arguments, char* const* environment, const Ends& ends,
                           bool quiet, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -47,8 +47,8 @@ class ChildProcess {
   // Writes to the child's stdin, which must be kOpen. Returns kUnavailable if the child has ended
   // or closed its stdin.
   base::Status Write(std::string_view text);
-  // Returns the next line of its stdout, without the newline. Returns nullopt after its end or the
-  // time limit.
+  // Returns the next line of the child's stdout, without the newline. Returns nullopt at the end of
+  // stdout, or after the time limit.
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
   // Returns how the child ended, such as "exit code 5" or "signal 11". Empty while it runs.
   std::string Ending();

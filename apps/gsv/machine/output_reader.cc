@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds kWaitTimeout{500};
 // maximum number of reads (4 KiB each) after the end of a child, enough for a full pipe
 constexpr int kMaxReadsAtEnd = 1000;
 
-// Returns how the child ended. Does not reap it, because its owner does.
+// Returns how the child ended. Does not reap the child, because its ChildProcess does that.
 std::string EndingOf(pid_t pid) {
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||

@@ -25,8 +25,8 @@ namespace {
 }  // namespace
 
 #if defined(__SANITIZE_ADDRESS__)
-// LeakSanitizer calls this function. Otherwise, LeakSanitizer would trace its own process, which
-// the sandbox does not allow.
+// LeakSanitizer calls this function, and does nothing if it returns true. A check for leaks would
+// trace this process, which the sandbox does not allow.
 extern "C" int __lsan_is_turned_off() { return is_in_sandbox; }
 #endif
 

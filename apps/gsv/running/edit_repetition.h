@@ -25,8 +25,9 @@ base::Result<RecordedUserActions> ReadUserActions(const recording::McapReader& r
                                                   const std::string& file, bool by_commands);
 
 // Starts a populated simulation, pauses it at each of `options.edits` to make the edit, and resumes
-// it. Edits at or after its end are skipped. Returns kOk, or kInterrupted after a signal, with the
-// simulation stopped. Fails if an edit is refused or its model is missing.
+// it. Edits at or after the simulation's end are skipped. Returns kOk. After a signal, stops the
+// simulation and returns kInterrupted. Fails if an edit is refused, or if the model of an edit is
+// missing.
 base::Result<int> RunWithEdits(Runtime& runtime, simulation::Simulation& simulation,
                                const RunOptions& options, Signals& signals);
 

@@ -282,8 +282,8 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   auto run = OptionsOf(*call, options.file);
   if (!run) return base::Fail(run.error());
   run->runtime.broker = options.broker;
-  // The expectations were evaluated during the recorded run. If their verdicts are among its
-  // events, they must be evaluated again.
+  // If the recorded events include verdicts, the repeated run must evaluate the expectations again,
+  // so that it has the same events. Otherwise, they need not be evaluated again.
   if (!actions->has_verdicts) run->scenario.expect.clear();
   run->record = (folder->path() / "again.mcap").string();
   const bool had_user_actions = actions->was_interrupted || !actions->edits.empty();

@@ -13,7 +13,7 @@ namespace gsv::app {
 
 struct MovingSceneOptions {
   std::string world =
-      "office";  // a world of `gsv run`, or "square": that of the crowd, with a floor
+      "office";  // a world of `gsv run`, or "square" for the crowd's square with a floor
   std::string model = "b21r";
   int robots = 50;
   simulation::Mode mode = simulation::Mode::kRealTime;

@@ -20,7 +20,7 @@ constexpr std::size_t kMaxScenarioServers = 1000;
 // number of servers that may be lost, one after the other, during the same run
 constexpr int kMaxLostServers = 5;
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
-// the server answers a wait for the end after two seconds
+// The server answers a wait for the end of a run after at most two seconds.
 constexpr milliseconds kServerCallTimeout{5000};
 
 base::Error NoServers(const std::string& broker, const std::string& constraint) {
@@ -39,7 +39,7 @@ class LostServerCheck {
     // the server was restarted, or dropped the run
     if (error.code == base::ErrorCode::kEnded) return true;
     // A single failed call may mean only that a connection broke. If the next call fails as well,
-    // and not because of its timeout, the server counts as ended.
+    // for another reason than a timeout, the server counts as ended.
     if (error.code != base::ErrorCode::kTimeout && failures_ > 1) return true;
     return Clock::now() - heard_ >= kSilence;
   }

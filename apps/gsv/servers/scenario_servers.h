@@ -3,7 +3,7 @@
 //
 // Servers may be added and removed during the work: the broker is queried about once a second. A
 // server is lost if it was killed, or cannot be reached for ten seconds. Its runs in progress are
-// given to another server.
+// repeated on another server.
 //
 // Threads  any number may call Run(), each for its own run.
 #pragma once
@@ -35,7 +35,8 @@ class ScenarioServers {
   TestResult Run(const std::string& scenario, double timeout,
                  const std::atomic<bool>& is_cancelled);
 
-  // Returns why this object has given up: there was no server for a minute. Empty if it has not.
+  // If there was no server for a minute, this object has given up. Then returns a sentence about
+  // this, else an empty text.
   std::string failure() const;
 
  private:

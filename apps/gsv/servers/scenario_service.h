@@ -1,7 +1,8 @@
 // Implements sba::ScenarioService, through which campaigns run scenarios on this server. Each
 // scenario runs in a child process, as with `gsv test`.
 //
-// Threads  those of the ORB, one more per run, and one that ends abandoned runs.
+// Threads  the ORB's threads call the servants. Each run has its own thread, and another thread
+//          ends abandoned runs.
 #pragma once
 
 #include <set>

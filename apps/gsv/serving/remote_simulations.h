@@ -56,7 +56,7 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection);
 struct RemoteInstance {
   RemoteServer server;
   std::vector<simulation::SimulationStatus> simulations;
-  std::string problem;  // the reason why the simulations are not known; empty if they are
+  std::string problem;  // the reason why the simulations are unknown; empty if they are known
 };
 
 // Queries all servers that a broker offers (at most 64) at the same time. Takes a few seconds if
@@ -64,7 +64,8 @@ struct RemoteInstance {
 base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker);
 
-// Returns the error of a selection that no simulation matches, with the names of those that run.
+// Returns the error for a selection that no simulation matches. The error has the names of the
+// running simulations.
 base::Error NoSuchSimulation(const Selection& selection);
 
 base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simulation);
@@ -75,7 +76,7 @@ struct RemoteHealth {
   int level = 0;
   base::SimTime since{0};
 };
-// The health of its robots by name; empty if the server does not report it.
+// Returns the health of the simulation's robots, by name; empty if the server does not report it.
 std::map<std::string, RemoteHealth> HealthOf(const FoundSimulation& simulation);
 
 }  // namespace gsv::app

@@ -70,8 +70,8 @@ class Runtime {
   // registers sba::ScenarioService for that number of concurrent scenarios.
   base::Status OfferService(const std::string& name, int scenarios = 0);
 
-  // Call this when the process must end soon. Behaviour programs that are still running then get
-  // one more second to end.
+  // Call this when the process must end soon. From now on, all calls that stop behaviours have one
+  // second in total. After that, behaviour programs have half a second to end.
   void EndSoon();
 
  private:

@@ -20,7 +20,7 @@ inline constexpr const char* kViewerGroup = "Viewer";
 inline constexpr const char* kNetworkGroup = "Network and security";
 
 struct ViewerOptions {
-  // 0 if the system chooses it; -1 for the default, or for another one if that is in use
+  // 0: the system chooses the port; -1: the default port, or another port if that is in use.
   int port = -1;
   std::string recordings;            // a folder; empty for the current one
   int history_mib = 64;              // for the history of a simulation, MiB; 0: no history

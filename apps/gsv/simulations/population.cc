@@ -97,7 +97,7 @@ FieldResult<RobotSpecification> Specify(const Simulation& simulation,
 }
 
 // Adds the robot at the first free place, from place number `next` on. Sets the entry's name and
-// place to the actual ones, and `next` to the number after that place.
+// place to the actual name and place. Sets `next` to the number of the following place.
 base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
                             scenario::RobotEntry& entry, const Placing& placing, int& next) {
   base::Error refusal;

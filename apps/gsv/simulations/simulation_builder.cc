@@ -257,7 +257,8 @@ FieldResult<std::string> SimulationBuilder::AddRobot(const std::shared_ptr<Simul
                                                      bool is_avatar) {
   base::Problems problems;
   const bool is_published = Ros2().published == simulation->specification().name;
-  const ros2::Options options;  // has no `steps`: only the scenario's robots wait for ROS 2 nodes
+  // These options have no `steps`, because only the robots of the scenario wait for ROS 2 nodes.
+  const ros2::Options options;
   return AddOne(*simulation, host_.library(), robot, is_avatar,
                 BehaviourChoice(is_published ? &options : nullptr), problems);
 }

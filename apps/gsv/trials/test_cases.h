@@ -18,8 +18,9 @@ struct TestCase {
   std::string name;  // the path of the file without its extension
 };
 
-// Returns the scenarios of files and folders. A folder has all its *.yaml, ordered by name. Adds
-// their problems to `problems`. Returns kNotFound if a name matches nothing.
+// Returns the scenarios of files and folders. A folder stands for all *.yaml files in it, ordered
+// by name. Adds the problems of the files to `problems`. Returns kNotFound if a name matches
+// nothing.
 base::Result<std::vector<TestCase>> FindTestCases(const std::vector<std::string>& names,
                                                   base::Problems& problems);
 

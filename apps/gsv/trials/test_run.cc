@@ -135,8 +135,9 @@ std::string Message(const ChildOutcome& outcome) {
   return outcome.errors.empty() ? message : message + "\n" + outcome.errors;
 }
 
-// Cuts the clips out of the recording of the run, and returns how to see them. The first clip is
-// run.mcap, which `gsv rec list` and the page list.
+// Cuts the clips out of the recording of the run. Returns a text for the user with the commands
+// that show the clips. The first clip is the file run.mcap, which `gsv rec list` and the viewer
+// list.
 std::string KeepClips(const fs::path& recording, const fs::path& kept, const TestOptions& options,
                       const std::vector<double>& violations, const std::string& about) {
   std::string text;
