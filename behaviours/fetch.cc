@@ -1,5 +1,6 @@
 // Drives ahead until a body is between its gripper fingers, and carries it to a point in the world.
-// Its LED shows the state: yellow while searching, green with a body, red without.
+// Its LED shows the state: yellow before the grasp, green while it carries a body, blue when it has
+// finished, red if the fingers have closed without a body.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -26,9 +26,9 @@ class WanderRule {
       return {0.0, 0.9 * turn_};
     }
     turn_ = 0;
-    // The robot drifts to the left and to the right in turn, because on a straight path it would
-    // see little of a room. After a while it drives backwards and turns (Reconsider()), because
-    // an object between the beams may block it.
+    // The robot drifts alternately to the left and to the right, because on a straight path it
+    // would see little of a room. After a while it drives backwards and turns (Reconsider()),
+    // because it may be blocked by an object that its beams do not hit.
     forward_ = (forward_ + 1) % kReconsiderAfter;
     if (forward_ == 0) reconsidering_ = kReconsiderFor;
     const double speed = std::clamp(0.5 * (ahead - radius), 0.1, 0.4);
