@@ -13,8 +13,8 @@ namespace {
 
 // Time limit for creating a simulation: reading a world and initialising behaviours may take long.
 constexpr std::chrono::milliseconds kCreateTimeout{120'000};
-// Time limit for a wait. The server answers a wait for the next phase after two seconds, so a
-// server that does not answer for this long is lost.
+// Time limit for a wait. The server answers a wait after at most two seconds, even if the phase has
+// not changed. So a server that does not answer for this long is lost.
 constexpr std::chrono::milliseconds kWaitTimeout{10'000};
 constexpr std::chrono::seconds kServerTimeout{30};
 constexpr int kConnectionsTried = 16;

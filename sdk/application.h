@@ -63,7 +63,7 @@ struct SimulationState {
   // The robot that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s";
   // empty if there is none.
   std::string waiting_for;
-  std::string failure;  // why the simulation failed; empty if it has not
+  std::string failure;  // why the simulation failed; empty if it has not failed
   std::vector<RobotState> robots;
 };
 

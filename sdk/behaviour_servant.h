@@ -1,5 +1,5 @@
 // The servants of a behaviour program: sba::AgentBehaviour for a gsv::Behaviour, and the factory
-// that creates one per robot.
+// that creates an sba::AgentBehaviour for each robot.
 //
 // Threads  calls come on ORB threads; the behaviour runs on its own thread.
 #pragma once

@@ -114,8 +114,9 @@ CycleState CycleClient::Await() {
       state = slot_.state;
       continue;
     }
-    // The simulation applies a request soon after it has taken it, and the caller must know whether
-    // it has. A second lease is enough, unless the simulation was killed or stopped between the two.
+    // The simulation has taken the request, and will apply it soon. The caller must know whether
+    // the request was applied, so wait for at most another lease. This is too short only if the
+    // simulation was killed or stopped before it could apply the request.
     if (StateOf(state) == CycleState::kTaken && slot_.is_applied == 0 &&
         Clock::now() < lease_ends + kLease) {
       std::this_thread::yield();

@@ -36,8 +36,8 @@ class CycleClient {
   static base::Result<std::unique_ptr<CycleClient>> Open(const exchange::FileAddress& file,
                                                          std::uint64_t offset, std::uint64_t key);
 
-  // Runs a cycle and waits for its answer. `sensors` are those of a cycle of sleep_and_read().
-  // Changes `answer` only if the outcome is kAnswered.
+  // Runs a cycle and waits for its answer. For a cycle of sleep_and_read(), `sensors` are the names
+  // of the sensors to read. Changes `answer` only if the outcome is kAnswered.
   Outcome Run(exchange::CycleRequest request, const std::vector<std::string>& sensors,
               Answer& answer);
   // Lets a waiting Run() return kRepeat or kRepeatApplied.

@@ -79,8 +79,8 @@ TEST(CycleClient, ExchangesAreThoseOfCalls) {
   EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], 3u);
 }
 
-// Twelve robots, of which some use calls: the channels of more than eight are opened by another
-// thread.
+// Some of the twelve robots use calls. If more than eight robots wait for the same instant, the
+// simulation wakes them on another thread (event_signaler.h), so the test has twelve.
 TEST(CycleClient, CallsAndMemoryMayBeMixed) {
   std::vector<std::string> hashes;
   for (const int with_memory : {0, 5, 12}) {
@@ -92,7 +92,7 @@ TEST(CycleClient, CallsAndMemoryMayBeMixed) {
         for (std::uint64_t cycle = 1;; ++cycle) {
           const SimTime until = static_cast<std::int64_t>(cycle) * 30ms;
           const double speed = 0.1 + 0.01 * robot;
-          // A robot of every third has calls and memory in turn.
+          // Every third robot uses calls and memory alternately.
           if (client != nullptr && (robot % 3 != 0 || cycle % 2 == 0)) {
             if (client->Run(Exchange(cycle, speed, until), {}, answer) != Outcome::kAnswered) {
               return;

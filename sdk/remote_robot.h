@@ -86,8 +86,9 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   // Opens the memory of the clock, if the simulation is on this host.
   void OpenMemory();
   bool SleepAndRead(SimTime instant);
-  // Runs a cycle by the shared memory. Returns true if it was answered. Otherwise the caller makes
-  // the call; `is_applied` is whether the command must not be sent again.
+  // Runs a cycle by the shared memory. Returns true if it was answered. Otherwise the caller must
+  // repeat the cycle by a call. `is_applied` becomes true if the simulation has applied the
+  // command; then the call must not apply the command again.
   bool RunCycle(const exchange::CycleRequest& request, const std::vector<std::string>& sensors,
                 CycleClient::Answer& answer, bool& is_applied);
 
@@ -96,7 +97,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   sba::SensorFactory_var factory_;
   sba::ActuatorProxy_var base_;
   sba::Clock_var clock_;
-  sba::BatchClock_var batch_clock_;  // nil if the clock is no BatchClock, or does not hold the time
+  // Nil if the clock is no BatchClock, or if simulated time advances while the behaviour runs.
+  sba::BatchClock_var batch_clock_;
   std::unique_ptr<CycleClient> cycles_;  // null: there is no shared memory
   CycleClient::Answer answer_;           // used by Exchange()
   HeldInstant held_;

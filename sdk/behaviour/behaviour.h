@@ -33,7 +33,8 @@ class Controller : public Behaviour {
  public:
   explicit Controller(SimTime period) : period_(period) {}
 
-  // Returns the command of the base for the next period. `readings` are those of all open sensors.
+  // Returns the command of the base for the next period. `readings` are the readings of all open
+  // sensors.
   virtual DriveCommand Control(const std::vector<Reading>& readings) = 0;
   SimTime period() const { return period_; }
 

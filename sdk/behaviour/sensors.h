@@ -38,7 +38,7 @@ struct Image {
 };
 using Picture [[deprecated("use gsv::Image")]] = Image;
 
-// Parameters by name; docs/sensors.md lists those of each type.
+// Parameters by name; docs/sensors.md lists the parameters of each sensor type.
 using Parameters = std::map<std::string, std::variant<double, bool, std::string>>;
 
 // The name, the type, the pose and the parameters of a sensor.

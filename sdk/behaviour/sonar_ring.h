@@ -13,8 +13,8 @@ namespace gsv {
 
 class SonarRing {
  public:
-  // Opens `count` sonars. Their bearings are those nearest to i * 2 pi / count, for i from 0 to
-  // count - 1.
+  // Opens `count` sonars: for each i from 0 to count - 1, the sonar whose bearing is nearest to
+  // i * 2 pi / count.
   static base::Result<SonarRing> Open(Robot& robot, int count);
 
   struct Echo {
