@@ -1,9 +1,9 @@
 // The engine of a whole world. Planar kinematics moves wheeled bases and people. An engine of
 // rigid-body dynamics moves bodies that fall, tip over or have joints driven by forces.
 //
-// Together    Rigid bodies stop planar ones, and planar ones push rigid bodies at their target
-//             speed with a force of at most their own weight (traction 1). A rigid body that hits a
-//             planar robot bounces off and does not move the robot. A body that lies on a robot
+// Together    Rigid bodies stop planar bodies. Planar bodies push rigid bodies at their own target
+//             speed, with a force of at most their own weight (traction 1). A rigid body that hits
+//             a planar robot bounces off and does not move the robot. A body that lies on a robot
 //             moves with it.
 // Cost        A world without rigid bodies costs as much as the planar mover alone.
 // Determinism as for Engine.

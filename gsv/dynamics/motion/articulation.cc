@@ -103,7 +103,7 @@ void Weigh(const model::Model& model, Part& part) {
 
 namespace {
 
-// Returns for each link the joint whose child it is, or -1.
+// Returns for each link the joint that has this link as its child, or -1.
 std::vector<int> ParentJoints(const model::Model& model) {
   std::vector<int> parent_joint(model.links.size(), -1);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {

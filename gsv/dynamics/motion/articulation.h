@@ -14,10 +14,10 @@ namespace gsv::dynamics {
 
 // A rigid part of a model: one or more links that cannot move relative to each other.
 struct Part {
-  // The joint of the model between this part and its parent; -1 for the base. A ball joint is three
-  // joints of the model, and this is the last of them.
+  // The joint of the model between this part and its parent; -1 for the base. A ball joint consists
+  // of three joints of the model. For a ball joint, `joint` is the last of the three.
   int joint = -1;
-  int parent = -1;  // index of the parent part, which comes before this one; -1 for the base
+  int parent = -1;  // index of the parent part, which precedes this part; -1 for the base
   std::vector<int> links;
   double mass = 0;
   geometry::Pose model_from_part;

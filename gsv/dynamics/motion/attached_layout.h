@@ -18,8 +18,7 @@ class AttachedLayout {
   // Sets a layout, and removes all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
-  // Attach a body to a link, and detach it, as Engine::Attach() and Engine::Detach() do. engine.h
-  // describes the errors.
+  // Attaches a body to a link, as Engine::Attach() does. engine.h describes the errors.
   base::Status Attach(const Attachment& attachment, const world::State& state);
   // Ends the attachment, as Engine::Detach() does.
   void Detach(int held_body);

@@ -87,9 +87,10 @@ double ReferenceX(const model::Model& model) {
   return drive.kind == DriveKind::kAckermann ? rearmost : sum / count;
 }
 
-// Returns the mean slip of the drive's wheels, as if each carried an equal share of the weight. The
-// compliance of a wheel that slips by itself (Gazebo's WheelSlip) refers to a constant load and to
-// the wheel's own radius. It is converted to the share of the weight and the radius of the drive.
+// Returns the mean slip of the drive's wheels, as if each wheel carried an equal share of the
+// weight. A wheel with its own slip (Gazebo's WheelSlip) has a compliance for a constant load and
+// for its own radius. This compliance is converted to the equal share of the weight and to the
+// drive's wheel radius.
 model::Slip MeanSlip(const model::Model& model) {
   const model::Drive& drive = *model.drive;
   const auto has_own = [](const model::Link& link) { return link.wheel.has_value(); };

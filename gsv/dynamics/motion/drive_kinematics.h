@@ -124,8 +124,8 @@ inline double Limited(double value, double low, double high) {
   return high < from_low ? high : from_low;
 }
 
-// Returns the speed at the end of a step of `seconds`, in which it changes from `now` towards
-// `target` within the limits.
+// Returns the speed at the end of a step of `seconds`. In this step, the speed changes from `now`
+// towards `target` within the limits.
 [[gnu::always_inline]] inline double FollowSpeed(double target, double now,
                                                  const model::Range& speed,
                                                  const model::Range& acceleration, double seconds,

@@ -15,7 +15,8 @@ class DriveServo {
   DriveServo(const DriveKinematics& kinematics, const world::BodyState& body, base::SimTime now)
       : kinematics_(kinematics), drive_(body.drive), now_(now) {}
 
-  // Advances by a substep and returns the base's target velocity at its end, within the limits.
+  // Advances by a substep. Returns the target velocity of the base at the end of the substep,
+  // within the limits.
   const world::DriveCommand& Advance(double seconds) {
     drive_.actual = kinematics_.Next(drive_, now_, seconds);
     now_ += base::FromSeconds(seconds);

@@ -49,8 +49,8 @@ class Engine {
   // Advances `state`, which must match the layout, from its time t to t + step. Drives follow their
   // commands within their limits, bodies do not overlap, and wheel joints turn. The caller sets
   // state.step and state.time. Replaces `contacts` by the contacts at t + step, in the order of
-  // (first, second, supports). `began` compares with BodyState::in_contact and the contacts of the
-  // step before. Pass the same vector in each step to avoid memory allocations.
+  // (first, second, supports). To set `began`, the engine reads BodyState::in_contact and the
+  // contacts of the previous step. Pass the same vector in each step to avoid memory allocations.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
 

@@ -2,9 +2,9 @@
 //
 // Effort  p e + I - d v for a position command, and p e + I - d dv/dt for a velocity command. Here
 //         e is the command minus the measured value, v the joint's velocity and I the integral
-//         term. It is computed with the velocity at the end of a substep, so that large gains on
-//         light links stay stable. For a position command, the damping d is at least p times the
-//         substep.
+//         term. The effort is computed with the velocity at the end of a substep, so that large
+//         gains on light links stay stable. For a position command, the damping d is at least p
+//         times the substep.
 // Source  gz::math::PID, whose integral term is limited, and whose derivative acts on the error of
 //         a constant command.
 #pragma once

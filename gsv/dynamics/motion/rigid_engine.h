@@ -6,8 +6,8 @@
 //              of the held body belong to the link that holds it, and the held body is static.
 // Threads      one thread at a time.
 // Determinism  Step() is a function of only the layout and its arguments. Data that an engine needs
-//              from the previous step are in State::engine, which is hashed. It is null after a
-//              change of the layout, unless only attachments changed.
+//              from the previous step are in State::engine, which is hashed. State::engine is null
+//              after a change of the layout, unless only attachments changed.
 #pragma once
 
 #include <memory>
@@ -19,13 +19,13 @@
 
 namespace gsv::dynamics {
 
-// A planar robot that pushes a rigid body: a force at one point that gives the body's point the
-// robot's speed. The force is limited and never pulls.
+// The push of a planar robot on a rigid body. A force at one point gives this point of the body the
+// speed of the robot. The force is limited and never pulls.
 struct Push {
   int robot = 0, object = 0;  // indices of the bodies in the layout
   // Contact point, world frame. The engine sets z to a height that both bodies have.
   geometry::Vector3 point;
-  double low = 0;            // the robot pushes above this z, m
+  double low = 0;            // lowest z at which the robot pushes, m
   geometry::Vector3 normal;  // direction from the robot to the body, world axes, unit length
   double speed = 0;          // speed of the robot along the normal, m/s, > 0
   double force = 0;          // maximum force, N
@@ -48,9 +48,10 @@ class RigidEngine {
   // called.
   virtual bool has_bodies() const = 0;
 
-  // Moves the rigid bodies of `state`, which are as in `before`, from before.time to before.time +
-  // step: poses, velocities, joints, drives, distances. The poses of planar bodies are in `before`
-  // for the start of the step, and in `state` for its end. Sets the results of `pushes`.
+  // Moves the rigid bodies from before.time to before.time + step: poses, velocities, joints,
+  // drives, distances. When the caller passes `state`, its rigid bodies equal those in `before`.
+  // The poses of planar bodies are in `before` for the start of the step, and in `state` for its
+  // end. Sets the results of `pushes`.
   //
   // Replaces `contacts` by the contacts of rigid bodies in this step, in any order. The first body
   // of a contact is rigid. Each contact has its points, its impulse, and the impulse at each point

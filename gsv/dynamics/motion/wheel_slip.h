@@ -1,8 +1,8 @@
 // The slip of wheels: the velocity at which a wheel's contact slides under a friction force.
 //
 // Model   slip velocity = friction force * compliance * |rate| * radius / normal force, along the
-//         rolling direction and along the axle. It is proportional to the friction force, because
-//         the normal force is a constant of the wheel.
+//         rolling direction and along the axle. The slip velocity is proportional to the friction
+//         force, because the normal force is a constant of the wheel.
 // Source  gz-sim's system WheelSlip. The force is limited by Coulomb friction as well.
 #pragma once
 
@@ -22,7 +22,7 @@ struct RollingWheel {
   double PerRateAlong(const model::Slip& ground) const {
     return (wheel.slip.longitudinal + ground.longitudinal) * wheel.radius / wheel.normal_force;
   }
-  // Returns the slip velocity along the axle, in the same units.
+  // Returns the slip velocity along the axle for the same force and wheel rate, in m/s.
   double PerRateAcross(const model::Slip& ground) const {
     return (wheel.slip.lateral + ground.lateral) * wheel.radius / wheel.normal_force;
   }

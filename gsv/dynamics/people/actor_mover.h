@@ -1,10 +1,10 @@
 // Moves the actors of a world along their scripts.
 //
 // Animations    the joints have the positions of the current frame. The frame follows from the
-//               time. For an animation by distance, it follows from the distance travelled since
-//               the trajectory's start, divided by the distance that the animation covers.
+//               time. For an animation by distance, the frame follows from the distance travelled
+//               since the trajectory's start, divided by the distance that the animation covers.
 // Velocities    the mean over the step. An actor whose script restarts at another place jumps: its
-//               velocity is zero in that step, and it touches nothing in between.
+//               velocity is zero in that step, and it touches nothing between the two places.
 // Threads       one thread at a time.
 // Determinism   an actor's pose is a function of its initial pose, its script and the time.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace gsv::dynamics {
 
-// Moves actors along their scripts, which no obstacle stops.
+// Moves actors along their scripts. No obstacle stops an actor.
 class ActorMover {
  public:
   // Finds the actors of a new layout.

@@ -6,7 +6,8 @@
 // Walls         All static bodies are walls, sliced between kStep above a pedestrian's feet and its
 //               top. Only the nearest point of each wall exerts a force. A point within 60 degrees
 //               of a nearer one is ignored, so that a wall of many pieces acts as one wall.
-// Goals         A goal is reached within kArrival of it. There is no path planning.
+// Goals         A pedestrian that is within kArrival of its goal has reached the goal. There is no
+//               path planning.
 // Heading       The body rotates towards its direction of motion.
 // Threads       One thread at a time. The work runs on a thread team.
 // Determinism   The result is a function of the layout, the state and the step.
@@ -49,8 +50,8 @@ class Crowd {
     const world::Pedestrian* pedestrian = nullptr;
     // index in levels_ of the heights at which walls are sliced for this pedestrian
     std::size_t level = 0;
-    // The present goal, after `reached` goals have been reached. It is stored because it is drawn
-    // at random only once.
+    // The present goal, after `reached` goals have been reached. The goal is stored because it is
+    // drawn at random only once.
     bool has_goal = false;
     std::uint32_t reached = 0;
     Vector2 goal;
@@ -77,10 +78,10 @@ class Crowd {
   // Sets the drive commands of the walkers with these indices. `left` is Relaxation(seconds).
   void DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left, Block& block,
                  world::State& state);
-  // Returns the direction to the walker's goal. If the walker has reached the goal, increments its
-  // count.
+  // Returns the direction to the walker's goal. If the walker has reached the goal, increments the
+  // walker's count of reached goals.
   Vector2 DirectionOf(Walker& walker, world::State& state) const;
-  // Adds the forces of all bodies in range on a walker. `index` is its index in the block.
+  // Adds the forces of all bodies in range on a walker. `index` is the walker's index in the block.
   void AddForcesOfOthers(const Walker& walker, std::uint32_t index, const world::BodyState& body,
                          Block& block) const;
   // Sets the walker's drive command from the direction of its goal and the sum of forces.

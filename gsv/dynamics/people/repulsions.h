@@ -19,10 +19,10 @@ namespace gsv::dynamics {
 // Computes the social forces between many pairs of bodies at once.
 class Repulsions {
  public:
-  // Adds the force of another body on the pedestrian `walker` to forces[walker], at the latest in
-  // Finish(). The forces of one pedestrian are added in the order of the calls. `between` is the
-  // vector from the other's centre to the pedestrian's. `radii` is the sum of both radii. `wanted`
-  // is the desired direction, as for AsSeen().
+  // Adds the force of another body on the pedestrian `walker` to forces[walker], in this call or
+  // later, at the latest in Finish(). The forces of one pedestrian are added in the order of the
+  // calls. `between` is the vector from the other body's centre to the pedestrian's centre. `radii`
+  // is the sum of both radii. `wanted` is the desired direction, as for AsSeen().
   void Add(std::uint32_t walker, geometry::Vector2 between, double radii,
            geometry::Vector2 other_velocity, geometry::Vector2 wanted,
            std::span<geometry::Vector2> forces) {

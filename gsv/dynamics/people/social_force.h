@@ -10,7 +10,7 @@
 //            diameter of an ellipse through the pedestrian, with r = x - x_other. s is the other's
 //            velocity times dt, which is the distance that it is expected to walk.
 //              V0 = 2.1 m²/s², sigma = 0.3 m, dt = 2 s
-// Sight      w is 1 for pedestrians within 100 degrees of e, and 0.5 for those behind.
+// Sight      w is 1 for others within 100 degrees of e, and 0.5 for others behind the pedestrian.
 // Walls      f = (U0 / R) exp(-d / R) away from the nearest point of the wall, which is at the
 //              distance d. U0 = 10 m²/s², R = 0.2 m
 // Driving    tau = 0.5 s. The driving term is integrated exactly, and the forces by Euler's method.
@@ -33,11 +33,12 @@ inline constexpr double kMaxSpeedFactor = 1.3;  // maximum speed as a multiple o
 // Maximum distances, in m, at which a pedestrian (from centre to centre) and a wall exert a force.
 inline constexpr double kOthersReach = 3, kWallsReach = 1.2;
 
-// The vector from another pedestrian to this one. `between` is the vector from centre to centre. It
-// is shortened because these pedestrians are wider than those of the paper, but never to less than
-// 5 cm. The pedestrians of the paper are points, but their driving force balances the repulsion at
-// a distance of 0.29 m. So they behave like discs with a radius of about 0.14 m. kPaperRadius is
-// smaller than that, so that people of any size keep about 10 cm between them.
+// The vector from another pedestrian to this pedestrian. `between` is the vector from centre to
+// centre. The result is shorter than `between`, because these pedestrians are wider than the
+// paper's pedestrians, but its length is at least 5 cm. The paper's pedestrians are points, but
+// their driving force balances the repulsion at a distance of 0.29 m. So they behave like discs
+// with a radius of about 0.14 m. kPaperRadius is smaller than 0.14 m, so that people of any size
+// keep about 10 cm between them.
 geometry::Vector2 Apart(geometry::Vector2 between, double radius, double other_radius);
 
 // The acceleration due to one other pedestrian, without the weight w. `apart` is not zero.
@@ -47,7 +48,8 @@ geometry::Vector2 RepulsionByOther(geometry::Vector2 apart, geometry::Vector2 ot
 // length, or zero).
 geometry::Vector2 AsSeen(geometry::Vector2 force, geometry::Vector2 wanted);
 
-// The acceleration due to a wall at `distance`. `away` is the unit vector that points away from it.
+// The acceleration due to a wall at `distance`. `away` is the unit vector that points away from the
+// wall.
 geometry::Vector2 RepulsionByWall(geometry::Vector2 away, double distance);
 
 // The fraction of the difference between the velocity and the desired velocity v0 e that remains

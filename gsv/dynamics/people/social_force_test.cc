@@ -38,7 +38,7 @@ TEST(SocialForce, IsTheRotatedGradientOfThePotential) {
 }
 
 TEST(SocialForce, OfAStandingPedestrianDecaysWithTheDistance) {
-  // If the other does not move, b equals the distance.
+  // If the other pedestrian does not move, b equals the distance.
   EXPECT_NEAR(LengthOf(RepulsionByOther({0.9, 0}, {})), 7 * std::exp(-3.0), 1e-12);
 }
 

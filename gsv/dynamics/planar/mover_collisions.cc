@@ -9,7 +9,7 @@ namespace {
 // may move further. With a larger value, each step has more candidates to check.
 constexpr double kRoom = 0.25;
 
-// Number of pairs that one thread checks at a time. With fewer, another thread saves no time.
+// Number of pairs that one thread checks at a time. With fewer pairs, another thread saves no time.
 constexpr std::size_t kPairsAtOnce = 32;
 
 // Pieces whose height ranges overlap by no more than this do not touch.

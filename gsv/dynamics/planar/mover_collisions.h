@@ -1,14 +1,15 @@
 // Finds which movers collide with each other, and when. A mover is a body that planar kinematics
 // moves.
 //
-// Method       Candidates are pairs that may come close within some steps. They are searched for
-//              only when a mover leaves the space for which they were found (a Verlet list). Find()
-//              selects the candidates that may meet in this step. Stop() checks all of these pairs.
-//              A mover whose own motion closes a gap is stopped where the pair meets. The affected
-//              pairs are then checked again with the shortened motions, until nothing changes. So
-//              the result does not depend on the order of the movers. After kIterations iterations,
-//              movers that still collide stay at their starts, where they do not overlap. The
-//              result does not depend on when the candidates were searched for.
+// Method       Candidates are pairs that may come close within some steps. The search for
+//              candidates is repeated only when a mover leaves the space that the last search
+//              covered (a Verlet list). Find() selects the candidates that may touch in this step.
+//              Stop() checks all of these pairs. A mover whose own motion closes a gap is stopped
+//              where the pair touches. The affected pairs are then checked again with the shortened
+//              motions, until nothing changes. So the result does not depend on the order of the
+//              movers. After kIterations iterations, movers that still collide stay at their
+//              starts, where they do not overlap. The result does not depend on when the candidates
+//              were searched for.
 // Units        metres, seconds, world frame. Spans are as long as PlanarScene::movers().
 #pragma once
 
@@ -25,7 +26,7 @@
 
 namespace gsv::dynamics {
 
-// Finds collisions between movers, and stops the movers there.
+// Finds collisions between movers, and stops the movers at these collisions.
 class MoverCollisions {
  public:
   MoverCollisions(const PlanarScene& scene, base::ThreadTeam& team) : scene_(scene), team_(team) {}
@@ -34,8 +35,8 @@ class MoverCollisions {
   void Reset();
 
   // Whether the candidates are still valid for a mover that moves no further than `travel` from
-  // `at`. They are valid if no part of it leaves the space that was searched. Threads: may run
-  // concurrently.
+  // `at`. They are valid if no part of the mover leaves the space that was searched. Threads: may
+  // run concurrently.
   bool HasRoom(std::uint32_t mover, const geometry::PlanarPosition& at, double travel) const {
     const Room& room = rooms_[mover];
     const double left = room.radius - travel;
@@ -54,8 +55,9 @@ class MoverCollisions {
   void FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
               std::span<const geometry::PlanarPosition> starts);
 
-  // Stops movers, which start at starts[m] and move for times[m], where they meet. Sets times[m] to
-  // the time of the meeting, and normals[m] to the direction towards the other mover.
+  // Stops movers where they touch each other. Mover m starts at starts[m] and moves for times[m].
+  // If it is stopped, times[m] becomes the time of the contact, and normals[m] the direction
+  // towards the other mover.
   void Stop(std::span<const geometry::PlanarPosition> starts,
             std::span<const geometry::Twist> twists, std::span<double> times,
             std::span<Vector2> normals);
@@ -76,7 +78,7 @@ class MoverCollisions {
   };
   struct MoverPair {
     std::uint32_t first, second;           // movers
-    std::uint32_t begin_piece, end_piece;  // range of its entries in near_pieces_
+    std::uint32_t begin_piece, end_piece;  // range of the pair's entries in pieces_
   };
   struct Room {
     Vector2 centre;
@@ -85,7 +87,7 @@ class MoverCollisions {
   // The result for a mover so far.
   struct Outcome {
     double time;           // time until the mover stops, s
-    int since, new_since;  // first iteration that found `time`: so far, and for the next iteration
+    int since, new_since;  // first iteration that used `time`, and its value for the next iteration
   };
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;

@@ -65,9 +65,10 @@ TEST(PlanarFidelity, ASquarePathWithoutWheelErrorsEndsAtItsStart) {
 
 TEST(PlanarFidelity, UnequalWheelsMissTheStartByTheClosedForm) {
   // Source: J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in
-  // mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996. E is the ratio of the right
-  // wheel's diameter to the left one's. Then each side is an arc of radius R = b/2 (E + 1) / (E -
-  // 1) that turns by beta = L / R. The end differs from the start by 2 L beta along both axes.
+  // mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996. E is the diameter of the right
+  // wheel divided by the diameter of the left wheel. Then each side is an arc of radius R = b/2 (E
+  // + 1) / (E - 1) that turns by beta = L / R. The end differs from the start by 2 L beta along
+  // both axes.
   base::testing::Table table("umbmark");
   for (const double ratio : {1.00002, 1.00005, 1.0001, 1.00015, 1.0002}) {
     const double left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
@@ -155,8 +156,8 @@ TEST(PlanarFidelity, SlippingRobotDriftsOutOfItsArc) {
                 2 * kPi / rate * (speed + rate * kSeparation / 2), 1e-6, "m");
 }
 
-// The drift is that of SlippingRobotDriftsOutOfItsArc. The wheels of Gazebo's WheelSlip have a
-// constant load instead of their share of the weight, so the compliances are divided by the ratio
+// The drift is the same as in SlippingRobotDriftsOutOfItsArc. The wheels of Gazebo's WheelSlip have
+// a constant load instead of their share of the weight, so the compliances are divided by the ratio
 // of both loads.
 TEST(PlanarFidelity, WheelsOfGazebosWheelSlipDriftByTheirOwnCompliance) {
   const double speed = 1.5, rate = 0.8, lateral = 2, mass = 12, load_ratio = 1.25;

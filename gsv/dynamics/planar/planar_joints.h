@@ -1,9 +1,10 @@
 // Moves the joints of planar robots that are not wheels, for example of a lift or a pan-tilt head.
 //
-// How          A joint with a position command moves there at its velocity limit (without a limit:
-//              at once) and stops. A joint with a velocity command moves at this velocity. Both
-//              stay within the joint's limits. Obstacles do not stop a joint, and a joint pushes
-//              nothing: the robot's footprint is always the one with all joints at zero.
+// How          A joint with a position command moves to this position at its velocity limit and
+//              stops. Without a velocity limit, it is at the position at once. A joint with a
+//              velocity command moves at this velocity. Both stay within the joint's limits.
+//              Obstacles do not stop a joint, and a joint pushes nothing: the robot's footprint
+//              always has all joints at zero.
 // Determinism  a function of only the layout, the state and the step.
 #pragma once
 

@@ -6,8 +6,8 @@
 //             poses.
 // How         A base follows its command within its drive's limits (DriveKinematics) along an exact
 //             arc. Its z, roll and pitch stay as the caller placed it. It does not move joints
-//             other than wheels and steering (planar_joints.h does). Footprints are those at zero
-//             joint positions.
+//             other than wheels and steering (planar_joints.h does). Footprints are computed with
+//             all joints at zero.
 // Ground      Obstacles lower than a robot can climb count as ground: see PlanarScene and
 //             ClimbHeight.
 // Contact     A base stops about half a micrometre before an obstacle in its way, at any speed and

@@ -32,7 +32,7 @@ class Random {
   base::Noise noise_;
 };
 
-// Negative inside.
+// Returns a negative number if the point is inside the shape.
 double Depth(const Shape& shape, const Vector3& p) {
   if (const auto* box = std::get_if<geometry::Box>(&shape)) {
     return std::max({std::abs(p.x) - box->size.x / 2, std::abs(p.y) - box->size.y / 2,

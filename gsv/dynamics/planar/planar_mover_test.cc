@@ -151,7 +151,7 @@ TEST(PlanarMover, BoxDoesNotRotateIntoAWall) {
   const double expected = std::asin(0.2 / diagonal) - std::atan2(0.1, 0.3);
   EXPECT_NEAR(world.yaw("robot"), expected, 1e-5);
   EXPECT_EQ(world.body("robot").angular_velocity.z, 0);
-  // It can turn back.
+  // The robot can turn back.
   world.Command("robot", {0, 0, -1});
   world.Run(0.1, 0.01);
   EXPECT_NEAR(world.yaw("robot"), expected - 0.1, 1e-5);

@@ -7,9 +7,10 @@
 //          the piece. So the floor, a ground plane and a door sill are no obstacles. A table is an
 //          obstacle only for pieces that reach its top or its legs. If there are more than
 //          kMaxLevels ranges, their ends are rounded to a grid.
-// Dynamic  Rigid bodies and actors are separate obstacles. Only those in the sight of some mover
-//          are sliced, and again when one of them has moved. A body that extends less than kRides
-//          below the top of a piece lies on the robot and is not an obstacle to it.
+// Dynamic  Rigid bodies and actors are separate obstacles. Only the rigid bodies and actors in the
+//          sight of a mover are sliced. When one of them has moved, they are sliced again. A body
+//          that extends less than kRides below the top of a piece lies on the robot and is not an
+//          obstacle to it.
 // Caching  Slices are kept while the obstacles and the heights of robots do not change. The result
 //          does not depend on this.
 #pragma once

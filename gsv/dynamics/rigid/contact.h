@@ -15,8 +15,8 @@ struct Contact {
   // Friction acts along these two axes, at right angles to the normal. If a surface has two
   // friction coefficients, the axis with the lower coefficient is shorter than 1.
   std::array<geometry::Vector3, 2> axes;
-  // m/(s N): the velocity at which the solids slide along each axis, per friction force of all
-  // their points.
+  // m/(s N): the velocity at which the solids slide along each axis, divided by the friction force
+  // of all their contact points together.
   std::array<double, 2> slip{};
   std::array<double, 2> softness{};  // sliding velocity per impulse at this point: (m/s) / (N s)
   std::array<double, 3> impulse{};   // impulse along the normal and the axes, N s
@@ -31,12 +31,13 @@ struct SlippingContact {
   double along = 0, across = 0;  // slip along the rolling direction and the axle, m/(s N)
 };
 
-// The friction, slip and restitution of two surfaces in contact. The friction is the smaller one,
-// and the restitution is the product of both, as in DART, which Gazebo uses. If one surface has two
-// friction coefficients, they apply along its direction and across it. If both surfaces have two,
-// those of the more slippery surface apply. The slip of a surface also applies along its direction
-// and across it. Otherwise the axes are along and across the rolling direction of `wheel`, which is
-// null if no wheel slips.
+// Sets the friction, slip and restitution of two surfaces in contact. The restitution is the
+// product of both restitutions. A friction coefficient is the smaller one of both surfaces, as in
+// DART, which Gazebo uses. A surface with two friction coefficients, or with slip, has a direction:
+// the axes are then along and across this direction. If both surfaces have a direction, the more
+// slippery surface decides. If no surface has a direction, the axes are along and across the
+// rolling direction of `wheel`, which is null if no wheel slips. The slips of both surfaces and of
+// the wheel are added.
 void SetSurfaces(const PlacedPiece& first, const PlacedPiece& second, const SlippingContact* wheel,
                  Contact& contact);
 

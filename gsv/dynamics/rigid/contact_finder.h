@@ -2,7 +2,7 @@
 // folder: it includes Bullet.
 //
 // Broad phase   sort and sweep for rigid and planar bodies; for static bodies a BVH, which is kept
-//               until one of them moves. Planes are tested one by one.
+//               until a static body moves. Planes are tested one by one.
 // Margin        contacts begin where two pieces may touch within a substep.
 // Order         by the first body, the second body, and their pieces. Bodies far away do not change
 //               the order.
@@ -48,7 +48,7 @@ class ContactFinder {
   // Computes the poses of all pieces of the rigid bodies.
   void PlaceBodies();
 
-  // Finds all contacts. They stay until the next call.
+  // Finds all contacts. The result is valid until the next call.
   std::vector<Contact>& Find(double substep);
 
   const Collider& collider(int index) const { return colliders_[static_cast<std::size_t>(index)]; }

@@ -175,7 +175,7 @@ void ContactSweeps::MakeBatches() {
   }
 }
 
-// Solves four contacts at once. Returns the largest change of a velocity at them, m/s.
+// Solves four contacts at once. Returns the largest change of a velocity at these contacts, m/s.
 __attribute__((always_inline)) inline double ContactSweeps::Solve(Batch& batch, double* motions) {
   constexpr std::size_t kSize = 8;  // values of the motion of one body
   FourDoubles v1[kFour], w1[kFour], v2[kFour], w2[kFour];

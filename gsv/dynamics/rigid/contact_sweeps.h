@@ -38,10 +38,10 @@ class ContactSweeps {
   // Adds a body, and returns its index.
   int AddBody(const Body& body);
   // Adds a contact. `axes` are the normal, from the second side to the first, and two axes of
-  // friction. Along each, the first side must move at `targets` relative to the second. Along an
-  // axis of friction, the velocity may differ from its target by `softness` times the impulse.
-  // `impulse`, along the axes, is a first guess of the solution, which this function applies to
-  // both bodies.
+  // friction. Along each axis, the first side must move at `targets` relative to the second side.
+  // Along an axis of friction, the velocity may differ from its target by `softness` times the
+  // impulse. `impulse`, along the axes, is a first guess of the solution, which this function
+  // applies to both bodies.
   void AddContact(const Side& first, const Side& second,
                   const std::array<geometry::Vector3, 3>& axes,
                   const std::array<double, 3>& targets, double friction,

@@ -10,10 +10,11 @@
 namespace gsv::dynamics {
 namespace {
 
-// Returns the impulses with the least energy within a circle. For (a0, a1), both above 0, and the
-// right side (b0, b1), they are the x with a x = b. If this x is outside of the circle, they are
-// the x on the circle with (a + shift) x = b. Newton's method on 1 / |x(shift)| approaches the
-// solution monotonically from below (Moré and Sorensen 1983). It begins at `shift`.
+// Returns the impulses x = (x0, x1) with the least energy within a circle, for the diagonal matrix
+// a = (a0, a1), both above 0, and the right side b = (b0, b1). If the solution of a x = b is within
+// the circle, it is the result. Otherwise the result is the x on the circle with (a + shift) x = b.
+// Newton's method on 1 / |x(shift)| approaches this solution monotonically from below (Moré and
+// Sorensen 1983). It begins at `shift`.
 [[gnu::always_inline]] inline std::array<double, 2> WithinCircle(double a0, double a1, double b0,
                                                                  double b1, double radius,
                                                                  double& shift) {
@@ -278,10 +279,10 @@ double ImpulseRows::ChangeOfEnergy() const {
 }
 
 int ImpulseRows::Solve(int max_iterations, double tolerance) {
-  // A direct solution of at most kFew rows is cheap, so it follows each iteration, and otherwise
-  // every sixth. If it makes other rows reach their bounds, it may lead away from the result. It is
-  // then undone, and the next direct solution is tried later. The first direct solution distributes
-  // loads.
+  // With at most kFew rows, a direct solution is cheap, so it follows each iteration. With more
+  // rows, it follows every sixth iteration. If a direct solution makes other rows reach their
+  // bounds, it may lead away from the result. Then it is undone, and the next direct solution is
+  // tried later. The first direct solution distributes loads.
   constexpr std::size_t kFew = 60;
   const int sweeps = rows_.size() <= kFew ? 1 : 6;
   Trim();

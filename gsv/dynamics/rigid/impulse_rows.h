@@ -90,7 +90,7 @@ class ImpulseRows {
   struct Block {
     // start in velocities_; start in jacobians_ and responses_
     int first = 0, count = 0, start = 0;
-    int begin = 0, end = 0;  // range in which its jacobian is not zero, from `start`
+    int begin = 0, end = 0;  // range in which the jacobian is not zero, from `start`
     int next = -1;           // the next block on the same body (CoupleAll())
   };
   struct Row {
@@ -125,7 +125,7 @@ class ImpulseRows {
   double VelocityOf(const Row& row) const;
   // Adds `impulse` to the row's impulse, and its effect to the velocities.
   void Apply(Row& row, double impulse);
-  // Solve one row or cone, with all other impulses unchanged.
+  // Solves one row, with all other impulses unchanged.
   void SolveRow(Row& row);
   // Solves a friction cone, with all other impulses unchanged.
   void SolveCone(Cone& cone);

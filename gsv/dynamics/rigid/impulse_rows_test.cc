@@ -108,8 +108,8 @@ TEST(ImpulseRows, FrictionHoldsUpToItsLimit) {
   EXPECT_NEAR(y, 0, 1e-12);
 }
 
-// A sliding body on two feet, whose centre of mass is above them: friction presses the foot in
-// front to the ground and lifts the other one. Its degrees of freedom are x, y, z and the pitch.
+// A sliding body on two feet, whose centre of mass is above them: friction presses the front foot
+// to the ground and lifts the rear foot. Its degrees of freedom are x, y, z and the pitch.
 TEST(ImpulseRows, SolvesASlidingBodyOnTwoFeetFromItsSlip) {
   constexpr double kMass = 3, kInertia = 0.2, kHeight = 0.1, kHalf = 0.25, kFriction = 0.5;
   ImpulseRows rows;

@@ -33,8 +33,7 @@
 
 namespace gsv::dynamics {
 
-// A row on a body that gives a point the required speed along a direction, by a force that never
-// pulls.
+// A row that gives a point of a body the required speed along a direction. Its force never pulls.
 struct PushRow {
   int moving = 0;
   geometry::Vector3 point, normal;  // world
@@ -49,7 +48,7 @@ class IslandSolver {
 
   // Removes all bodies, contacts and pushes.
   void Clear();
-  // Adds a body, contact or push of the island, by its index in the arguments of Solve().
+  // Adds a body of the island, by its index in `bodies` of Solve().
   void AddBody(int moving) { bodies_.push_back(moving); }
   // Adds a contact, by its index in `contacts` of Solve().
   void AddContact(int contact) { contacts_.push_back(contact); }
@@ -98,7 +97,7 @@ class IslandSolver {
     std::array<double, 3> velocity{};
   };
 
-  // These functions add the rows of all joints, of one push, and of one contact.
+  // Adds the rows of all joints.
   void AddJointRows(std::span<const std::unique_ptr<MovingBody>> bodies);
   // Adds the row of a push.
   void AddPushRow(std::span<const std::unique_ptr<MovingBody>> bodies, const PushRow& push);

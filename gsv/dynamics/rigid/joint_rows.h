@@ -37,7 +37,7 @@ class JointRows {
     return rows_.emplace_back(
         JointRow{static_cast<int>(values_.size()), 0, 0, 0, -kNoBound, kNoBound});
   }
-  // Adds a velocity to the last row. No velocity is added twice.
+  // Adds a velocity to the last row. A row must not contain a velocity twice.
   void AddValue(int velocity, double value) {
     velocities_.push_back(velocity);
     values_.push_back(value);
@@ -45,7 +45,7 @@ class JointRows {
   }
 
   const std::vector<JointRow>& rows() const { return rows_; }
-  // The velocities on which a row acts, and its jacobian: one value for each of them.
+  // The velocities on which a row acts.
   std::span<const int> velocities(const JointRow& row) const {
     return std::span(velocities_)
         .subspan(static_cast<std::size_t>(row.begin), static_cast<std::size_t>(row.count));

@@ -1,5 +1,5 @@
 // Stores the impulses at the contacts of heaps, which are large islands of bodies without joints.
-// ContactSweeps starts the next substep from them. They are a part of the world's state.
+// ContactSweeps starts the next substep from these impulses. They are a part of the world's state.
 #pragma once
 
 #include <memory>

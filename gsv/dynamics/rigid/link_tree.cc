@@ -90,7 +90,7 @@ LinkTree::Link LinkTree::LinkOf(int index) const {
   link.inertia = part.inertia;
   link.heaviness = part.heaviness;
   if (parts.size() == 1) {
-    // A body without inertia gets a large one, so that it hardly rotates.
+    // A body without inertia gets a large inertia, so that it hardly rotates.
     constexpr double kHardly = 1e3;  // m²
     for (double* moment : {&link.inertia.x, &link.inertia.y, &link.inertia.z}) {
       if (!(*moment > 0)) *moment = kHardly * part.mass;

@@ -34,8 +34,7 @@ class LinkTree {
   // Computes the mass matrix and factorises it. Call it after Place().
   void WriteMass();
 
-  // Removes all forces that were added. AddForce() adds a force and a torque at a part's centre of
-  // mass, and AddEffort() a force or torque of a joint.
+  // Removes all forces and efforts that were added.
   void ClearForces();
   // Adds a force (N) and a torque (N m) at a part's centre of mass, in the world.
   void AddForce(int part, const geometry::Vector3& force, const geometry::Vector3& torque);
@@ -82,7 +81,7 @@ class LinkTree {
   geometry::Vector3 angular_velocity(int part) const;
   // Returns the velocity of a point that is fixed to a part. Both are in the world.
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
-  // The velocity and angular velocity of the base's centre of mass.
+  // Returns the velocity of the base's centre of mass, in the world.
   geometry::Vector3 base_velocity() const;
   // Returns the angular velocity of the base, in the world.
   geometry::Vector3 base_angular_velocity() const;

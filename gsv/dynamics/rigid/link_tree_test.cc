@@ -57,7 +57,7 @@ class Tree {
     tree_->WriteMass();
     tree_->ClearForces();
   }
-  // Under gravity along -z.
+  // Accelerates the tree under gravity along -z.
   void Accelerate(double gravity, double seconds) {
     for (int i = 0; i < parts(); ++i) {
       tree_->AddForce(i, {0, 0, -gravity * tree_->part_mass(i)}, {});
@@ -224,8 +224,8 @@ TEST(LinkTree, FloatingTreeKeepsItsMomenta) {
   EXPECT_NEAR(errors[0] / errors[1], 4, 0.05);
 }
 
-// The mass matrix gives the sum of the parts' kinetic energies. Respond() multiplies by its
-// inverse.
+// The mass matrix gives the sum of the parts' kinetic energies. Respond() multiplies by the inverse
+// of the mass matrix.
 TEST(LinkTree, MassMatrixGivesTheKineticEnergyAndRespondInvertsIt) {
   const model::Model model = Satellite();
   const auto parts = MakeArticulation(model).parts;

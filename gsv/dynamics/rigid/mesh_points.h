@@ -11,20 +11,21 @@ namespace gsv::dynamics {
 // Collects the points at which a piece touches a mesh, in the mesh's frame, and removes redundant
 // points.
 //
-// Fine meshes  A wheel of 0.1 m is within a millimetre of 3 cm of the ground, which may have
-//              thousands of triangles. At most kMaxPoints points are chosen: first the deepest
-//              point, then repeatedly the point that is farthest from the points chosen before. The
-//              distance of a point with a gap is reduced by s = √(2 radius gap): at this distance
-//              from its contact, a cylinder of this radius on a plane has this gap. So on a plane a
-//              sphere keeps one point, and a cylinder keeps both ends. A bump is left out if it is
-//              lower than 1 % of its distance from a chosen point, unless it is the deepest point.
+// Fine meshes  For a wheel with a radius of 0.1 m, about 3 cm of the ground are within a
+//              millimetre. This part of the ground may have thousands of triangles. At most
+//              kMaxPoints points are chosen: first the deepest point, then repeatedly the point
+//              that is farthest from the points chosen before. The distance of a point with a gap
+//              is reduced by s = √(2 radius gap): at this distance from its contact, a cylinder of
+//              this radius on a plane has this gap. So on a plane a sphere keeps one point, and a
+//              cylinder keeps both ends. A bump is left out if it is lower than 1 % of its distance
+//              from a chosen point, unless it is the deepest point.
 // Determinism  the chosen points depend on the added points, not on their order.
 class MeshPoints {
  public:
   static constexpr std::size_t kMaxPoints = 8;
 
-  // `near` (m) is the distance at which two points with one normal are the same. `radius` (m) is
-  // that of the wheel or sphere. The points are appended to `points`.
+  // `near` (m): two points with the same normal and at most this distance count as one point.
+  // `radius` (m) is the radius of the wheel or sphere. The points are appended to `points`.
   MeshPoints(double margin, double near, double radius, std::vector<TouchPoint>& points)
       : margin_(margin), near_(near), radius_(radius), points_(points), begin_(points.size()) {}
 

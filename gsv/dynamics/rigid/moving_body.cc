@@ -203,7 +203,8 @@ void MovingBody::AddMotor(const Motor& motor, double seconds) {
   if (joint.velocity_limit < kNoLimit) AddVelocityLimit(motor, force, seconds);
 }
 
-// Adds a force, and Coulomb's friction as a motor that holds the joint with at most this force.
+// Adds a force of the joint. Also adds Coulomb's friction, as a motor that holds the joint with at
+// most the friction force.
 void MovingBody::AddPush(const Motor& motor, double force, double seconds) {
   const model::Joint& joint = JointOf(motor);
   AddRow(motor, 0, joint.friction * seconds);

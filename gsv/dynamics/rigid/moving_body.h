@@ -33,8 +33,8 @@ class MovingBody {
   // Half of the smallest thickness of any part, m.
   double thickness() const { return thickness_; }
 
-  // Writes pose and velocity to `state`, except for bodies that were at rest and still are. Returns
-  // true for these.
+  // Writes the body's pose, velocities and joints to `state`. Returns true if the body was at rest
+  // and still is. Then its pose and joint positions stay as they are, and its velocities are 0.
   bool Store(double seconds, world::State& state) const;
 
   const RigidBody& plan() const { return plan_; }
@@ -43,7 +43,7 @@ class MovingBody {
   const JointRows& rows() const { return rows_; }
   // Whether the body moves at its own velocity, and contacts have no effect on it.
   bool is_kinematic() const { return is_kinematic_; }
-  // Whether its drive controls the base directly.
+  // Whether the body's drive controls the base directly.
   bool is_held() const { return servo_.has_value() && !rolls_; }
   // Returns the velocity of a point of a part, in the world.
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;

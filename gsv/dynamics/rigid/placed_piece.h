@@ -41,8 +41,8 @@ bool AddTouchPoints(const PlacedPiece& first, const PlacedPiece& second, double 
                     std::vector<TouchPoint>& points);
 
 // Computes the points of a cylinder that are nearest to a plane below it: the lowest point of both
-// rims, or four points of the rim on which it stands. The results are vectors from its centre.
-// Returns their number.
+// rims, or four points of the rim on which it stands. The results are vectors from the cylinder's
+// centre. Returns the number of points.
 int LowestOfCylinder(const PlacedPiece& cylinder, const geometry::Vector3& normal,
                      std::array<geometry::Vector3, 4>& lowest);
 

@@ -36,8 +36,7 @@ class RigidScene {
   const std::vector<Solid>& planar() const { return planar_; }
 
  private:
-  // These functions add a body of the layout, by its index: AddRigid() to bodies_, AddStanding() to
-  // standing_, AddPlanar() and AddActor() to planar_.
+  // Adds a body of the layout to bodies_, by its index.
   base::Status AddRigid(int index);
   // Adds a body of the layout to standing_.
   void AddStanding(int index);

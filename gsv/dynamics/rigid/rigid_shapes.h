@@ -34,8 +34,9 @@ struct StandingMesh {
 // Makes and owns Bullet's shapes of all bodies.
 class RigidShapes {
  public:
-  // The shape of a static body; null if there is nothing to collide with. It lives as long as this
-  // object, until the second NextLayout().
+  // Returns the shape of a static body; null if there is nothing to collide with. The shape is
+  // valid until the next NextLayout(). A mesh is kept longer, until the second NextLayout(), so
+  // that the next layout can use it again.
   btCollisionShape* Standing(const geometry::Shape& shape);
 
   // Returns the shapes of a moving body in the frame of `shape`: none for a plane, else one or

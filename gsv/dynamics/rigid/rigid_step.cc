@@ -12,8 +12,8 @@ using geometry::Vector3;
 
 // s: the longest and the shortest substep
 constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
-// In a substep, a body moves by at most this fraction of its smallest thickness, so that it passes
-// through nothing.
+// Substeps are shortened, so that a body moves in a substep by at most this fraction of half of its
+// smallest thickness. So it passes through nothing.
 constexpr double kPassable = 0.4;
 // m: planar bodies that are closer than this to the area of a rigid body are obstacles in the step
 constexpr double kNear = 0.05;

@@ -60,7 +60,7 @@ class RigidStep {
   void Start(const world::State& before, const world::State& after, double seconds);
   // Adds the planar bodies that may touch a rigid body in this step.
   void AddPlanarNear(const world::State& before, const world::State& after);
-  // Moves these planar bodies to their poses at `time` after the start of the step.
+  // Moves the planar bodies near rigid bodies to their poses at `time` after the start of the step.
   void MovePlanar(double time);
   // Prepares the pushes of the step.
   void AddPushes(std::span<const Push> pushes);

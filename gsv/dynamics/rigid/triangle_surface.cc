@@ -24,7 +24,7 @@ std::size_t After(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
 
 auto Tied(const Vector3& v) { return std::tie(v.x, v.y, v.z); }
 
-// Gives equal positions the same number: the index of the first of them.
+// Numbers the positions. Equal positions have the same number: the index of the first of them.
 std::vector<int> Weld(const std::vector<Vector3>& positions) {
   std::vector<int> order, numbers(positions.size());
   std::iota(numbers.begin(), numbers.end(), 0);

@@ -2,9 +2,10 @@
 //
 // Sides        bodies can touch a triangle on both sides. A body is on the side on which its centre
 //              is.
-// Inner edges  a body that rolls over the edge between two triangles is not caught by it. An edge
-//              or vertex has contacts only in directions in which no adjacent triangle is nearer
-//              (Ericson, "Real-Time Collision Detection", 2005, 3.6: Voronoi regions).
+// Inner edges  a body that rolls over the edge between two triangles does not get stuck at the
+//              edge. An edge or vertex has contacts only in directions in which no adjacent
+//              triangle is nearer (Ericson, "Real-Time Collision Detection", 2005, 3.6: Voronoi
+//              regions).
 #pragma once
 
 #include <array>

@@ -35,9 +35,9 @@ struct Footprint {
 // `tilt` rotates the model's frame into a frame whose z axis is up (normally the identity).
 Footprint MakeFootprint(const model::Model& model, const geometry::Quaternion& tilt);
 
-// The height of an edge that the model can drive over. Anything lower than this above its lowest
-// point counts as ground. It is half a wheel's radius, between 1 and 5 cm, and at most half the
-// model's height.
+// The height of an edge that the model can drive over: half a wheel's radius, between 1 and 5 cm,
+// and at most half the model's height. Anything lower than this height above the model's lowest
+// point counts as ground.
 double ClimbHeight(const model::Model& model, const Footprint& footprint);
 
 }  // namespace gsv::dynamics
