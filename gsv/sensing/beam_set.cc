@@ -17,7 +17,6 @@ constexpr std::size_t kMinPacket = 3;
 // Computes the rays of the beams. The results are bit-identical to world_from_link *
 // link_from_sensor and to the x axis rotated by this orientation, because the operations and their
 // order are the same.
-// order are the same.
 GSV_FOR_EACH_PROCESSOR
 void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPacket& rays) {
   const double tx = world_from_link.position.x, ty = world_from_link.position.y,
