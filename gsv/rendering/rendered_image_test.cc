@@ -63,7 +63,7 @@ TEST_F(IMAGE_SUITE, HasTheRequestedSize) {
 TEST_F(IMAGE_SUITE, OfAnEmptyWorldIsTheBackground) {
   scene_.description().scene.background = {0.25, 0.5, 0.75, 1};
   const auto image = Take({{}, {64, 48, 1, 0.1, 100}});
-  // This pixel is at the horizon, where haze makes the sky brighter.
+  // This pixel is at the horizon. There, haze makes the sky brighter.
   const std::uint8_t* p = &image->pixels[(24 * 64 + 32) * 3];
   EXPECT_NEAR(p[0], 0.25 * 255, 45);
   EXPECT_NEAR(p[1], 0.5 * 255, 30);
@@ -76,8 +76,8 @@ TEST_F(IMAGE_SUITE, ShowsAPointWhereThePinholeModelPutsIt) {
   const double f = 160 / std::tan(1.047 / 2);
   for (const Vector3& p :
        {Vector3{3, 0, 0}, Vector3{4, 1.2, 0.8}, Vector3{6, -2.5, -1.5}, Vector3{2, 0.5, -0.6}}) {
-    // The image of the ball has a radius of three pixels, so its centre is off by less than 0.01
-    // pixels.
+    // The image of the ball has a radius of only three pixels, so the error of its centre is less
+    // than 0.01 pixels.
     scene_.Add("ball", geometry::Sphere{3 * p.x / f}, {view.world_from_camera * p, {}},
                Glowing(1, 0, 0));
     const Blob ball = FindBlob(*Take(view), 0, 10);
@@ -122,7 +122,8 @@ TEST_F(IMAGE_SUITE, ObjectsOutsideTheClippingDistancesAreNotDrawn) {
   EXPECT_GT(FindBlob(*Take({{}, {160, 120, 1, 0.1, 100}}), 0).pixels, 1000);
 }
 
-// An image with a red upper left, green upper right, blue lower left and black lower right quarter.
+// An image whose quarters are red (upper left), green (upper right), blue (lower left) and black
+// (lower right).
 std::shared_ptr<const model::Image> Quarters(int channels) {
   auto image = std::make_shared<model::Image>();
   image->width = image->height = 64;
@@ -192,7 +193,8 @@ TEST_F(IMAGE_SUITE, LightMapIsReflectedAsDiffuseLight) {
   const auto plain = take(material);
   material.light_map = BlackAndWhite();
   const auto lit = take(material);
-  // White light times the diffuse colour is the light of a surface that emits this colour.
+  // A surface with this diffuse colour in white light is as bright as a surface that emits this
+  // colour.
   model::Material emitting = Matt(0.5, 0.3, 0.2);
   emitting.emissive = emitting.base_colour;
   const auto expected = take(emitting);
@@ -210,7 +212,7 @@ TEST_F(IMAGE_SUITE, AlphaMaskShowsTheObjectBehindItsHoles) {
   material.alpha_mask = true;
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
   scene_.Add("lamp", Box{{0.1, 4, 4}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
-  // The front panel has a transparent hole, its lower right quarter. Its other quarters hide the
+  // The lower right quarter of the front panel is a transparent hole. The other quarters hide the
   // panel behind it.
   const auto image = Take({{}, {160, 120, 0.5, 0.1, 100}});
   const std::uint8_t* hole = &image->pixels[(75 * 160 + 95) * 3];
@@ -241,15 +243,16 @@ TEST_F(IMAGE_SUITE, MirroredMeshShowsItsOutside) {
   EXPECT_GT(FindBlob(*plain, 0).pixels, 1000);
 }
 
-// The camera looks down from 10 m with 90° over 100 pixels, so a pixel is 0.2 m of the ground.
-// World x points up in the image.
+// The camera is 10 m high and looks down. Its 90° are 100 pixels, so a pixel is 0.2 m of the
+// ground. The world's x points up in the image.
 CameraView FromAbove() {
   return {{{0, 0, 10}, geometry::FromAxisAngle({0, 1, 0}, kPi / 2)}, {100, 100, kPi / 2, 0.1, 100}};
 }
 
 TEST_F(IMAGE_SUITE, ShadowPointsAwayFromTheSun) {
   model::Light sun;
-  sun.direction = geometry::Normalized(Vector3{-1, 0, -1});  // the light comes from +x, 45° high
+  // the light is from +x, at an elevation of 45°
+  sun.direction = geometry::Normalized(Vector3{-1, 0, -1});
   scene_.description().lights = {sun};
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("slab", Box{{2, 2, 0.1}}, {{3, 0, 3}, {}}, Matt(0.7, 0.7, 0.7));
@@ -309,7 +312,8 @@ TEST_F(IMAGE_SUITE, DoesNotDependOnEarlierImages) {
   }
 }
 
-// The renderer keeps the colours of still bodies. Each image must equal that of a new renderer.
+// The renderer keeps the colours of still bodies. Each image must equal the image of a new
+// renderer.
 TEST_F(IMAGE_SUITE, OfAViewThatStaysDoesNotDependOnEarlierImages) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{-1, 0.5, -1});
@@ -344,8 +348,8 @@ TEST_F(IMAGE_SUITE, GroundBeyondTheShadowMapIsLit) {
   scene_.description().lights = {sun};
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("post", Box{{0.2, 0.2, 1}}, {{-3, -3, 0.5}, {}}, Matt(0.7, 0.7, 0.7), true);
-  // The camera looks along the light, where the ground is farther from the sun than the foot of the
-  // post.
+  // The camera faces in the direction of the light. The ground in its view is farther from the sun
+  // than the foot of the post.
   const auto image = Take({{{0, 0, 2}, {}}, {160, 120, 1, 0.1, 200}});
   const int near = Brightness(*image, 80, 115), far = Brightness(*image, 80, 65);
   EXPECT_NEAR(near, far, 30);
@@ -385,8 +389,8 @@ TEST_F(IMAGE_SUITE, SpotLightsOnlyItsCone) {
   scene_.description().lights = {spot};
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   const Blob lit = FindBlob(*Take(FromAbove()), 0, 10);
-  // The cone's radius is 4 tan(0.5) = 2.2 m or 11 pixels at the outer edge. It is 4 tan(0.25) or 5
-  // pixels at the inner edge.
+  // At the outer edge of the cone, the radius is 4 tan(0.5) = 2.2 m or 11 pixels. At the inner
+  // edge, it is 4 tan(0.25) = 1 m or 5 pixels.
   EXPECT_GT(lit.pixels, 3.14 * 5 * 5);
   EXPECT_LT(lit.pixels, 3.14 * 12 * 12);
 }
@@ -394,8 +398,8 @@ TEST_F(IMAGE_SUITE, SpotLightsOnlyItsCone) {
 TEST_F(IMAGE_SUITE, GroundReachesTheHorizon) {
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {20, 20}}, {}, Glowing(1, 0, 0), true);
   const auto image = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
-  // The ground ends 100 m away. There, 1 m below the camera is f / 100 = 1.46 pixels below the
-  // image's centre.
+  // The ground ends 100 m away. A point there, 1 m below the camera, is f / 100 = 1.46 pixels below
+  // the image's centre.
   EXPECT_NEAR(FindBlob(*image, 0).pixels / 160.0, 60 - 1.46, 0.6);
 }
 
@@ -451,7 +455,7 @@ TEST_F(IMAGE_SUITE, ShadowsOfMovingObjectsDoNotDependOnTheBatchOrItsOrder) {
   }
 }
 
-// A robot stands in front of a grey wall, with its lamp between them, in the centre of the image.
+// A robot is in front of a grey wall. Its lamp is between them, in the centre of the image.
 void BeforeAWall(TestScene& scene) {
   scene.description().scene.shadows = false;
   model::Light moon;

@@ -24,7 +24,7 @@ using Images = std::vector<std::shared_ptr<const model::Image>>;
 // The maximum number of images in a batch, so that requests for other snapshots do not wait too
 // long.
 constexpr std::size_t kMaxBatchSize = 64;
-// After this time without requests, unused data are removed from the card.
+// If there are no requests for this time, unused data are removed from the card.
 constexpr std::chrono::seconds kIdleSweep{5};
 
 using Truths = std::vector<std::shared_ptr<const GroundTruth>>;

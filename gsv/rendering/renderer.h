@@ -1,9 +1,9 @@
 // Renders images of snapshots on its own thread: with OpenGL on a graphics card, otherwise with the
 // built-in rasteriser.
 //
-// Pending requests for one snapshot are rendered as one batch, with one shadow map. Meshes and
-// textures on the back end are shared between snapshots and simulations, and freed after their
-// model is destroyed.
+// Pending requests for one snapshot are rendered as one batch, with one shadow map. Snapshots and
+// simulations share the meshes and textures on the back end. These are freed after their model is
+// destroyed.
 //
 // Determinism  an image is a function of snapshot, camera and renderer_name(). Equal inputs give
 //              equal bytes on one renderer, in any batch.
@@ -30,7 +30,8 @@ namespace gsv::rendering {
 
 // The implementation that renders the images.
 enum class BackEnd {
-  kAutomatic,   // a graphics card, or else the rasteriser, or else (without AVX2) Mesa in software
+  // graphics card; if there is none: rasteriser; on processors without AVX2: Mesa in software
+  kAutomatic,
   kOpenGl,      // OpenGL, on the devices that `egl` allows
   kRasteriser,  // the rasteriser; kUnavailable on processors without AVX2 and FMA
 };
@@ -39,18 +40,18 @@ enum class BackEnd {
 struct RendererOptions {
   BackEnd back_end = BackEnd::kAutomatic;
   EglOptions egl;
-  // The maximum number of pending requests; more are refused.
+  // The maximum number of pending requests; further requests are refused.
   std::size_t queue_capacity = 4096;
 };
 
 // Renders images of snapshots on its own thread.
 class Renderer {
  public:
-  // This is longer than the slowest machine needs for an image. The simulation's deadline for
-  // behaviours may be shorter.
+  // This is longer than the time that the slowest machine needs for an image. The simulation's
+  // deadline for behaviours may be shorter.
   static constexpr std::chrono::seconds kTimeout{60};
 
-  // Starts the render thread. Returns kUnavailable if this machine has no such back end.
+  // Starts the render thread. Returns kUnavailable if the back end cannot be used on this machine.
   [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
   // Ends all pending requests with kEnded.
   ~Renderer();
@@ -62,13 +63,13 @@ class Renderer {
       std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
       std::chrono::milliseconds timeout = kTimeout);
 
-  // Renders several cameras in one batch. Image i is that of views[i].
+  // Renders several cameras in one batch. Image i is the image of views[i].
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = kTimeout);
 
-  // Renders depth and label images. Element i is that of views[i]. It always uses the rasteriser,
-  // and returns kUnavailable on processors without AVX2 and FMA.
+  // Renders depth and label images. Element i is the image of views[i]. This function always uses
+  // the rasteriser. It returns kUnavailable on processors without AVX2 and FMA.
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = kTimeout);

@@ -1,9 +1,9 @@
 // Measures the speed of rendering: run it in a release build.
 //
-// A hundred robots are in a building of 20 by 20 m. It has 25 rooms with a table each, a sun and
-// four lamps. The cameras of some robots, with 320 by 240 pixels, take their images of one instant.
-// Then all robots move, and this repeats. A measured time is that of one instant: shadows, images
-// and their readback.
+// A hundred robots are in a building of 20 by 20 m. The building has 25 rooms with a table each, a
+// sun and four lamps. The cameras of some robots, with 320 by 240 pixels, take their images at one
+// instant. Then all robots move, and this repeats. A measured time is the time for one instant:
+// shadows, images and their readback.
 
 #include <benchmark/benchmark.h>
 
@@ -140,8 +140,8 @@ double ProcessorTime() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Reports the mean and the minimum processor time of an instant. The minimum is hardly affected by
-// other work of the machine.
+// Reports the mean and the minimum processor time of an instant. The minimum hardly depends on
+// other programs on the machine.
 void Images(benchmark::State& bench) {
   const int cameras = static_cast<int>(bench.range(0));
   RendererOptions options;
@@ -158,7 +158,7 @@ void Images(benchmark::State& bench) {
     const auto images = (*renderer)->Draw(office.snapshot(), views, std::chrono::minutes(1));
     GSV_CHECK(images.has_value());
   };
-  // The first images include everything that is done once per world.
+  // While the first images are rendered, everything is done that is needed once per world.
   for (int i = 0; i < 3; ++i) draw();
   double least = 1e9;
   for (auto _ : bench) {

@@ -9,7 +9,7 @@
 namespace gsv::rendering {
 namespace {
 
-// the tolerance, as a fraction of the image's width
+// tolerance for the position of the axis, as a fraction of the image's width
 constexpr double kSamePlace = 1e-9;
 
 bool IsAboutThePrincipalPoint(const Lens& lens) {

@@ -69,7 +69,7 @@ base::Status AddCameraSensor(sensing::SensorRegistry& registry,
       registry.Add(MakeCameraType<Camera>(readings::Camera::kType, {}, sensing::Overlay::kImage,
                                           shared, renderer, std::string("gnomonical")));
   if (!added) return added;
-  // The default lens of a wide-angle camera is that of SDFormat.
+  // A wide-angle camera has the default lens of SDFormat.
   return registry.Add(MakeCameraType<Camera>(
       readings::Camera::kWideAngleType, {"wideanglecamera", "wide_angle_camera"},
       sensing::Overlay::kImage, shared, renderer, std::string("stereographic")));

@@ -1,7 +1,7 @@
 // The sensor types "camera" and "wideangle_camera": images from a robot's viewpoint.
 //
 // Frame       sensor frame: x along the view, y left, z up.
-// Parameters  those of every camera (see optics.h), and those of shutter.h and exposure.h. The
+// Parameters  the parameters of every camera (see optics.h), of shutter.h and of exposure.h. The
 //             default lens of a "wideangle_camera" is stereographic.
 // Readings    values {width, height} in pixels; the image is RGB. As a message:
 //             sensor_msgs/CompressedImage, JPEG of quality 80.

@@ -37,7 +37,7 @@ TEST(Camera, TakesAnImageFromItsMountingPose) {
       Front({{"image.width", 64.0}, {"image.height", 48.0}, {"horizontal_fov", 1.5}}));
   ASSERT_TRUE(camera) << camera.error().Sentence();
   TestScene scene;
-  // The robot looks along world y; its camera is in front of its own body.
+  // The robot faces the world's y axis; its camera is in front of its own body.
   scene.Add("robot", geometry::Box{{0.8, 0.8, 0.8}}, geometry::PlanarPose(2, 0, 1, 1.5707963),
             Glowing(0, 0, 1));
   scene.Add("target", geometry::Sphere{0.3}, {{2, 3, 1}, {}}, Glowing(1, 0, 0));

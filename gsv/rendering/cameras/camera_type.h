@@ -22,7 +22,7 @@ using RendererResult = base::Result<std::shared_ptr<Renderer>>;
 template <typename Values, typename Message>
 class CameraOf : public sensing::SensorOf<Values, Message> {
  public:
-  // `lens_type` is the lens of cameras whose parameters name no lens.
+  // `lens_type` is the lens of cameras whose parameters do not name a lens.
   CameraOf(const model::SensorDescription& description, sensing::ParameterReader& reader,
            RendererResult renderer, const std::string& lens_type = "gnomonical")
       : sensing::SensorOf<Values, Message>(description),

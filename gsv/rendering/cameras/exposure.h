@@ -27,8 +27,8 @@ class Exposure {
   // Whether Apply() would leave images unchanged.
   bool is_neutral() const;
 
-  // Applies exposure, vignetting and noise to an RGB image. The noise is that of the instant of
-  // `sampling`.
+  // Applies exposure, vignetting and noise to an RGB image. `sampling` determines the instant of
+  // the noise.
   void Apply(const sensing::Sampling& sampling, const model::SensorDescription& description,
              model::Image& image) const;
 

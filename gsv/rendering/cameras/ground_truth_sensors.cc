@@ -25,7 +25,7 @@ using sensing::Reading;
 using sensing::Segment;
 
 constexpr std::size_t kSharedSurveyBytes = 64 << 20;
-// the maximum number of points that the viewer shows of a cloud
+// the maximum number of points of a point cloud that the viewer shows
 constexpr std::size_t kMaxDrawnPoints = 2000;
 
 // Scales a pixel's ray to a depth of one metre. Returns nullopt if the lens shows nothing there, or
@@ -252,8 +252,7 @@ class ThermalCamera final
   Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
     const world::Layout& layout = *sampling.snapshot()->layout;
     const double of_air = layout.description->temperature;
-    std::map<std::int32_t, std::vector<double>> known;  // temperatures of the bodies that are
-                                                        // visible
+    std::map<std::int32_t, std::vector<double>> known;  // temperatures of the visible bodies
     const sensing::NoisyReading noisy(sampling, description());
     std::vector<double> temperature(truth.body.size(), Stepped(of_air));
     for (std::size_t i = 0; i < temperature.size(); ++i) {
@@ -295,11 +294,11 @@ class ThermalCamera final
   const sensing::NoiseModel noise_;
 };
 
-// Computes surface normals from a depth image. A tangent is the difference between a pixel's point
-// and that of an adjacent pixel of the same visual. The adjacent pixel is taken from the side on
-// which the surface is closer to a plane. So a normal near an edge belongs to the pixel's own face.
-// In the image of a plane, the inverse depth is linear along a line, so its second difference
-// measures the deviation from a plane.
+// Computes surface normals from a depth image. A tangent is the difference between the points of a
+// pixel and of an adjacent pixel of the same visual. Of the two adjacent pixels, the one is taken
+// on whose side the surface is closer to a plane. So a normal near an edge belongs to the pixel's
+// own face. In the image of a plane, the inverse depth is linear along a line. So its second
+// difference measures the deviation from a plane.
 class SurfaceNormals {
  public:
   SurfaceNormals(const GroundTruth& truth, const Optics& optics) : truth_(truth) {
@@ -335,8 +334,9 @@ class SurfaceNormals {
            truth_.visual[other] == truth_.visual[pixel];
   }
 
-  // Returns how much three points deviate from a straight line: those of the pixel (x, y) and of
-  // the next two in the direction (dx, dy). Infinite if one of them has no depth.
+  // Returns how much three points deviate from a straight line. These are the points of the pixel
+  // (x, y) and of the next two pixels in the direction (dx, dy). Infinite if one of them has no
+  // depth.
   double Bend(int x, int y, int dx, int dy) const {
     const std::size_t pixel = Index(x, y);
     if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {

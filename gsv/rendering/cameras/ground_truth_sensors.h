@@ -1,9 +1,9 @@
-// The sensor types of depth and label images: "depth_camera", "segmentation_camera",
+// The sensor types that use depth and label images: "depth_camera", "segmentation_camera",
 // "boundingbox_camera", "thermal_camera" and "normals_camera".
 //
 // Frame       sensor frame: x along the view, y left, z up.
-// Parameters  those of every camera (see optics.h). A depth camera also has noise in m (see
-//             sensing/noise.h): white noise, bias and dropout for each pixel.
+// Parameters  the parameters of every camera (see optics.h). A depth camera also has `noise` in m
+//             (see sensing/noise.h): white noise, bias and dropout for each pixel.
 // Readings    pixels are in rows from the top, as in ground_truth.h. Other names of a type are in
 //             brackets.
 //   depth_camera        values {width, height, then for each pixel the distance along the view in

@@ -209,14 +209,15 @@ TEST_F(GroundTruthTest, SegmentationColoursIdentifyLabels) {
 }
 
 TEST_F(GroundTruthTest, BoundingBoxEnclosesTheVisiblePixels) {
-  // A box of 1 m has its near face 3 m from the camera. The face's edges are 0.5 / 3 of the focal
-  // length on both sides of its centre, which is shifted by 1/3 to the right.
+  // The near face of a box of 1 m is 3 m from the camera. The image of the face's centre is shifted
+  // to the right by 1/3 of the focal length. The face's edges are 0.5 / 3 of the focal length on
+  // both sides.
   Add("box", geometry::Box{{1, 1, 1}}, PlanarPose(3.8, -1, 1, 0));
   const auto description = Description("boundingbox_camera");
   const Reading reading = Sample(description);
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
   ASSERT_EQ(reading.values.size(), 4u);
-  // The box's left side reaches back to 4 m, and is also visible.
+  // The box's left side is also visible. Its far edge is 4 m from the camera.
   EXPECT_WITHIN(reading.values[0], kSurveyWidth / 2.0 + kFocal * 0.5 / 4, 1, "pixel");
   EXPECT_WITHIN(reading.values[1], kSurveyHeight / 2.0 - kFocal * 0.5 / 3, 1, "pixel");
   EXPECT_WITHIN(reading.values[2], kSurveyWidth / 2.0 + kFocal * 1.5 / 3, 1, "pixel");
@@ -259,8 +260,8 @@ INSTANTIATE_TEST_SUITE_P(BackEnds, ThermalCameraTest,
                            return test.param == BackEnd::kOpenGl ? "OpenGl" : "Rasteriser";
                          });
 
-// The first visual of a body has a face of 2 m by 1 m, 4 m in front of the camera. On its left is a
-// second visual with a face of 1 m by 1 m, and on its right a third visual without a temperature.
+// The first visual of a body has a face of 2 m by 1 m, 4 m in front of the camera. To its left is a
+// second visual with a face of 1 m by 1 m. To its right is a third visual without a temperature.
 TEST_P(ThermalCameraTest, ShowsTheTemperatureOfEachVisualAndOfTheAir) {
   Add("oven", geometry::Box{{1, 2, 1}}, {{4.8, 0, 1}, {}});
   std::vector<model::Visual>& visuals = scene_.LinkOf("oven").visuals;
@@ -374,9 +375,9 @@ TEST_F(NormalsCameraTest, ReturnsTheNormalsOfASphereAndNanForTheSky) {
       }
       const Vector3 expected = Vector3{0.3, 0, 1} + d * RayOf(x, y) - centre;
       // The tolerance for the angle between the measured and the exact normal, in rad. The sphere
-      // consists of facets, which are 0.1 rad wide. The normal is computed from adjacent pixels,
-      // which are 0.07 m apart: 0.07 rad of the sphere. Half of the sum, 0.085 rad, is the greatest
-      // error about each of two axes. Together these are 0.12 rad.
+      // consists of facets, which are 0.1 rad wide. The normal is computed from adjacent pixels.
+      // Their distance of 0.07 m is 0.07 rad of the sphere. Half of the sum of both, 0.085 rad, is
+      // the maximum error about each of two axes. The error about both axes together is 0.12 rad.
       if (expected.x > -0.75) continue;
       EXPECT_LT(Norm(normal - expected), 0.12) << x << " " << y;
       ++seen;

@@ -35,8 +35,8 @@ class Optics {
 
   const CameraParameters& camera() const { return camera_; }
   const Lens& lens() const { return lens_; }
-  // The field of view from the parameters. For a wide lens it is the angle to which the image is
-  // scaled.
+  // The field of view according to the parameters. For a wide lens, it is the angle to which the
+  // image is scaled.
   const sensing::Frustum& frustum() const { return frustum_; }
   // Returns the direction of a pixel's centre as a unit vector; nullopt if the lens shows nothing
   // there. Pixels are numbered in rows from the top.

@@ -1,12 +1,12 @@
-// The shutter of a camera: global at one instant, with an exposure time (motion blur), or row after
-// row (rolling shutter).
+// The shutter of a camera. A global shutter takes the image at one instant, or during an exposure
+// time (motion blur). A rolling shutter takes one row after another.
 //
 // Parameters   exposure_time (0 s), readout_time (0 s), shutter_samples (8; from 2 to 64)
 // Model        The image of the instant t is complete at t. Row y of H is exposed from e -
 //              exposure_time to e, where e = t - readout_time (1 - (y + 1/2) / H). The time from t
-//              - exposure_time - readout_time to t is divided into `shutter_samples` equal parts,
-//              and one image is rendered at the centre of each. A row is the mean light of the
-//              images within its exposure, or the nearest image.
+//              - exposure_time - readout_time to t is divided into `shutter_samples` equal parts.
+//              One image is rendered at the centre of each part. A row is the mean light of the
+//              images within its exposure. If there is none, the nearest image is used.
 // Earlier      the pose s seconds earlier is extrapolated from the velocities at t. Positions
 //              change by v s, orientations by w s about w, and joints by their velocity times s. So
 //              an image depends on one snapshot only.

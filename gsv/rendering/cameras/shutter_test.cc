@@ -92,8 +92,8 @@ TEST_F(ShutterTest, MovingObjectIsBlurredAlongItsPath) {
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
   const RedColumns moved =
       RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
-  // In 0.1 s the object moves by 0.2 m, from the right to its place in the snapshot. The samples
-  // are at the centres of 32 parts of this time.
+  // In 0.1 s, the object moves by 0.2 m from the right to its position in the snapshot. The 32
+  // samples are at the centres of 32 parts of this time.
   const double way = Focal() * 2 * 0.1 / kDistance;
   EXPECT_WITHIN(moved.width() - still.width(), way * 31 / 32, 1.5, "pixel");
   EXPECT_WITHIN(moved.last - still.last, way * 63 / 64, 1.5, "pixel");
@@ -108,8 +108,8 @@ TEST_F(ShutterTest, BlurDistributesTheLightAlongThePath) {
   const auto light_at = [](const model::Image& image, int column) {
     return LightOf(image.pixels[3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + column)]);
   };
-  // The object covers 0.2 m of 0.8 m, so it contributes a quarter of the light, and the background
-  // the rest.
+  // The object covers 0.2 m of 0.8 m. So a quarter of the light is from the object, and the rest is
+  // from the background.
   const int column = kWidth / 2 + static_cast<int>(Focal() * 0.4 / kDistance);
   const float expected = 0.25f * light_at(still, kWidth / 2) + 0.75f * light_at(still, column);
   EXPECT_WITHIN(100 * light_at(blurred, column), 100 * expected, 2, "% of white");
@@ -123,8 +123,8 @@ TEST_F(ShutterTest, TurningCameraBlursStaticObjects) {
       RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
   turning_ = 0;
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
-  // The camera looked 0.1 rad to the right before, so the object was to the left of its current
-  // place.
+  // Earlier, the camera was rotated 0.1 rad to the right, so the object was to the left of its
+  // current position in the image.
   EXPECT_WITHIN(still.first - turned.first, Focal() * std::tan(0.1 * 63 / 64), 2, "pixel");
   EXPECT_WITHIN(turned.last, still.last, 1.5, "pixel");
 }

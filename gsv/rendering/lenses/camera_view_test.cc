@@ -28,8 +28,8 @@ TEST(FocalLength, OfA90DegreeViewIsHalfTheWidth) {
   EXPECT_NEAR(FocalLength({.width = 320, .horizontal_fov = std::numbers::pi / 2}), 160, 1e-9);
 }
 
-// Returns the coordinates u and v of a point, computed from the matrix as the graphics card does,
-// and its depth.
+// Returns the coordinates u and v of a point, and its depth. They are computed from the matrix as
+// on the graphics card.
 Vector3 Project(const CameraView& view, const Vector3& point_in_world) {
   const auto m = ClipFromRelative(view);
   const Vector3 p = point_in_world - view.world_from_camera.position;

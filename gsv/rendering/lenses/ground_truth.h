@@ -8,7 +8,7 @@
 
 namespace gsv::rendering {
 
-// For each pixel, in rows from the top, what the camera sees there.
+// For each pixel, in rows from the top: depth, body and visual.
 struct GroundTruth {
   int width = 0, height = 0;
   // depth in m along the camera's axis, not along the pixel's ray; infinite for the background

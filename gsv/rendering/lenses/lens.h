@@ -10,13 +10,13 @@
 //            p = (x, y) - c and r² = |p|²:
 //              x' = c.x + p.x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 p.x p.y + p2 (r² + 2 p.x²)
 //              y' = c.y + p.y (1 + k1 r² + k2 r⁴ + k3 r⁶) + p1 (r² + 2 p.y²) + 2 p2 p.x p.y
-//            which is "plumb_bob" of ROS and OpenCV if c is the principal point. With a strong
-//            barrel distortion, rays beyond an angle would return into the image; they are left
-//            out.
-// Wide view  a point at the angle a from the view is imaged at the distance
+//            This is "plumb_bob" of ROS and OpenCV if c is the principal point. With a strong
+//            barrel distortion, rays beyond a certain angle would be imaged inside the image again.
+//            They are left out.
+// Wide view  a point at the angle a from the view axis is imaged at the distance
 //              r = c1 f fun(a / c2 + c3)
-//            from the image's centre, in halves of its width (SDFormat's <lens>); the lens shows
-//            nothing beyond the cutoff angle.
+//            from the image's centre, in units of half the image's width (SDFormat's <lens>). The
+//            lens shows nothing beyond the cutoff angle.
 #pragma once
 
 #include <optional>
@@ -71,15 +71,15 @@ class Lens {
   static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
                                  double horizontal_fov);
 
-  // Whether this is a pinhole without distortion whose axis meets the image's centre. Its images
-  // need no resampling.
+  // Whether this is a pinhole without distortion whose axis goes through the image's centre. Images
+  // of such a lens need no resampling.
   bool is_plain() const { return is_plain_; }
 
   // Returns the direction of an image point, as a unit vector in the camera's frame; nullopt if the
   // lens shows nothing there.
   std::optional<geometry::Vector3> RayAt(double u, double v) const;
-  // Projects a point in the camera's frame, also beyond the image's edges. Returns nullopt if the
-  // point has no image.
+  // Projects a point in the camera's frame. The result may be beyond the image's edges. Returns
+  // nullopt if the point has no image.
   std::optional<geometry::Vector2> Project(const geometry::Vector3& point) const;
 
   int width() const { return width_; }

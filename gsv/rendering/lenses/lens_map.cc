@@ -16,8 +16,8 @@ using geometry::Vector3;
 // The tangent of the maximum angle from the view axis that one pinhole image covers (72 degrees).
 constexpr double kMaxFaceAngle = 3;
 constexpr double kMaxMagnification = 4;
-// The number of pixels around each sampled position, so that interpolation has neighbours on all
-// sides.
+// The width of the margin around all sampled positions, in pixels. So interpolation has
+// neighbouring pixels on all sides.
 constexpr double kMargin = 2;
 
 using Rays = std::vector<std::optional<Vector3>>;
@@ -31,8 +31,8 @@ Rays RaysOf(const Lens& lens) {
   return rays;
 }
 
-// Returns the resolution of the lens at an image point, in pixels per radian; 0 where it shows
-// nothing.
+// Returns the resolution of the lens at an image point, in pixels per radian; 0 if the lens shows
+// nothing there.
 double DensityAt(const Lens& lens, double u, double v) {
   double most = 0;
   for (const bool across : {true, false}) {
@@ -43,7 +43,7 @@ double DensityAt(const Lens& lens, double u, double v) {
   return most;
 }
 
-// Returns the largest resolution of the lens, limited to a multiple of the resolution at the
+// Returns the largest resolution of the lens. It is limited to a multiple of the resolution at the
 // centre.
 double DensityOf(const Lens& lens) {
   constexpr int kPlaces = 16;  // samples along each side of the image
@@ -149,8 +149,8 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
       const double f = FocalLength(face.camera);
       source.u = static_cast<float>(0.5 * face.camera.width - f * in_face.y / in_face.x);
       source.v = static_cast<float>(0.5 * face.camera.height - f * in_face.z / in_face.x);
-      // The depth of the nearest pixel is valid on that pixel's ray, not on the ray of the sampled
-      // position.
+      // The depth of the nearest pixel belongs to that pixel's ray, and not to the ray of the
+      // sampled position.
       const Vector3 nearest{1, -(std::floor(source.u) + 0.5 - 0.5 * face.camera.width) / f,
                             -(std::floor(source.v) + 0.5 - 0.5 * face.camera.height) / f};
       source.depth_scale = static_cast<float>((face.camera_from_face * nearest).x);
@@ -160,7 +160,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
   FindReach();
 }
 
-// Computes the distance between the sources of neighbouring pixels.
+// Computes the distance between the positions from which neighbouring pixels are sampled.
 void LensMap::FindReach() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& here = sources_[i];
@@ -197,7 +197,8 @@ model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> 
     Light light{};
     if (source.face >= 0) {
       const model::Image& from = *images[static_cast<std::size_t>(source.face)];
-      // A pixel takes enough samples to include every source pixel that it covers.
+      // The number of samples of a pixel is large enough to include every source pixel that it
+      // covers.
       const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMaxMixedSamples);
       for (int i = 0; i < side * side; ++i) {
         const auto off = [&](int k) {

@@ -1,5 +1,6 @@
-// Resamples pinhole images into an image through a lens. One pinhole image suffices if it covers
-// the view of the lens. Otherwise, the images are the faces of a cube around the camera.
+// Resamples pinhole images into an image through a lens. One pinhole image is sufficient if it
+// covers the view of the lens. Otherwise, several images are needed: the faces of a cube around the
+// camera.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -20,9 +21,9 @@ namespace gsv::rendering {
 // Computes an image through a lens from pinhole images.
 class LensMap {
  public:
-  // `camera` gives near and far. The pinhole images have the largest resolution (pixels per radian)
-  // of the lens, but at most four times that of its centre. They have at most kMaxImageSide pixels
-  // per side.
+  // `camera` sets near and far. The pinhole images have the largest resolution (pixels per radian)
+  // of the lens, but at most four times its resolution at the centre. They have at most
+  // kMaxImageSide pixels per side.
   LensMap(const Lens& lens, const CameraParameters& camera);
 
   // The maximum number of pixels of an image. A map takes 20 bytes per pixel.

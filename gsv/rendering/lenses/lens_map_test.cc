@@ -102,9 +102,9 @@ Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
   return {u / (3 * area), v / (3 * area)};
 }
 
-// The centre of the image of a glowing red object. Each pixel is weighted by the fraction of it
-// that the object covers. The fraction follows from the object's light and from the image without
-// the object, in which haze is brighter towards the horizon.
+// The centre of the image of a glowing red object. Each pixel is weighted by the fraction that the
+// object covers. This fraction is computed from the light of the object and from an image without
+// the object. (In that image, haze is brighter towards the horizon.)
 Blob Covered(const model::Image& image, const model::Image& without) {
   const float full = LightOf(*std::max_element(image.pixels.begin(), image.pixels.end()));
   Blob blob;
@@ -124,7 +124,8 @@ Blob Covered(const model::Image& image, const model::Image& without) {
   return blob;
 }
 
-// Edges are only exact to a pixel, so the test averages over balls of several sizes.
+// The position of an edge is only known to a pixel, so the test averages over balls of several
+// sizes.
 TEST_P(LensImage, ShowsObjectsWhereTheEquationsPutThem) {
   const Optics optics = Read();
   const auto is_inside = [](const Vector2& at) {

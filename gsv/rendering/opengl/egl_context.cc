@@ -23,7 +23,7 @@ constexpr const char* kRemedy =
     "images need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
     "your graphics card's driver";
 
-// Checks whether a library can be opened, because libepoxy would end the program if not.
+// Checks whether a library can be opened. If it cannot, libepoxy would end the program.
 Status CheckLibrary(const std::string& name) {
   void* handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
@@ -33,8 +33,8 @@ Status CheckLibrary(const std::string& name) {
   return {};
 }
 
-// Keeps the driver's library loaded. Mesa unloads its drivers at exit, and LeakSanitizer looks for
-// leaks after that. It could then not attribute a driver's allocations to the driver and suppress
+// Keeps the driver's library loaded. Mesa unloads its drivers at exit, and LeakSanitizer searches
+// for leaks after that. It could then not recognise allocations of a driver, and so not suppress
 // them (cmake/sanitizers/lsan.supp).
 int KeepDriver(dl_phdr_info* object, std::size_t, void*) {
   const std::string name = object->dlpi_name;
@@ -106,8 +106,8 @@ EGLContext MakeCurrentOn(EGLDisplay display) {
   return nullptr;
 }
 
-// Whether the renderer is Mesa's software renderer. Mesa also uses it for a card that is present
-// but unusable.
+// Whether the renderer is Mesa's software renderer. Mesa also uses this renderer if there is a card
+// that cannot be used.
 bool IsMesaInSoftware(const std::string& renderer_name) {
   return renderer_name.starts_with("llvmpipe") || renderer_name.starts_with("softpipe");
 }
@@ -147,7 +147,7 @@ Result<std::unique_ptr<EglContext>> EglContext::Create(const EglOptions& options
                   "; " + kRemedy);
 }
 
-// The display is not terminated: it belongs to the process, and other contexts may use it.
+// The display is not terminated, because it belongs to the process, and other contexts may use it.
 EglContext::~EglContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);

@@ -14,7 +14,8 @@ namespace gsv::rendering {
 
 // The devices and libraries that may be used.
 struct EglOptions {
-  // Whether to use a graphics card, and Mesa's software renderer. The card is tried first.
+  // Whether to use a graphics card, and whether to use Mesa's software renderer. The card is tried
+  // first.
   bool hardware = true;
   bool software = true;
   // The names of the libraries to open.

@@ -12,8 +12,7 @@ TEST(EglDevices, AreListedIfMesaIsInstalled) {
                    "EGL_EXT_platform_wayland EGL_MESA_platform_surfaceless"));
 }
 
-// These are the extensions of NVIDIA's driver 580 through libglvnd. Regression: the card was not
-// found with them.
+// Regression: with the extensions of NVIDIA's driver 580 through libglvnd, the card was not found.
 TEST(EglDevices, AreListedIfNvidiasDriverIsTheOnlyOne) {
   EXPECT_TRUE(ListsDevices(
       "EGL_EXT_platform_base EGL_EXT_device_base EGL_KHR_client_get_all_proc_addresses "

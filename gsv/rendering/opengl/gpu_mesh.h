@@ -8,7 +8,7 @@
 
 namespace gsv::rendering {
 
-// A mesh that holds the arrays of MeshArrays on the card. Indices have 32 bits.
+// A mesh that stores the arrays of MeshArrays on the card. Indices have 32 bits.
 struct GpuMesh final : DrawMesh {
   GlBuffer vertices;
   GlBuffer indices;

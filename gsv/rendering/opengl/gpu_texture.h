@@ -13,7 +13,7 @@ struct GpuTexture final : DrawTexture {
   GlTexture texture;
 };
 
-// The largest texture side of the card, in pixels.
+// The maximum side length of a texture on the card, in pixels.
 int MaxTextureSide();
 
 // Copies an image to the graphics card, and makes its mipmaps.

@@ -1,5 +1,5 @@
-// A render target for images of one size, with several layers, so that the first images are read
-// back while the last are still rendered.
+// A render target for images of one size. It has several layers, so that the first images are read
+// back while the last images are still rendered.
 //
 // Threads  the render thread only.
 #pragma once
@@ -22,8 +22,8 @@ class RenderTarget {
   // The maximum number of images before Read() must be called.
   int capacity() const { return capacity_; }
 
-  // Begins an image: clears the depth and binds the target. The caller must draw all pixels. Their
-  // alpha must be the number of the surface.
+  // Begins an image: clears the depth and binds the target. The caller must draw all pixels. The
+  // alpha of each pixel must be the number of its surface.
   void Begin();
   // Returns the images since the last Read(), in the order of Begin(), antialiased. Waits for the
   // card.

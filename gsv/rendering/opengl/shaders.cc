@@ -3,7 +3,7 @@
 namespace gsv::rendering {
 namespace {
 
-// The layout is that of FrameBlock in frame_block.h.
+// The layout must be the layout of FrameBlock in frame_block.h.
 const std::string kFrame = R"(
 struct Light { vec4 position_range, direction_outer, colour_inner, attenuation; };
 layout(std140, binding = 0) uniform Frame {
@@ -19,7 +19,7 @@ layout(std140, binding = 0) uniform Frame {
 };
 )";
 
-// The colour of the sky in a direction, by the sine of the direction's elevation.
+// The colour of the sky in a direction, as a function of the sine of the direction's elevation.
 const std::string kSky = R"(
 vec3 Sky(float height) {
   float up = clamp(height, 0.0, 1.0);
@@ -30,8 +30,8 @@ vec3 Sky(float height) {
 )";
 
 // Encodes linear light as sRGB, approximated by square roots, within half a step of eight bits
-// (Taylor, chilliant.blogspot.com, 2012). The framebuffer would encode each sample of a pixel, so
-// the shader encodes the pixel instead.
+// (Taylor, chilliant.blogspot.com, 2012). The shader encodes each pixel once. The framebuffer would
+// encode each sample of a pixel.
 const std::string kEncoding = R"(
 vec3 Encode(vec3 linear) {
   vec3 s1 = sqrt(max(linear, vec3(0.0))), s2 = sqrt(s1), s3 = sqrt(s2);
@@ -40,8 +40,8 @@ vec3 Encode(vec3 linear) {
 )";
 
 // Decodes sRGB with a cubic, within a step of eight bits (same source). Textures are stored
-// encoded, and the shader decodes the sampled value once. Otherwise all eight texels of a sample
-// would be decoded.
+// encoded, and the shader decodes the sampled value once. A texture format that is decoded by the
+// card would decode all eight texels of a sample.
 const std::string kDecoding = R"(
 vec3 Decode(vec3 c) { return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878); }
 )";

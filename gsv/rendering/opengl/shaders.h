@@ -3,8 +3,8 @@
 // Surfaces  Cook–Torrance with the GGX distribution (Walter et al. 2007), Hammon's approximation of
 //           the height-correlated Smith term (2017), Schlick's Fresnel term; ambient reflections by
 //           Karis' fit of the environment BRDF (2014).
-// Tones     the compression of the Khronos PBR Neutral tone mapper (2024): colours up to 0.8 stay
-//           as they are, highlights are compressed and lose colour.
+// Tones     the compression of the Khronos PBR Neutral tone mapper (2024): colours up to 0.8 are
+//           unchanged, highlights are compressed and lose colour.
 #pragma once
 
 #include <string>
@@ -30,7 +30,8 @@ inline constexpr unsigned kFrameBlockBinding = 0;
 inline constexpr unsigned kBaseColourUnit = 0, kNormalUnit = 1, kMetallicRoughnessUnit = 2,
                           kEmissiveUnit = 3, kShadowUnit = 4, kOcclusionUnit = 5, kLightUnit = 6;
 
-// The vertex attributes are those of GpuMesh's vertices, then those of an InstanceData.
+// The vertex attributes are the members of GpuMesh's vertices, followed by the members of
+// InstanceData.
 inline constexpr unsigned kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2,
                           kSurfaceAttribute = 9, kFirstInstanceAttribute = 3;
 

@@ -99,8 +99,8 @@ void ShadowMap::DrawCasters(const RenderList& render_list, const std::vector<std
   instances.Upload(staged_);
   FrameBlock block{};
   region_.Describe({}, block);
-  // Converts the map's x and y, from 0 to 1, to clip space, from -1 to 1. The depth is from 0 to 1
-  // in both.
+  // Converts the map's x and y, from 0 to 1, to clip space, from -1 to 1. The depth is not
+  // converted: it is from 0 to 1 in both.
   auto clip_from_world = block.shadow_from_relative;
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 2; ++row) {

@@ -1,8 +1,8 @@
 // The shadow map of the sun: one per snapshot, for all cameras.
 //
-// Static shadow casters are drawn once, into a first map. A second map contains the moving casters
-// as well. For each snapshot, the changed parts of the second map are restored from the first one
-// and drawn again, if a camera may see the shadows.
+// Static shadow casters are drawn once, into a first map. A second map also contains the moving
+// casters. For each snapshot, the changed parts of the second map are copied from the first map,
+// and the moving casters are drawn again. This is done only if a camera may see the shadows.
 // Threads  the render thread only.
 #pragma once
 

@@ -64,8 +64,8 @@ void BindMaps(const DrawGroup& group) {
 }
 
 void SetFaces(const DrawGroup& group) {
-  // Rows run downwards (see ClipFromRelative()), so counter-clockwise triangles become
-  // clockwise.
+  // Rows are ordered from top to bottom (see ClipFromRelative()), so counter-clockwise triangles
+  // become clockwise.
   glFrontFace(group.mirrored ? GL_CCW : GL_CW);
   if (group.double_sided) {
     glDisable(GL_CULL_FACE);

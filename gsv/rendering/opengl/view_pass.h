@@ -1,7 +1,7 @@
 // Renders the view of one camera.
 //
-// The pass draws opaque groups first, from near to far, with the ground last. Then it draws the
-// sky, and then transparent groups from far to near.
+// The pass draws opaque groups first, from near to far; the ground is the last of them. Then it
+// draws the sky, and then transparent groups from far to near.
 // Threads  the render thread only.
 #pragma once
 
@@ -19,8 +19,8 @@ class ViewPass {
  public:
   ViewPass();
 
-  // Draws a posed render list into the current target, whose depth is cleared. `block` must be
-  // complete. If `shadows` is null, there are no shadows.
+  // Draws a posed render list into the current target. The depth of the target must be cleared.
+  // `block` must be complete. If `shadows` is null, there are no shadows.
   void Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
             const ShadowMap* shadows, InstanceBuffer& instances);
 
@@ -34,7 +34,7 @@ class ViewPass {
   };
   struct Seen {
     int group = 0;
-    double distance = 0;  // the distance to its centre
+    double distance = 0;  // distance of the camera from the centre of the item
     std::size_t item = 0;
     bool shadowed = false;
   };

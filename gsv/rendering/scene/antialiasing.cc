@@ -9,18 +9,18 @@
 namespace gsv::rendering {
 namespace {
 
-// A grid of surface numbers, one per pixel, read along rows or along columns. So one search finds
-// the edges between rows and those between columns.
+// A grid of surface numbers, one per pixel. The grid is read along rows or along columns. So one
+// search function finds the edges between rows and the edges between columns.
 struct Surfaces {
   const std::uint8_t* numbers;
   int length, lines;  // number of pixels of a line, and number of lines
   int At(int line, int i) const { return numbers[static_cast<std::size_t>(line) * length + i]; }
 };
 
-// The direction in which the edge between `line` and `line` + 1 continues at its end. Pixel `last`
-// is the last one beside the edge, and both lines show the same surface at `next`. +1 is a step
-// towards `line` and -1 one towards `line` + 1. 0 means that the edge ends, forks or turns a
-// corner.
+// The direction in which the edge between `line` and `line` + 1 continues at its end. `last` is the
+// last pixel beside the edge. At the pixel `next`, both lines show the same surface. +1 means that
+// the edge continues on the side of `line`, -1 on the side of `line` + 1. 0 means that the edge
+// ends, forks or has a corner.
 int StepAt(const Surfaces& s, int line, int last, int next) {
   if (next < 0 || next >= s.length) return 0;
   const int beyond = s.At(line, next);
@@ -67,7 +67,7 @@ class Smoother {
   // Splits groups of sixteen pixels and returns the number of these pixels.
   __attribute__((target("ssse3"))) std::size_t SplitBySixteen(const std::uint8_t* rgba,
                                                               std::size_t pixels) {
-    // The colours of four pixels in the lowest twelve bytes, then their numbers.
+    // The colours of four pixels are in the lowest twelve bytes, followed by the surface numbers.
     const __m128i order = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15);
     std::size_t p = 0;
     for (; p + 16 <= pixels; p += 16) {
@@ -132,8 +132,8 @@ class Smoother {
     }
   }
 
-  // `line_stride` and `stride` are the distances, in pixels of the image, between lines and between
-  // the pixels of a line.
+  // `line_stride` is the distance between lines, and `stride` is the distance between the pixels of
+  // a line. Both are in pixels of the image.
   void FindEdges(const Surfaces& s, int line_stride, int stride) {
     line_stride_ = line_stride, stride_ = stride;
     for (int line = 0; line + 1 < s.lines; ++line) {
@@ -164,8 +164,8 @@ class Smoother {
     return i;
   }
 
-  // Blends along an edge. The line begins half a pixel beside the edge at each end that has a step,
-  // and meets the edge in the middle.
+  // Blends along an edge. At each end that has a step, the line begins half a pixel beside the
+  // edge. In the middle, the line reaches the edge.
   void Blend(int line, int first, int end, int step_first, int step_end) {
     if (step_first == 0 && step_end == 0) return;
     const float middle = 0.5f * static_cast<float>(end - first);

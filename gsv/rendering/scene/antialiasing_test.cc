@@ -17,7 +17,7 @@ struct Drawn {
   int Red(int x, int y) const { return smooth.pixels[3 * (y * kSide + x)]; }
 };
 
-// An image whose pixels are white if `inside` is true at their centre, else black. The surface
+// An image whose pixels are white if `inside` is true at their centre, otherwise black. The surface
 // numbers are 1 for white and 2 for black.
 template <typename Inside>
 Drawn Draw(Inside inside) {
@@ -72,7 +72,8 @@ TEST(Antialiasing, KeepsTexturesUnchanged) {
 }
 
 TEST(MeshSurfaces, AreConnectedPartsWithoutASharpEdge) {
-  // Two triangles form a square but share no vertex. A third one is on the square's edge.
+  // Two triangles form a square, but have no common vertex. A third triangle is on the square's
+  // edge.
   std::vector<float> vertices;
   const auto add = [&](float x, float y, float z, float nx, float nz) {
     vertices.insert(vertices.end(), {x, y, z, nx, 0, nz, 0, 0});

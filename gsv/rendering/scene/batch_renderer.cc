@@ -5,7 +5,7 @@ namespace gsv::rendering {
 BatchRenderer::PlannedLayout& BatchRenderer::RenderListFor(
     const std::shared_ptr<const world::Layout>& layout) {
   PlannedLayout& planned = layouts_[layout.get()];
-  // An equal address is not enough: a destroyed layout may have had the same address.
+  // To compare addresses is not sufficient: a destroyed layout may have had the same address.
   if (planned.render_list == nullptr || planned.layout.lock() != layout) {
     planned = {layout, next_render_list_id_++,
                std::make_unique<RenderList>(*layout, meshes_, textures_),

@@ -13,7 +13,7 @@ namespace {
 using geometry::Vector3;
 using Rgb = std::array<double, 3>;
 
-// The colours of lights are linear amounts, without gamma: 0.8 is four fifths of the light of 1.
+// The colours of lights are linear amounts, without gamma: 0.8 means four fifths of the light of 1.
 Rgb LightColour(const model::Light& light) {
   const double k = std::max(0.0, light.intensity);
   return {k * light.diffuse.r, k * light.diffuse.g, k * light.diffuse.b};
@@ -39,9 +39,9 @@ Rgb Mix(const Rgb& a, const Rgb& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
-// Limits ambient light to a useful range. Worlds with almost no ambient light would be dark,
-// because the simulator that they were made for adds its own. Worlds with the maximum would show no
-// shadows.
+// Limits ambient light to a useful range. Some worlds have almost no ambient light, because they
+// were made for a simulator that adds its own. These worlds would be dark. Worlds with the maximum
+// would show no shadows.
 Rgb Ambient(const model::Colour& asked) {
   constexpr double kMin = 0.3, kMax = 0.45;
   const Rgb c{asked.r, asked.g, asked.b};
@@ -107,7 +107,7 @@ void Lighting::AddLamp(const model::Light& light) {
   lamp.position = light.world_from_light.position;
   lamp.range = directional ? std::numeric_limits<double>::infinity() : std::max(light.range, 0.01);
   const double outer = spot ? std::cos(0.5 * light.outer_angle) : -2;
-  // The edge of the cone keeps a minimum width, so that it is not jagged in the image.
+  // The edge of the cone has a minimum width, so that it is not jagged in the image.
   const double inner = spot ? std::max(std::cos(0.5 * light.inner_angle), outer + 1e-3) : -1;
   lamp.block = {{0, 0, 0, 0},
                 AsFloat4(direction, outer),
@@ -132,7 +132,7 @@ FrameBlock Lighting::BlockFor(const CameraView& view) const {
   block.view_right = AsFloat4(pose.orientation * Vector3{0, -0.5 * view.parameters.width / f, 0});
   block.view_down = AsFloat4(pose.orientation * Vector3{0, 0, -0.5 * view.parameters.height / f});
 
-  // If too many lamps light a part of the image, selects the lamps whose light reaches nearest to
+  // If too many lamps light a part of the image, selects the lamps whose lit regions are nearest to
   // the camera.
   const Frustum frustum = FrustumOf(view);
   std::vector<std::pair<double, const Lamp*>> near;

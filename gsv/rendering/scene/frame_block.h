@@ -36,7 +36,7 @@ struct FrameBlock {
   Float4 ambient_above, ambient_below;
   Float4 zenith, horizon, nadir;
   Float4 view_forward, view_right,
-      view_down;  // from the camera to the image's centre, and from there to its edges
+      view_down;  // camera to image's centre; image's centre to right edge; to lower edge
   std::array<std::int32_t, 4> light_count;
   std::array<LightBlock, kMaxLights> lights;
 };
@@ -50,7 +50,7 @@ class Lighting {
   const geometry::Vector3& to_sun() const { return to_sun_; }
   bool sun_casts_shadows() const { return shadows_; }
 
-  // Replaces the lamps of robots by those that are on in `snapshot`.
+  // Replaces the lamps of robots by the lamps that are on in `snapshot`.
   void TakeLamps(const world::Snapshot& snapshot);
 
   // Returns the block of a view, without the shadow.
@@ -68,8 +68,8 @@ class Lighting {
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};
   std::array<double, 3> sun_colour_{};
   bool shadows_ = true;
-  std::vector<Lamp> lamps_;         // lamps of the world, then those of robots
-  std::size_t own_lamp_count_ = 0;  // how many of lamps_ belong to the world
+  std::vector<Lamp> lamps_;         // lamps of the world, followed by the lamps of robots
+  std::size_t own_lamp_count_ = 0;  // number of lamps in lamps_ that belong to the world
   Float4 ambient_above_, ambient_below_, zenith_, horizon_, nadir_;
 };
 

@@ -1,4 +1,4 @@
-// Cuts a mesh into chunks of neighbouring triangles with one material, so that only the visible
+// Divides a mesh into chunks of neighbouring triangles with one material, so that only the visible
 // parts of a building are drawn.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace gsv::rendering {
 
-// A run of `order` in MeshChunks that shares one material, and the box around it.
+// A run of `order` in MeshChunks whose triangles share one material, and the box around them.
 struct MeshChunk {
   std::uint32_t first_triangle = 0;
   std::uint32_t triangle_count = 0;

@@ -56,7 +56,7 @@ Arrays WithoutNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>
   return arrays;
 }
 
-// Adds the number of its surface to each vertex.
+// Adds to each vertex the number of its surface.
 std::vector<float> WithSurfaces(const Arrays& arrays) {
   const std::vector<std::uint32_t> surfaces = NumberSurfaces(arrays.vertices, arrays.indices);
   std::vector<float> vertices;
@@ -116,7 +116,7 @@ DrawShape MeshStore::Find(const Shape& shape) {
 std::shared_ptr<const DrawMesh> MeshStore::FindFileMesh(
     const std::shared_ptr<const TriangleMesh>& triangles) {
   FileMesh& entry = file_meshes_[triangles.get()];
-  // An equal address is not enough: a destroyed mesh may have had the same address.
+  // To compare addresses is not sufficient: a destroyed mesh may have had the same address.
   if (entry.mesh == nullptr || entry.triangles.lock() != triangles) {
     entry = {triangles, make_(ArraysOf(*triangles))};
   }

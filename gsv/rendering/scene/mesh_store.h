@@ -31,14 +31,14 @@ struct DrawMesh {
   std::vector<MeshChunk> chunks;
 };
 
-// A shape as a mesh and a scale. So all boxes share one mesh.
+// A shape as a mesh and a scale. For example, all boxes share one mesh.
 struct DrawShape {
   std::shared_ptr<const DrawMesh> mesh;
   geometry::Vector3 scale{1, 1, 1};
 };
 
-// Keeps a file's mesh during the lifetime of its TriangleMesh, and other meshes during the lifetime
-// of a DrawShape.
+// Keeps the mesh of a file during the lifetime of its TriangleMesh. Keeps other meshes during the
+// lifetime of a DrawShape that uses them.
 class MeshStore {
  public:
   using Make = std::function<std::shared_ptr<const DrawMesh>(MeshArrays)>;

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> NumberSurfaces(const std::vector<float>& vertices,
     sets.Join(indices[i], indices[i + 2]);
   }
   // Normals are compared with a tolerance of about a degree, because the normals of one flat face
-  // differ in their last bits.
+  // may differ in their last bits.
   const auto key = [&](std::uint32_t i) {
     const float* v = &vertices[kFloats * i];
     const auto rounded = [&](int c) { return std::lround(64 * v[c]); };

@@ -1,4 +1,5 @@
-// The render list of a layout: one item per piece of each visual, in groups of one draw call.
+// The render list of a layout. Each visual has one item per piece. The items of one draw call are a
+// group.
 //
 // A list is made once per layout and posed for each snapshot. It keeps the back end's data alive,
 // but no model.
@@ -16,7 +17,8 @@
 
 namespace gsv::rendering {
 
-// How a surface uses alpha: not at all, as holes (glTF's MASK), or to blend with what is behind it.
+// How a surface uses alpha: it ignores alpha, has holes (glTF's MASK), or is blended with the
+// surfaces behind it.
 enum class Blending { kOpaque, kAlphaMask, kTransparent };
 
 // The data that all items of one draw call share.
@@ -31,7 +33,7 @@ struct DrawGroup {
   Blending blending = Blending::kOpaque;
   bool mirrored = false;
   bool double_sided = false;
-  bool ground = false;  // whether it is a ground plane, which is drawn behind coplanar surfaces
+  bool ground = false;  // true for a ground plane, which is drawn behind coplanar surfaces
 };
 
 // Linear colours for the shader.
@@ -59,8 +61,8 @@ struct DrawItem {
 
 // An item with its pose in the world.
 struct PlacedItem {
-  // The columns of the matrix that rotates and scales from the mesh to the world's axes, and the
-  // origin of the mesh in the world.
+  // The columns of the matrix that rotates and scales vectors from the mesh to the world's axes,
+  // and the origin of the mesh in the world.
   std::array<geometry::Vector3, 3> columns;
   geometry::Vector3 origin;
   geometry::Vector3 centre;
@@ -72,7 +74,7 @@ class RenderList {
   // The stores must outlive the list.
   RenderList(const world::Layout& layout, MeshStore& meshes, TextureStore& textures);
 
-  // Whether the glow of lamps is among the items. Depth and label images do not show it.
+  // Whether the items include the glow of lamps. Depth and label images do not show the glow.
   enum class Glow { kShown, kHidden };
 
   // Poses every item as in `snapshot`, which has this list's layout.

@@ -10,8 +10,8 @@ namespace {
 using geometry::Dot;
 using geometry::Vector3;
 
-// Larger casters do not make the region larger, because one large floor slab would blur every
-// shadow.
+// A caster with a larger radius does not make the region larger. Otherwise, one large floor slab
+// would blur every shadow.
 constexpr double kMaxRadius = 60;
 
 // The minimum side length of a shadow region, m. In a smaller region, the shadow of a single robot
@@ -38,7 +38,8 @@ ShadowRegion::ShadowRegion(const RenderList& render_list, const Vector3& to_sun)
     if (!item.casts_shadow) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const double at = Dot(axes_[axis], render_list.placed()[i].centre);
-      // Along the light, every caster must be inside the region, or it would cast no shadow.
+      // Along the light, every caster must be completely inside the region. Otherwise, it would
+      // cast no shadow.
       const double radius = axis < 2 ? std::min(item.radius, kMaxRadius) : item.radius;
       min[axis] = std::min(min[axis], at - radius);
       max[axis] = std::max(max[axis], at + radius);
@@ -77,10 +78,10 @@ std::vector<std::size_t> ShadowRegion::StillCasters(const RenderList& render_lis
 
 std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_list,
                                                      const std::vector<CameraView>& views) const {
-  // The maximum distance between a point and the texels in which its shadow is looked up: the
-  // offset along the normal, plus the filter.
+  // The maximum distance between a point and the texels that are read for its shadow. It consists
+  // of the offset along the normal and the filter.
   const double beside = 4 * TexelSize();
-  // Shadows have no end; this length is beyond the view of every camera.
+  // Shadows are infinitely long; this length is beyond the view of every camera.
   const Vector3 shade = -1e7 * axes_[2];
   std::vector<std::pair<Vector3, Frustum>> seen;
   seen.reserve(views.size());

@@ -1,6 +1,6 @@
 // The region of a shadow map and its casters: a box along the direction of the sun that contains
-// all casters. Its edges are rounded, so that they stay fixed while robots move and shadows do not
-// flicker.
+// all casters. The edges of the box are rounded. So they are fixed while robots move, and shadows
+// do not flicker.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ class ShadowRegion {
   bool IsEmpty() const { return !(min_.x < max_.x); }
   double TexelSize() const;  // the longer side of a texel, m
 
-  // Whether a shadow may fall into this sphere. If not, shadow look-ups are skipped.
+  // Whether a shadow may be in this sphere. If not, shadow look-ups are skipped.
   bool MayFallOn(const geometry::Vector3& centre, double radius) const;
 
   // Returns the indices of casters that have not moved.

@@ -25,7 +25,7 @@ bool SeeThrough(const Image& image) {
 std::shared_ptr<const DrawTexture> TextureStore::Find(const std::shared_ptr<const Image>& image) {
   if (image == nullptr || !Usable(*image, max_side_)) return nullptr;
   Entry& entry = entries_[image.get()];
-  // An equal address is not enough: a destroyed image may have had the same address.
+  // To compare addresses is not sufficient: a destroyed image may have had the same address.
   if (entry.texture == nullptr || entry.image.lock() != image) {
     std::shared_ptr<DrawTexture> texture = make_(*image);
     texture->is_transparent = SeeThrough(*image);

@@ -84,8 +84,8 @@ struct Blob {
   int pixels = 0;
 };
 
-// Finds the pixels whose `channel` (0, 1 or 2) exceeds both others by more than `margin`. Each is
-// weighted by the difference, so that antialiased edges count less.
+// Finds the pixels whose `channel` (0, 1 or 2) exceeds both other channels by more than `margin`.
+// Each pixel is weighted by the difference, so that antialiased edges count less.
 inline Blob FindBlob(const model::Image& image, int channel, int margin = 40) {
   Blob blob;
   double weight = 0;
