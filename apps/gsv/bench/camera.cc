@@ -114,8 +114,8 @@ struct Figures {
   int images = 0;
   double wall = 0, processor = 0;  // in s
   double least_processor = 1e9;    // smallest processor time of a batch, s
-  std::vector<double> latencies;   // from the request to the images, ms
-  std::vector<double> intervals;   // from one step to the next, ms
+  std::vector<double> latencies;   // times from the request to the images, ms
+  std::vector<double> intervals;   // times from one step to the next step, ms
 };
 
 base::Status Save(const std::string& folder, const Images& images) {
@@ -170,7 +170,8 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
   ImageCheck check;
   Clock::time_point start;
   double processor_start = 0;
-  // The first two batches are not measured, because the renderer then detects which objects move.
+  // The first two batches are not measured, because during these the renderer detects which objects
+  // move.
   for (int round = -2;
        round <= 0 || Clock::now() - start < std::chrono::duration<double>(arguments.duration);
        ++round) {

@@ -47,8 +47,8 @@ struct CrowdRow {
   std::uint64_t health_reports = 0;
 };
 
-// Returns the current resident memory of this process, in MiB. The maximum would include earlier
-// rows of the table, which the same process has measured.
+// Returns the current resident memory of this process, in MiB. The maximum resident memory is not
+// used, because this process has also measured the earlier rows of the table.
 double ResidentMebibytes() {
   std::ifstream statm("/proc/self/statm");
   double pages = 0, resident = 0;

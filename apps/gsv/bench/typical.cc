@@ -120,8 +120,8 @@ struct Row {
   std::shared_ptr<Durations> images = std::make_shared<Durations>();
 };
 
-// Places the robots. A few robots are in the office, and many are on the square of `gsv bench
-// crowd`, unless a world is given.
+// Places the robots in the given world. If no world is given, up to kMaxOfficeRobots robots are in
+// the office, and more robots are on the square of `gsv bench crowd`.
 base::Status PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& options) {
   const bool on_the_square = arguments.world.empty() && robots > kMaxOfficeRobots;
   if (on_the_square) {

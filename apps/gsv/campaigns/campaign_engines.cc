@@ -63,8 +63,8 @@ campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted
   return engine;
 }
 
-// Executes `runs`, except those that an earlier attempt has finished, and writes the results to a
-// journal. `attempt.share` is the name of these runs as a share of the campaign.
+// Executes `runs`, which are the share `attempt.share` of the campaign's runs, and writes the
+// results to a journal. Skips runs that an earlier attempt has finished.
 int ExecuteShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& runs,
                  const EngineOptions& options, Signals& signals, bool until_stdin_closes = false) {
   const auto earlier = spool.Collect(attempt.share);

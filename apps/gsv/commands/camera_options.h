@@ -12,7 +12,7 @@ namespace gsv::app {
 void AddCameraOptions(CLI::App& command, view::Camera& camera);
 
 // Prints the error and returns its exit code. A missing recording, robot or camera has the exit
-// code of a missing file, and not that of a bad model.
+// code of a missing file, and not the exit code of a bad model.
 int RefuseImage(const base::Error& error);
 
 }  // namespace gsv::app

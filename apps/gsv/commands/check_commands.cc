@@ -58,7 +58,7 @@ Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
 }
 
 // If the same message occurs in many places of a file, the text output lists at most this number of
-// places. The JSON output lists all of them.
+// places. The JSON output lists all places.
 constexpr std::size_t kPlacesPrinted = 10;
 
 void Print(const CheckArguments& arguments, const char* severity, const std::string& where,

@@ -82,7 +82,7 @@ struct Arguments {
   std::string robot;                         // the robot whose output is printed; empty for all
 };
 
-// Lists the simulations of those servers of this user that were killed.
+// Lists the simulations that ran on killed servers of this user.
 int ListLost(const Arguments& arguments) {
   int count = 0;
   for (const LostSimulation& lost : LostSimulationsNoted(arguments.selection.broker)) {

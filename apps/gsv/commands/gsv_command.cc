@@ -91,8 +91,8 @@ void UseCorbaOptions(const CorbaArguments& corba) {
   if (corba.is_insecure) setenv("GSV_INSECURE_CORBA", "1", 1);
 }
 
-// Starts logging. Sets the variables with which programs that this process starts log in the same
-// way.
+// Starts logging. Sets environment variables, so that programs that this process starts log in the
+// same way as this process.
 void StartLog(const LogArguments& log, bool verbose) {
   if (!log.level.empty()) setenv("GSV_LOG_LEVEL", log.level.c_str(), 1);
   if (!log.format.empty()) setenv("GSV_LOG_FORMAT", log.format.c_str(), 1);

@@ -21,7 +21,7 @@ struct RecordArguments {
 int StartRecording(const RecordArguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
   if (!simulation) return PrintError(simulation.error());
-  // The path becomes absolute, because the other process may have another working directory.
+  // The path is made absolute, because the process that records may have another working directory.
   std::error_code error;
   const std::string path = std::filesystem::absolute(arguments.file, error).string();
   const auto done = orb::Call(simulation->server.Describe(),

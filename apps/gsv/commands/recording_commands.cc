@@ -47,8 +47,8 @@ struct RecordingArguments {
   }
 };
 
-// Prints the error. A missing recording has the exit code of a missing file, and not that of a bad
-// model.
+// Prints the error and returns its exit code. A missing recording has the exit code of a missing
+// file, and not the exit code of a bad model.
 int Refuse(const base::Error& error) {
   const int code = PrintError(error);
   return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;

@@ -56,7 +56,7 @@ base::Result<std::unique_ptr<Participant>> Join(const Ros2CommandArguments& argu
   return MakeParticipant(*reach);
 }
 
-// Waits for the duration of the observation. Returns false if a signal came.
+// Waits for the duration of the observation. Returns false if a signal ended the wait.
 bool Look(const Ros2CommandArguments& arguments, Signals& signals) {
   return signals.WaitFor(static_cast<int>(arguments.seconds * 1000)) == 0;
 }

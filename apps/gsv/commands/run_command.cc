@@ -265,8 +265,8 @@ void AddRunCommand(const CommandLine& line) {
   CLI::App* server =
       line.app.add_subcommand("run-server", "Run the simulations that are requested on stdin")
           ->group("");
-  // The arguments are ignored. They only make the process's memory for arguments long enough for
-  // the command line of each run, which `ps` then shows (running/run_server.cc).
+  // The arguments are ignored. They only reserve memory in which the process writes the command
+  // line of each run, because `ps` shows this memory (running/run_server.cc).
   server->allow_extras();
   server->callback([line] { line.exit_code = ServeRuns(line.signals); });
 }

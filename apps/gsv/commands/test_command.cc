@@ -127,7 +127,7 @@ int JobsFor(const TestArguments& arguments, std::size_t cases) {
   return std::min(jobs, static_cast<int>(std::max<std::size_t>(cases, 1)));
 }
 
-// Replays the recording of the first failure, from its violation, until a signal comes.
+// Replays the recording of the first failure, from its violation on, until a signal arrives.
 void OpenFirstFailure(const std::vector<TestResult>& results, Signals& signals) {
   for (const TestResult& result : results) {
     const auto file = std::filesystem::path(result.folder) / "run.mcap";

@@ -69,7 +69,8 @@ class LostSimulations {
   std::condition_variable_any changed_;
   std::map<int, LostSimulation> lost_ GSV_GUARDED_BY(mutex_);
   int next_ GSV_GUARDED_BY(mutex_) = 1;
-  std::jthread examiner_, watcher_;  // destroyed first, because the threads use the other members
+  // Destroyed before all other members, because the threads use these.
+  std::jthread examiner_, watcher_;
 };
 
 }  // namespace gsv::app

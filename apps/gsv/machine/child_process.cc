@@ -55,7 +55,8 @@ std::vector<char*> PointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-// A pipe that closes its ends, except those that were taken out of it.
+// A pipe. The destructor closes its two ends, except an end whose ownership was passed to a caller
+// by TakeReadEnd() or TakeWriteEnd().
 class Pipe {
  public:
   Pipe() = default;

@@ -10,7 +10,8 @@
 namespace gsv::app {
 
 // Returns the problems of that severity as "where: message". Problems with the same message are one
-// sentence, with "(and in 41 more places)". The order is that of the first places.
+// sentence, with "(and in 41 more places)". The sentences are in the order in which their messages
+// occur first.
 std::vector<std::string> GroupedSentences(const base::Problems& problems,
                                           base::Problem::Severity severity);
 

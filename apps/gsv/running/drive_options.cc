@@ -11,7 +11,8 @@ namespace {
 
 using model::WorldDescription;
 
-// Returns the names that --drive accepts: those of the scenario's robots and of the world's models.
+// Returns the names that --drive accepts: the names of the scenario's robots and of the world's
+// models.
 std::vector<std::string> DriveNames(const WorldDescription& world,
                                     const scenario::Scenario& scenario) {
   std::vector<std::string> names;
@@ -27,7 +28,8 @@ bool HasModel(const WorldDescription& world, const std::string& name) {
                      [&](const model::PlacedModel& placed) { return placed.name == name; });
 }
 
-// Returns the name that an added robot will have, unless the name is used already.
+// Returns the name that a robot will have when it is added. (If the name is used already, the robot
+// will have another name.)
 base::Result<std::string> NameOf(const scenario::RobotEntry& robot, const std::string& world,
                                  formats::ModelLibrary& library, base::Problems& problems) {
   if (!robot.name.empty() || robot.model.empty()) return robot.name;

@@ -1,6 +1,6 @@
 // Renders images of a recording, without a browser.
 //
-// Errors   those of the recording, of the camera and of the renderer.
+// Errors   the errors of the recording, of the camera and of the renderer.
 // Threads  one at a time.
 #pragma once
 

@@ -65,7 +65,8 @@ base::Result<RecordedCall> CallOf(const recording::RecordingInfo& info) {
   return base::Fail(NotOfARun(info.path));
 }
 
-// Returns the options of the recorded run, without those that do not affect it.
+// Returns the options with which the recorded run is repeated: the recorded options in lockstep,
+// without options that do not affect the run, such as the viewer.
 base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& file) {
   CLI::App app;
   RunArguments arguments;
@@ -176,7 +177,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
   return {};
 }
 
-// Returns the topics of both recordings, except those about the actions of users.
+// Returns the topics of both recordings, except the topics about the actions of users.
 std::vector<std::string> TopicsWithoutUserActions(const recording::McapReader& first,
                                                   const recording::McapReader& second) {
   std::set<std::string> topics;
@@ -222,8 +223,8 @@ std::uint64_t LeftOut(const recording::RecordingInfo& info) {
   return sum;
 }
 
-// Returns the simulated time at which the repeated run ends: the end of the recording, or else the
-// end of its last step.
+// Returns the simulated time at which the repeated run must end. If `to_end_of_recording` is true,
+// this is the end of the recording, otherwise the end of the recording's last step.
 base::Result<base::SimTime> EndOf(const recording::RecordingInfo& info,
                                   const recording::McapReader& reader, bool to_end_of_recording) {
   if (to_end_of_recording) return info.end;

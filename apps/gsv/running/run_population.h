@@ -5,9 +5,10 @@
 
 namespace gsv::app {
 
-// Adds the scenario's robots and avatars, and sets the behaviours of all robots, including those of
-// the world file. Starts missing programs. Returns the actual scenario: running it again places the
-// same robots at exactly the same poses.
+// Adds the scenario's robots and avatars, and sets the behaviours of all robots, including the
+// robots of the world file. Starts the programs of behaviours that the broker does not offer.
+// Returns the actual scenario: a run of this scenario has the same robots at exactly the same
+// poses.
 base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, simulation::Simulation& simulation,
                                              const RunOptions& options, base::Problems& problems);
 

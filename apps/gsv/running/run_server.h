@@ -7,10 +7,10 @@
 namespace gsv::app {
 
 // Reads requests from stdin, one JSON object per line:
-//   {"arguments": [those of `gsv run`], "stdout": FILE, "stderr": FILE}
+//   {"arguments": [arguments of `gsv run`], "stdout": FILE, "stderr": FILE}
 // and answers each request on stdout, after the run, with a line "exit code N" or "signal N". It
-// executes one run at a time. When stdin ends, or after a signal that ends the program, it ends the
-// current run and returns the exit code.
+// executes one run at a time. When stdin ends, or after a signal that ends the program, this
+// function ends the current run and returns the exit code of the program.
 //
 // A run is a child process, so its crash ends nothing else. The calling process must have only one
 // thread.

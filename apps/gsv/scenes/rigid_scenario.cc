@@ -165,7 +165,7 @@ std::shared_ptr<const model::WorldDescription> RigidWorldOf(RigidScenario scenar
   world->models.push_back({"ground", GroundOf(scenario, bodies), {}, true});
   const auto body = BodyOf(scenario);
   for (int i = 0; i < bodies; ++i) {
-    // All names have five digits, so that the order of the names is that of the numbers.
+    // All names have five digits, so that their alphabetical order equals the numerical order.
     const std::string number = std::to_string(100'000 + i).substr(1);
     world->models.push_back({"body_" + number, body, {PlaceOf(scenario, i, bodies), {}}, false});
   }

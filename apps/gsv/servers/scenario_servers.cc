@@ -17,7 +17,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::size_t kMaxScenarioServers = 1000;
-// number of servers that may be lost, one after the other, during the same run
+// Maximum number of servers that may be lost during one run. The run is repeated on another server
+// after each loss.
 constexpr int kMaxLostServers = 5;
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
 // The server answers a wait for the end of a run after at most two seconds.

@@ -156,7 +156,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   mutable base::Mutex mutex_;
   base::ConditionVariable ended_;
   std::optional<TestResult> result_ GSV_GUARDED_BY(mutex_);
-  std::jthread thread_;  // destroyed first, because the thread uses the other members
+  std::jthread thread_;  // destroyed before all other members, because the thread uses these
 };
 
 namespace {

@@ -50,8 +50,8 @@ FoundProgram FindProgram(const std::string& name) {
   return found;
 }
 
-// Returns environment variables from which sdk/serve.cc detects that stdout is captured. It then
-// writes stdout and stderr line by line.
+// Returns environment variables for a behaviour program. From these, sdk/serve.cc detects that gsv
+// reads stdout, and the program writes stdout and stderr line by line.
 std::vector<std::string> CapturedEnvironment() {
   std::vector<std::string> variables{"GSV_OUTPUT_CAPTURED=1"};
   if (std::getenv("PYTHONUNBUFFERED") == nullptr) variables.emplace_back("PYTHONUNBUFFERED=1");

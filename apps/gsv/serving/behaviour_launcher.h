@@ -22,8 +22,8 @@ class BehaviourLauncher {
   // `broker` must outlive this object. `list`: see BehaviourOutput.
   BehaviourLauncher(broker::BrokerClient& broker, BehaviourOutput::ListSimulations list)
       : broker_(broker), output_(std::move(list)) {}
-  // Ends the programs. Sends SIGTERM to all at once, and SIGKILL to those that still run after the
-  // time limit.
+  // Ends the programs. Sends SIGTERM to all programs at once, and SIGKILL to each program that
+  // still runs after the time limit.
   ~BehaviourLauncher();
   BehaviourLauncher(const BehaviourLauncher&) = delete;
   BehaviourLauncher& operator=(const BehaviourLauncher&) = delete;

@@ -5,7 +5,7 @@
 namespace gsv::app {
 namespace {
 
-// The columns are those of proc(5). Addresses are in the byte order of this machine.
+// The columns are as in proc(5). Addresses are in the byte order of this machine.
 constexpr const char* kTable =
     "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout "
     "inode\n"

@@ -87,7 +87,8 @@ base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
   return {};
 }
 
-// Returns every broker once. Those of the newest instances come first.
+// Returns each broker of this user's instances once. The broker of the newest instance is the
+// first.
 std::vector<std::string> BrokersOfInstances() {
   std::vector<std::string> brokers;
   for (const Instance& instance : RunningInstances()) {

@@ -85,7 +85,8 @@ Ros2Arguments WithSettings(Ros2Arguments arguments,
   for (const auto& [robot, name_space] : settings->namespaces) {
     namespaces.push_back(robot + "=" + name_space);
   }
-  // The last namespace of a robot applies, so those of the command line have precedence.
+  // If a robot has several namespaces in the list, the last one applies. The namespaces of the
+  // command line have precedence, so the namespaces of the scenario are inserted before them.
   arguments.namespaces.insert(arguments.namespaces.begin(), namespaces.begin(), namespaces.end());
   return arguments;
 }

@@ -78,9 +78,10 @@ class Ros2Access final : public Ros2Publisher {
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
   using List = std::function<std::vector<SimulationPointer>()>;
 
-  // `options` are those of the command line. Without them, only scenarios can start publishing, and
-  // DDS has no thread or socket until then. `factory` and `library` must outlive this object,
-  // because SpawnEntity uses them to add models. `list` returns the simulations of this process.
+  // `options` are the options of the command line. If there are none, only a scenario can start
+  // publishing, and DDS has no thread or socket until then. `factory` and `library` must outlive
+  // this object, because SpawnEntity uses them to add models. `list` returns the simulations of
+  // this process.
   static base::Result<std::unique_ptr<Ros2Access>> Start(std::optional<ros2::Options> options,
                                                          gateway::SimulationFactory& factory,
                                                          formats::ModelLibrary& library, List list);

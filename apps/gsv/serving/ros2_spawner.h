@@ -40,7 +40,8 @@ class Ros2Spawner final : public ros2::Spawner {
  private:
   // Returns the name or the file of a world.
   base::Result<std::string> WorldOf(const std::string& uri);
-  // Returns the file that a URI names. Fails unless files may be read, and it exists.
+  // Returns the file that a URI names. Fails if files may not be read, or if the file does not
+  // exist.
   base::Result<std::string> FileOf(const std::string& uri) const;
   // Returns the name or the file of a model.
   base::Result<std::string> ModelOf(const std::string& uri);

@@ -1,7 +1,7 @@
 // The current recordings of this process. A simulation has at most one current recording.
 //
-// Threads  any. Starting writes the models, and stopping waits for the disk. Queries of the state
-//          wait for neither.
+// Threads  any. Starting a recording writes the models, and stopping it waits for the disk. Queries
+//          of the state do not wait for these operations.
 #pragma once
 
 #include <filesystem>
@@ -49,8 +49,8 @@ std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
 // Sets one rate, from "KIND=HZ". KIND is poses, readings, images or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
-// Returns the absolute path of a folder; an empty path is the current one. Returns kInvalidArgument
-// if it is not a folder.
+// Returns the absolute path of a folder. An empty path stands for the current folder. Returns
+// kInvalidArgument if the path is not a folder.
 base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path& folder);
 
 // Starts and stops recordings.
@@ -64,8 +64,8 @@ class Recordings final : public gateway::RecordingSwitch {
   // process, with which the recording can be simulated again.
   void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
 
-  // Sets the ROS 2 settings of the scenario that is attached to this simulation's recordings. They
-  // are not used if the caller of Start() gives a scenario.
+  // Sets the ROS 2 settings of the scenario that is attached to this simulation's recordings. These
+  // settings are not used if the caller of Start() passes a scenario.
   void SetRos2(const std::shared_ptr<simulation::Simulation>& simulation,
                const scenario::Ros2Settings& settings);
 

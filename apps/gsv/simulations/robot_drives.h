@@ -13,9 +13,9 @@
 
 namespace gsv::app {
 
-// Returns the world with drives for those of its models that the scenario lists as robots. The
-// drive is given by the scenario's entry, or else guessed from the model. Returns the same world if
-// nothing changes.
+// Returns the world with drives for the models that the scenario lists as robots. If the scenario's
+// entry has a drive, the model gets this drive. If neither the entry nor the model has a drive, the
+// drive is guessed from the model. Returns the same world if nothing changes.
 base::Result<std::shared_ptr<const model::WorldDescription>> WithDrives(
     std::shared_ptr<const model::WorldDescription> world, const scenario::Scenario& scenario);
 

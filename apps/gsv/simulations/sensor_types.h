@@ -1,4 +1,4 @@
-// The sensor types of this program: the built-in ones, cameras, and those of plug-ins.
+// The sensor types of this program: built-in types, cameras, and the types of plug-ins.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,8 @@ class Option;
 namespace gsv::app {
 
 struct SensorTypeOptions {
-  std::vector<std::filesystem::path> plugins;  // in addition to those in GSV_SENSOR_PLUGIN_PATH
+  // Plug-ins, in addition to the plug-ins in GSV_SENSOR_PLUGIN_PATH.
+  std::vector<std::filesystem::path> plugins;
   // Changes the camera type before it is registered. May be empty.
   std::function<void(sensing::SensorType&)> adapt_camera;
 };

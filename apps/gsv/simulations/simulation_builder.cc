@@ -47,7 +47,7 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
   return specification;
 }
 
-// Whether the file is that of a built-in world.
+// Whether this is the file of a built-in world.
 bool IsWorldOfOurs(const fs::path& file) {
   std::error_code ignored;
   return fs::equivalent(file.parent_path(), ShareFolder() / "worlds", ignored);

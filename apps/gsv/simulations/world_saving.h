@@ -2,8 +2,8 @@
 // everything that SDFormat cannot express.
 //
 // The SDFormat text has the models with their current poses (formats/world_writer.h). The scenario
-// names this file as its world. It has the behaviours, the avatars, and each robot whose movement
-// or drive was chosen when it was added.
+// names this file as its world. The scenario also has the behaviours, the avatars, and each robot
+// whose movement or drive was chosen when the robot was added.
 #pragma once
 
 #include <string>

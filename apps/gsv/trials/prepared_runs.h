@@ -4,7 +4,7 @@
 // The run server loads the program's libraries, worlds and models once for all runs. So a run takes
 // only the time of its simulation. Later changes of files have no effect on runs of this object.
 //
-// Threads  one at a time. The thread that creates this object must live as long as it
+// Threads  one at a time. The thread that creates this object must live as long as the object
 //          (machine/child_process.h).
 #pragma once
 
@@ -21,12 +21,12 @@ namespace gsv::app {
 
 class PreparedRuns {
  public:
-  // Starts `gsv run` with these arguments. Its stdout and stderr go to files. Only one run at a
-  // time is allowed.
+  // Starts `gsv run` with these arguments. The run writes its stdout and stderr to these files.
+  // Only one run at a time is allowed.
   base::Status Start(const std::vector<std::string>& arguments, const std::filesystem::path& output,
                      const std::filesystem::path& errors);
   // Returns how the run ended ("exit code 5", "signal 11"), or an empty text at the time limit. If
-  // the process that serves runs ends, the run has ended as well.
+  // the run server ends, the run counts as ended.
   std::string AwaitEnd(std::chrono::milliseconds timeout);
   // Ends the current run, if there is one.
   void Stop() { server_.reset(); }
