@@ -70,7 +70,7 @@ class Fetch final : public Behaviour {
     return robot.IsRunning();
   }
 
-  // Drives until the fingers hold a body or are closed.
+  // Closes the fingers, and waits until they hold a body or are completely closed.
   bool GraspBody(Robot& robot) {
     (void)gripper_->Grasp();
     for (;;) {

@@ -47,8 +47,8 @@ class GoTo final : public Behaviour {
   }
 
  private:
-  // Chooses a command by the vector field histogram in its simplest form. The robot takes the free
-  // direction that is nearest to the goal, and prefers the side of the last cycle.
+  // Chooses a command by the vector field histogram in its simplest form. The best free direction
+  // is near to the direction of the goal, and near to the direction that was chosen last.
   DriveCommand Decide(double radius, double distance, double bearing,
                       const std::vector<SonarRing::Echo>& echoes) {
     const double room = std::min(radius + 0.5, distance + radius);
@@ -74,7 +74,7 @@ class GoTo final : public Behaviour {
   const Goal goal_;
   SonarRing sonars_;
   std::unique_ptr<PositioningSystem> positioning_;
-  double last_ = 0;  // rad: direction of the last cycle
+  double last_ = 0;  // rad: the direction that was chosen last
 };
 
 BehaviourFactory Configure(CLI::App& app) {
