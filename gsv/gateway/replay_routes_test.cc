@@ -114,7 +114,7 @@ TEST_F(ReplayGatewayTest, ReturnsTheWholeLog) {
   EXPECT_EQ(log[1]["time_s"], 2.0);
 }
 
-// A request may come before the replay has begun to play. Its response must have the robots.
+// A request may arrive before the replay has begun to play. The response must have the robots.
 TEST_F(ReplayGatewayTest, ListsTheRobotsFromTheStart) {
   for (int i = 0; i < 50; ++i) {
     const auto player = ReplayPlayer::Open(PathFor("run"), {});

@@ -35,7 +35,7 @@ class Authenticator {
   virtual ~Authenticator() = default;
 
   // Calls `answer` exactly once, before it returns or later from any thread. The request waits for
-  // the answer. The answer must come before the server stops.
+  // the answer. `answer` must be called before the server stops.
   virtual void Authenticate(const Credentials& credentials, Answer answer) = 0;
 
   // Returns the reason for refusing a request of this principal: a sentence without secrets.

@@ -2,9 +2,10 @@
 // simulation.
 //
 // Each viewer selects one simulation or none. While no viewer holds control of a simulation, all
-// viewers may command it. A viewer that requests control gets it at once if it is free. Otherwise
-// the holder is asked, and grants or refuses. Control passes automatically if the holder does not
-// answer in time, leaves, or selects another simulation. A viewer expires when it stops polling.
+// viewers may command it. A viewer that requests control gets it at once if no viewer holds it.
+// Otherwise the holder is asked, and grants or refuses. Control passes automatically if the holder
+// does not answer in time, leaves, or selects another simulation. A viewer expires when it stops
+// polling.
 //
 // Threads  any; nothing blocks.
 // Bounded  kMaxViewers.

@@ -18,7 +18,8 @@
 
 namespace gsv::gateway {
 
-// Runs a function for a key unless it is replaced or cancelled in time.
+// Runs the function of a key after a timeout. Before that, the function can be replaced or
+// cancelled.
 class CommandTimeouts {
  public:
   CommandTimeouts();

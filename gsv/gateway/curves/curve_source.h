@@ -1,6 +1,6 @@
 // A CurveSource extracts the samples of one curve from the messages of a recording.
 //
-// Input  untrusted: invalid messages give no sample.
+// Input  untrusted: invalid messages have no sample.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ struct CurveRequest {
 class CurveSource {
  public:
   virtual ~CurveSource() = default;
-  // Returns the sample in `message`, or nullopt if the message has no sample. Messages come in the
-  // order of time.
+  // Returns the sample in `message`, or nullopt if the message has no sample. Call it with the
+  // messages in the order of time.
   virtual std::optional<double> SampleIn(const recording::MessageRecord& message) = 0;
 };
 

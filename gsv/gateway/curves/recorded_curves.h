@@ -19,7 +19,7 @@ namespace gsv::gateway::curves {
 
 inline constexpr std::size_t kMaxCurvePoints = 100'000;
 
-// The points of a curve that were read so far, and how far reading has come.
+// The points of a curve that were read so far, and the progress of reading.
 struct Curve {
   std::vector<Point> points;  // by time
   std::size_t samples = 0;    // number of samples that were read so far

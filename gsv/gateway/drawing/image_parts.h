@@ -10,8 +10,8 @@ namespace gsv::gateway::drawing {
 
 inline constexpr const char* kImageStreamType = "multipart/x-mixed-replace; boundary=gsv-image";
 
-// Returns the part of one image. `time` is its simulated time in seconds, for the header Gsv-Time.
-// The boundary after an image lets browsers show it at once.
+// Returns the part of one image. `time` is the simulated time of the image in seconds, for the
+// header Gsv-Time. A part ends with the boundary, so that browsers show the image at once.
 inline SharedBytes ImagePart(std::string_view jpeg, std::string_view time, bool is_first) {
   constexpr std::string_view kBoundary = "--gsv-image\r\n";
   std::string part(is_first ? kBoundary : "");

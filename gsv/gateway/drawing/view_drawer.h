@@ -107,8 +107,8 @@ class ViewDrawer {
 
   // The main function of the drawing thread.
   void Run();
-  // Forgets each world that nobody has requested for kUnusedSourceTimeout. With the last world, also
-  // forgets the kept images.
+  // Removes each world that nobody has requested for kUnusedSourceTimeout. If no world is left,
+  // also removes the cached images.
   void DropUnused();
   // Answers the requests of one world that are due. Returns whether any request was due.
   bool Serve(const std::string& name);

@@ -22,7 +22,7 @@ using testing::Fetch;
 using testing::HttpReply;
 using testing::ScriptedSimulation;
 
-// A TCP connection whose bytes are read as they come.
+// A TCP connection whose bytes are read as they arrive.
 class RawClient {
  public:
   explicit RawClient(std::uint16_t port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {

@@ -21,7 +21,7 @@ enum class CloseCode : std::uint16_t {
   kTryAgainLater = 1013,
 };
 
-// kEach: every message is sent. kNewest: a newer message replaces an unsent one of the same
+// kEach: every message is sent. kNewest: a newer message replaces an unsent message of the same
 // subscription.
 enum class Delivery { kEach, kNewest };
 

@@ -50,7 +50,8 @@ class ClientRequests {
     std::weak_ptr<Client> client;
     bool knows_playback = false;
     std::set<std::string> watched;  // names of the watched parameters
-    // The number of pending calls. Answers may come after the client or this object was destroyed.
+    // The number of pending calls. An answer may arrive after the client or this object was
+    // destroyed.
     std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
   };
 

@@ -39,7 +39,7 @@ class Histories {
   };
 
   void Run();
-  // Samples each simulation. Returns true if one of them has viewers.
+  // Samples each simulation. Returns true if any simulation has viewers.
   bool Round();
 
   const std::shared_ptr<SimulationDirectory> directory_;

@@ -106,8 +106,8 @@ Response HistoryApi::Open(const SimulationPointer& simulation) {
   if (histories_ == nullptr) return NoHistory();
   auto reader = histories_->Of(simulation)->Open();
   if (!reader) return ErrorResponse(reader.error());
-  // The simulation's models are looked up first, because the store finds only models that it has
-  // identified.
+  // The replay gets the models from the store. The store finds only models that it has identified,
+  // so it must identify the simulation's models now.
   for (const world::Body& body : simulation->snapshot()->layout->bodies) {
     (void)models_.Identify(body.model);
     (void)models_.IdentifyCollisions(body.model);

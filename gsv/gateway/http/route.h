@@ -31,8 +31,8 @@ struct Route {
   std::string pattern;
   Permission permission = Permission::kWatch;
   // Whether the request is refused while another viewer holds control of the simulation {name}. For
-  // a WebSocket: commands of its client are then refused, too, and need Permission::kControl.
-  // Connecting needs only `permission`.
+  // a WebSocket, this applies to the commands of its client, which also need Permission::kControl.
+  // Connecting to the WebSocket needs only `permission`.
   bool needs_control = false;
   Pool pool = Pool::kReaders;
   Handler handler;

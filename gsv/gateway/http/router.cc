@@ -24,7 +24,8 @@ std::vector<std::string_view> SegmentsOf(std::string_view pattern) {
 
 }  // namespace
 
-// A node of the tree of routes. It has the routes whose paths begin with the same segments.
+// A node of the tree of routes. The way from the root to a node stands for the first segments of a
+// path. All routes at and below the node begin with these segments.
 struct Router::Node {
   // Finds or makes the child node.
   Node* Child(std::string_view segment_of_pattern);

@@ -155,7 +155,7 @@ void SensorTopics::EvictUnsubscribed(Sensors& found) {
     for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
       if (channel != 0) gone.push_back(channel);
     }
-    // A new object replaces the old one, because a worker may still use the old one.
+    // The old object is replaced and not changed, because a worker may still use it.
     sensor =
         std::make_shared<Sensor>(sensor->robot, sensor->description, sensor->type, sensor->made);
   }

@@ -2,8 +2,8 @@
 // a single file.
 //
 // A recording is a file NAME.mcap, a folder that rosbag2 opens, or a folder with run.mcap that
-// `gsv test` keeps of a failure. The failures in the folder gsv-failures count as well, under the
-// names gsv-failures/NAME.
+// `gsv test` has written for a failed test. Such folders may also be in the subfolder gsv-failures.
+// Their names are then gsv-failures/NAME.
 //
 // Input    untrusted names and files. Other files, and links that leave the folder, are ignored.
 // Threads  any. List() reads the index of each new file.

@@ -152,7 +152,8 @@ StateReceived ReceiveState(Viewer& viewer) {
   return state;
 }
 
-// Receives the answer to a request. Changes go to all viewers, and may come before the answer.
+// Receives the answer to a request. Changes of the playback are sent to all viewers, and may arrive
+// before the answer.
 StateReceived ReceiveAnswer(Viewer& viewer) {
   for (;;) {
     StateReceived state = ReceiveState(viewer);

@@ -52,8 +52,9 @@ class SendWindow {
   bool is_open() const { return !measures_ && (unconfirmed() == 0 || unconfirmed() < bytes_); }
   // Notes that a message has to wait because the window is closed.
   void HoldBack() { holds_back_ = true; }
-  // Notes that a message was passed to the system. `started` is the time before that. Only data
-  // count in the window, because control messages are sent even while the window is closed.
+  // Notes that a message was passed to the system. `started` is the time at which passing it began.
+  // Only data count in the window, because control messages are sent even while the window is
+  // closed.
   void Sent(std::size_t bytes, bool is_data, Time started) {
     sent_ += bytes;
     if (is_data) data_sent_ += bytes;

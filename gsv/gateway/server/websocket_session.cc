@@ -237,7 +237,7 @@ class WebSocketSession final : public Client,
     stream_.async_ping(websocket::ping_data(number.data(), number.size()),
                        [self = shared_from_this()](error_code error) {
                          self->is_pinging_ = false;
-                         // If the pong has already come, another ping may be due.
+                         // If the pong has already arrived, another ping may be due.
                          if (!error) self->PingIfWanted(SendWindow::Clock::now());
                        });
   }

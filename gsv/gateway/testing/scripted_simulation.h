@@ -1,5 +1,5 @@
 // For tests: a simulation whose robots drive in circles by a formula, so that all values are known
-// in closed form. Its sensors are those of GSV. Bodies move only with Advance().
+// in closed form. It has GSV's own sensors. Bodies move only with Advance().
 //
 // World    "arena": a floor, four crates at (±4, ±4), robots robot_0, robot_1, … and one avatar.
 //          Robot i drives around (0, 0) with radius 1 + i/2 at 0.2 rad/s, with a phase of i
