@@ -52,7 +52,7 @@ using Shape = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone, Plan
 // shapes such as spheres, it is twice this value.
 TriangleMesh Tessellate(const Shape& shape, int segments = 32);
 
-// Returns the smallest box around the shape along its frame's axes. The box of a Plane is that of
+// Returns the smallest box around the shape along its frame's axes. For a Plane, returns the box of
 // its rectangle.
 Bounds BoundsOf(const Shape& shape);
 

@@ -9,8 +9,8 @@
 
 namespace gsv::geometry {
 
-// Units  m³, m, m⁵. `xx` is the integral of (x - centroid.x)² over the volume, `xy` that of (x -
-//        centroid.x)(y - centroid.y), and so on.
+// Units  m³, m, m⁵. `xx` is the integral of (x - centroid.x)² over the volume, `xy` is the integral
+//        of (x - centroid.x)(y - centroid.y), and so on.
 struct SolidMoments {
   double volume = 0;
   Vector3 centroid;
