@@ -4,12 +4,12 @@
 //
 //   KIND[,KEY=VALUE]…   diff,left=front_left,left=rear_left,right=front_right,right=rear_right
 //
-// KIND      diff or skid (differential), ackermann, mecanum, omni (takes any velocity), none.
-// KEY       left, right: a joint that turns a wheel; steer: a joint that steers; each may come
-//           several times, or once with joints joined by "+". radius, separation, wheel_base in
-//           metres, steering_limit in radians.
-// Missing values are taken from the model's own drive of that kind, else guessed and measured
-// (drive_guess.h).
+// KIND      diff or skid (differential), ackermann, mecanum, omni (follows any velocity), none.
+// KEY       left, right: a joint that turns a wheel; steer: a joint that steers. Each of these keys
+//           may occur several times, or once with several joints joined by "+". radius, separation,
+//           wheel_base in metres, steering_limit in radians.
+// If the model's own drive has that kind, values that are not given are its values. Otherwise they
+// are guessed and measured (drive_guess.h).
 #pragma once
 
 #include <memory>
@@ -33,9 +33,9 @@ struct DriveChoice {
 [[nodiscard]] base::Result<DriveChoice> ParseDriveChoice(const std::string& text);
 
 // Returns the model as a robot. `choice` is a text as above, or empty for the model's own drive or
-// a guessed one. A model with neither drive only has joints and sensors. Returns the same model if
-// nothing changes. Fails with kBadModel if the model lacks the chosen joints, or if `choice` is
-// empty and the model has no drive, wheels, movable joints or sensors.
+// a guessed drive. If no drive can be guessed either, the robot only has joints and sensors.
+// Returns the same model if nothing changes. Fails with kBadModel if the model lacks the chosen
+// joints, or if `choice` is empty and the model has no drive, wheels, movable joints or sensors.
 [[nodiscard]] base::Result<std::shared_ptr<const Model>> AsRobot(std::shared_ptr<const Model> model,
                                                                  const std::string& choice);
 
