@@ -54,7 +54,7 @@ class ConnectionHooks {
   virtual void OnMessage(std::string& message) { (void)message; }
   // Called before the ORB sends `bytes`.
   virtual void OnSend(std::string_view bytes) { (void)bytes; }
-  // Called after the first `count` of these bytes were sent.
+  // Called after the first `count` of the bytes of OnSend() were sent.
   virtual void OnSent(std::size_t count) { (void)count; }
 };
 
