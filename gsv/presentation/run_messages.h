@@ -18,7 +18,7 @@ messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 // requests are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 
-// Returns the diagnostics: first those of the simulation, then those of each robot by name. The
+// Returns the diagnostics of the simulation, followed by those of each robot, ordered by name. The
 // simulation has an error if it has failed, and a warning while it is blocked. A robot has an error
 // if its behaviour has died, and a warning while it is unresponsive.
 messages::diagnostic_msgs::DiagnosticArray DiagnosticsMessage(
