@@ -1,6 +1,6 @@
 // Compares the log of a real robot with GSV's simulation of the same devices.
 //
-// Determinism  functions of the log, the options and the seed.
+// Determinism  all results are functions of the log, the options and the seed.
 #pragma once
 
 #include <optional>

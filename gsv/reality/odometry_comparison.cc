@@ -156,8 +156,8 @@ std::vector<TimedPose> SimulatedOdometry(const std::vector<TimedPose>& truth,
 }
 
 sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows) {
-  // The errors are those of the estimate. The regression of the estimate on the truth therefore has
-  // no bias, unlike the inverse of MotionStatistics::way_ratio.
+  // The estimate has errors, and the true motion is treated as exact. Therefore the regression of
+  // the estimate on the truth has no bias, unlike the inverse of MotionStatistics::way_ratio.
   std::vector<double> ways, turns, true_ways, true_turns;
   for (const MotionWindow& window : windows) {
     ways.push_back(window.reckoned_way), true_ways.push_back(window.true_way);

@@ -25,7 +25,8 @@ Log WithBases(Log log, const CompareOptions& options);
 base::Result<PlacedScans> PlaceScans(const Log& log, const CompareOptions& options,
                                      bool for_fitting);
 
-// Returns the same scans, with the readings of the simulated device.
+// Returns each scan of `placed`, together with the readings of the simulated device at the same
+// pose.
 base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const Log& log,
                                               const CompareOptions& options);
 

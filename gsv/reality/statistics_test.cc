@@ -39,7 +39,7 @@ TEST(Statistics, ComputeCorrelations) {
 }
 
 TEST(OdometryComparison, FitsTheDriftThatMadeTheLog) {
-  // A robot that drives wide arcs, left and right in turn.
+  // A robot that drives wide arcs, alternately to the left and to the right.
   std::vector<TimedPose> truth = {{0, 0, 0, 0}};
   for (int i = 1; i < 40000; ++i) {
     TimedPose next = truth.back();
