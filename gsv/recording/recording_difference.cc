@@ -95,7 +95,7 @@ std::string RobotOf(const McapReader& reader, const Difference& difference) {
     return BodyOfPose(reader, difference.time,
                       std::strtoul(difference.field.c_str() + kPoses.size(), nullptr, 10));
   }
-  // Other topics are those of sensors: /ROBOT/SENSOR.
+  // All topics that are not in the table are topics of sensors: /ROBOT/SENSOR.
   if (presentation::FindTopic(topic) == nullptr) {
     return topic.substr(1, topic.find('/', 1) - 1);
   }

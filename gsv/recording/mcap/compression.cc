@@ -12,7 +12,8 @@ namespace {
 
 #define GSV_CARRY_LESS __attribute__((target("pclmul,sse4.1")))
 
-// Returns x times `by` plus `next`, as polynomials: the halves of x are multiplied by those of `by`.
+// Returns x times `by` plus `next`, as polynomials: each half of x is multiplied by the same half
+// of `by`.
 GSV_CARRY_LESS inline __m128i Folded(__m128i x, __m128i by, __m128i next) {
   return _mm_xor_si128(
       _mm_xor_si128(_mm_clmulepi64_si128(x, by, 0x00), _mm_clmulepi64_si128(x, by, 0x11)), next);
@@ -21,7 +22,7 @@ GSV_CARRY_LESS inline __m128i Folded(__m128i x, __m128i by, __m128i next) {
 // Returns the remainder of `bytes`. `size` must be a multiple of 16, and at least 64. The argument
 // `remainder` is the remainder of the data before `bytes`. A checksum is an inverted remainder.
 // Source  V. Gopal et al., "Fast CRC computation for generic polynomials using PCLMULQDQ
-//         instruction", Intel, 2009. The constants are those for the reflected polynomial of CRC-32.
+//         instruction", Intel, 2009. The constants are for the reflected polynomial of CRC-32.
 GSV_CARRY_LESS std::uint32_t Remainder(const std::byte* bytes, std::size_t size,
                                        std::uint32_t remainder) {
   const auto* at = reinterpret_cast<const __m128i*>(bytes);

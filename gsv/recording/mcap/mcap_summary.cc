@@ -123,8 +123,8 @@ class SummaryReader {
     if (summary_.message_count > 0 && blocks.empty()) return "its summary has no chunks";
     std::sort(blocks.begin(), blocks.end(),
               [](const MessageBlock& a, const MessageBlock& b) { return a.offset < b.offset; });
-    // Chunks must not overlap in the file; otherwise their total size could be many times that of
-    // the file.
+    // Chunks must not overlap in the file; otherwise their total size could be many times the size
+    // of the file.
     std::uint64_t free_from = kMagic.size();
     for (const MessageBlock& block : blocks) {
       if (block.offset < free_from || block.offset > start_ ||

@@ -76,8 +76,8 @@ TEST(FirstDifference, ReportsAMissingMessage) {
   EXPECT_EQ(difference->in_second, "missing");
 }
 
-// A recording of clock messages, one each 0.1 s, without those at the times in `left_out`. The
-// message at time `other` has another content.
+// A recording of clock messages, one every 0.1 s. The messages at the times in `left_out` are
+// missing, and the message at the time `other` has another content.
 Bytes ClocksWithout(const std::set<base::SimTime>& left_out, base::SimTime other = -1ms) {
   Bytes bytes;
   MemorySink sink(bytes);

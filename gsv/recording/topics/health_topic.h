@@ -18,7 +18,7 @@ namespace gsv::recording {
 // Writes the topic /gsv/health of a recording.
 class HealthTopic {
  public:
-  // `writer` must outlive this object. `seed` and `stuck_after` are those of the simulation.
+  // `writer` must outlive this object. `seed` and `stuck_after` are values of the simulation.
   HealthTopic(McapWriter& writer, const Selection& selection,
               std::shared_ptr<const sensing::SensorRegistry> types, std::uint64_t seed,
               base::SimTime stuck_after);

@@ -47,7 +47,7 @@ struct SensorRecorderOptions {
 
 class SensorRecorder {
  public:
-  // `writer` must outlive this object. `seed` is that of the simulation.
+  // `writer` must outlive this object. `seed` is the seed of the simulation.
   SensorRecorder(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
                  std::uint64_t seed, SensorRecorderOptions options);
   ~SensorRecorder();

@@ -55,7 +55,7 @@ class StateTopics {
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;  // the entries of the written poses, for layout_
   messages::tf2_msgs::TFMessage
-      transforms_message_;  // the last message; its names are those of layout_
+      transforms_message_;  // the last message; it has the names in layout_
   std::map<std::string, world::DriveState> written_;  // last written command of each robot
   // The element of written_ for each body of layout_; null for bodies that are not robots.
   std::vector<world::DriveState*> written_of_;
