@@ -1,7 +1,7 @@
 // The servants of a behaviour program: sba::AgentBehaviour for a gsv::Behaviour, and the factory
 // that creates an sba::AgentBehaviour for each robot.
 //
-// Threads  calls come on ORB threads; the behaviour runs on its own thread.
+// Threads  ORB threads make the calls; the behaviour runs on its own thread.
 #pragma once
 
 #include <thread>

@@ -188,7 +188,8 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   return robot;
 }
 
-// A robot behind the robot under test. It sends 20 messages at 20 ms, of which a radio stores 16.
+// A robot behind the robot under test. It sends 20 messages at 20 ms. A radio stores only 16
+// messages.
 simulation::RobotSpecification Speaker() {
   auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model::SensorDescription radio;
@@ -277,7 +278,7 @@ typename Interface::_var_type Opened(sba::SensorFactory_ptr factory, const char*
   return narrowed;
 }
 
-// Compares the values with those from the interface of each type.
+// Compares the values with the values from the IDL interface of each sensor type.
 void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   const auto& values = read.values;
   EXPECT_EQ(Opened<sba::Sonar>(factory, "sonar")->range(), values.at("sonar")[0]);
