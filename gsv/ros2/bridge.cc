@@ -39,7 +39,7 @@ using simulation::Simulation;
 constexpr base::SimTime kTransformPeriod = std::chrono::milliseconds(20);
 // The period, in wall-clock time, of diagnostics and of checks for other publishers.
 constexpr std::chrono::milliseconds kRefreshPeriod{1000};
-// The period of checks for changes of robots and sensors that no event reports.
+// The period of checks for changes of robots and sensors. Some of these changes cause no event.
 constexpr std::chrono::milliseconds kFollowPeriod{3000};
 constexpr std::chrono::milliseconds kTimeout{250};
 
@@ -77,7 +77,8 @@ class SimulationBridge final : public Bridge {
   std::atomic<bool> has_matched_{true};
   std::atomic<bool> repeats_clock_{false};
   mutable base::Mutex namespaces_mutex_;
-  std::map<std::string, std::string> namespaces_ GSV_GUARDED_BY(namespaces_mutex_);  // by robot
+  // namespaces by robot
+  std::map<std::string, std::string> namespaces_ GSV_GUARDED_BY(namespaces_mutex_);
 
   // Members of the publisher thread.
   std::shared_ptr<const sensing::SensorRegistry> types_;
@@ -90,7 +91,8 @@ class SimulationBridge final : public Bridge {
   dds::Writer* static_frames_ = nullptr;
   dds::Writer* log_ = nullptr;
   dds::Writer* diagnostics_ = nullptr;
-  std::map<std::string, std::unique_ptr<RobotTopics>> robots_;  // by body
+  // topics of each robot, by the name of its body
+  std::map<std::string, std::unique_ptr<RobotTopics>> robots_;
   SlowLane slow_;  // declared last, because it uses the members above
   bool has_checked_namespaces_ = false;
   std::unique_ptr<SimulationServices> own_services_;  // null if the caller has given services
@@ -280,7 +282,7 @@ base::Status SimulationBridge::SetNamespace(const std::string& robot,
   return {};
 }
 
-// Logs once, after the start, which of the chosen namespaces have no robot.
+// Logs once, after the start, which names in Options::namespaces belong to no robot.
 void SimulationBridge::CheckNamespaces(Simulation& simulation) {
   if (has_checked_namespaces_ || simulation.status().phase == simulation::Phase::kCreated) return;
   has_checked_namespaces_ = true;
@@ -339,7 +341,7 @@ void SimulationBridge::Publish(const SnapshotPointer& snapshot) {
 }
 
 // Called while a step waits for a node: sends /clock again. Before the first step, sends all
-// topics, because no step has published them yet.
+// topics, because there was no step yet that could have published them.
 void SimulationBridge::Repeat() {
   const std::shared_ptr<Simulation> simulation = simulation_.lock();
   if (simulation == nullptr) return;

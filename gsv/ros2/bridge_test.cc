@@ -72,8 +72,8 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
   EXPECT_EQ(range.header.frame_id, "robot/front");
 }
 
-// Creates and destroys 40 participants, more than discovery looks for on one machine. Participants
-// that are created later must still find each other.
+// Creates and destroys 40 participants. Discovery looks for fewer participants on one machine.
+// Participants that are created later must still find each other.
 TEST(Participant, IsFoundAfterManyOthers) {
   for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
   Peer one, other;
@@ -127,7 +127,7 @@ TEST_F(BridgeTest, DrivesARobotByCmdVel) {
   EXPECT_GE(x, 1);
 }
 
-// A robot with one joint, which lifts it by up to half a metre.
+// A robot with one joint. The joint lifts the robot by up to half a metre.
 std::shared_ptr<const model::Model> Lift() {
   auto lift = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model::Link fork;

@@ -129,8 +129,8 @@ void CommandInput::Note(const base::Status& status, const char* topic) {
     return;
   }
   const base::ErrorCode code = status.error().code;
-  // A command may arrive too late: between two steps in lockstep, or after the end of the
-  // simulation.
+  // A command may arrive too late: in lockstep after its agent has begun to wait, or after the end
+  // of the simulation.
   if (code == base::ErrorCode::kNotRunning || code == base::ErrorCode::kEnded) return;
   if (refused_++ == 0) {
     spdlog::warn("{}: {} from ROS 2 is refused: {}. Further refusals are not logged", robot_, topic,

@@ -22,7 +22,7 @@ namespace gsv::ros2 {
 class CommandInput {
  public:
   // `steps` is null if no ROS 2 node steps robots. While a node steps this robot, commands with a
-  // time stamp go to `steps`.
+  // time stamp are passed to `steps`.
   explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent,
                         std::shared_ptr<NodeSteps> steps = nullptr);
 
@@ -30,13 +30,13 @@ class CommandInput {
   // effect, but must be finite.
   void TakeTwist(std::span<const std::byte> sample);
   void TakeTwistStamped(std::span<const std::byte> sample);
-  // std_msgs/msg/Float64MultiArray: a value for each joint of `joints`, in this order.
+  // std_msgs/msg/Float64MultiArray: one value for each joint of `joints`, in the order of `joints`.
   void TakeJoints(std::span<const std::byte> sample, const std::vector<int>& joints,
                   world::JointCommand::Kind kind);
 
   // Commands these joints to these positions, in rad or m.
   void CommandPositions(const std::vector<int>& joints, const std::vector<double>& positions);
-  // Counts a rejected message of `topic`. Logs the robot's first one.
+  // Counts a rejected message of `topic`. Logs only the first rejected message of the robot.
   void Refuse(const base::Error& error, const char* topic);
 
   std::uint64_t taken() const { return taken_; }

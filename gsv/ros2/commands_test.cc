@@ -48,7 +48,7 @@ TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
 TEST(CommandInput, RejectsNonFiniteCommands) {
   CommandedRobot robot;
   Twist twist;
-  // The drive ignores this component, but a value that is not finite is rejected nevertheless.
+  // The drive ignores this component. Nevertheless, a value that is not finite is rejected.
   twist.linear.z = std::numeric_limits<double>::infinity();
   messages::Bytes sideways;
   messages::Encode(twist, sideways);
@@ -112,8 +112,8 @@ messages::Bytes ArrayBytes(const std::vector<double>& values) {
   return bytes;
 }
 
-// Sends `arrays` of positions for the two joints, one after the other. Returns the positions after
-// 1 s.
+// Sends the elements of `arrays`, which are positions for the two joints, one after the other.
+// Returns the positions after 1 s.
 std::vector<double> PositionsAfter(const std::vector<std::vector<double>>& arrays) {
   const auto simulation = simulation::Make(simulation::Lockstep(std::chrono::seconds(1)));
   EXPECT_TRUE(simulation->AddRobot(TwoSliders()));

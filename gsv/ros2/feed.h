@@ -2,8 +2,8 @@
 //
 // Threads  OnSnapshot() and OnEvent() as simulation::Observer; Next() from one thread; other
 //          functions from any thread.
-// Bounded  a few snapshots. If the publisher does not keep up, the oldest are dropped, or in
-//          lockstep the stepping thread waits.
+// Bounded  a few snapshots. If the publisher is too slow, the oldest snapshots are dropped. In
+//          lockstep, the stepping thread waits instead.
 #pragma once
 
 #include <chrono>
@@ -33,11 +33,11 @@ class Feed final : public simulation::Observer {
   void SetPeriods(const std::set<base::SimTime>& periods);
 
   struct News {
-    SnapshotPointer snapshot;  // null: none
+    SnapshotPointer snapshot;  // null if there is no new snapshot
     std::vector<simulation::Event> events;
   };
-  // Returns the new entries. Waits for one until `timeout` (wall-clock time) or until Wake() is
-  // called.
+  // Returns the new entries. If there are none, waits for an entry, until `timeout` (wall-clock
+  // time) or until Wake() is called.
   News Next(std::chrono::milliseconds timeout);
   void Wake();
   // Closes the queue, and releases a stepping thread that waits.

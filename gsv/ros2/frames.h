@@ -1,8 +1,8 @@
 // The frames of one robot in ROS 2: PREFIXodom → PREFIXBASE → links → sensors, by REP-105.
 //
 // BASE is the model's own frame. If the frame of the canonical link equals the model's frame, BASE
-// has this link's name. Otherwise it is base_link, or base_footprint if another link is called
-// base_link. There is always a frame base_link.
+// has this link's name. Otherwise, BASE is base_link. If another link has the name base_link, BASE
+// is base_footprint. So there is always a frame base_link.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ class Frames {
   std::string odom() const { return prefix_ + "odom"; }
   const std::string& base() const { return base_; }
   std::string OfLink(const model::Model& model, int link) const;
-  // Returns the frame of a sensor: the link's frame if sensor and link have equal poses, else the
-  // sensor's own frame.
+  // Returns the frame of a sensor. This is the link's frame if sensor and link have equal poses.
+  // Otherwise, it is the sensor's own frame.
   std::string OfSensor(const model::Model& model, const model::SensorDescription& sensor) const;
 
   // Appends the transforms base → fixed links and links → sensors (and optical frames, if any).

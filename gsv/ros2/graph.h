@@ -14,7 +14,7 @@
 
 namespace gsv::ros2 {
 
-// Returns the number of bytes of a Gid: 24 in Humble (16 of them are used), and 16 since Iron.
+// Returns the number of bytes of a Gid: 24 in Humble, of which 16 are used, and 16 since Iron.
 std::size_t GidSize(Distro distro);
 
 // Encodes a ParticipantEntitiesInfo and appends it to `out`.
@@ -35,7 +35,7 @@ class Graph {
  private:
   dds::Participant& participant_;
   const Distro distro_;
-  // Null if the participant refused to make the writer; the refusal is logged.
+  // Null if the participant refused to create the writer; the refusal is logged.
   std::unique_ptr<dds::Writer> writer_;
   std::optional<std::vector<NodeInfo>> sent_;
 };

@@ -5,8 +5,8 @@
 namespace gsv::ros2 {
 namespace {
 
-// Returns the encoded size of a graph with one node "gsv" in "/" and one writer. `gid` is the size
-// of a Gid.
+// Returns the encoded size of a graph with one node "gsv" in "/" and one writer. `gid` is the
+// number of bytes of a Gid.
 std::size_t SizeFor(std::size_t gid) {
   // The summands: encapsulation, Gid, number of nodes; "/" and padding, "gsv", two counts, one Gid.
   return 4 + gid + 4 + (4 + 2 + 2) + (4 + 4) + 4 + 4 + gid;

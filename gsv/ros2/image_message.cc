@@ -12,7 +12,7 @@ struct Pixels {
   int bytes = 0;  // bytes per pixel
 };
 
-// Writes all fields before the pixels.
+// Writes all fields that precede the pixels.
 void WriteHead(const Pixels& pixels, base::SimTime time, const std::string& frame,
                messages::CdrWriter& writer) {
   messages::std_msgs::Header header;
@@ -22,7 +22,7 @@ void WriteHead(const Pixels& pixels, base::SimTime time, const std::string& fram
   writer.Write(static_cast<std::uint32_t>(pixels.height));
   writer.Write(static_cast<std::uint32_t>(pixels.width));
   writer.Write(std::string_view(pixels.encoding));
-  writer.Write(std::uint8_t{0});  // is_bigendian: no
+  writer.Write(std::uint8_t{0});  // is_bigendian: 0 means no
   writer.Write(static_cast<std::uint32_t>(pixels.width * pixels.bytes));
   writer.WriteCount(static_cast<std::size_t>(pixels.width) * pixels.height * pixels.bytes);
 }

@@ -1,8 +1,9 @@
-// A trajectory of joints, as MoveIt and ros2_control send it: positions at given times. Positions
-// between these times are interpolated.
+// A trajectory of joints: positions at given times. MoveIt and ros2_control send such trajectories.
+// Positions between these times are interpolated.
 //
-// Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation":
-//          linear if the points have no velocities, cubic (Hermite) if they have velocities.
+// Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation": the
+//          interpolation is linear if the points have no velocities, and cubic (Hermite) if they
+//          have.
 // Units    rad and rad/s, or m and m/s for sliding joints.
 #pragma once
 
@@ -37,7 +38,8 @@ struct JointTrajectory {
 };
 
 // Reads a JointTrajectory for some of `joints`. `sample` is untrusted input. Fails with kCorrupt if
-// it cannot be decoded, and with kInvalidArgument if names, counts, times or values are wrong.
+// the sample cannot be decoded, and with kInvalidArgument if names, counts, times or values are
+// wrong.
 base::Result<JointTrajectory> ReadJointTrajectory(std::span<const std::byte> sample,
                                                   const model::Model& model,
                                                   const std::vector<int>& joints);

@@ -65,15 +65,16 @@ TEST(JointTrajectory, IsLinearWithoutVelocities) {
   EXPECT_THAT(read->PositionsAt(9s, {0, 0}), ElementsAre(3, 0));
 }
 
-// From rest to rest, the path is 3 s² - 2 s³ with s = time / duration, so 0.15625 at s = 0.25.
+// From rest to rest, the path is 3 s² - 2 s³ with s = time / duration. At s = 0.25, this is
+// 0.15625.
 TEST(JointTrajectory, IsCubicWithVelocities) {
   const auto read = ReadTrajectory({"elbow"}, {PointAt(2, {1}, {0}), PointAt(4, {1}, {1})}, 7);
   ASSERT_TRUE(read) << read.error().Sentence();
   EXPECT_EQ(read->start, base::SimTime(7s));
   EXPECT_THAT(read->PositionsAt(500ms, {0}), ElementsAre(DoubleNear(0.15625, 1e-15)));
   EXPECT_THAT(read->PositionsAt(1s, {0}), ElementsAre(DoubleNear(0.5, 1e-15)));
-  // The cubic from (position 0, slope 0) to (0, slope 1) over 2 s is 2 (s³ - s²), so -0.25 at s =
-  // 0.5.
+  // The cubic from (position 0, slope 0) to (0, slope 1) over 2 s is 2 (s³ - s²). At s = 0.5, this
+  // is -0.25.
   EXPECT_THAT(read->PositionsAt(3s, {0}), ElementsAre(DoubleNear(0.75, 1e-15)));
 }
 

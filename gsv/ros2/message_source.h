@@ -1,4 +1,4 @@
-// Publishes, on one topic, a message that depends only on the snapshot.
+// Publishes a message on one topic. The message depends only on the snapshot.
 #pragma once
 
 #include <functional>

@@ -16,7 +16,8 @@ std::string RosName(std::string_view text);
 // the end.
 bool IsNamespace(std::string_view text);
 
-// Joins names: "/pebble" and "scan" give "/pebble/scan"; "/" and "scan" give "/scan".
+// Joins names. For example, "/pebble" and "scan" become "/pebble/scan"; "/" and "scan" become
+// "/scan".
 std::string InNamespace(std::string_view name_space, std::string_view name);
 
 // Returns "rt/pebble/scan" for "/pebble/scan".

@@ -34,20 +34,20 @@ struct NodeInfo {
 // The endpoints of one ROS 2 node. They exist as long as the node.
 class Node {
  public:
-  // `participant` must outlive the node. `on_match` is called when a reader of one of its topics is
-  // added or removed. Endpoints carry the hashes of their types, except in Humble, which has no
-  // hashes.
+  // `participant` must outlive the node. `on_match` is called when a reader of one of the node's
+  // topics is added or removed. Endpoints contain the hashes of their types, except in Humble,
+  // which has no hashes.
   Node(dds::Participant& participant, Distro distro, std::string name_space, std::string name,
        std::function<void()> on_match);
 
   const std::string& name_space() const { return info_.name_space; }
   const NodeInfo& info() const { return info_; }
 
-  // `topic` is absolute or relative to the node's namespace, `type` as "std_msgs/msg/String". The
-  // writer exists as long as the node. Returns null, and logs the reason, if the participant
-  // refuses.
+  // `topic` is absolute or relative to the node's namespace. `type` has the form
+  // "std_msgs/msg/String". The writer exists as long as the node. If the participant refuses,
+  // returns null and logs the reason.
   dds::Writer* Advertise(std::string_view topic, std::string_view type, const dds::Qos& qos);
-  // Returns null, and logs the reason, if the participant refuses.
+  // If the participant refuses, returns null and logs the reason.
   dds::Reader* Subscribe(std::string_view topic, std::string_view type, const dds::Qos& qos,
                          std::function<void(std::span<const std::byte>)> on_message);
 

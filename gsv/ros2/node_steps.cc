@@ -7,7 +7,7 @@
 namespace gsv::ros2 {
 namespace {
 
-// Wall-clock time.
+// The period, in wall-clock time, at which /clock is sent again.
 constexpr std::chrono::milliseconds kRepeatPeriod{100};
 constexpr std::chrono::milliseconds kStepLease{1000};
 

@@ -26,15 +26,15 @@ inline constexpr const char* kRos2Behaviour = "ros2";
 // Stores the commands that nodes have sent, and lets robots wait for them.
 class NodeSteps {
  public:
-  // Sets whether a node steps the robot. When `is_open` becomes false, the robot stops waiting for
+  // Sets whether a node steps the robot. If `is_open` becomes false, the robot no longer waits for
   // its node.
   void Open(const std::string& robot, bool is_open);
   bool IsOpen(const std::string& robot) const;
 
   // Stores a command that a node has sent with this time stamp.
   void Offer(const std::string& robot, base::SimTime stamp, const world::DriveCommand& command);
-  // Waits for the command with this time stamp. Meanwhile, /clock is sent again from time to time.
-  // Returns nullopt once the node no longer steps the robot.
+  // Waits for the command with this time stamp. During the wait, /clock is sent again from time to
+  // time. Returns nullopt if the node no longer steps the robot.
   std::optional<world::DriveCommand> Await(const std::string& robot, base::SimTime time);
 
   // Sets the function that sends /clock again, for nodes that started late or did not receive it.

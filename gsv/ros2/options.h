@@ -14,7 +14,7 @@ namespace gsv::ros2 {
 // The period of /clock, in simulated time.
 inline constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
 
-// The supported ROS 2 distributions. They exchange different data in discovery.
+// The supported ROS 2 distributions. Their discovery data differ.
 enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
 
 struct Options {
@@ -28,7 +28,7 @@ struct Options {
 
 base::Result<Distro> ParseDistro(const std::string& text);
 base::Result<dds::Range> ParseRange(const std::string& text);
-// ROBOT=NAMESPACE.
+// Parses "ROBOT=NAMESPACE" and adds it to `namespaces`.
 base::Status ParseNamespace(const std::string& text,
                             std::map<std::string, std::string>& namespaces);
 

@@ -24,7 +24,8 @@ constexpr std::chrono::milliseconds kTick{5};
 constexpr std::size_t kMaxTopics = 1000;
 constexpr std::string_view kClockTopic = "/clock";
 
-// Whether the position moved so far within one tick that a seek, and not a late tick, is the cause.
+// Whether a seek has changed the position. The position then moves backwards, or farther within one
+// tick than a late tick can explain.
 bool IsJump(base::SimTime advance, double speed) {
   return advance < base::SimTime(0) || base::ToSeconds(advance) > 1 + speed / 2;
 }

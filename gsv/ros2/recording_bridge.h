@@ -1,5 +1,4 @@
-// Publishes the messages of a recording in ROS 2, and /clock, while the recording is replayed.
-//
+// While a recording is replayed, publishes its messages and /clock in ROS 2.
 // The file is untrusted input. Topics are renamed to valid ROS names. Topics whose messages are not
 // in CDR are omitted.
 //
@@ -24,8 +23,8 @@ class RecordingBridge {
   };
 
   // Opens the recording a second time. `participant` must outlive the bridge. `position` is called
-  // on the bridge's thread. After a seek, the messages from the new position on are published.
-  // Fails as McapReader::Open() does.
+  // on the bridge's thread. After a seek, the messages after the new position are published. Fails
+  // for the same reasons as McapReader::Open().
   static base::Result<std::unique_ptr<RecordingBridge>> Start(dds::Participant& participant,
                                                               Distro distro,
                                                               const std::string& path,

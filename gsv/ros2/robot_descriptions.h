@@ -1,6 +1,6 @@
-// Converts models to URDF for robot_description, with mesh files that RViz finds on this machine.
+// Converts models to URDF for robot_description. RViz on this machine can read their mesh files.
 //
-// Errors   a mesh that cannot be written is an error of its model.
+// Errors   if a mesh cannot be written, Of() fails for its model.
 // Threads  one.
 #pragma once
 

@@ -124,7 +124,8 @@ void RobotTopics::AddSensor(const Context& context, model::SensorDescription des
   sources_.push_back(std::make_unique<SensorSource>(std::move(sensor), std::move(outputs), node_));
 }
 
-// Adds the topics that ROS 2 expects of every robot, even if its model has no sensor for them.
+// Adds the topics that ROS 2 expects of every robot. They are added even if the model has no sensor
+// for them.
 void RobotTopics::AddImplied(const Context& context) {
   const sensing::SensorRegistry& types = context.simulation.sensor_types();
   const auto add = [&](const char* type) {

@@ -36,7 +36,7 @@ class RobotTopics {
   RobotTopics(const Context& context, const world::Body& body, std::string name_space,
               bool takes_commands);
 
-  // Whether these topics still fit the body: false after its sensors or its namespace have changed.
+  // Whether these topics still fit the body. False if its sensors or its namespace have changed.
   bool Fits(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
             bool takes_commands) const;
 
@@ -52,8 +52,8 @@ class RobotTopics {
   // Sends robot_description as soon as it has a reader.
   void SendDescription(RobotDescriptions& descriptions);
 
-  // Logs once if several nodes command this robot at the same time, and once if a node sends
-  // commands of another type. `endpoints` are those of other participants.
+  // Logs once if several nodes command this robot at the same time. Also logs once if a node sends
+  // commands of another type. `endpoints` are the endpoints of other participants.
   void CheckPublishers(const std::vector<dds::Endpoint>& endpoints);
 
  private:
@@ -71,8 +71,8 @@ class RobotTopics {
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
   std::vector<bool> is_optical_;  // whether each of sensors_ has an optical frame
-  // Declared before node_, whose readers call the sources, so that the sources are destroyed after
-  // it.
+  // Declared before node_, so that the sources are destroyed after node_. The readers of node_ call
+  // the sources.
   std::vector<std::unique_ptr<Source>> sources_;
   Node node_;
   // Null after robot_description was sent, or if the participant refused the topic.

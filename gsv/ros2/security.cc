@@ -14,8 +14,8 @@ constexpr const char* kKeystore = "ROS_SECURITY_KEYSTORE";
 constexpr const char* kStrategy = "ROS_SECURITY_STRATEGY";
 constexpr const char* kEnclave = "ROS_SECURITY_ENCLAVE_OVERRIDE";
 
-// Returns whether the variable has the value `first`. An empty variable has the value `second`.
-// Fails for other values.
+// Returns true if the variable has the value `first`. Returns false if it has the value `second` or
+// is empty. Fails for other values.
 base::Result<bool> IsFirst(const Environment& environment, const char* variable, const char* first,
                            const char* second) {
   const std::string value = environment(variable);

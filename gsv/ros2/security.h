@@ -2,8 +2,8 @@
 //
 // ROS_SECURITY_ENABLE            true: with security
 // ROS_SECURITY_KEYSTORE          the folder that `ros2 security create_keystore` made
-// ROS_SECURITY_STRATEGY          Enforce: without keys gsv does not start; Permissive (default): it
-//                                starts without security
+// ROS_SECURITY_STRATEGY          if there are no keys: with Enforce, gsv does not start; with
+//                                Permissive (default), gsv starts without security
 // ROS_SECURITY_ENCLAVE_OVERRIDE  the enclave (default: /)
 //
 // Source   design.ros2.org/articles/ros2_dds_security.html.

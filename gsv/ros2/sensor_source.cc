@@ -19,11 +19,11 @@ namespace {
 
 using sensing::Reading;
 
-// The topic and the rate that ROS 2 drivers usually have for a type of sensor.
+// The usual topic and the usual rate of ROS 2 drivers for a type of sensor.
 struct UsualTopic {
   const char* topic;
   bool is_sensor_data;
-  double rate;  // Hz, used if the sensor has no rate of its own
+  double rate;  // Hz; used if the sensor has no rate
 };
 
 constexpr double kUsualRate = 20;
@@ -56,7 +56,7 @@ bool Append(const std::vector<std::uint8_t>& bytes, EncodedMessage& out) {
   return !bytes.empty();
 }
 
-// Returns the message that recordings and viewers also get, under its GSV type.
+// Returns the message that recordings and viewers also get. Its type is a type of GSV.
 SensorOutput OwnMessage(const RosSensor& sensor, std::string topic, std::string frame,
                         const dds::Qos& qos, const messages::Schema& schema) {
   return {std::move(topic), std::string(schema.name), qos,
@@ -96,7 +96,8 @@ SensorOutput OdometryMessage(const RosSensor& sensor, std::string topic, const F
           }};
 }
 
-// Poses are in the frame of the ground truth, because "map" belongs to the user's own localization.
+// Poses are in the frame of the ground truth, because the frame "map" belongs to the user's
+// localization.
 SensorOutput PoseMessage(const RosSensor& sensor, std::string topic) {
   return {std::move(topic), "geometry_msgs/msg/PoseStamped", kDefaultQos,
           [name = sensor.description.name](const Reading& reading, EncodedMessage& out) {
@@ -158,7 +159,7 @@ class OutputList {
     AddOwn(base_ + "/points", frame_, kLargeDataQos);
     AddCompanion(base_ + "/camera_info");
   }
-  // A lidar with one row gives a scan; one with several rows gives points.
+  // A lidar with one row has a scan as output; a lidar with several rows has points.
   void AddLidar() {
     if (!sent_.companion) return AddOwn(base_, frame_, kSensorDataQos);
     AddCompanion(sensor_.is_only ? "points" : RosName(sensor_.description.name) + "/points",

@@ -1,7 +1,7 @@
 // Publishes a sensor of a robot. Each sample is converted to all the sensor's ROS 2 messages.
 //
-// A reading is a function of the snapshot, so the sensor is sampled here again. The value equals
-// the one that the robot's behaviour gets, and the simulation does not change.
+// A reading is a function of the snapshot, so the sensor is sampled here again. The robot's
+// behaviour gets the same value, and the simulation does not change.
 #pragma once
 
 #include <functional>
@@ -24,13 +24,13 @@ struct EncodedMessage {
   std::span<const std::byte> rest;
 };
 
-// One of the messages that a reading is converted to.
+// One of the messages to which a reading is converted.
 struct SensorOutput {
   std::string topic;  // relative to the robot's namespace
   std::string type;   // "sensor_msgs/msg/LaserScan"
   dds::Qos qos;
-  // Encodes a reading's message into `out`, which is empty. Returns false if this reading has no
-  // such message.
+  // Encodes a reading's message into `out`, which is empty. Returns false if there is no message
+  // for this reading.
   std::function<bool(const sensing::Reading& reading, EncodedMessage& out)> encode;
 };
 
@@ -44,13 +44,13 @@ struct RosSensor {
       true;  // whether it is the robot's only sensor of its type; its topic then has the usual name
 };
 
-// Returns the messages of a sensor. Its type determines their topics: "scan" of a lidar,
-// "camera/image_raw" of a camera. If a robot has several sensors of a type, the topics begin with
-// the sensors' names. The topic of a type without a usual name has the sensor's name.
+// Returns the messages of a sensor. The sensor's type determines their topics, such as "scan" for a
+// lidar and "camera/image_raw" for a camera. If a robot has several sensors of a type, the topics
+// begin with the sensors' names. If a type has no usual topic, the topic is the sensor's name.
 std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
                                     const model::Model& model);
 
-// Returns the rate in Hz: the sensor's own rate, or else the usual rate of its type.
+// Returns the rate in Hz: the sensor's own rate if it has one, else the usual rate of its type.
 double RateOf(const RosSensor& sensor);
 
 // Publishes the messages of one sensor.

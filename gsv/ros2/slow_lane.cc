@@ -7,8 +7,8 @@
 namespace gsv::ros2 {
 namespace {
 
-// The number of images that are requested before the first of them is awaited; the renderer draws
-// these images together.
+// The number of images that are requested before the thread waits for the first of them. The
+// renderer renders these images together.
 constexpr int kAtOnce = 8;
 
 }  // namespace

@@ -2,7 +2,8 @@
 // wait.
 //
 // Threads  Offer(), Drain() and the destructor from one thread.
-// Bounded  one snapshot is in work, and a few wait. If more come, the oldest is skipped.
+// Bounded  one snapshot is being published, and a few wait. If there are more, the oldest is
+//          skipped.
 #pragma once
 
 #include <deque>
@@ -21,8 +22,8 @@ class SlowLane {
   SlowLane();
   ~SlowLane();
 
-  // Enqueues sources, which must exist until the next Drain(). If `waits`, first waits until the
-  // queue is empty.
+  // Enqueues sources, which must exist until the next Drain(). If `waits` is true, first waits
+  // until the queue is empty.
   void Offer(std::vector<Source*> sources, const Moment& moment, bool waits);
   // Waits until all enqueued sources are published.
   void Drain();

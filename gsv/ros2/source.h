@@ -20,7 +20,8 @@ struct Moment {
   sensing::RaySceneCache& rays;
 };
 
-// One or several topics whose messages are made from snapshots, at a fixed period.
+// A source publishes messages on one or several topics. They are made from snapshots, at a fixed
+// period.
 class Source {
  public:
   explicit Source(base::SimTime period) : period_(period), instants_(period) {}

@@ -8,9 +8,9 @@
 
 namespace gsv::ros2 {
 
-// Returns one sentence for each topic and cause, sorted. Causes: different types or type hashes, or
-// a subscription with a stricter QoS than the publisher offers. Ignores topics that are no ROS 2
-// topics.
+// Returns one sentence for each topic and cause, sorted. The causes are different types, different
+// type hashes, and a subscription with a stricter QoS than the publisher offers. Ignores DDS topics
+// that are not ROS 2 topics.
 std::vector<std::string> FindTopicProblems(const std::vector<dds::Endpoint>& endpoints);
 
 }  // namespace gsv::ros2

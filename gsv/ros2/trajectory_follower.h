@@ -1,6 +1,6 @@
 // Moves the joints of a robot along the trajectories that ROS 2 nodes send.
 //
-// Threads  Take() on any thread; other functions on the publisher's.
+// Threads  Take() on any thread; other functions on the publisher's thread.
 #pragma once
 
 #include <functional>

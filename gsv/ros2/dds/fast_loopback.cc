@@ -18,8 +18,8 @@ using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 using eprosima::fastrtps::rtps::LocatorsIterator;
 
-// A placeholder for kDiscoveryGroup in the list of peers. The group itself cannot be in the list:
-// participants with default settings announce this group too, and Fast DDS would then send also
+// A placeholder for kDiscoveryGroup in the list of peers. The group itself must not be in the list,
+// because participants with default settings announce this group too. Fast DDS would then also send
 // data to the group.
 constexpr const char* kGroupPeer = "127.255.255.254";
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.3, 9.6.1.4
@@ -28,11 +28,12 @@ bool IsGroupPeer(const Locator_t& locator) {
   return locator.kind == LOCATOR_KIND_UDPv4 && IPLocator::toIPv4string(locator) == kGroupPeer;
 }
 
-// Fast DDS never deletes an iterator through this base class, so its destructor need not be
+// Fast DDS never deletes an iterator through this base class, so the destructor need not be
 // virtual.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
-// Skips kGroupPeer in a list of destinations, and multicasts its data on this machine instead.
+// Skips kGroupPeer in a list of destinations. Sends the datagram by multicast on this machine
+// instead.
 class WithoutGroup final : public LocatorsIterator {
  public:
   WithoutGroup(LocatorsIterator& next, const LocatorsIterator& end,

@@ -2,10 +2,10 @@
 // machine that use the network.
 //
 // The sockets are bound to 127.0.0.1. Participants of this machine that announce a network address
-// also listen at 127.0.0.1, so this transport sends their data there. Fast DDS without this
-// transport cannot stay on this machine and still reach these participants. If its only interface
-// is 127.0.0.1, it ignores participants with default settings. If it uses all interfaces, anybody
-// on the network can send to it.
+// also listen at 127.0.0.1, so this transport sends their data there. Without this transport, Fast
+// DDS cannot reach these participants and stay on this machine at the same time. If its only
+// interface is 127.0.0.1, it ignores participants with default settings. If it uses all interfaces,
+// everybody on the network can send data to it.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 
 namespace gsv::ros2::dds {
 
-// The requested buffer of a socket, in bytes, with space for bursts of commands and requests. Linux
-// gives at most net.core.rmem_max.
+// The buffer size that is requested for a socket, in bytes. It has space for bursts of commands and
+// requests. The actual size is at most net.core.rmem_max of Linux.
 inline constexpr std::uint32_t kSocketBuffer = 4 << 20;
 
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> LoopbackTransport(
     std::uint32_t max_peers);
 
-// The peer address of participants on this machine that wait for multicast, as Cyclone DDS does
-// with default settings. Announcements to this peer are multicast on loopback.
+// The peer address for participants on this machine that wait for multicast, such as those of
+// Cyclone DDS with default settings. Announcements to this peer are sent by multicast on loopback.
 eprosima::fastrtps::rtps::Locator_t LocalGroup(std::uint32_t domain);
 
 }  // namespace gsv::ros2::dds

@@ -41,7 +41,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr std::uint32_t kMaxDomain = 232;  // domains above this have no ports
-// The number of participants per machine that discovery without multicast looks for.
+// The number of participants per machine that discovery searches for without multicast.
 constexpr std::uint32_t kMaxLocalPeers = 32;
 // A flow controller for large samples: bursts of four datagrams of 64 KiB, 250 MiB/s in all. By
 // default, Linux gives a socket a buffer of 208 KiB and drops datagrams that do not fit.
@@ -180,9 +180,9 @@ base::Status UseTransport(const ParticipantOptions& options, fast::DomainPartici
   return {};
 }
 
-// Chooses the index of a participant, which determines its ports: the lowest index whose ports are
-// free. If Fast DDS chose the index, other participants might not search the participant's ports,
-// or it might have no ports.
+// Chooses the index of a participant, which determines its ports. This is the lowest index whose
+// ports are free. If Fast DDS chose the index, other participants might not search for these ports,
+// or the index might have no ports.
 class ParticipantIndex {
  public:
   ParticipantIndex(std::uint32_t domain, bool on_loopback) : domain_(domain) {
@@ -198,12 +198,12 @@ class ParticipantIndex {
   ParticipantIndex(const ParticipantIndex&) = delete;
   ParticipantIndex& operator=(const ParticipantIndex&) = delete;
 
-  int value() const { return value_; }  // -1 if no ports are free
+  int value() const { return value_; }  // -1 if no index has free ports
 
  private:
   static inline base::Mutex mutex_;
-  // The indices that this process has taken, by domain. They are listed here because Fast DDS may
-  // bind their ports a little later, and until then the ports look free.
+  // The indices that this process has taken, by domain. Fast DDS may bind the ports of an index a
+  // little later. Until then, the ports look free, so the indices are listed here.
   static inline std::map<std::uint32_t, std::set<int>> taken_ GSV_GUARDED_BY(mutex_);
   const std::uint32_t domain_;
   int value_ = -1;
@@ -248,8 +248,8 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   ~FastWriter() override {
     if (writer_ == nullptr) return;
     writer_->set_listener(nullptr);
-    // The history is cleared first. If it holds samples, Fast DDS may wait forever for a heartbeat
-    // while it deletes the writer (pull request 4076 of Fast DDS).
+    // The history is cleared first. If the history contains samples, Fast DDS may wait forever for
+    // a heartbeat while it deletes the writer (pull request 4076 of Fast DDS).
     std::size_t removed = 0;
     (void)writer_->clear_history(&removed);
     publisher_.delete_datawriter(writer_);
@@ -314,7 +314,7 @@ class FastWriter final : public Writer, fast::DataWriterListener {
 
 class FastReader final : public Reader, fast::DataReaderListener {
  public:
-  // Samples go to `on_message`, or to `on_request` if `on_message` is empty.
+  // Samples are passed to `on_message`, or to `on_request` if `on_message` is empty.
   FastReader(fast::Subscriber& subscriber,
              std::function<void(std::span<const std::byte>)> on_message,
              std::function<void(std::span<const std::byte>, const Request&)> on_request = {})
@@ -477,7 +477,7 @@ class FastParticipant final : public Participant {
                       "Fast DDS refuses the topic with type " + topic.type, topic.name);
   }
 
-  // Topics exist as long as the participant, so robots that are added again can reuse them.
+  // Topics exist as long as the participant, so a robot that is added again can reuse its topics.
   fast::Topic* TopicOf(const Topic& topic) {
     const base::MutexLock lock(mutex_);
     const auto found = topics_.find(topic.name);

@@ -23,8 +23,8 @@ struct Module {
 // contains it.
 base::Result<std::string> FindModule(const std::vector<std::string>& folders);
 
-// Loads the plug-in from one of `folders`; it stays loaded. Fails with kUnavailable if none of them
-// contains it.
+// Loads the plug-in from one of `folders`; the plug-in stays loaded. Fails with kUnavailable if no
+// folder contains it.
 base::Result<const Module*> LoadModule(const std::vector<std::string>& folders);
 
 }  // namespace gsv::ros2::dds

@@ -20,7 +20,7 @@
 
 namespace gsv::ros2::dds {
 
-// The GUID in the form of RTPS: twelve bytes of prefix, then four bytes of the entity.
+// The GUID in the form of RTPS: twelve bytes for the participant, then four bytes for the entity.
 using Guid = std::array<std::uint8_t, 16>;
 
 // The quality of service of an endpoint.
@@ -54,17 +54,18 @@ struct ParticipantOptions {
   std::uint32_t domain = 0;  // 0 to 232
   Range range = Range::kLocalhost;
   std::vector<std::string> peers{};  // IPv4 addresses or host names
-  std::string name = "gsv";          // name of the participant, which others see
+  std::string name = "gsv";          // name of the participant; other participants can read it
   std::string user_data{};           // "enclave=/;"
-  bool watches_endpoints = false;    // whether endpoints() works; else it returns an empty list
-  // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty for no
+  // whether endpoints() returns the endpoints; if false, it returns an empty list
+  bool watches_endpoints = false;
+  // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty means no
   // security.
   std::string enclave_folder{};
-  std::string insecure_reason{};  // why security is off although it was requested; else empty
+  // reason why security is off although it was requested; empty if there is no such reason
+  std::string insecure_reason{};
 };
 
-// Identifies the request to which a reply belongs: the client's endpoint and the number of the
-// request.
+// Identifies a request, in the reply to it: the client's endpoint and the number of the request.
 struct SampleIdentity {
   Guid writer{};
   std::int64_t sequence = 0;
@@ -72,7 +73,7 @@ struct SampleIdentity {
 
 // The identities in a request to a service, or in a reply.
 struct Request {
-  Guid writer{};            // the endpoint that sent it
+  Guid writer{};            // the endpoint that sent the request or the reply
   SampleIdentity identity;  // the identity to send with the reply
   SampleIdentity related;   // the identity of the request to which a reply belongs
 };
@@ -81,15 +82,15 @@ struct Request {
 class Writer {
  public:
   virtual ~Writer() = default;
-  // Writes one sample with its encapsulation header. Does not wait for readers: a reader that does
-  // not keep up loses the oldest samples. One thread at a time.
+  // Writes one sample with its encapsulation header. Does not wait for readers: a reader that is
+  // too slow loses the oldest samples. Only one thread may call this at a time.
   void Write(std::span<const std::byte> sample) { WriteParts(sample, {}); }
-  // Writes one sample in two parts, as Write() does; the second part may be empty.
+  // Writes one sample in two parts, like Write(); the second part may be empty.
   virtual void WriteParts(std::span<const std::byte> head, std::span<const std::byte> rest) = 0;
   // Writes one sample as the reply to a request.
   virtual void WriteReply(std::span<const std::byte> sample, const SampleIdentity& request) = 0;
-  // Whether a matching reader belongs to the same participant as `endpoint`. If not, that
-  // participant would not receive a reply.
+  // Whether a matching reader belongs to the participant of `endpoint`. If not, that participant
+  // would not receive a reply.
   virtual bool HasReaderInSameParticipant(const Guid& endpoint) const = 0;
   virtual bool has_readers() const = 0;
   virtual Guid guid() const = 0;
@@ -110,7 +111,7 @@ struct Endpoint {
   Topic topic;
 };
 
-// The program's membership in a DDS domain. Makes writers and readers.
+// The program's membership in a DDS domain. Creates writers and readers.
 class Participant {
  public:
   // Maximum size of an incoming sample in bytes. Larger samples are dropped.

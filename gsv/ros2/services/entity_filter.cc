@@ -28,8 +28,8 @@ class Expression {
     };
     if (text.size() > kMaxExpression) return wrong("is longer than 256 characters");
     if (text.find('\0') != std::string::npos) return wrong("holds a NUL");
-    // Refuse nested repetitions, for which regcomp() takes gigabytes, and back references, for
-    // which regexec() takes years.
+    // Refuses two constructs: nested repetitions, for which regcomp() takes gigabytes, and back
+    // references, for which regexec() takes years.
     if (text.find('{') != std::string::npos)
       return wrong("has a repetition {n}, which is not accepted");
     for (std::size_t i = 0; i + 1 < text.size(); ++i) {
@@ -89,7 +89,7 @@ base::Status CheckBounds(const Bounds& bounds) {
                     "bounds must have 2 points, found " + std::to_string(bounds.points.size()));
 }
 
-// An infinite body overlaps everything.
+// A body without bounds passes every filter: it has an infinite plane, or no shapes.
 bool Passes(const Bounds& bounds, const world::Snapshot& snapshot, int body) {
   if (bounds.type == Bounds::kTypeEmpty) return true;
   const auto own = BoundsOfBody(snapshot, body);

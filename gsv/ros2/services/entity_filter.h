@@ -17,8 +17,8 @@ namespace gsv::ros2 {
 std::uint8_t CategoryOf(const world::Body& body);
 
 // Returns the indices of the bodies that match, in ascending order. Fails with kInvalidArgument for
-// a regular expression that is wrong, longer than 256 characters, or has repetitions {n} or back
-// references; with kUnavailable for tags and for bounds other than boxes and spheres.
+// a regular expression that is wrong, is longer than 256 characters, or has repetitions {n} or back
+// references. Fails with kUnavailable for tags, and for bounds other than boxes and spheres.
 base::Result<std::vector<int>> FilterEntities(
     const world::Snapshot& snapshot, const messages::simulation_interfaces::EntityFilters& filters);
 

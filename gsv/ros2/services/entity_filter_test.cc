@@ -68,7 +68,7 @@ TEST_F(EntityFilterTest, PassesBodiesThatOverlapABoxOrASphere) {
   filters.bounds.points = {{10, 1, 1}, {0.4, -1, -1}};
   EXPECT_EQ(Filter(filters), (std::vector<int>{0, 1}));
   filters.bounds.type = Bounds::kTypeSphere;
-  filters.bounds.points = {{12, 0, 0}, {1.4, 0, 0}};  // the near side of the robot is at 10.5
+  filters.bounds.points = {{12, 0, 0}, {1.4, 0, 0}};  // the near side of the robot is at x = 10.5
   EXPECT_EQ(Filter(filters), std::vector<int>{});
   filters.bounds.points[1].x = 1.6;
   EXPECT_EQ(Filter(filters), std::vector<int>{1});

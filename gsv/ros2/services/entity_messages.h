@@ -12,12 +12,13 @@ namespace gsv::ros2 {
 // The frame in which all poses are given.
 inline constexpr const char* kEntityFrame = "world";
 
-// Returns a body's state in the frame "world". Velocities and accelerations are of its origin.
+// Returns a body's state in the frame "world". Velocities and accelerations are those of the body's
+// origin.
 messages::simulation_interfaces::EntityState StateOf(const world::Snapshot& snapshot, int body);
 
 messages::geometry_msgs::Pose MessageOf(const geometry::Pose& pose);
 
-// Converts a box to two corners: first the upper right one, then the lower left one.
+// Converts a box to two corners: first the upper right corner, then the lower left corner.
 messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 
 // Returns the pose in an untrusted message. An orientation of zeros means no rotation. Fails with
@@ -26,7 +27,7 @@ messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 base::Result<geometry::Pose> PoseIn(const std::string& frame,
                                     const messages::geometry_msgs::Pose& pose);
 
-// Whether a pose is upright at height zero, like the default pose. Bodies with such a pose are put
+// Whether a pose is upright at height zero, like the default pose. A body with such a pose is put
 // on the floor.
 bool StandsOnTheFloor(const geometry::Pose& pose);
 

@@ -15,7 +15,7 @@ GoalList::Id IdOf(std::uint8_t number) {
   return id;
 }
 
-// Returns the goals 1 and 2, accepted at 1 s and 2 s. The first one is executing.
+// Returns the goals 1 and 2, which were accepted at 1 s and 2 s. Goal 1 is executing.
 GoalList TwoGoals() {
   GoalList goals;
   EXPECT_TRUE(goals.Accept(IdOf(1), {1, 0}));

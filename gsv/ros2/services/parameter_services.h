@@ -1,5 +1,5 @@
-// The parameter services of a node, with the only parameter that ROS 2 expects of each node:
-// use_sim_time. It is true and cannot be set, because gsv's time is the simulated time.
+// The parameter services of a node. The only parameter is use_sim_time, which ROS 2 expects of each
+// node. It is true and cannot be set, because gsv's time is the simulated time.
 //
 // Source  rcl_interfaces of Jazzy.
 #pragma once

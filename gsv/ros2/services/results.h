@@ -14,7 +14,7 @@ namespace gsv::ros2 {
 messages::simulation_interfaces::Result Succeeded();
 messages::simulation_interfaces::Result Failed(std::uint8_t code, std::string message);
 // Converts an error to a result. kNotFound, kNotRunning and kEnded have their own codes. All other
-// errors give RESULT_OPERATION_FAILED.
+// errors become RESULT_OPERATION_FAILED.
 messages::simulation_interfaces::Result ResultOf(const base::Error& error);
 messages::simulation_interfaces::Result ResultOf(const base::Status& status);
 

@@ -65,7 +65,8 @@ base::Status Play(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.Start() : simulation.Resume();
 }
 
-// Pauses a simulation. A simulation that has not started is paused before its first step.
+// Pauses a simulation. If the simulation has not started, it starts and pauses before its first
+// step.
 base::Status Hold(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.RunThrough(base::SimTime(0)) : simulation.Pause();
 }

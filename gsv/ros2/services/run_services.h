@@ -14,13 +14,13 @@ void OfferRunServices(ServedSimulation& served);
 // Returns a constant of SimulationState.
 std::uint8_t StateOfPhase(simulation::Phase phase);
 
-// Brings a simulation into a state. `code` is a constant of SetSimulationState or of Result.
+// Changes the state of a simulation. `code` is a constant of SetSimulationState or of Result.
 messages::simulation_interfaces::Result EnterState(simulation::Simulation& simulation,
                                                    std::uint8_t state);
 
-// Takes steps and waits for them. Fails with kNotRunning unless the simulation is paused or
-// created. Fails with kEnded if it was paused or ended before the last step, or if `stops` became
-// true.
+// Takes steps and waits until they are complete. Fails with kNotRunning unless the simulation is
+// paused or created. Fails with kEnded if the simulation was paused or ended before the last step,
+// or if `stops` became true.
 base::Status TakeSteps(simulation::Simulation& simulation, std::uint64_t steps,
                        const std::function<bool()>& stops);
 

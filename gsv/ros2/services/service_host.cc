@@ -21,20 +21,20 @@ constexpr std::size_t kMaxWaiting = 10'000;   // requests
 constexpr std::size_t kMaxRequest = 1 << 20;  // bytes
 // Maximum number of replies to clients that are not yet discovered.
 constexpr std::size_t kMaxUnsent = 1000;
-// Maximum time for which a reply waits for its client. On a busy machine that loses a datagram,
-// discovery takes this long, because the datagram is sent again after a heartbeat, whose usual
-// period is 3 s.
+// Maximum time for which a reply waits for its client. Discovery may take this long if a busy
+// machine loses a datagram. The datagram is then sent again after a heartbeat, whose usual period
+// is 3 s.
 constexpr std::chrono::milliseconds kDiscovery{10'000};
 constexpr std::chrono::milliseconds kRetry{10};
 
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kCycloneHeader = 16;
 
-// This number of replies is kept for clients that send requests without waiting for replies, or
-// that do not run for some seconds. If a client's socket had no space for a reply, the reply is
-// sent again after the next heartbeat.
+// This number of replies is kept. Some clients send requests without waiting for replies, or do not
+// run for some seconds. If a client's socket had no space for a reply, the reply is sent again
+// after the next heartbeat.
 constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
-// If replies may be large, fewer of them are kept, to limit the memory.
+// If replies may be large, fewer replies are kept, to limit the memory.
 constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
 
 std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const std::byte> middle,

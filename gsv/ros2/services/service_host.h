@@ -1,9 +1,10 @@
 // The services of a ROS 2 node, for clients of rmw_fastrtps and of rmw_cyclonedds.
 //
-// A client of rmw_fastrtps finds its reply by the related sample identity (RTPS 2.3, 8.7.5; inline
-// QoS). A client of rmw_cyclonedds finds it by 16 bytes after the encapsulation header, which the
-// reply repeats. A request comes from rmw_cyclonedds if the GUID of its writer has the vendor of
-// Cyclone DDS or, with DDS Security (where GUIDs have no vendor), if it has no related identity.
+// A client of rmw_fastrtps recognises its reply by the related sample identity (RTPS 2.3, 8.7.5;
+// inline QoS). A client of rmw_cyclonedds recognises it by 16 bytes after the encapsulation header;
+// the reply repeats these bytes of the request. A request comes from rmw_cyclonedds if the GUID of
+// its writer has the vendor of Cyclone DDS. With DDS Security, GUIDs have no vendor; then a request
+// comes from rmw_cyclonedds if it has no related identity.
 //
 // Requests are untrusted input. A request that cannot be decoded gets no reply. Each service logs
 // the first such request.
@@ -11,7 +12,8 @@
 // Threads  Offer…(), Advertise() and the destructor from one thread; other functions from any.
 //          Handlers run on the threads of the host: one thread for each lane, but kQuick and kLists
 //          share a thread. So slow requests do not delay quick ones.
-// Bounded  at most 10,000 requests wait; further ones are dropped, and the first is logged.
+// Bounded  at most 10,000 requests wait; further requests are dropped, and the first of them is
+//          logged.
 #pragma once
 
 #include <atomic>
@@ -42,12 +44,12 @@ class ServiceHost {
     kStepping,  // requests that wait for steps of the simulation
   };
   class Service;
-  // Sends the reply to one request, at most once. The object may be kept, and used on another
-  // thread.
+  // Sends the reply to one request, at most once. The object may be kept, and may be used on
+  // another thread.
   class Replier {
    public:
-    // Sends a complete message. Returns at once. The reply is sent when discovery has found the
-    // client, or after ten seconds.
+    // Sends a complete message. Returns at once. The reply is sent as soon as discovery has found
+    // the client, but at the latest after ten seconds.
     void Send(messages::Bytes response) const;
     template <typename Response>
     void SendMessage(const Response& response) const {
@@ -64,7 +66,8 @@ class ServiceHost {
   };
   using Handler = std::function<void(std::span<const std::byte> request, const Replier& reply)>;
 
-  // `participant` must outlive the host. `has_hashes`: endpoints carry the hashes of their types.
+  // `participant` must outlive the host. If `has_hashes` is true, endpoints contain the hashes of
+  // their types.
   ServiceHost(dds::Participant& participant, bool has_hashes);
   // Waits until no handler is running.
   ~ServiceHost();
@@ -92,8 +95,8 @@ class ServiceHost {
                         });
   }
 
-  // Makes a writer for a topic of an action. The host owns the writer. Returns null, and logs, if
-  // the participant refuses.
+  // Creates a writer for a topic of an action. The host owns the writer. If the participant
+  // refuses, returns null and logs the refusal.
   dds::Writer* Advertise(const std::string& topic, const std::string& type, const dds::Qos& qos);
 
   // Runs a job on the threads of a lane. Returns false if too many jobs wait.

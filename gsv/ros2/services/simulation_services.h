@@ -19,8 +19,8 @@
 
 namespace gsv::ros2 {
 
-// The simulation that the services control, and their shared state. Serve() replaces it by another
-// simulation, or by none.
+// The simulation that the services control, and the state that the services share. Serve() replaces
+// the simulation by another simulation, or by none.
 //
 // Threads  any, except for spawned().
 class ServedSimulation {
@@ -33,12 +33,13 @@ class ServedSimulation {
   ServedSimulation(ServiceHost& service_host, std::string node_name, Spawner* model_spawner)
       : host(service_host), node(std::move(node_name)), spawner(model_spawner) {}
 
-  // Sets the simulation; null: no world is loaded. `set_namespace` is called with an added robot's
-  // namespace, until this is called again.
+  // Sets the simulation; null means that no world is loaded. `set_namespace` is called with the
+  // namespace of each robot that is added, until Serve() is called again.
   void Serve(const std::shared_ptr<simulation::Simulation>& simulation, SetNamespace set_namespace);
 
-  // Offers a service of simulation_interfaces, for example "get_entities", "GetEntities". `answer`
-  // is called with the simulation and a Request, and returns the Response with its result.
+  // Offers a service of simulation_interfaces. For example, `name` is "get_entities" and `type` is
+  // "GetEntities". `answer` is called with the simulation and a Request, and returns the Response
+  // with its result.
   template <typename Request, typename Response, typename Answer>
   void Offer(const char* name, const char* type, ServiceHost::Lane lane, Answer answer) {
     host.Offer<Request>(node + "/" + name, std::string("simulation_interfaces/srv/") + type, lane,
@@ -52,7 +53,7 @@ class ServedSimulation {
 
   // Returns null if no simulation is set.
   std::shared_ptr<simulation::Simulation> simulation() const;
-  // Returns the result for a request that needs a simulation while none is set.
+  // Returns the result for a request that needs a simulation, if no simulation is set.
   messages::simulation_interfaces::Result NoSimulation() const;
   base::Status SetNamespaceOf(const std::string& robot, const std::string& name_space) const;
   bool loads_worlds() const { return spawner != nullptr && spawner->loads_worlds(); }
@@ -78,13 +79,13 @@ class StepAction;
 // All services of the node /gsv.
 class SimulationServices {
  public:
-  // `participant` and `spawner` must outlive this object. ServiceHost describes `has_hashes`, and
-  // ServedSimulation describes `spawner`. Clients find no service before the first Serve().
+  // `participant` and `spawner` must outlive this object. See ServiceHost for `has_hashes`, and
+  // ServedSimulation for `spawner`. Clients find no service before the first call of Serve().
   SimulationServices(dds::Participant& participant, bool has_hashes, Spawner* spawner);
   ~SimulationServices();
 
-  // Calls ServedSimulation::Serve(). The first call offers the services, so that the first request
-  // of a client already reaches this simulation. One call at a time.
+  // Calls ServedSimulation::Serve(). The services are not offered before the first call, so that
+  // the first request of a client already reaches this simulation. One call at a time.
   void Serve(const std::shared_ptr<simulation::Simulation>& simulation,
              ServedSimulation::SetNamespace set_namespace);
   // Ends the services: no handler runs afterwards.

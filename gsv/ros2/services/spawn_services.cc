@@ -35,8 +35,8 @@ bool IsTaken(const Simulation& simulation, const std::string& name) {
   return simulation.snapshot()->layout->Find(name) >= 0;
 }
 
-// Returns `wanted`, with a number appended if that name is in use. Returns an empty text if no
-// number is free.
+// Returns `wanted` if this name is free, otherwise `wanted` with a number. Returns an empty text if
+// no number is free.
 std::string FreeName(const Simulation& simulation, const std::string& wanted) {
   if (!IsTaken(simulation, wanted)) return wanted;
   for (int i = 2; i < kMaxNumber; ++i) {

@@ -1,7 +1,6 @@
 // The interface through which the services add models (SpawnEntity) and load worlds (LoadWorld).
 // The program that runs the services implements it.
-//
-// Threads  one at a time. Calls may take seconds, because models are read.
+// Threads  one at a time. Calls may take seconds, because they read models.
 #pragma once
 
 #include <memory>
@@ -19,7 +18,7 @@ struct SpawnRequest {
   std::string uri;   // in the form of Spawnable::uri, or the file of a model
   std::string name;  // if empty: the model's name, with a number if this name is in use
   geometry::Pose world_from_entity;
-  // Whether the entity is put on the floor; the height of its pose is then ignored.
+  // Whether the entity is put on the floor. The height of its pose is then ignored.
   bool on_ground = false;
 };
 
@@ -32,7 +31,7 @@ class Spawner {
 
   struct World {
     std::string name;  // a name that `gsv run` accepts
-    std::string uri;   // its file
+    std::string uri;   // the file of the world
   };
 
   struct NamedPose {
@@ -44,9 +43,9 @@ class Spawner {
   virtual std::vector<World> Worlds() = 0;
   virtual std::vector<Spawnable> Spawnables() = 0;
   // Adds a robot or an object, and returns its name. To add an object, a running simulation is
-  // paused, and then resumed. Errors: kNotFound if there is no such model; kCorrupt if its file is
-  // refused; kInvalidArgument if this kind of URI is not accepted; else those of
-  // Simulation::AddRobot() or AddObject().
+  // paused, and then resumed. Fails with kNotFound if there is no such model, with kCorrupt if the
+  // model's file is refused, and with kInvalidArgument if this kind of URI is not accepted. Other
+  // errors are those of Simulation::AddRobot() and AddObject().
   virtual base::Result<std::string> Spawn(simulation::Simulation& simulation,
                                           const SpawnRequest& request) = 0;
   // Returns the named poses of the world's file.
@@ -55,10 +54,11 @@ class Spawner {
 
   // Whether the program can change the world that it publishes.
   virtual bool loads_worlds() const = 0;
-  // Replaces the published simulation by a new one of this world (World::name, World::uri, or
-  // another file), which is not started. The published simulation is kept if this fails.
-  // Errors: kNotFound if there is no such world; kBadModel if its file is refused; kInvalidArgument
-  // if this kind of URI is not accepted; kCorrupt if `is_strict` and the file gives warnings.
+  // Replaces the published simulation by a new simulation of this world (World::name, World::uri,
+  // or another file). The new simulation is not started. If this fails, the published simulation is
+  // kept. Fails with kNotFound if there is no such world, with kBadModel if the world's file is
+  // refused, and with kInvalidArgument if this kind of URI is not accepted. If `is_strict`, also
+  // fails with kCorrupt if the file causes warnings.
   virtual base::Status LoadWorld(const std::string& uri, bool is_strict) = 0;
   // Ends the published simulation.
   virtual base::Status UnloadWorld() = 0;

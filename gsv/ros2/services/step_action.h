@@ -34,7 +34,7 @@ class StepAction {
   bool IsCanceled(const GoalList::Id& id) const;
 
   ServedSimulation& served_;
-  dds::Writer* feedback_ = nullptr;  // null: refused
+  dds::Writer* feedback_ = nullptr;  // null if the participant refused to create the writer
   dds::Writer* status_ = nullptr;    // writer of the topic "status"; the host owns it
   mutable base::Mutex mutex_;
   GoalList goals_ GSV_GUARDED_BY(mutex_);

@@ -8,8 +8,8 @@
 namespace gsv::ros2 {
 
 // Offers the services for worlds and named poses. If the spawner cannot load worlds, requests to
-// load or unload a world get RESULT_FEATURE_UNSUPPORTED. Without a spawner, requests for named
-// poses or available worlds get the same result.
+// load or unload a world get RESULT_FEATURE_UNSUPPORTED. If there is no spawner, requests for named
+// poses or available worlds also get this result.
 void OfferWorldServices(ServedSimulation& served);
 
 }  // namespace gsv::ros2

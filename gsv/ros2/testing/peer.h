@@ -21,7 +21,8 @@ namespace gsv::ros2::testing {
 
 inline constexpr std::chrono::seconds kTimeout{20};
 
-// Returns different domains for concurrent tests, so that they do not exchange messages.
+// Returns different domains for tests that run at the same time, so that they do not exchange
+// messages.
 inline std::uint32_t DomainOfProcess() { return 1 + static_cast<std::uint32_t>(getpid()) % 100; }
 
 inline std::unique_ptr<dds::Participant> MakeParticipant(bool watches_endpoints = false) {
@@ -57,8 +58,8 @@ class Peer {
     readers_.push_back(*std::move(reader));
   }
 
-  // Waits for at least `count` messages and returns the newest. Fails the test if they do not
-  // arrive.
+  // Waits for at least `count` messages and returns the newest message. Fails the test if they do
+  // not arrive.
   template <typename Message>
   Message Await(const std::string& topic, std::size_t count = 1) {
     base::MutexLock lock(mutex_);

@@ -8,7 +8,8 @@
 
 namespace gsv::ros2 {
 
-// The DDS topic and DDS type of the requests or the replies of a service, or of a topic.
+// A DDS topic and its DDS type. The topic is for the requests or the replies of a service, or for
+// an action.
 struct ServiceTopic {
   std::string name;  // "rq/gsv/spawn_entityRequest"
   std::string type;  // "simulation_interfaces::srv::dds_::SpawnEntity_Request_"

@@ -20,8 +20,8 @@ tl::unexpected<base::Error> NoType(std::string message, std::string_view where) 
   return base::Fail(base::ErrorCode::kCorrupt, std::move(message), std::string(where));
 }
 
-// Returns "geometry_msgs/msg/Vector3" for "geometry_msgs/Vector3", and for "Vector3" in its
-// package.
+// Returns "geometry_msgs/msg/Vector3" for "geometry_msgs/Vector3". For "Vector3", `package` is
+// used.
 std::string FullTypeName(std::string_view type, std::string_view package) {
   const std::size_t slash = type.find('/');
   if (slash == std::string_view::npos) return std::string(package) + "/msg/" + std::string(type);

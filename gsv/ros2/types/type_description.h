@@ -16,7 +16,7 @@ namespace gsv::ros2 {
 
 // type_description_interfaces/msg/FieldType.
 struct FieldType {
-  // The id of the element type, plus 48, 96 or 144 for arrays and sequences.
+  // The id of the element type. 48, 96 or 144 is added for arrays and sequences.
   std::uint8_t id = 0;
   std::uint64_t capacity = 0;         // size of a fixed array or maximum of a bounded sequence
   std::uint64_t string_capacity = 0;  // maximum length of a bounded string
@@ -38,12 +38,12 @@ struct TypeDescription {
 };
 
 // Reads a schema in the encoding "ros2msg". Constants and default values are left out. Fails with
-// kCorrupt if the text is not a definition, or names a type that it does not define.
+// kCorrupt if the text is not a definition, or if it uses a type that it does not define.
 [[nodiscard]] base::Result<TypeDescription> DescribeType(const messages::Schema& schema);
 
-// Returns the description of a service, which has fields of its request, its response and its
-// event. `name` is for example "rcl_interfaces/srv/GetParameters". The two schemas are those of the
-// request and the response.
+// Returns the description of a service, whose fields are its request, its response and its event.
+// `name` is for example "rcl_interfaces/srv/GetParameters". The two schemas describe the request
+// and the response.
 [[nodiscard]] base::Result<TypeDescription> DescribeService(std::string_view name,
                                                             const messages::Schema& request,
                                                             const messages::Schema& response);

@@ -1,7 +1,7 @@
 // The hashes by which ROS 2 nodes check whether their definitions of a type are equal.
 //
-// Source  REP-2011, REP-2016 (RIHS01): SHA-256 of the type's description in canonical JSON.
-//         Endpoints carry it in their USER_DATA since Iron.
+// Source  REP-2011, REP-2016 (RIHS01): SHA-256 of the type's description in canonical JSON. Since
+//         Iron, endpoints contain the hash in their USER_DATA.
 // Threads any.
 #pragma once
 
@@ -16,12 +16,13 @@ namespace gsv::ros2 {
 std::string TypeHash(const TypeDescription& description);
 
 // Returns the hash of a message ("sensor_msgs/msg/LaserScan") or service
-// ("rcl_interfaces/srv/GetParameters") of gsv/messages; empty for all others. Computed once.
+// ("rcl_interfaces/srv/GetParameters") of gsv/messages; empty for all other types. Each hash is
+// computed only once.
 std::string TypeHashOf(std::string_view type);
 
 // Returns the USER_DATA of an endpoint of that type: "typehash=RIHS01_…;". Both topics of a service
-// carry the hash of the service: "pkg/srv/Name_Request" and "pkg/srv/Name_Response" give that of
-// "pkg/srv/Name". Empty if there is no hash.
+// contain the hash of the service: the hash for "pkg/srv/Name_Request" and "pkg/srv/Name_Response"
+// is the hash of "pkg/srv/Name". Empty if there is no hash.
 std::string TypeHashUserData(std::string_view type);
 
 // Returns the hash in an endpoint's USER_DATA, or an empty text. `user_data` is untrusted input.

@@ -1,5 +1,5 @@
-// Compares computed hashes with those that packages of ROS 2 Jazzy and simulation_interfaces 2.0
-// publish.
+// Compares computed hashes with the hashes that packages of ROS 2 Jazzy and simulation_interfaces
+// 2.0 publish.
 #include "gsv/ros2/types/type_hash.h"
 
 #include <gtest/gtest.h>

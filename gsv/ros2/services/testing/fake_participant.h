@@ -1,4 +1,5 @@
-// For tests: a participant without a DDS library, whose other side is the test.
+// For tests: a participant without a DDS library. The test plays the role of the other
+// participants.
 //
 // Threads  AwaitReply() and `knows_clients` on any; everything else on the thread of the test.
 #pragma once
@@ -27,7 +28,7 @@ struct Reply {
   dds::SampleIdentity request;
 };
 
-// A participant whose other side is the test. All clients count as discovered.
+// A participant whose messages the test reads and writes. All clients count as discovered.
 class FakeParticipant final : public dds::Participant {
  public:
   using OnRequest = std::function<void(std::span<const std::byte>, const dds::Request&)>;
