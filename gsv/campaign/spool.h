@@ -5,8 +5,9 @@
 //          batch-0001.json      a submitted batch: its runs, and the number of runs per task
 //          journals/*.journal   the journals of attempts, one file each (journal.h)
 //          logs/                the output of tasks
-//          Files other than journals are written atomically by renaming. Only one machine ever
-//          writes a file, so that no lock is needed. A run may be in several journals.
+//          Files other than journals are written atomically by renaming. Each file is
+//          written by one machine only, so that no lock is needed. A run may be in several
+//          journals.
 // Threads  one at a time.
 #pragma once
 

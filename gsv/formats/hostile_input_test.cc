@@ -55,7 +55,8 @@ TEST_F(HostileInputTest, EntitiesOfManyBytesAreRefused) {
   EXPECT_EQ(model_, nullptr);
 }
 
-// assimp would not terminate on the first of these meshes, and would copy 10^12 nodes of the other.
+// assimp would not terminate on the first of these meshes, and would copy 10^12 nodes of the second
+// mesh.
 TEST_F(HostileInputTest, ColladaNodesThatContainThemselvesAreRefused) {
   const auto scene = [](const std::string& nodes) {
     return "<?xml version='1.0'?><COLLADA version='1.4.1'><library_nodes>" + nodes +

@@ -151,8 +151,8 @@ std::string PackageName(const fs::path& folder) {
 }
 
 // Finds "PACKAGE/REST" in a ROS package near the naming file. Searches the naming file's folder and
-// the folders above it. One of them may be the package, whatever its name is, if its package.xml
-// names PACKAGE. Or one of them has a subfolder with a folder PACKAGE.
+// the folders above it. Such a folder is the package if its package.xml names PACKAGE, whatever the
+// folder's own name is. A folder PACKAGE in one of its subfolders is also accepted.
 std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& naming_file) {
   if (naming_file.empty() || path.empty()) return std::nullopt;
   const fs::path package = *path.begin();
@@ -335,7 +335,8 @@ base::Result<fs::path> ModelFileIn(const fs::path& folder) {
       const char* name = sdf->GetText();
       const int version = VersionNumber(sdf->Attribute("version"));
       if (name == nullptr || ClimbsOut(name) || version < kOldest) continue;
-      // A file of a version newer than kNewest is used only if there is no older file.
+      // A file of a version newer than kNewest is used only if there is no file of an accepted
+      // version.
       const int rank = version <= kNewest ? version : 1;
       if (rank > best_version && Exists(folder / name)) {
         best_version = rank;

@@ -106,7 +106,8 @@ class XmlPreparation {
     return found == std::string_view::npos ? std::string_view::npos : found + end.size();
   }
 
-  // Processes markup, a reference or a character at `at`. Returns the index after it.
+  // Processes markup, a reference or a character at `at`. Returns the index after the processed
+  // text.
   std::size_t TakeOne(std::size_t at) {
     const char c = text_[at];
     if (c == '&') return TakeReference(at);

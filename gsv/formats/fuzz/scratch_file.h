@@ -10,8 +10,8 @@
 
 namespace gsv::formats {
 
-// Writes the file and returns its path. It is two folders below a temporary folder, so relative
-// names that leave its folder (../..) find no other file.
+// Writes the file and returns its path. The file is in a subfolder of a temporary folder that
+// contains nothing else. So a relative name that leads to the parent folder finds no other file.
 inline std::filesystem::path ScratchFile(const std::string& name, const std::uint8_t* data,
                                          std::size_t size) {
   static const base::TemporaryFolder outer = base::TemporaryFolder::Make("gsv-fuzz").value();

@@ -188,7 +188,7 @@ class GlbModelReader {
     const GlbJson& primitives = Member(EntryOf(document_, "meshes", index), "primitives");
     if (!primitives.is_array() || primitives.empty()) throw Flaw{"a mesh has no parts"};
     auto mesh = std::make_shared<geometry::TriangleMesh>();
-    std::map<VertexKey, std::uint32_t> first_vertex;  // by accessors
+    std::map<VertexKey, std::uint32_t> first_vertex;  // by the accessors of the vertices
     for (const GlbJson& primitive : primitives) {
       geometry::MeshPart part;
       part.first_triangle = static_cast<std::uint32_t>(mesh->triangles.size());

@@ -7,9 +7,9 @@
 //          three.js), so the node's extras contain the name as well:
 //          {"link": i, "name": "inner::link"}.
 //          A visual's node has {"visual": name, "cast_shadows": bool}.
-// Sharing  equal meshes, materials and textures are written once. A texture is its original file if
-//          that is a PNG or JPEG with no side above 1024 pixels. Otherwise it is encoded again and
-//          scaled down to 1024.
+// Sharing  equal meshes, materials and textures are written once. A texture is written as its
+//          original file if this file is a PNG or JPEG with no side above 1024 pixels. Otherwise
+//          the texture is encoded again and scaled down to 1024 pixels.
 // Equal models give equal bytes.
 // Threads  any.
 #pragma once

@@ -59,10 +59,12 @@ bool IsJpeg(const unsigned char* bytes, std::size_t size) {
   return size > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// Larger images than the limit are decoded up to this many pixels, and then scaled down.
+// An image with a side beyond the limit is decoded if it has at most this number of pixels, and is
+// then scaled down.
 constexpr std::int64_t kMaxPixelsBeforeScaling = 128 << 20;
 
-// Fails for an image without pixels or with more than kMaxPixelsBeforeScaling.
+// Fails for an image without pixels. Also fails for an image that has a side beyond the limit and
+// more than kMaxPixelsBeforeScaling pixels.
 base::Status CheckSize(int width, int height, const std::string& source, const ReadLimits& limits) {
   const bool is_small = width <= limits.texture_side && height <= limits.texture_side;
   const std::int64_t pixels = static_cast<std::int64_t>(width) * height;

@@ -54,8 +54,8 @@ std::string MimeTypeOf(const std::vector<std::uint8_t>& bytes) {
   return "";
 }
 
-// Returns the image's own file. Empty if it does not exist, if browsers do not read its format, or
-// if its size differs from the image's.
+// Returns the image's own file. The result is empty if the file does not exist, if browsers do not
+// read its format, or if its size differs from the image's size.
 WebTexture Original(const Image& image) {
   std::ifstream file(image.source, std::ios::binary | std::ios::ate);
   if (!file || file.tellg() <= 0 || file.tellg() > kMaxFileBytes) return {};

@@ -194,7 +194,8 @@ std::string Import(const fs::path& path, const std::string& bytes, AssimpScene& 
 }
 
 // Replaces numbers such as ".2" and "-.2" by "0.2" and "-0.2", because assimp's OBJ reader does not
-// read the former. Leaves lines other than vertices, normals and texture coordinates as they are.
+// read numbers that begin with a point. Leaves lines other than vertices, normals and texture
+// coordinates as they are.
 void WriteLeadingZeros(std::string& bytes) {
   if (bytes.find(" .") == std::string::npos && bytes.find("-.") == std::string::npos) return;
   std::string repaired;

@@ -71,8 +71,8 @@ Accessor AccessorIn(const XMLElement& element) {
 }
 
 // A graph of the nodes that other nodes contain, by <node> and by <instance_node> (COLLADA 1.4.1,
-// 5-68). assimp copies each instance with all its content. It does not end if a node contains
-// itself.
+// 5-68). assimp copies each instance with all its content. assimp does not terminate if a node
+// contains itself.
 class NodeGraph {
  public:
   // Adds an <instance_node>. `inside`: the ids of the nodes that contain the element, outermost

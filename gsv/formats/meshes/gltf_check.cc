@@ -19,7 +19,7 @@ constexpr int kMaxJsonDepth = 64;
 // assimp visits nodes recursively, so deeper nodes could exhaust the stack.
 constexpr std::size_t kMaxNodeDepth = 512;
 constexpr std::size_t kMaxNodes =
-    1'000'000;  // counts a node once for each of its parents, because assimp copies it
+    1'000'000;  // counts a node once for each path from a root, because assimp copies it
 
 std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   std::uint32_t word = 0;

@@ -61,7 +61,8 @@ Hit FirstHit(const Ring& ring, const Vector2& eye) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::size_t next = (i + 1) % ring.size();
     const Vector2 &a = ring[i].point, &b = ring[next].point;
-    // The interior is to the left of an edge, so the ray leaves it through an edge towards +y.
+    // The interior is to the left of an edge, so the ray leaves the interior through an edge
+    // towards +y.
     if (!(a.y <= eye.y && b.y >= eye.y) || a.y == b.y) continue;
     const double x = a.x + (eye.y - a.y) / (b.y - a.y) * (b.x - a.x);
     if (x >= eye.x && x < hit.x) hit = {x, a.x > b.x ? i : next};
@@ -69,9 +70,10 @@ Hit FirstHit(const Ring& ring, const Vector2& eye) {
   return hit;
 }
 
-// Returns a corner of `ring` that is visible from `eye`, or ring.size() if there is none. This is
-// the right end of the edge that the ray meets, unless reflex corners are in between. Then it is
-// the reflex corner with the smallest angle to the ray, or the nearest of several.
+// Returns a corner of `ring` that is visible from `eye`, or ring.size() if there is none. The
+// corner is the right end of the edge that the ray hits, unless reflex corners are in between. Then
+// it is the reflex corner with the smallest angle to the ray. If several corners have
+// this angle, it is the nearest of them.
 std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   const Hit hit = FirstHit(ring, eye);
   if (std::isinf(hit.x)) return ring.size();
@@ -140,8 +142,8 @@ base::Result<std::vector<std::array<std::uint32_t, 3>>> Triangulate(
     hole_rings.push_back(ToRing(hole, first));
     first += static_cast<std::uint32_t>(hole.size());
   }
-  // Sorts the holes from right to left, so that from each hole the outline, or a hole that is
-  // already joined, is visible.
+  // Sorts the holes from right to left. Then a corner of the outline, or of a hole that is already
+  // joined, is visible from each hole.
   std::sort(hole_rings.begin(), hole_rings.end(), [](const Ring& a, const Ring& b) {
     return a[Rightmost(a)].point.x > b[Rightmost(b)].point.x;
   });

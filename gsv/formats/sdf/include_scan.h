@@ -26,9 +26,9 @@ class IncludeScan {
 
   // Visits every <include> below `element` of `file`, and the <include>s in the included files.
   // Changes their <uri> to a name in files(). If no file is found for Ground Plane or Sun, the
-  // built-in one replaces the include. An include is removed with a warning if its file is missing,
-  // cannot be read or has no model. Includes that form a cycle or exceed the depth limit are
-  // removed as well.
+  // built-in model replaces the include. An include is removed with a warning if its file is
+  // missing, cannot be read or has no model. Includes that form a cycle or exceed the depth limit
+  // are removed as well.
   void Scan(tinyxml2::XMLElement& element, const std::filesystem::path& file);
 
   // Returns the path of an <include>'s file. Each name is searched once.

@@ -32,8 +32,8 @@ void Append(const std::string& plugins, XMLElement& model) {
   }
 }
 
-// libsdformat's errors about the frames of a model that has no links. They do not help to find the
-// reason.
+// Whether the problem is one of libsdformat's errors about the frames of a model without links.
+// Such an error does not help to find the reason.
 bool IsOfFrameGraphs(const base::Problem& problem) {
   return problem.message.rfind("FrameAttachedToGraph", 0) == 0 ||
          problem.message.rfind("Graph has", 0) == 0;

@@ -10,9 +10,9 @@
 
 namespace gsv::formats {
 
-// Returns the poses of the <frame> elements of a <world>, in the order of the file. `world` is its
-// description: frames may be relative to its models. A frame whose pose is malformed, or that is
-// relative to anything else, is left out.
+// Returns the poses of the <frame> elements of a <world>, in the order of the file. `world` is the
+// description of this world: frames may be relative to the world's models. A frame whose pose is
+// malformed, or that is relative to anything else, is left out.
 std::vector<NamedPose> NamedPosesIn(const tinyxml2::XMLElement& element,
                                     const model::WorldDescription& world);
 

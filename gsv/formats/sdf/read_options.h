@@ -24,8 +24,9 @@ struct ReadOptions {
   // ModelLibrary::ReadModel() reads the model. The value has the form of model/drive_choice.h.
   std::map<std::string, std::string> drives;
   ReadLimits limits;
-  // Whether to add an error for each of SDFormat's rules on names and references that a named file
-  // breaks, see gsv/formats/support/naming_rules.h. The files are repaired in both cases.
+  // Whether to check the files that the caller names by SDFormat's rules on names and references.
+  // Each broken rule is added as an error, see gsv/formats/support/naming_rules.h. The files are
+  // repaired in both cases.
   bool check_rules = false;
   SensorCheck check_sensor;  // if it is empty, sensors are not checked
 };

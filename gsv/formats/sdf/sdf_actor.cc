@@ -293,7 +293,8 @@ void AddBone(const SkinnedMesh& skin, const SkinnedMesh::Bone& bone, model::Mode
   actor.links.back().visuals.push_back(std::move(visual));
 }
 
-// Returns the lowest corner of the boxes of all bones, in the skin's frame, at the first frame.
+// Returns the z coordinate of the lowest vertex of all bones, in the skin's frame, at the first
+// frame.
 double LowestOf(const SkinnedMesh& skin) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const SkinnedMesh::Bone& bone : skin.bones) {
@@ -305,8 +306,8 @@ double LowestOf(const SkinnedMesh& skin) {
 }
 
 // Returns the animation of the joints. Along a trajectory, the root bone stays at the actor's
-// frame. The height of the root bone is kept only if this moves the feet nearer to the ground (the
-// world's z = 0). The reason: some skins and their waypoints have the origin at the feet.
+// frame. Some skins and their waypoints have the origin at the feet. So the height of the root bone
+// is kept if the feet are then nearer to the ground (the world's z = 0).
 std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
                                                     const model::Script& script, int first_joint) {
   const bool follows = !script.trajectories.empty();

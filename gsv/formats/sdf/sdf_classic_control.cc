@@ -19,7 +19,7 @@ bool IsClassicControl(const sdf::Element& plugin) {
          std::string::npos;
 }
 
-// Returns the numbers of an element if it exists and has this many numbers.
+// Returns the numbers of an element if the element exists and has `count` numbers.
 std::optional<std::vector<double>> NumbersOf(const sdf::ElementPtr& parent, const char* name,
                                              std::size_t count, const ReadingContext& context) {
   if (!parent->HasElement(name)) return std::nullopt;

@@ -1,7 +1,7 @@
 // Reads the joint controllers of Gazebo Classic's JointControlPlugin.
 //
-// Elements  <controller type="position", "velocity" or "force"> with <joint>, <target> and, for the
-//           first two, <pid_gains>: three numbers.
+// Elements  <controller type="position", "velocity" or "force"> with <joint>, <target> and, for
+//           "position" and "velocity", <pid_gains>: three numbers.
 #pragma once
 
 #include <string>

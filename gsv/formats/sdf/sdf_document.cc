@@ -194,8 +194,9 @@ bool BreaksFrames(const sdf::Error& error) {
          code == sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR;
 }
 
-// Whether an error of libsdformat is ignored. GSV checks these itself or accepts them: sensors of
-// unknown types are accepted, a script needs no <uri>, and summaries have no further information.
+// Whether an error of libsdformat is ignored. GSV checks some of these cases itself and accepts
+// others: sensors of unknown types, and scripts without a <uri>. Summaries have no further
+// information.
 bool IsChecked(const sdf::Error& error) {
   const sdf::ErrorCode code = error.Code();
   for (const char* start :

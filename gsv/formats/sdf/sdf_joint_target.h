@@ -26,8 +26,8 @@ namespace gsv::formats {
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model);
 
-// Returns the joint that a controller names. If it takes no commands or does not exist, adds a
-// warning with the reason and returns null.
+// Returns the joint that a controller names. If the joint takes no commands or does not exist, adds
+// a warning with the reason and returns null.
 model::Joint* FindControlledJoint(const std::string& name, const std::string& place,
                                   const ReadingContext& context, model::Model& model);
 

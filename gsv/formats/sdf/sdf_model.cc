@@ -241,7 +241,7 @@ class ModelReader {
     return joint.kind == model::JointKind::kBall || is_cross(joint.parent) || is_cross(joint.child);
   }
 
-  // Whether the link hangs from `above`, or is this link.
+  // Whether the link hangs from the link `above`, or is `above` itself.
   bool IsBelow(int link, int above) const {
     while (link >= 0 && link != above) {
       const auto joint = std::find_if(model_.joints.begin(), model_.joints.end(),

@@ -4,7 +4,8 @@
 //             <wheel_normal_force> (N) and <wheel_radius> (m; default: the radius of the wheel's
 //             collision).
 // <gsv:slip>  <gsv:longitudinal> and <gsv:lateral>, the compliances, both 0 by default. In a
-//             <model> they apply to its drive's wheels, in a <surface> to wheels on it.
+//             <model>, they apply to the wheels of the model's drive. In a <surface>, they apply to
+//             wheels on this surface.
 #pragma once
 
 #include <string>

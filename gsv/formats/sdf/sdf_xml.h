@@ -44,8 +44,8 @@ void ReportUnsupported(const XmlFile& file, base::Problems& problems);
 // the elements in a <plugin>, and of elements that it does not know.
 inline constexpr char kLineAttribute[] = "gsv:line";
 
-// Prints elements so that each is on the same line as in its file. Lines in libsdformat's errors
-// are then right. Elements must come in the order of their lines.
+// Prints elements so that each is on the same line as in its file. Then libsdformat's errors have
+// the right lines. Elements must come in the order of their lines.
 class LineKeepingPrinter {
  public:
   void Text(const std::string& text);  // markup, unchanged

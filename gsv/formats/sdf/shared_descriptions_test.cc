@@ -17,7 +17,7 @@ constexpr char kNested[] = R"(<sdf version="1.4"><world name="w">
     <visual name="v"><geometry><box><size>1 2 3</size></box></geometry><extra><any a="1"/></extra></visual></link>
     <model name="inner"><link name="l"/></model></model></world></sdf>)";
 
-// Returns the description of an element, with those of all elements below it, as text.
+// Returns the description of an element, with the descriptions of all elements below it, as text.
 std::string AllBelow(const sdf::Element& element) {
   std::string text = "<" + element.GetName() + element.GetRequired();
   for (const sdf::ParamPtr& attribute : element.GetAttributes()) {

@@ -7,8 +7,8 @@
 
 namespace gsv::formats {
 
-// A valid text for a value. `wrong` describes the problem with the original text; it is empty if
-// there was none.
+// A valid text for a value. `wrong` describes the problem with the original text, and is empty if
+// the original text was valid.
 struct RepairedText {
   std::string text;
   std::string wrong;

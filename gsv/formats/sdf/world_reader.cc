@@ -79,7 +79,7 @@ class WorldReader {
     std::optional<bool> is_static;
     bool uses_own_pose = false;                // whether the <include> has no <pose>
     std::size_t distinct = 0;                  // index of an inline model in distinct_
-    std::shared_ptr<const StoredFile> stored;  // included
+    std::shared_ptr<const StoredFile> stored;  // set for an included model
   };
 
   // A group of inline models that differ only in name and pose.

@@ -32,7 +32,7 @@ class Expander {
   };
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
 
-  // These functions expand nodes, and append the results to `parent`.
+  // Expands the children of a node, and appends the results to `parent`.
   base::Status Children(const Node& of, Node& parent, Context& context);
   // Expands one node.
   base::Status One(const NodePtr& node, Node& parent, Context& context);
@@ -47,7 +47,7 @@ class Expander {
   // Appends an element that is not an element of xacro, with its attributes and content expanded.
   base::Status Plain(const std::string& name, const Node& node, Node& parent, Context& context);
 
-  // Each of these functions expands one kind of xacro element, such as <xacro:property>.
+  // Expands <xacro:property>.
   base::Status OnProperty(const NodePtr& node, Node& parent, Context& context);
   // Expands <xacro:macro>: stores the definition.
   base::Status OnMacro(const NodePtr& node, Node& parent, Context& context);
@@ -72,7 +72,7 @@ class Expander {
   // Expands the call of a macro. `home` is the Space that defines the macro.
   base::Status CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
                          Context& context);
-  // These functions set the parameters of a macro in the scope of its body.
+  // Sets the value parameters of a macro in `inner`, the scope of its body.
   base::Status BindValues(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
   // Sets a parameter to its default.
   base::Status BindDefault(const Parameter& parameter, const NodePtr& node, Context& context,
@@ -80,7 +80,7 @@ class Expander {
   // Sets the block parameters of a macro.
   base::Status BindBlocks(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
 
-  // These functions substitute ${…} and $(…) in a text.
+  // Returns the value of a text, with all ${…} and $(…) substituted.
   base::Result<Value> Evaluate(const std::string& text, const Node& at, Scope& scope);
   // Returns the text with all substitutions made.
   base::Result<std::string> TextOf(const std::string& text, const Node& at, Scope& scope);

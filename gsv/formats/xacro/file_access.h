@@ -22,8 +22,8 @@ class FileAccess {
       : finder_(finder), limits_(limits), problems_(problems) {}
 
   // Returns the root of an included file. In all functions, `in` is the file that contains `name`.
-  // They fail with kNotFound if there is no such file or package, and with kBadModel if it cannot
-  // be used.
+  // Functions that return a Result fail with kNotFound if there is no such file or package, and
+  // with kBadModel if the file or package cannot be used.
   base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
   // Returns the files whose names match a pattern with *, ? or [] in its last part, in the order of
   // their names.

@@ -70,8 +70,8 @@ struct Space {
   Space(Space* outer_space, Scope* outer_scope, const Resolve& resolve)
       : outer(outer_space), scope(outer_scope, resolve) {}
 
-  // Returns the macro with that name, such as "wheel" or "arm.gripper", and the Space that holds
-  // it.
+  // Returns the macro with that name, such as "wheel" or "arm.gripper", and the Space that contains
+  // the macro.
   std::pair<const Macro*, Space*> FindMacro(const std::string& name);
 
   Space* const outer;

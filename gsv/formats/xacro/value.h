@@ -42,7 +42,7 @@ struct Value {
   }
   // Returns the elements of a list or tuple, else null.
   const List* items() const;
-  // The entries of a dictionary; null if the value is none.
+  // The entries of a dictionary; null if the value is not a dictionary.
   const Dictionary* dictionary() const;
   bool is_number() const;  // Whether the value is a bool, an int or a float.
 };
