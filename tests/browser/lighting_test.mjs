@@ -1,5 +1,6 @@
 // Tests how the view lights surfaces, with the quality of a machine with a graphics card: metal
-// reflects its surroundings, corners are darker, and shadows near a robot are sharp.
+// reflects its surroundings, corners are darker, and shadows near a robot are sharp. Also tests how the
+// maps and values of a material change the light.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -16,11 +17,19 @@ const shape = (name, pose, geometry, colour, more = "") => `
   </visual></link></model>`;
 const box = (size) => `<box><size>${size}</size></box>`;
 const METAL = "<pbr><metal><metalness>1</metalness><roughness>0.1</roughness></metal></pbr>";
-// Grey images of one pixel: black and white.
-const tga = (value) => Buffer.from([0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0, value, value, value]);
+// Images of one pixel.
+const tga = (r, g = r, b = r) => Buffer.from([0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0, b, g, r]);
 const maps = (inside) => `<pbr><metal><metalness>0</metalness><roughness>1</roughness>${inside}</metal></pbr>`;
 const NO_AMBIENT = maps("<ambient_occlusion_map>black.tga</ambient_occlusion_map>");
 const BAKED = maps("<light_map>white.tga</light_map>");
+// Normals that are tilted by 45 degrees: to the left of the surface, up and down.
+const TILTED = { level: [128, 128, 255], left: [38, 128, 218], up: [128, 218, 218], down: [128, 38, 218] };
+const ROUGHNESS = 0.6;
+const BALL = "<sphere><radius>0.5</radius></sphere>";
+const ball = (y) => `-10 ${y} 0.5`;
+// The roughness of metal: a value, or a factor of a map.
+const metal = (inside) => `<pbr><metal><metalness>1</metalness>${inside}</metal></pbr>`;
+const BALLS = { smooth: -6, rough: -7.2, mapped: -8.4 }; // y of the centres
 // The sun shines towards negative x, so the sides of the block at x = 0.5 and y = -0.5 have no
 // shadow on the ground.
 const WORLD = `<?xml version="1.0"?>
@@ -29,10 +38,14 @@ const WORLD = `<?xml version="1.0"?>
   ${shape("ground", "0 0 -0.5", box("60 60 1"), "0.6 0.6 0.6")}
   ${shape("block", "0 0 0.5", box("1 1 1"), "0.8 0.8 0.8")}
   ${shape("pole", "3 0 0.1", box("0.02 0.02 0.2"), "0.8 0.8 0.8")}
-  ${shape("ball", "0 -3 0.5", "<sphere><radius>0.5</radius></sphere>", "0.9 0.7 0.3", METAL)}
+  ${shape("ball", "0 -3 0.5", BALL, "0.9 0.7 0.3", METAL)}
   ${shape("plain", "-10 1.8 0.5", box("1 1 1"), "0.7 0.7 0.7", maps(""))}
   ${shape("occluded", "-10 3 0.5", box("1 1 1"), "0.7 0.7 0.7", NO_AMBIENT)}
   ${shape("baked", "-10 4.2 0.5", box("1 1 1"), "0.7 0.7 0.7", BAKED)}
+  ${Object.keys(TILTED).map((name, i) => shape(name, `-10 ${-1.2 * (i + 1)} 0.5`, box("1 1 1"), "0.7 0.7 0.7", maps(`<normal_map>${name}.tga</normal_map>`))).join("")}
+  ${shape("smooth", ball(BALLS.smooth), BALL, "0.8 0.8 0.8", metal("<roughness>0.2</roughness>"))}
+  ${shape("rough", ball(BALLS.rough), BALL, "0.8 0.8 0.8", metal(`<roughness>${ROUGHNESS}</roughness>`))}
+  ${shape("mapped", ball(BALLS.mapped), BALL, "0.8 0.8 0.8", metal("<roughness>1</roughness><roughness_map>rough.tga</roughness_map>"))}
 </world></sdf>`;
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-lighting-"));
@@ -44,6 +57,8 @@ before(async () => {
   fs.writeFileSync(world, WORLD);
   fs.writeFileSync(path.join(folder, "black.tga"), tga(0));
   fs.writeFileSync(path.join(folder, "white.tga"), tga(255));
+  fs.writeFileSync(path.join(folder, "rough.tga"), tga(Math.round(255 * ROUGHNESS)));
+  for (const [name, colour] of Object.entries(TILTED)) fs.writeFileSync(path.join(folder, `${name}.tga`), tga(...colour));
   server = await startServer([world]);
   browser = await openBrowser({ width: 1100, height: 700 });
   const { page } = await openPage(browser, server.url);
@@ -76,12 +91,13 @@ async function look(quality, eye, target) {
   };
 }
 
+const minus = (a, b) => a.map((value, k) => value - b[k]);
+const unit = (a) => a.map((value) => value / Math.hypot(...a));
+
 // The pixel of a point for a camera with a vertical field of view of 50 degrees and z up.
 function project(point, eye, target, { width, height }) {
-  const minus = (a, b) => a.map((value, k) => value - b[k]);
   const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
   const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
-  const unit = (a) => a.map((value) => value / Math.hypot(...a));
   const forward = unit(minus(target, eye));
   const right = unit(cross(forward, [0, 0, 1]));
   const up = cross(right, forward);
@@ -133,4 +149,31 @@ test("ambient occlusion maps darken a surface in the shade, and light maps light
   assert.ok(occluded < plain / 3, `without ambient light: ${occluded}`);
   // White light on a diffuse colour of 0.7 (sRGB 179) adds this colour.
   assert.ok(baked > 165 && baked < 215, `with baked light: ${baked}`);
+});
+
+test("normal maps tilt a surface towards the sun or away from it, and roughness spreads the light of metal", async () => {
+  const [eye, target] = [[-1, -4.8, 2.5], [-10, -4.8, 0.5]];
+  const at = await look("", eye, target); // the sides that face the sun
+  const front = Object.keys(TILTED).map((_, i) => at([-9.5, -1.2 * (i + 1), 0.5]));
+  const top = Object.keys(TILTED).map((_, i) => at([-10, -1.2 * (i + 1), 1]));
+  const [level, , up, down] = front;
+  // The cosines of the angle to the sun are 0.45 without a tilt, 0.95 up, and below 0 down.
+  assert.ok(up > 1.25 * level, `tilted up: ${front}`);
+  assert.ok(down < 0.75 * level, `tilted down: ${front}`);
+  // On the top, left is towards negative x: 0.89 without a tilt, and 0.32.
+  assert.ok(top[1] < 0.85 * top[0], `tilted to the left: ${top}`);
+
+  const toSun = unit([0.5, 0, 1]);
+  // The brightness of a ball where it reflects the sun to the eye, and 25 degrees above that place.
+  const [smooth, rough, mapped] = Object.values(BALLS).map((y) => {
+    const centre = [-10, y, 0.5];
+    const toEye = unit(minus(eye, centre));
+    const normal = unit(toSun.map((value, k) => value + toEye[k]));
+    const [x, , z] = normal;
+    const angle = Math.atan2(z, x) + (25 * Math.PI) / 180;
+    const above = [Math.hypot(x, z) * Math.cos(angle), normal[1], Math.hypot(x, z) * Math.sin(angle)];
+    return [normal, above].map((direction) => at(centre.map((value, k) => value + 0.5 * direction[k])));
+  });
+  assert.ok(smooth[0] > 1.2 * rough[0] && smooth[1] < 0.5 * rough[1], `smooth ${smooth}, rough ${rough}`);
+  rough.forEach((value, i) => assert.ok(Math.abs(mapped[i] - value) < 8, `by a value ${rough}, by a map ${mapped}`));
 });
