@@ -1,5 +1,5 @@
 // Tests the inspectors of objects and sensors of the world, which are chosen in the view, in the
-// list, in the tree and by the command palette.
+// list, in the tree and by the command palette. Also tests the arrows of forces, and the colours of points.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -8,10 +8,18 @@ import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
 import { keepPicture } from "./documentation.mjs";
-import { changedPixels, picture } from "./pixels.mjs";
-import { phaseIs, settled, until, viewClip } from "./viewing.mjs";
+import { changedPixels, cut, picture } from "./pixels.mjs";
+import { phaseIs, project, settled, until, viewClip } from "./viewing.mjs";
 
 const box = (size) => `<geometry><box><size>${size}</size></box></geometry>`;
+const NEAR = [-0.4, 3, 0.2]; // centres of the boards in m
+const FAR = [0.55, 4.2, 0.2];
+const board = (name, at, colour) => `
+  <model name="${name}"><static>true</static><pose>${at.join(" ")} 0 0 0</pose><link name="link">
+    <collision name="collision">${box("0.7 0.04 0.4")}</collision>
+    <visual name="visual">${box("0.7 0.04 0.4")}<material><diffuse>${colour} 1</diffuse></material></visual>
+  </link></model>`;
+const [EYE, TARGET] = [[-3, -2, 2], [0, 0, 0.2]]; // the crate is in the middle of the view
 const WORLD = `<?xml version="1.0"?>
 <sdf version="1.9"><world name="inspectors">
   <model name="ground"><static>true</static><link name="link">
@@ -29,6 +37,15 @@ const WORLD = `<?xml version="1.0"?>
     <visual name="visual"><pose>0 0 1 0 0 0</pose><geometry><cylinder><radius>0.1</radius><length>2</length></cylinder></geometry></visual>
     <sensor name="height" type="altimeter"><pose>0 0 2 0 0 0</pose><update_rate>5</update_rate></sensor>
   </link></model>
+  <model name="scanner"><static>true</static><pose>0 2 0 0 0 0</pose><link name="link">
+    <visual name="visual"><pose>0 0 0.1 0 0 0</pose>${box("0.1 0.1 0.2")}</visual>
+    <sensor name="scan" type="lidar"><pose>0 0 0.3 0 0 1.5708</pose><update_rate>5</update_rate><visualize>true</visualize><lidar>
+      <scan><horizontal><samples>41</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></horizontal></scan>
+      <range><min>0.1</min><max>8</max></range>
+    </lidar><gsv:intensity_scale>100</gsv:intensity_scale></sensor>
+  </link></model>
+  ${board("near_and_white", NEAR, "1 1 1")}
+  ${board("far_and_black", FAR, "0.05 0.05 0.05")}
 </world></sdf>`;
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-inspectors-"));
@@ -42,8 +59,7 @@ before(async () => {
   fs.writeFileSync(world, WORLD);
   server = await startServer([world, "--robot", "pebble@-3,3"]);
   browser = await openBrowser({ width: 1366, height: 768 });
-  // The crate is in the middle of the view.
-  ({ page, faults } = await openPage(browser, `${server.url}#view=-3,-2,2,0,0,0.2`));
+  ({ page, faults } = await openPage(browser, `${server.url}#view=${[...EYE, ...TARGET]}`));
   await waitUntilDrawn(page);
 });
 
@@ -133,7 +149,7 @@ test("the command palette finds objects and sensors", async () => {
   }, "values wider than 90 pixels");
 });
 
-test("an arrow shows the force of the ground on the crate", async () => {
+test("arrows show the forces of the ground on the crate: their direction and length", async () => {
   const isPink = (r, g, b) => r > 150 && b > 120 && g < 0.6 * r;
   await page.getByRole("button", { name: "Pause", exact: true }).click();
   await phaseIs(page, "paused");
@@ -141,13 +157,56 @@ test("an arrow shows the force of the ground on the crate", async () => {
   await settled(page);
   const without = await picture(page, clip);
   await page.keyboard.press("3");
+  let shown;
   await until(async () => {
     await settled(page);
-    return changedPixels(without, await picture(page, clip), isPink) > 40;
+    shown = await picture(page, clip);
+    return changedPixels(without, shown, isPink) > 40;
   }, "the contacts of the crate with the ground");
   assert.ok((await page.evaluate(() => window.gsv.topics)).includes("/gsv/current_contacts"));
+  // The number of pink pixels within 5 pixels of a place above the corner that is nearest to the camera.
+  const pinkAt = (height) => {
+    const { x, y } = project([-0.2, -0.2, height], EYE, TARGET, shown);
+    const square = { x: Math.round(x) - 5, y: Math.round(y) - 5, width: 11, height: 11 };
+    return changedPixels(cut(without, square), cut(shown, square), isPink);
+  };
+  // Each of four corners carries 6.1 N. The length for 10 N is 0.3 m, and it grows with the square root.
+  const tip = 0.3 * Math.sqrt((2.5 * 9.8) / 4 / 10);
+  const found = [0.1, tip - 0.02, tip + 0.06, tip + 0.2, -0.12].map(pinkAt);
+  assert.ok(found[0] > 5 && found[1] > 5, `along the arrow, up to its tip: ${found}`);
+  assert.deepEqual(found.slice(2), [0, 0, 0], "above the tip and below the ground");
   await keepPicture(page, "contacts");
   await page.keyboard.press("3");
+});
+
+test("points are coloured by range or by intensity, from dark to bright", async () => {
+  const clip = await viewClip(page);
+  await settled(page);
+  const without = await picture(page, clip);
+  await page.keyboard.press("2");
+  const isDark = (r, g, b) => g < 60 && r > 50 && b > 50;
+  const isBright = (r, g, b) => r > 200 && g > 100 && b < 100;
+  // The numbers of dark and of bright pixels that points draw on a board.
+  const look = async () => {
+    await settled(page);
+    const shown = await picture(page, clip);
+    return [NEAR, FAR].map(([x, y]) => {
+      const at = project([x, y - 0.02, 0.3], EYE, TARGET, shown);
+      const area = { x: Math.round(at.x) - 15, y: Math.round(at.y) - 15, width: 31, height: 31 };
+      return [isDark, isBright].map((is) => changedPixels(cut(without, area), cut(shown, area), is));
+    });
+  };
+  for (const [value, isWanted] of [
+    ["range", ([[nearDark, nearBright], [farDark, farBright]]) => nearDark > 5 && nearBright === 0 && farDark === 0 && farBright > 5],
+    ["intensity", ([[nearDark, nearBright], [farDark, farBright]]) => nearDark === 0 && nearBright > 5 && farDark > 5 && farBright === 0],
+  ]) {
+    await page.getByRole("button", { name: "Overlays", exact: true }).click();
+    await page.getByLabel("Colour points by").selectOption(value);
+    await page.keyboard.press("Escape");
+    let last = null;
+    await until(async () => isWanted((last = await look())), `points by ${value}, ${last} at last,`);
+  }
+  await page.keyboard.press("2");
 });
 
 test("Escape ends the choice, and the inspector explains how to choose", async () => {

@@ -9,7 +9,7 @@ import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { picture } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
-import { phaseIs, settled, viewClip } from "./viewing.mjs";
+import { minus, phaseIs, project, settled, unit, viewClip } from "./viewing.mjs";
 
 const shape = (name, pose, geometry, colour, more = "") => `
   <model name="${name}"><static>true</static><pose>${pose} 0 0 0</pose><link name="link"><visual name="visual">
@@ -89,21 +89,6 @@ async function look(quality, eye, target) {
     const at = 4 * (Math.round(y) * image.width + Math.round(x));
     return (image.data[at] + image.data[at + 1] + image.data[at + 2]) / 3;
   };
-}
-
-const minus = (a, b) => a.map((value, k) => value - b[k]);
-const unit = (a) => a.map((value) => value / Math.hypot(...a));
-
-// The pixel of a point for a camera with a vertical field of view of 50 degrees and z up.
-function project(point, eye, target, { width, height }) {
-  const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
-  const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
-  const forward = unit(minus(target, eye));
-  const right = unit(cross(forward, [0, 0, 1]));
-  const up = cross(right, forward);
-  const from = minus(point, eye);
-  const scale = height / 2 / Math.tan((25 * Math.PI) / 180) / dot(from, forward);
-  return { x: width / 2 + scale * dot(from, right), y: height / 2 - scale * dot(from, up) };
 }
 
 const BEST = "?quality=best";

@@ -10,6 +10,22 @@ export async function viewClip(page) {
   return page.locator(".view").boundingBox();
 }
 
+export const minus = (a, b) => a.map((value, k) => value - b[k]);
+export const unit = (a) => a.map((value) => value / Math.hypot(...a));
+
+// Returns the pixel of a point of the world in an image of the view, for a camera at `eye` that looks
+// at `target`, with a vertical field of view of 50 degrees and z up. Points are in metres.
+export function project(point, eye, target, { width, height }) {
+  const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
+  const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
+  const forward = unit(minus(target, eye));
+  const right = unit(cross(forward, [0, 0, 1]));
+  const up = cross(right, forward);
+  const from = minus(point, eye);
+  const scale = height / 2 / Math.tan((25 * Math.PI) / 180) / dot(from, forward);
+  return { x: width / 2 + scale * dot(from, right), y: height / 2 - scale * dot(from, up) };
+}
+
 export async function phaseIs(page, phase) {
   await page.waitForFunction((wanted) => window.gsv.phase === wanted, phase);
 }

@@ -128,6 +128,26 @@ test("contacts are drawn while they exist", () => {
   expect(lines.visible).toBe(false);
 });
 
+test("an arrow has the direction of the force, and a length that grows with its square root", () => {
+  const { overlays, lines } = layers(only("contacts"));
+  const ends = () => {
+    const tips = lines.geometry.getAttribute("instanceEnd") as InterleavedBufferAttribute;
+    return [0, 1, 2].map((component) => tips.getComponent(0, component)); // the first segment is the shaft
+  };
+  const contact = (force: number[]) => {
+    const [x, y, z] = force;
+    overlays.takeReading("/a/bumper", { contacts: [{ point: { x: 0, y: 0, z: 0 }, normal: { x: 0, y: 0, z: 1 }, depth: 0, force: { x, y, z } }] });
+    overlays.place(new Vector3());
+    return ends();
+  };
+  // The bumper is at (10, 1, 1), and its x points along y of the world.
+  const close = (found: number[], wanted: number[]) => wanted.forEach((value, i) => expect(found[i]).toBeCloseTo(value, 5));
+  close(contact([10, 0, 0]), [10, 1.3, 1]);
+  close(contact([0, 0, -10]), [10, 1, 0.7]);
+  close(contact([0, 40, 0]), [9.4, 1, 1]);
+  close(contact([0, 0, 1e6]), [10, 1, 2.2]); // the longest arrow
+});
+
 test("only the robots' frames are drawn, but all frames of the selected robot", () => {
   const { overlays, lines, segments } = layers(only("frames"));
   overlays.place(new Vector3());
