@@ -24,7 +24,11 @@ before(async () => {
   browser = await openBrowser({ width: 1366, height: 768 });
   await browser.context.addInitScript(() => {
     window.pads = [];
-    navigator.getGamepads = () => window.pads;
+    window.padReads = 0;
+    navigator.getGamepads = () => {
+      window.padReads += 1;
+      return window.pads;
+    };
   });
   ({ page, faults } = await openPage(browser, server.url));
   await waitUntilDrawn(page);
@@ -83,7 +87,7 @@ test("keys belong to the pad while it has the focus, and losing the focus stops 
   assert.ok(Math.hypot(now.x - then.x, now.y - then.y) < 0.02, "a key beside the pad drives nothing");
 });
 
-test("the pad is dragged by mouse or finger", async () => {
+test("the pad is dragged by mouse", async () => {
   const box = await pad().boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.mouse.down();
@@ -93,9 +97,38 @@ test("the pad is dragged by mouse or finger", async () => {
   await standsStill("pebble");
 });
 
-test("a gamepad drives the robot, which stops when the gamepad is disconnected", async () => {
-  await page.evaluate(() => (window.pads = [{ index: 0, id: "Test pad", connected: true, axes: [0, -1, 0, 0] }]));
+test("the pad is dragged by a finger, and lifting it stops the robot", async () => {
+  const touches = await page.context().newCDPSession(page);
+  const touch = (type, ...points) => touches.send("Input.dispatchTouchEvent", { type, touchPoints: points });
+  await touches.send("Emulation.setTouchEmulationEnabled", { enabled: true });
+  const { x, y, width, height } = await pad().boundingBox();
+  const [middle, then] = [{ x: x + width / 2, y: y + height / 2 }, await placeOf("pebble")];
+  await touch("touchStart", middle);
+  // The finger leaves the pad, and still drives: the page neither scrolls nor takes the gesture.
+  for (const share of [0.3, 0.1, -0.2]) await touch("touchMove", { ...middle, y: y + share * height });
+  await panel("Teleoperation").getByText("pebble: 0.50 m/s, 0.00 rad/s").waitFor();
+  await movesOn("pebble", 0.1);
+  assert.ok((await placeOf("pebble")).x > then.x, "a finger at the top drives ahead");
+  await touch("touchEnd");
+  await panel("Teleoperation").getByText("Stopped", { exact: true }).waitFor();
+  await standsStill("pebble");
+  await touches.send("Emulation.setTouchEmulationEnabled", { enabled: false });
+  await touches.detach();
+});
+
+test("a gamepad drives the robot, which stops when the window loses the focus or the gamepad is disconnected", async () => {
+  const tilt = (ahead) => page.evaluate((y) => (window.pads = [{ index: 0, id: "Test pad", connected: true, axes: [0, y, 0, 0] }]), -ahead);
+  const stopped = panel("Teleoperation").getByText("Stopped", { exact: true });
+  await tilt(1);
   await panel("Teleoperation").getByText(/Gamepad connected: Test pad/).waitFor();
+  await movesOn("pebble", 0.1);
+  await page.evaluate(() => window.dispatchEvent(new Event("blur"))); // a window of headless Chromium keeps its focus
+  await stopped.waitFor();
+  await standsStill("pebble"); // although the stick is still pushed
+  await tilt(0);
+  const then = await page.evaluate(() => window.padReads);
+  await page.waitForFunction((reads) => window.padReads > reads, then);
+  await tilt(1);
   await movesOn("pebble", 0.1);
   await page.evaluate(() => (window.pads = [null]));
   await panel("Teleoperation").getByText("The gamepad was disconnected. The robot stops.").waitFor();

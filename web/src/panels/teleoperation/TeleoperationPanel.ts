@@ -33,6 +33,9 @@ export function mount({ state, control }: Ports): MountedPanel {
   const speeds = element("div", { class: "teleoperation-speeds" }, linear.element, angular.element);
   const wishes = { pad: STILL, gamepad: STILL };
   let robot: string | null = null;
+  // The stick was pushed when the robot was stopped. It must return to its centre before it drives
+  // again: a hidden page gets its last position for ever.
+  let isStickIgnored = false;
 
   const driver = new Driver(
     (name, drive) => {
@@ -64,6 +67,7 @@ export function mount({ state, control }: Ports): MountedPanel {
     driver.move(wish, { linear: linear.value(), angular: angular.value() });
   };
   const letGo = () => {
+    isStickIgnored ||= !isStill(wishes.gamepad);
     wishes.gamepad = STILL;
     pad.letGo();
     update();
@@ -72,7 +76,8 @@ export function mount({ state, control }: Ports): MountedPanel {
 
   const gamepad = new GamepadReader({
     onWish: (wish) => {
-      if (isStill(wish) && isStill(wishes.gamepad)) return;
+      if (isStill(wish)) isStickIgnored = false;
+      if (isStickIgnored || (isStill(wish) && isStill(wishes.gamepad))) return;
       wishes.gamepad = wish;
       update();
     },

@@ -129,3 +129,37 @@ test("while the simulation is paused, the panel offers to resume it", () => {
   expect(ports.control.resume).toHaveBeenCalled();
   end();
 });
+
+test("the robot stops when the window loses the focus or is hidden, and a pushed stick must be released first", async () => {
+  const pads: { index: number; id: string; connected: boolean; axes: number[] }[] = [];
+  vi.stubGlobal("navigator", { getGamepads: () => pads });
+  const { ports, key, end } = panel();
+  const speed = async () => {
+    await vi.advanceTimersByTimeAsync(400);
+    return vi.mocked(ports.control.drive).mock.lastCall?.[2].linear_m_s;
+  };
+  const hide = () => {
+    const visibility = vi.spyOn(document, "visibilityState", "get").mockReturnValue("hidden");
+    document.dispatchEvent(new Event("visibilitychange"));
+    visibility.mockRestore();
+  };
+  for (const leave of [() => window.dispatchEvent(new Event("blur")), () => window.dispatchEvent(new Event("pagehide")), hide]) {
+    key("keydown", "w");
+    expect(await speed()).toBe(0.5);
+    leave();
+    expect(await speed()).toBe(0);
+    key("keyup", "w");
+    pads[0] = { index: 0, id: "stick", connected: true, axes: [0, -1] };
+    expect(await speed()).toBe(0.5);
+    leave();
+    expect(await speed()).toBe(0);
+    pads[0].axes = [0, 0];
+    expect(await speed()).toBe(0);
+    pads[0].axes = [0, -1];
+    expect(await speed()).toBe(0.5);
+    pads[0].axes = [0, 0];
+    expect(await speed()).toBe(0);
+  }
+  end();
+  vi.unstubAllGlobals();
+});
