@@ -74,7 +74,7 @@ struct NoteFound {
 // The result of ReadNotes().
 struct NotesFound {
   std::vector<NoteFound> notes;               // at most a thousand notes
-  base::Problems problems;                    // for example about a file that is not a note
+  base::Problems problems;                    // problems of files, such as a file that is no note
   std::vector<std::filesystem::path> broken;  // the paths of files that are not notes
 };
 // Reads all notes in the folder.

@@ -32,7 +32,7 @@ struct RunOptions {
   RuntimeOptions runtime;
   scenario::Scenario scenario;  // the scenario with the options that override it
   base::Problems problems;      // problems of the scenario's file
-  std::string behaviour;        // for robots that have no behaviour of their own
+  std::string behaviour;        // the behaviour of all robots without a behaviour of their own
   std::map<std::string, std::string> behaviour_of;     // behaviours by robot
   std::map<std::string, model::Movement> movement_of;  // movements by robot
   std::map<std::string, std::string> drive_of;         // drives by robot, see model/drive_choice.h

@@ -28,7 +28,7 @@ constexpr double kEnclosed = 0.9;
 // A start is outside of the walls if less than this fraction of the rays from the start hit a wall.
 constexpr double kOutside = 0.75;
 constexpr double kMaxDrop = 100;  // maximum depth of the search for a floor, m
-constexpr double kSight = 1000;   // in m
+constexpr double kSight = 1000;   // maximum range of the rays, m
 constexpr int kMaxChecked = 200;  // maximum number of robots of a crowd that are checked
 
 // The horizontal extent of all bodies except robots, floors and planes.

@@ -25,7 +25,7 @@ struct Listener {
 // A running program of GSV, and its sockets.
 struct ListeningProcess {
   pid_t pid = 0;
-  std::vector<std::string> arguments;  // tokens are removed
+  std::vector<std::string> arguments;  // the arguments of the program, without tokens
   std::string folder;                  // its working directory
   std::vector<Listener> listeners;
 };

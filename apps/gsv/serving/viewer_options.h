@@ -23,7 +23,7 @@ struct ViewerOptions {
   // 0: the system chooses the port; -1: the default port, or another port if that is in use.
   int port = -1;
   std::string recordings;            // a folder; empty for the current one
-  int history_mib = 64;              // for the history of a simulation, MiB; 0: no history
+  int history_mib = 64;              // maximum size of each simulation's history, MiB; 0: none
   std::string listen = "127.0.0.1";  // an address of this machine
   std::vector<std::string> names;    // host names of this machine that browsers may use
   gateway::access::Tokens tokens;
