@@ -1,8 +1,10 @@
 // A TokenAuthenticator determines the permission of a client by its token.
 //
-// Without tokens, every client on this machine has all permissions. A control token is required for
-// control. Watching needs no token on this machine, unless there is a watch token. Clients on other
-// machines always need a control token or a watch token.
+// The control token permits control and watching, the watch token permits only watching. A server
+// that has only a watch token allows no control. There are two exceptions if other machines cannot
+// reach the server:
+// - If the server has no tokens, every client has all permissions.
+// - If the server has no watch token, a client without a token may watch.
 //
 // Threads  const members may run concurrently.
 // Secrets  tokens are compared in constant time, and appear in no message.

@@ -127,7 +127,7 @@ class ViewDrawer {
   std::shared_ptr<rendering::Renderer>
       renderer_;                   // used by the drawing thread; null until the first image
   std::uint64_t next_number_ = 0;  // used by the drawing thread
-  std::vector<CachedImage> kept_;  // used by the drawing thread: the last images
+  std::vector<CachedImage> kept_;  // the images that were drawn last; used by the drawing thread
 
   base::Mutex mutex_;
   base::ConditionVariable changed_;

@@ -63,8 +63,8 @@ class ClientRequests {
   const std::shared_ptr<Operations> operations_;
   mutable base::Mutex mutex_;
   std::map<Client*, ClientState> clients_ GSV_GUARDED_BY(mutex_);
-  std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // the last sent values
-  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // the last sent state
+  std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // the values that were sent last
+  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // the state that was sent last
 };
 
 }  // namespace gsv::gateway

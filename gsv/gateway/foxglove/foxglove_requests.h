@@ -49,7 +49,7 @@ struct ServiceCall {
   std::uint32_t service = 0;
   std::uint32_t call = 0;
   std::string encoding;
-  std::string request;  // bytes
+  std::string request;  // the bytes of the request, in this encoding
 };
 // A request to play or pause a replay, with a speed and perhaps a time to seek to.
 struct PlaybackControl {
@@ -63,7 +63,7 @@ struct PlaybackControl {
 struct WatchView {
   SubscriptionId id = 0;
   std::string camera;          // parameters as in the query of /view.mjpeg
-  std::uint32_t sequence = 0;  // returned with each image for this camera
+  std::uint32_t sequence = 0;  // number of this camera, which is sent back with each of its images
 };
 // Ends a view.
 struct UnwatchView {

@@ -13,8 +13,9 @@ namespace gsv::gateway {
 class BodyStream {
  public:
   virtual ~BodyStream() = default;
-  // Calls `take` once with the next part, from any thread, now or later. nullopt ends the body. The
-  // server calls Next() again when that part has been sent, so a slow client gets fewer parts.
+  // Calls `take` exactly once, now or later, from any thread: with the next part, or with nullopt
+  // to end the body. The server calls Next() again when it has sent the part, so a slow client gets
+  // fewer parts.
   virtual void Next(std::function<void(std::optional<SharedBytes>)> take) = 0;
 };
 

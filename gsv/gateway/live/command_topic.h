@@ -32,7 +32,7 @@ class CommandTopic {
   foxglove::ChannelId channel_ = 0;
   std::shared_ptr<const world::Layout> layout_;
   std::vector<world::DriveState> sent_;  // the command that was last sent, for each body of layout_
-  std::size_t next_ = 0;                 // index of the first body of the next Publish()
+  std::size_t next_ = 0;                 // index of the body at which the next Publish() begins
 };
 
 }  // namespace gsv::gateway

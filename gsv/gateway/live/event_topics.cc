@@ -64,8 +64,8 @@ void EventTopics::Publish(const simulation::Simulation& simulation, Source& sour
 std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation& simulation,
                                                     Source& source) {
   if ((simulation.*source.since)(source.next).empty()) return {};
-  // `count` includes the oldest events, which the simulation has dropped. It is read before the
-  // events, so that it does not include events that are missing in `events`.
+  // `count` is the number of all events so far, including old events that the simulation has
+  // dropped. It is read before the events, so that only dropped events can be missing in `events`.
   const std::uint64_t count = simulation.status().*source.count;
   std::vector<simulation::Event> events = (simulation.*source.since)(source.next);
   source.next = std::max(source.next + events.size(), count);

@@ -100,9 +100,9 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   bool transforms_changed_ = true;
   std::shared_ptr<const SensorList> beam_sensors_;
   Pacing beams_pacing_;
-  std::weak_ptr<const world::Snapshot> beams_of_;  // snapshot of the last read beams
+  std::weak_ptr<const world::Snapshot> beams_of_;  // the snapshot whose beams were read last
   std::atomic<bool> beams_busy_{false};
-  presentation::BeamMarkers beam_markers_;  // used by the job of the beams only
+  presentation::BeamMarkers beam_markers_;  // used only by the job that reads the beams
   RobotBeams robot_beams_;
 };
 

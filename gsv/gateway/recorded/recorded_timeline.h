@@ -61,9 +61,9 @@ class RecordedTimeline {
   std::vector<RecordedEvent> ReadEvents() const;
   // Reads the lines of the log.
   std::vector<RecordedLine> ReadLog() const;
-  // Reads the messages of these channels. Calls `use` for each message; `use` returns the entry of
-  // the timeline for it, or nullopt for none. Stops at `max_entries` entries. Returns the entries
-  // ordered by time.
+  // Reads the messages of these channels, and calls `use` for each message. `use` returns the
+  // message's entry in the timeline, or nullopt if the message has none. Stops at `max_entries`
+  // entries. Returns the entries ordered by time.
   template <typename Message, typename Entry, typename Use>
   std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t max_entries, Use use) const;
 

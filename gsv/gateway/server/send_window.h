@@ -94,7 +94,7 @@ class SendWindow {
     std::uint64_t number = 0;
     std::size_t data_position = 0;  // data bytes sent before the ping
     std::size_t bytes = 0;          // bytes sent since the previous ping
-    Time first_started{};           // start of the first of these messages
+    Time first_started{};           // start of the first message after the previous ping
     Time started{};
     // whether the ping measures the minimum delay: all data were confirmed before it
     bool measures = false;

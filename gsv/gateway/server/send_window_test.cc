@@ -112,7 +112,7 @@ TEST(SendWindow, GrowsUntilItFillsAConnectionWithALongDelay) {
 
 TEST(SendWindow, BoundsTheDelayOfASlowConnectionAndUsesItsRate) {
   Link link(25'000, milliseconds(20), 1'000);            // the sender produces 100 kB/s
-  EXPECT_LT(link.Run(milliseconds(2000)).count(), 0.8);  // the first window
+  EXPECT_LT(link.Run(milliseconds(2000)).count(), 0.8);  // the window is too large at the start
   link.TakeReceived();
   EXPECT_LT(link.Run(milliseconds(10'000)).count(), 0.5);
   EXPECT_GE(link.TakeReceived(), 225);  // the link transfers 250 messages

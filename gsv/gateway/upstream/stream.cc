@@ -46,7 +46,7 @@ foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulatio
 }
 
 // One attempt to connect, from resolving the name to the end of the connection. Pending operations
-// keep it alive. The results of an attempt that is not the current one are ignored.
+// keep the attempt alive. If it is not the current attempt any more, their results are ignored.
 struct Attempt {
   explicit Attempt(asio::io_context& io) : resolver(io), socket(io) {}
 
