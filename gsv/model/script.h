@@ -42,7 +42,7 @@ struct Script {
   bool loops = true;
   base::SimTime delay{0};  // the delay before each start; not negative
   bool starts_by_itself = true;
-  std::vector<Trajectory> trajectories;        // one after the other; may be empty
+  std::vector<Trajectory> trajectories;        // executed one after the other; may be empty
   std::shared_ptr<const Animation> animation;  // null if joints do not move
 };
 
