@@ -68,7 +68,7 @@ struct FittedParameter {
 struct FittedDevice {
   std::string type, name;
   std::vector<FittedParameter> parameters;
-  std::string warning = {};  // as in Comparison
+  std::string warning = {};  // see Comparison::warning
 };
 // Fits the parameters to the readings of the log's even blocks (world_fit.h), or for odometry to
 // all windows. For a ring of sonars, returns one device for each beam, in beam order. Fails with

@@ -22,7 +22,7 @@ struct RadioErrors {
 // The errors for one anchor ("to anchor 105"), or for a range of distances ("from 1 to 2 m").
 struct RadioGroup {
   std::string name;
-  std::vector<double> real, simulated;  // without ranges that were not received
+  std::vector<double> real, simulated;  // errors of the ranges that were received, m
 };
 // Groups errors first by anchor, then by distance (0 to 1 m, 1 to 2 m, …). Groups with fewer than
 // 20 ranges are left out.
