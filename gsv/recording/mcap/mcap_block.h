@@ -26,7 +26,7 @@ struct Limits {
 
 // A chunk, or a sequence of messages that are outside of chunks.
 struct MessageBlock {
-  std::uint64_t offset = 0;  // offset of its first record in the file
+  std::uint64_t offset = 0;  // offset of the block's first record in the file
   std::uint64_t length = 0;
   bool is_chunk = true;
   std::uint64_t uncompressed_size = 0;

@@ -72,10 +72,10 @@ class McapFileWriter {
   // The following members are collected for the summary.
   std::map<std::uint16_t, SchemaRecord> schemas_;
   std::map<std::uint16_t, ChannelRecord> channels_;
-  Bytes chunk_indexes_;  // encoded, because long recordings have many
+  Bytes chunk_indexes_;  // encoded, to save memory in long recordings with many chunks
   std::vector<AttachmentIndexRecord> attachment_indexes_;
   std::vector<MetadataIndexRecord> metadata_indexes_;
-  StatisticsRecord statistics_;                // without channel_message_counts
+  StatisticsRecord statistics_;                // its channel_message_counts are empty
   std::vector<std::uint64_t> message_counts_;  // number of messages, by channel
 };
 

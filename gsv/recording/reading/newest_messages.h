@@ -17,8 +17,8 @@ struct NewestMessages {
   base::Problems problems;                            // blocks that could not be read
 };
 
-// Returns the newest message of each channel at or before `time`. Reads only as many blocks as the
-// channels require.
+// Returns the newest message of each channel at or before `time`. Reads a block only if it may
+// contain a newer message of a channel than the message that was found so far.
 NewestMessages FindNewestMessages(const McapReader& reader, base::SimTime time);
 
 }  // namespace gsv::recording

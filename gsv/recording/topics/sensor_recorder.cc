@@ -40,8 +40,8 @@ struct SensorRecorder::Sensor {
   bool is_wanted = true;             // whether readings are recorded
   bool has_companion = false;        // whether companion messages (such as CameraInfo) are recorded
   bool has_beams = false;            // whether beams are recorded
-  std::optional<ChannelId> channel;  // set with the first reading
-  std::optional<ChannelId> companion_channel;  // set with the first reading
+  std::optional<ChannelId> channel;  // set when the first reading is recorded
+  std::optional<ChannelId> companion_channel;  // set when the first reading is recorded
   std::optional<sensing::Reading> newest;      // the newest reading, for sensors with beams
   bool has_failed = false;
 

@@ -101,7 +101,7 @@ class SensorRecorder {
   const std::uint64_t seed_;
   const SensorRecorderOptions options_;
   sensing::RaySceneCache rays_;
-  std::unique_ptr<base::ThreadTeam> team_;  // for slow sensors; null while there is none
+  std::unique_ptr<base::ThreadTeam> team_;  // samples slow sensors; null if there are none
   Sensors sensors_;
   // The layout whose body indices Sensor::body and robot_beams_ use; null after SetSensors().
   std::shared_ptr<const world::Layout> layout_;
