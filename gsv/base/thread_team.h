@@ -78,7 +78,7 @@ class ThreadTeam {
   static constexpr unsigned kOpen = 1u << 31;
   Job job_;
   // The part of the range with which a thread begins. Equal parts in successive jobs keep data in
-  // the thread's cache. When its own part is done, the thread takes pieces from the other parts.
+  // the thread's cache. When its own part is done, the thread processes pieces of the other parts.
   struct alignas(64) Part {
     std::atomic<std::size_t> next{0};  // index at which the next piece begins
     std::size_t end = 0;

@@ -12,7 +12,7 @@ struct BrokerCommand {
   BrokerOptions broker;
   ProcessLimits process;
   // This process ends when `parent` ends; 0 for no parent. The kernel watches the thread (not the
-  // process) that started this process, so that thread should live as long as the parent process.
+  // process) that started this process. So this thread should live as long as the parent process.
   pid_t parent = 0;
 };
 

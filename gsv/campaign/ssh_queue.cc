@@ -175,7 +175,7 @@ class SshQueue final : public JobQueue {
     }
   }
 
-  // Returns the number of tasks that the host can take. After a failure, it gets only one task at
+  // Returns the number of tasks that the host can accept. After a failure, it gets only one task at
   // first.
   std::size_t FreeSlots(const Host& host) const {
     if (context_.now() < host.rests_until || host.connecting >= kMaxConnecting) return 0;

@@ -108,8 +108,8 @@ class WorldEngine final : public Engine {
     }
   }
 
-  // Adds the contacts of the rigid bodies to those of the planar bodies, and updates the rigid
-  // bodies' counts of contacts with both.
+  // Adds the contacts of the rigid bodies to the contacts of the planar bodies. Updates in_contact
+  // and the count of collisions of each rigid body.
   void AddRigidContacts(world::State& state, std::vector<world::Contact>& contacts) const {
     contacts.insert(contacts.end(), rigid_contacts_.begin(), rigid_contacts_.end());
     for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {

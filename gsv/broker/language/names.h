@@ -1,6 +1,7 @@
 // Checks the names in offers and service types.
 //
-// Source  OMG Trading Object Service (formal/00-06-27), annex B. Letters are those of ISO Latin-1.
+// Source  OMG Trading Object Service (formal/00-06-27), annex B. Letters are the letters of ISO
+//         Latin-1.
 #pragma once
 
 #include <string_view>

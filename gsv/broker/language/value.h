@@ -32,7 +32,7 @@ enum class Scalar : std::uint8_t {
   kOther,
 };
 
-// An int64 holds integers of every width, a double both float types, and a string also a char.
+// An int64 represents integers of every width, a double both float types, and a string also a char.
 using ScalarValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // The type of a property. Two types are equal when their scalar, sequence and name are.

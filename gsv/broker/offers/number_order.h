@@ -9,7 +9,7 @@
 namespace gsv::broker {
 
 // Returns the indices of `numbers` in ascending order. NaN comes last, and equal numbers keep their
-// order. A long double holds every int64 and double exactly.
+// order. A long double represents every int64 and double exactly.
 std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& numbers);
 std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers);
 // Returns the first `count` elements of AscendingOrder(numbers), without

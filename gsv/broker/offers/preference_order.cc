@@ -12,8 +12,8 @@
 namespace gsv::broker {
 namespace {
 
-// Returns the sort key of an offer. Offers with smaller keys come first, and those with NaN come
-// last.
+// Returns the sort key of an offer. Offers with smaller keys come first, and offers with the key
+// NaN come last.
 long double RankOf(const Preference& preference, const Offer& offer, DynamicValues& values) {
   constexpr long double kLast = std::numeric_limits<long double>::quiet_NaN();
   const EvaluatedOffer properties(offer, values);

@@ -68,7 +68,7 @@ class PropertyColumn {
   // The elements of all sequences, one sequence after the other.
   std::vector<CellKind> element_kinds_;
   std::vector<std::uint64_t> element_bits_;
-  std::string short_texts_;  // the characters of short texts; those of long texts are in the offers
+  std::string short_texts_;  // characters of short texts; long texts stay in the offers
   std::vector<std::string_view> texts_;
 };
 

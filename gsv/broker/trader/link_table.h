@@ -1,7 +1,7 @@
 // The links to other traders, by name.
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "Link".
-// Errors   those of the standard, see Refusal. A refused call changes nothing.
+// Errors   the errors of the standard, see Refusal. A refused call changes nothing.
 // Threads  not safe; Trader serialises access.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The Trading Service without CORBA: service types, offers, and the queries that find them.
 //
 // Source   OMG Trading Object Service (formal/00-06-27).
-// Errors   those of the standard, see Refusal. A refused call changes nothing.
+// Errors   the errors of the standard, see Refusal. A refused call changes nothing.
 // Threads  every member may be called at any time. Queries run concurrently and evaluate their
 //          constraint without a lock.
 #pragma once

@@ -1,7 +1,7 @@
 // The known service types and their inheritance.
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "ServiceTypeRepository".
-// Errors   those of the standard, see Refusal.
+// Errors   the errors of the standard, see Refusal.
 // Threads  not safe; Trader serialises access.
 #pragma once
 
@@ -35,7 +35,7 @@ class TypeRepository {
   // members of `type`. Returns the incarnation of the new type.
   TradingResult<std::uint64_t> Add(ServiceType type);
   TradingResult<void> Remove(const std::string& name);
-  // Returns the names of all types, or of those with an incarnation not below `since`, sorted.
+  // Returns the names of all types, or of the types whose incarnation is at least `since`, sorted.
   std::vector<std::string> List(std::optional<std::uint64_t> since) const;
   // Returns the type as it was added.
   TradingResult<ServiceType> Describe(const std::string& name) const;

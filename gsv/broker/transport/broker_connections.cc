@@ -39,7 +39,7 @@ class RequestSlots {
 class ClientConnection;
 
 // The open connections of clients. While no thread of the ORB waits on a connection, Readable()
-// collects the bytes of its next message. Only a complete message is given to the ORB, so that a
+// collects the bytes of its next message. Only a complete message is passed to the ORB, so that a
 // slow client occupies no thread.
 //
 // Threads  any.

@@ -29,8 +29,8 @@ class Engine {
   virtual ~Engine() = default;
 
   // Prepares for another set of bodies, without attachments. It must be called before the first
-  // Step() and after each change of the set of bodies. If it fails, another layout must be set
-  // before anything else is called.
+  // Step() and after each change of the set of bodies. If SetLayout() fails, another layout must be
+  // set before anything else is called.
   virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
 
   // Makes the collision shapes of the held body a part of the holder's link. The engine no longer

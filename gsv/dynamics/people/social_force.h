@@ -44,7 +44,7 @@ geometry::Vector2 Apart(geometry::Vector2 between, double radius, double other_r
 // The acceleration due to one other pedestrian, without the weight w. `apart` is not zero.
 geometry::Vector2 RepulsionByOther(geometry::Vector2 apart, geometry::Vector2 other_velocity);
 
-// The force with the weight w, for a pedestrian that wants to go in the direction `wanted` (unit
+// The force with the weight w, for a pedestrian that wants to walk in the direction `wanted` (unit
 // length, or zero).
 geometry::Vector2 AsSeen(geometry::Vector2 force, geometry::Vector2 wanted);
 

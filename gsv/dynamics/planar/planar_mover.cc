@@ -50,7 +50,7 @@ class TeamMover final : public PlanarMover {
   void ForEachChunk(const Work& work);
 
   void Slice(const world::State& state);
-  // Slices the dynamic bodies that a mover may meet in a step of `seconds`.
+  // Slices the dynamic bodies that a mover may touch in a step of `seconds`.
   void SliceVisibleObstacles(const world::State& state, double seconds);
   void AddSight(std::uint32_t mover);
   void Begin(const world::State& state, double seconds);

@@ -156,8 +156,8 @@ void AddEdgePoint(const BoxAt& first, int first_edge, const BoxAt& second, int s
 
 void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
                   std::vector<TouchPoint>& points) {
-  // An edge axis is used only if its overlap is clearly smaller than that of all face axes. So
-  // boxes that lie on each other keep their face contacts.
+  // An edge axis is used only if its overlap is clearly smaller than the overlaps of all face axes.
+  // So boxes that lie on each other keep their face contacts.
   constexpr double kBetter = 0.05, kLeast = 1e-6, kParallel = 1e-3;
   const BoxAt a(first), b(second);
   const Vector3 between = b.position - a.position;

@@ -1,4 +1,4 @@
-// Converts between GSV's vectors and poses and those of Bullet.
+// Converts GSV's vectors and poses to Bullet's types, and back.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

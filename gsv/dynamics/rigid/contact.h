@@ -46,8 +46,8 @@ inline constexpr double kRestingDepth = 1e-5;
 
 // Returns the velocity that the first body must have relative to the second at the end of a
 // substep. The value along the normal is a minimum. Friction reaches the values along the axes if
-// it is strong enough. `meeting` is the relative velocity along the normal when the bodies meet.
-// `free` are the velocities at the end of the substep without impulses.
+// it is strong enough. `meeting` is the relative velocity along the normal when the bodies come
+// into contact. `free` are the velocities at the end of the substep without impulses.
 std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double meeting,
                                 const std::array<double, 3>& free, double substep);
 

@@ -91,7 +91,7 @@ class ContactFinder {
                                             const geometry::Vector3& normal) const;
   // Converts the slip of each contact to the softness of its friction in this substep.
   void SetSoftness(double substep);
-  // Whether a base without wheels stands on the other body, so that there is no friction.
+  // Whether a base without wheels rests on the other body, so that there is no friction.
   bool GlidesOn(const Collider& first, const Collider& second,
                 const geometry::Vector3& normal) const;
 

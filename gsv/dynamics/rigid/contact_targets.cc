@@ -6,7 +6,7 @@
 namespace gsv::dynamics {
 namespace {
 
-// m/s: bodies that meet at a lower speed do not bounce
+// m/s: bodies that collide at a lower speed do not bounce
 constexpr double kBounces = 0.05;
 // The fraction of an overlap with a tree of links that a substep corrects.
 constexpr double kTreeCorrection = 0.2;

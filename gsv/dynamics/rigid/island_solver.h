@@ -86,7 +86,7 @@ class IslandSolver {
     bool is_active = false;
   };
   struct ContactRows {
-    Row normal;  // its values are those of three rows: normal, then both tangents
+    Row normal;  // its values are the values of three rows: normal, then both tangents
     int index = 0;
     double friction = 0;
     std::array<double, 2> target{}, softness{}, compliance{}, impulse{};

@@ -94,8 +94,8 @@ class LinkTree {
   // Returns the rotation of a ball joint from its zero position.
   const geometry::Quaternion& turn(int part) const { return turns_[Index(part)]; }
 
-  // Returns the indices of the velocities that move a part: first those of its own joint, and last
-  // those of the base.
+  // Returns the indices of the velocities that move a part: first the velocities of its own joint,
+  // and last the velocities of the base.
   std::span<const int> Chain(int part) const { return links_[Index(part)].chain; }
   // For each velocity of the part's chain: the velocity of a point of the part, and its angular
   // velocity, due to a unit of that velocity.

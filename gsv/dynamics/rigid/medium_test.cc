@@ -134,7 +134,7 @@ TEST(Buoyancy, LiftsOnlyTheModelsThatItNames) {
 }
 
 // Archimedes' principle: the submerged fraction of a flat box that floats upright is its density
-// divided by that of the water.
+// divided by the density of the water.
 TEST(Buoyancy, BoxFloatsAtTheDepthOfItsDensity) {
   for (const double share : {0.25, 0.5, 0.9}) {
     TestWorld world(MakeWorldEngine());

@@ -56,8 +56,8 @@ TEST(Mimic, AJointMovesAtItsLeadersRate) {
   EXPECT_NEAR(world.joint("gripper", 2), 2 * world.joint("gripper", 1), 5e-3);
 }
 
-// A gear with the ratio n. The leader accelerates its own inertia and n² times that of the
-// follower, so that a torque t gives it the acceleration t / (I1 + n² I2).
+// A gear with the ratio n. The leader accelerates its own inertia I1 and n² times the inertia I2 of
+// the follower. So a torque t accelerates the leader by t / (I1 + n² I2).
 TEST(Mimic, LeaderAcceleratesTheInertiaOfItsFollower) {
   auto model = Fingers({1, -3, 0, 0});
   for (model::Link& link : model->links) link.has_gravity = false;

@@ -85,8 +85,8 @@ bool OverlapRemoval::Solve(double substep) {
   return true;
 }
 
-// Scales all velocities so that none exceeds kMaxSpeed. Bodies that overlap then part more slowly,
-// and other bodies still approach by no more than their gap.
+// Scales all velocities so that none exceeds kMaxSpeed. Then bodies that overlap separate more
+// slowly, and other bodies still approach by no more than their gap.
 void OverlapRemoval::Limit() {
   double square = 0;
   for (const Body& body : bodies_) square = std::max(square, Dot(body.velocity, body.velocity));

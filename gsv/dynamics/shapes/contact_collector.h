@@ -22,9 +22,9 @@ class ContactCollector {
   // 0, bodies that overlap by less than -gap have no contact.
   ContactCollector(std::vector<world::Contact>& contacts, double gap);
 
-  // Passes the separation of a piece of the first body from a piece of the second one. The deepest
-  // piece of each pair of bodies gives the contact; among equally deep pieces, the first one. All
-  // pieces of a first body must be passed one after the other.
+  // Passes the separation of a piece of the first body from a piece of the second body. A pair of
+  // bodies gets the contact of its deepest piece. Among equally deep pieces, it is the contact of
+  // the piece that was passed first. All pieces of a first body must be passed one after the other.
   void Offer(const BodyPair& bodies, const Separation& separation, double height);
 
   // Sorts the contacts and sets `began` for pairs that are not in `touching`. `touching` must be in

@@ -28,9 +28,9 @@ Interval Heights(const geometry::Shape& shape, const geometry::Pose& pose);
 // Not for a Plane.
 ConvexPiece Silhouette(const geometry::Shape& shape, const geometry::Pose& pose);
 
-// Adds the area covered by the part of the shape strictly between the two heights. This is one
-// piece for a convex shape, one per triangle for a mesh (a surface without inside), and none for a
-// Plane. The piece of an inclined round shape that is cut may be too large by up to 0.5 % of its
+// Adds the area covered by the part of the shape strictly between the two heights. A convex shape
+// adds one piece, a mesh (a surface without inside) adds one piece per triangle, and a Plane adds
+// none. The piece of an inclined round shape that is cut may be too large by up to 0.5 % of its
 // radius.
 void Slice(const geometry::Shape& shape, const geometry::Pose& pose, Interval heights,
            std::vector<ConvexPiece>& pieces);

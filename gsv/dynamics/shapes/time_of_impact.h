@@ -1,10 +1,10 @@
 // The time at which two pieces that move along arcs first touch.
 //
 // Method   Conservative advancement along separating axes. The closest points of the pieces give an
-//          axis. Along it, the path of each corner is bounded by its speed times the time plus half
-//          its centripetal acceleration times the time squared. The pieces cannot touch before a
-//          pair of corners can have closed the gap. So the method advances to that instant, and
-//          repeats. It never misses a contact.
+//          axis. Along this axis, the path of each corner is bounded by its speed times the time
+//          plus half its centripetal acceleration times the time squared. The pieces cannot touch
+//          before a pair of corners can have closed the gap. So the method advances to that
+//          instant, and repeats. It never misses a contact.
 // Gaps     Pieces that collide are stopped at a distance of kStopGap ± 50 %, so that rounding never
 //          makes them overlap. A distance of at most kTouchGap counts as contact. Pieces that are
 //          closer at the start (or overlap) may separate and slide, but not approach further.

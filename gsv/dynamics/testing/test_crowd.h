@@ -1,8 +1,9 @@
 // A crowd for tests and benchmarks: robots that wander about a walled square.
 //
 // There are 10 m² per robot, and a box of 1 m for every four robots. A robot drives at 0.5 m/s and
-// makes a new decision every 0.4 s. A robot in contact drives back and then turns in place. One in
-// four of the others drives a curve. So a few per cent of the robots are in contact at any time.
+// makes a new decision every 0.4 s. A robot in contact drives back and then turns in place. Of the
+// robots without contact, one in four drives a curve. So a few per cent of the robots are in
+// contact at any time.
 #pragma once
 
 #include <cmath>

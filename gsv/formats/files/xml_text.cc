@@ -165,8 +165,8 @@ class XmlPreparation {
     return Remove(at, doctype_.end);
   }
 
-  // XML allows its declaration <?xml …?> only at the beginning of a file. If anything comes before
-  // it, parsers refuse the file.
+  // XML allows its declaration <?xml …?> only at the beginning of a file. Parsers refuse a file
+  // that has anything before the declaration.
   std::size_t TakeInstruction(std::size_t at) {
     const std::size_t end = After(at, "?>");
     if (end == std::string_view::npos) return KeepRest(at);

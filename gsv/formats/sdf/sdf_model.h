@@ -19,8 +19,8 @@ struct FramedModel {
   std::map<std::string, geometry::Pose> model_from_frame;
 };
 
-// Converts a model. Fails if the model has no link, or a link with non-finite values. Appends other
-// problems to those of the context. Model::default_pose includes the placement frame.
+// Converts a model. Fails if the model has no link, or a link with non-finite values. Appends all
+// other problems to the problems of the context. Model::default_pose includes the placement frame.
 base::Result<FramedModel> ReadModel(const sdf::Model& source, const ReadingContext& context);
 
 }  // namespace gsv::formats

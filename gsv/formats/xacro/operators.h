@@ -26,8 +26,8 @@ base::Result<Value> Member(const Value& of, const std::string& name);
 // Returns one of pi, e, tau, inf, nan.
 std::optional<Value> Constant(const std::string& name);
 // IsFunction() and CallFunction() find and call a function by its name. Supported are Python's math
-// functions, those of sequences.h, and abs, min, max, round, sum, len, int, float, str, bool, list,
-// tuple.
+// functions, the functions of sequences.h, and abs, min, max, round, sum, len, int, float, str,
+// bool, list, tuple.
 bool IsFunction(const std::string& name);
 // Calls a function by its name.
 base::Result<Value> CallFunction(const std::string& name, const std::vector<Value>& arguments);
