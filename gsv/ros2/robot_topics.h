@@ -36,7 +36,8 @@ class RobotTopics {
   RobotTopics(const Context& context, const world::Body& body, std::string name_space,
               bool takes_commands);
 
-  // Whether these topics still fit the body. False if its sensors or its namespace have changed.
+  // Whether these topics still fit the body. False if its model, its kind or its sensors have
+  // changed, or if the body now takes commands or no longer takes them.
   bool Fits(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
             bool takes_commands) const;
 
