@@ -10,6 +10,6 @@ export const credentials = pageCredentials(window);
 export const graphics = startGraphics();
 export const requests = new EarlyRequests(document.baseURI, credentials.fetch);
 
-// If the address contains a recording, the page must open the recording first, so nothing is
-// requested before.
+// If the address contains a recording, the page must open the recording first. So nothing is
+// requested early.
 if (!parameters.has("recording")) void requests.begin(parameters.get("simulation"));

@@ -54,8 +54,8 @@ import type { ViewChoice } from "./app/ViewChoice";
 
 // The page's address may contain simulation=NAME (the simulation to join) and recording=NAME (the
 // recording to replay). With quality=high, the view keeps its full resolution even if drawing is
-// slow. With quality=best, it also has the reflections, fitted shadows and ambient occlusion that
-// are otherwise used only with a graphics card.
+// slow. With quality=best, it also has reflections, fitted shadows and ambient occlusion. Without
+// this option, these are used only with a graphics card.
 const storage = browserStorage();
 const store = new Store<State>({
   ...initialState,
@@ -130,8 +130,8 @@ function showSelectedPose(): void {
   if (selection === null || !latest) return;
   const pose = selected.update(selection, latest, performance.now());
   if (pose) store.set({ selectedPose: pose });
-  // If the simulation is paused or the replay was moved here, no further poses arrive, so a timer
-  // shows this pose.
+  // If the simulation is paused or the replay was moved to this instant, no more poses arrive. Then
+  // a timer shows this pose.
   else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 
@@ -149,8 +149,8 @@ async function openWorld(): Promise<void> {
   drawing = startDrawing(store, api, session, world, { inSoftware, chosen: chosenDrawer(storage, parameters) });
 }
 
-// Resolves when the browser has drawn the present page, so that the list of robots need not wait
-// for the 3D view. In the background, nothing is drawn.
+// Resolves when the browser has drawn the present page. So the list of robots is drawn before the
+// 3D view starts. In the background, nothing is drawn.
 function painted(): Promise<void> {
   return new Promise((resolve) => {
     setTimeout(resolve, LONGEST_PAINTING_MS);
@@ -223,8 +223,8 @@ function connectWorld(world: World3D): void {
       health,
       robotFilter,
       scene,
-      // Without a health report, the states follow from the behaviours. With a filter, the names
-      // that match are shown.
+      // If there is no health report, the states of robots follow from the states of their
+      // behaviours. If there is a filter, the names that match are shown.
       robots: health === null || isFiltering(robotFilter) ? status?.robots : null,
     }),
     () => world.setStates(shownStates(store.get())),
@@ -259,7 +259,8 @@ function posesOfPreview(poses: Float64Array, layoutVersion: number): PosesMessag
   return { stamp: { sec: 0, nsec: 0 }, step: 0n, layout_version: layoutVersion, poses };
 }
 
-// Returns the selected avatar, or else the first one. A recorded avatar cannot be driven.
+// Returns the selected avatar. If no avatar is selected, returns the first one. A recorded avatar
+// cannot be driven.
 function avatarToDrive(): string | null {
   const { scene, selection, replay } = store.get();
   if (replay) return null;
@@ -285,8 +286,8 @@ const workspace = new Workspace(
   (space) => STANDARD.layout(space),
 );
 const sceneTree = createSceneTree(ports, pageNames(app));
-// On a narrow screen the list covers the view, so it closes when the user selects a robot, or presses
-// something else.
+// On a narrow screen, the list covers the view. So it closes when the user selects a robot or
+// presses something outside of the list.
 sceneTree.addEventListener("click", ({ target }) => {
   if (target instanceof Element && target.closest("[data-robot], [data-object]")) page.classList.remove("sidebar-open");
 });
@@ -346,7 +347,8 @@ app.past.start();
 app.notes.start();
 app.compare.start();
 app.link.start(window);
-// Viewers of a page's own replay are not listed, because nobody else can see this replay.
+// The viewers of a replay that a page has opened for itself are not listed, because nobody else can
+// see this replay.
 if (!parameters.has("recording")) app.people.start(window);
 session.start();
 void openWorld();

@@ -1,4 +1,5 @@
-// A file that the user dropped onto the page or chose, or a file inside such a zip archive.
+// A file that the user dropped onto the page or chose, or a file inside a dropped or chosen zip
+// archive.
 export interface DroppedFile {
   path: string; // "world.sdf", "folder/meshes/cube.stl"
   size: number; // bytes

@@ -11,7 +11,7 @@ interface Begun {
 }
 
 export class EarlyRequests {
-  private readonly begun = new Map<string, Begun>(); // requests that have begun, by address
+  private readonly begun = new Map<string, Begun>(); // requests that have begun, by their address
 
   constructor(
     private readonly root: string,
@@ -19,8 +19,9 @@ export class EarlyRequests {
     private readonly now: () => number = () => performance.now(),
   ) {}
 
-  // Requests the list of simulations, then the status, the scene and the models of the simulation
-  // `wanted`, or else of the first one. The page reports errors when it repeats a request.
+  // Requests the list of simulations. Then requests the status, the scene and the models of the
+  // simulation `wanted`, or of the first simulation if `wanted` is null. Errors are ignored here,
+  // because the page reports them when it repeats a request.
   async begin(wanted: string | null): Promise<void> {
     try {
       const simulations = (await this.ask("api/simulations")) as { name: string }[];
@@ -34,12 +35,12 @@ export class EarlyRequests {
         this.fetchPage(this.url(`api/models/${encodeURIComponent(model)}.glb`)).catch(() => {});
       }
     } catch {
-      // Ignored: the page itself sends the failed request again later, so the page only opens more
+      // Ignored: the page itself sends the failed request again. So the page only opens more
       // slowly.
     }
   }
 
-  // Works like fetch(), but returns the early answer if there is one.
+  // Works like fetch(), but returns the early answer if there is one for this address.
   fetch: typeof fetch = async (input, init) => {
     const early = this.take(String(input), init?.method);
     return early ?? this.fetchPage(input, init);

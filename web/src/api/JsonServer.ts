@@ -3,7 +3,7 @@
 import { textOr } from "./json";
 
 // The server has refused a request. `message` is the server's sentence. `field` names the field of
-// the request that caused it (empty: no particular field).
+// the request that caused the refusal (empty: no particular field).
 export class ApiError extends Error {
   constructor(
     readonly httpStatus: number,
@@ -35,8 +35,8 @@ export class JsonServer {
     return new URL(path, this.base).href;
   }
 
-  // Sets the path below the root to which the paths of all later requests are relative. If it is
-  // empty, they are relative to the root.
+  // Sets the path below the root to which the paths of all later requests are relative. If this
+  // path is empty, the paths of requests are relative to the root.
   moveTo(path: string): void {
     this.base = new URL(path, this.root).href;
   }

@@ -1,7 +1,7 @@
 // Reads the server's metrics from /metrics, in Prometheus' text format 0.0.4 (docs/monitoring.md).
 const TIMEOUT_MS = 5000;
 
-// Metrics by name. Those with labels are named "name{label=\"value\"}".
+// Metrics by name. A metric with labels has the name "name{label=\"value\"}".
 export type ServerFigures = ReadonlyMap<string, number>;
 
 export class MetricsApi {

@@ -1,5 +1,5 @@
-// Sends requests one at a time. If several are made while one is pending, only the last of them is
-// sent.
+// Sends requests one at a time. If several requests are made while another is pending, only the
+// last one is sent.
 export class NewestOnly<Wish> {
   private isSending = false;
   private unsent: { wish: Wish } | null = null;

@@ -16,8 +16,8 @@ export interface Abilities {
   creates: boolean; // whether simulations can be created and edited
   records: boolean;
   recordings: boolean; // whether recordings can be listed and replayed
-  // For a replay: the recording's name, with which each viewer can open a replay of their own; else
-  // empty.
+  // Only for a replay: the recording's name, with which each viewer can open a separate replay.
+  // Otherwise empty.
   recording: string;
 }
 
@@ -74,7 +74,7 @@ export interface SavedWorld {
 
 const UPLOAD_TIMEOUT_MS = 300_000;
 
-// The time limit of requests that read a world or start behaviours, which may take long.
+// The time limit of requests that read a world or start behaviours. They may take a long time.
 const LONG_TIMEOUT_MS = 60_000;
 
 export class SetUpApi {
@@ -103,7 +103,7 @@ export class SetUpApi {
     });
   }
 
-  // Returns the models that are no robots.
+  // Returns the models that are not robots.
   async objectModels(): Promise<string[]> {
     const answer = objectAt(await this.server.get("api/models", LONG_TIMEOUT_MS), "models");
     return listAt(answer.objects ?? [], "objects").map((each) => textAt(objectAt(each, "objects").name, "name"));
@@ -161,7 +161,7 @@ export class SetUpApi {
     await this.server.delete(simulationPath(simulation), LONG_TIMEOUT_MS);
   }
 
-  // Returns the name that the robot got.
+  // Returns the name of the new robot.
   async addRobot(simulation: string, robot: RobotSetUp, isAvatar: boolean): Promise<string> {
     const body = { ...robotJson(robot), avatar: isAvatar };
     const answer = await this.server.post(`${simulationPath(simulation)}/robots`, body, LONG_TIMEOUT_MS);
@@ -172,7 +172,7 @@ export class SetUpApi {
     await this.server.delete(`${simulationPath(simulation)}/robots/${encodeURIComponent(robot)}`);
   }
 
-  // Returns the name that the object got.
+  // Returns the name of the new object.
   async addObject(simulation: string, { place, ...object }: NewObject): Promise<string> {
     const body = { ...object, ...place };
     const answer = await this.server.post(`${simulationPath(simulation)}/objects`, body, LONG_TIMEOUT_MS);

@@ -40,7 +40,7 @@ const ACTION_TIMEOUT_MS = 60_000;
 // A robot stops this number of wall-clock seconds after its last drive command. The page repeats a
 // command several times in this period.
 const DRIVE_TIMEOUT_S = 1;
-// The time limit is long, because the server reads both recordings completely.
+// The time limit is long, because the server reads both recordings from beginning to end.
 const DIFFERENCE_TIMEOUT_MS = 120_000;
 
 export class SimulationApi {
@@ -91,8 +91,8 @@ export class SimulationApi {
   }
 
   // Opens the stored past as a replay for this page only, and returns its playback state. All
-  // further requests are sent to this replay, until leavePast(). Requests made before the state has
-  // arrived are still sent to the running simulation.
+  // further requests are sent to this replay, until leavePast(). Requests made before the playback
+  // state has arrived are still sent to the running simulation.
   async openPast(name: string): Promise<Replay> {
     const answer = objectAt(await this.root.post(`${simulationPath(name)}/history`, {}), "history");
     const base = textAt(answer.base, "history.base");
@@ -149,8 +149,8 @@ export class SimulationApi {
     return parseScene(await this.server.get(`${simulationPath(name)}/scene`));
   }
 
-  // Returns an image of the view that the server draws. `query` contains the parameters of view.jpg
-  // in docs/api.yaml.
+  // Returns an image of the view that the server draws. `query` contains the parameters that
+  // docs/api.yaml lists for view.jpg.
   image(name: string, query: string, signal: AbortSignal): Promise<Response> {
     return this.server.fetch(`view.jpg?simulation=${encodeURIComponent(name)}&${query}`, signal);
   }
@@ -202,8 +202,8 @@ export class SimulationApi {
     return parseOutput(await this.server.get(`${simulationPath(name)}/health?robot=${encodeURIComponent(robot)}`));
   }
 
-  // Returns the curve of a value over the whole recording, as far as the server has read it. It has
-  // at most `most` points.
+  // Returns the curve of a value over the whole recording, or over the part that the server has
+  // read so far. The curve has at most `most` points.
   async curve(name: string, of: CurveOf, most: number): Promise<WholeCurve> {
     return parseCurve(await this.server.get(`${simulationPath(name)}/curve?${curveQuery(of, most)}`));
   }
@@ -222,8 +222,8 @@ export class SimulationApi {
     await this.server.get(`${simulationPath(name)}/robots/${encodeURIComponent(robot)}/topics`);
   }
 
-  // The robot stops soon after the last command, so that it does not continue if the page crashes
-  // or the connection is lost.
+  // The robot stops soon after the last command. So it does not continue if the page crashes or the
+  // connection is lost.
   async drive(name: string, robot: string, drive: Drive): Promise<void> {
     const path = `${simulationPath(name)}/robots/${encodeURIComponent(robot)}/drive`;
     await this.server.post(path, { ...drive, timeout_s: DRIVE_TIMEOUT_S });

@@ -1,4 +1,4 @@
-// Requests the list of viewers, and which of them has control.
+// Requests the list of viewers, and which viewer has control.
 import type { Credentials } from "./credentials";
 import type { JsonServer } from "./JsonServer";
 import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
@@ -9,16 +9,16 @@ export interface Person {
   name: string;
   simulation: string; // the simulation that this viewer sees; empty if there is none
   holds: boolean; // whether this viewer has control of the simulation
-  asks: number; // position in the queue for control, from 1; 0 if not waiting
-  // s: for the first in the queue, the time until this viewer gets control if the holder does not
-  // answer.
+  asks: number; // position of this viewer in the queue for control, from 1; 0 if not waiting
+  // Time in s; only for the first viewer in the queue. If the viewer who has control does not
+  // answer within this time, this viewer gets control.
   passesIn: number;
 }
 
-// All viewers of a server, and which of them is this page.
+// All viewers of a server, and which viewer is this page.
 export interface People {
   viewers: Person[]; // all viewers of the server
-  you: number; // your number; 0 if you are not in the list
+  you: number; // number of this page's viewer; 0 if it is not in the list
 }
 
 export class ViewersApi {

@@ -15,7 +15,7 @@ export interface CommandParameter {
   isRequired: boolean;
   minimum: number; // infinite if there is no bound
   maximum: number;
-  otherwise: string; // the meaning of an absent argument, as a text; empty if the argument is required
+  otherwise: string; // meaning of an absent argument, as a text; empty if the argument is required
 }
 
 // A command with its parameters.

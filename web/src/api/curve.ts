@@ -13,11 +13,11 @@ export interface CurveOf {
 export interface WholeCurve {
   times: Float64Array; // s, simulated, ascending
   values: Float64Array; // NaN means a missing echo or a lost value
-  // Whether `values` has every sample; if not, it has the minimum and the maximum in each of many
-  // equal time intervals.
+  // Whether `values` contains every sample. If not, it contains the minimum and the maximum of each
+  // of many equal time intervals.
   isWhole: boolean;
   done: boolean; // whether the server has finished reading the recording
-  problem: string; // why values are missing; empty if none are
+  problem: string; // why values are missing; empty if no values are missing
 }
 
 export function parseCurve(json: unknown): WholeCurve {

@@ -15,14 +15,14 @@ export interface Joint {
   maxVelocity: number;
   maxEffort: number; // unit: N m or N
   command: { kind: JointCommandKind; value: number } | null; // the latest command; null: none
-  refusal: string; // why the joint accepts no commands; empty if it does
+  refusal: string; // why the joint accepts no commands; empty if it accepts commands
 }
 
 // The joints of one body, at one instant.
 export interface BodyJoints {
   time: number; // s, simulated
   joints: Joint[];
-  refusal: string; // why no joint of the body accepts commands from viewers; empty if they do
+  refusal: string; // why no joint of the body accepts commands from viewers; empty if the joints accept them
 }
 
 export function parseJoints(json: unknown): BodyJoints {

@@ -3,7 +3,7 @@ import { numberOr, objectAt, textOr } from "./json";
 
 export interface Recording {
   isOn: boolean;
-  path: string; // path of the current or the last recording; empty if there was none
+  path: string; // path of the current or the last recording; empty if there was no recording
   bytes: number;
   droppedMessages: number;
 }

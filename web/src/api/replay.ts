@@ -12,7 +12,7 @@ export interface Replay {
 export interface RecordedEvent {
   time: number; // s, simulated
   event: string; // started, paused, robot_added, agent_dead, …
-  robot: string; // empty: none
+  robot: string; // empty if the event concerns no robot
   detail: string;
 }
 

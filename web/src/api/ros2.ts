@@ -11,7 +11,7 @@ export interface Ros2SetUp {
   others: Record<string, string>; // namespaces of robots that the scenario does not list
 }
 
-// Whether the server can publish new simulations.
+// Whether the server can publish new simulations in ROS 2.
 export interface Ros2Support {
   isAvailable: boolean;
   reason: string; // why the server cannot publish
@@ -27,7 +27,7 @@ interface Named {
   namespace?: string; // if empty: the robot's name
 }
 
-// Returns the settings as JSON, without those that equal the defaults.
+// Returns the settings as JSON, without settings that equal the defaults.
 export function ros2Json({ others, ...settings }: Ros2SetUp, robots: readonly Named[]): JsonObject | true {
   const chosen = robots.flatMap((robot) => (robot.namespace ? [[nameOf(robot), robot.namespace] as const] : []));
   const namespaces = { ...others, ...Object.fromEntries(chosen) };

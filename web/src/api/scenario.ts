@@ -23,8 +23,8 @@ export interface RobotSetUp {
   behaviour: string; // name of the behaviour's offer; empty for none
   constraint: string; // used instead of `behaviour`: a constraint that selects an offer at the broker
   movement: "" | "planar" | "rigid"; // if empty: the movement of the model
-  drive: string; // KIND[,KEY=VALUE]…; if empty: the model's drive, or else a guessed one
-  namespace?: string; // namespace of its ROS 2 topics; if empty: its name
+  drive: string; // KIND[,KEY=VALUE]…; if empty: the model's drive, or a guessed drive if the model has none
+  namespace?: string; // namespace of the robot's ROS 2 topics; if empty: the robot's name
 }
 
 export type RobotList = "robots" | "avatars";
@@ -66,7 +66,7 @@ export function newRobot(scenario: Scenario, model: string): RobotSetUp {
   return { name, model, place: null, behaviour: "", constraint: "", movement: "", drive: "", namespace: "" };
 }
 
-// Returns the model's name (the last part of a path), with a number if the name is in use.
+// Returns the model's name (the last part of a path). If this name is in use, a number is appended.
 export function freeName(scenario: Scenario, model: string): string {
   const name = model.split("/").filter(Boolean).at(-1)?.replace(/\.\w+$/, "") || "robot";
   const taken = new Set([...scenario.robots, ...scenario.avatars].map((robot) => robot.name));
@@ -132,8 +132,8 @@ export function robotJson(robot: RobotSetUp): JsonObject {
   };
 }
 
-// Parses a scenario. Throws an error with the place if `value` is no scenario. `left` lists keys
-// that the page does not know and ignores.
+// Parses a scenario. Throws an error with the place if `value` is not a scenario. `left` lists the
+// keys that the page does not know; they are ignored.
 export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
   const json = objectAt(value, "the file");
   const { ros2, robots } = parseRos2(json.ros2, parseRobots(json.robots, "robots"));

@@ -37,7 +37,7 @@ export interface SceneSensor {
   overlay: Overlay;
   link: string;
   topic: string;
-  view: CameraView | null; // null if the sensor is no camera, or if its angles are unknown
+  view: CameraView | null; // null if the sensor is not a camera, or if its angles are unknown
   units?: Units; // absent in recordings of versions without units
   pose?: PoseNumbers; // in the frame of its link
   parameters?: Readonly<Record<string, string | number | boolean>>; // as in the model file; absent in old recordings
@@ -64,7 +64,7 @@ export interface SceneBody {
 export interface SceneJoint {
   name: string;
   kind: string; // "revolute", "prismatic", …
-  link: string | null; // the link whose frame the pose is relative to; null for the body's frame
+  link: string | null; // the link in whose frame the pose is; null for the body's frame
   pose: PoseNumbers;
   axis: Triple; // in the frame of the joint
 }
@@ -127,8 +127,8 @@ export function robotsOf(scene: SceneDescription | null): readonly SceneBody[] {
 
 const robotsOfScene = oncePerScene((scene) => scene.bodies.filter(hasAgent));
 
-// Caches the result per scene: a scene never changes, and the computation takes long for a thousand
-// robots.
+// Caches the result per scene. A scene never changes, and the computation takes a long time for a
+// thousand robots.
 function oncePerScene<Result>(compute: (scene: SceneDescription) => Result): (scene: SceneDescription) => Result {
   const known = new WeakMap<SceneDescription, { result: Result }>();
   return (scene) => {
@@ -161,7 +161,8 @@ const camerasOfScene = oncePerScene((scene) =>
   ),
 );
 
-// The cameras, then the depth cameras, whose point clouds are shown as depth images.
+// The cameras, followed by the depth cameras. The point clouds of depth cameras are shown as depth
+// images.
 export function imagesOf(scene: SceneDescription | null): readonly CameraChoice[] {
   return scene ? imagesOfScene(scene) : [];
 }

@@ -12,7 +12,7 @@ export type Phase = (typeof PHASES)[number];
 export interface RobotStatus {
   name: string;
   model: string;
-  behaviour: string; // empty: none
+  behaviour: string; // empty if the robot has no behaviour
   agentPhase: string;
   detail: string;
   distance: number; // m
@@ -30,11 +30,11 @@ export interface SimulationStatus {
   // The robot that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s";
   // empty if there is none.
   waitingFor: string;
-  // Empty unless the simulation has failed; only HTTP responses report it, the live stream does
-  // not.
+  // Why the simulation failed; empty if it has not failed. Only HTTP responses report it, and not
+  // the live stream.
   failure: string;
   robots: RobotStatus[];
-  // Null unless this is a replay; only HTTP responses report it, the live stream does not.
+  // Null if this is not a replay. Only HTTP responses report it, and not the live stream.
   replay: Replay | null;
 }
 

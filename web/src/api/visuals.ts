@@ -3,7 +3,8 @@
 export interface ModelVisual {
   name: string;
   link: string | null;
-  shape: Readonly<Record<string, unknown>>; // kind and size in metres; empty if the server does not describe it
+  // kind, and size in metres; empty if the server does not describe the shape
+  shape: Readonly<Record<string, unknown>>;
 }
 
 // A material as inspectors show it.

@@ -63,7 +63,8 @@ export class App {
     readonly store: Store<State>,
     readonly session: Session,
     private readonly api: SimulationApi,
-    private readonly world: () => World3D | null, // null until the browser draws in 3D, or if it cannot draw in 3D
+    // null until the browser draws in 3D; always null if it cannot draw in 3D
+    private readonly world: () => World3D | null,
   ) {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
     this.past = new PastControl(store, api, session, this.replay);
@@ -94,8 +95,8 @@ export class App {
     this.filming = new Filming(store, () => world()?.video() ?? null);
   }
 
-  // Sends one action. Its effects arrive with the live stream, so the answer may come after later
-  // events. If the server refuses the action, its sentence is shown.
+  // Sends one action. The live stream reports the effects of the action, so the answer may arrive
+  // after later events. If the server refuses the action, its sentence is shown.
   act(action: Action, count = 1): Promise<void> {
     return this.command(action, (simulation) => this.api.act(simulation, action, count));
   }
@@ -143,8 +144,9 @@ export class App {
     }));
   }
 
-  // Handles a click on a body: selects a robot, or in edit mode an object. If `isAdding`, the body
-  // is added to the selection, or removed if it is already selected.
+  // Handles a click on a body: selects a robot, or in edit mode an object. If `isAdding` is true,
+  // the body is added to the selection. If it is already selected, it is removed from the
+  // selection.
   pick(body: string | null, isAdding = false): void {
     const { scene, editing } = this.store.get();
     if (isAdding && editing && body !== null && chosenOf(this.store.get()) !== null) return this.addToChoice(body);
@@ -168,7 +170,7 @@ export class App {
     this.store.set({ part: part.kind === "body" && hasAgent(body) ? null : part });
   }
 
-  // Selects all of these bodies. The first one determines the reference for moving and rotating.
+  // Selects all of these bodies. The first body determines the reference for moving and rotating.
   pickAll([first, ...more]: readonly string[]): void {
     if (first === undefined || !this.store.get().editing) return;
     this.pick(first);
@@ -183,8 +185,8 @@ export class App {
     else this.pickAll(rest);
   }
 
-  // Selects this camera mode for the selected robot, or for the first one if none is selected.
-  // Calling it again ends the mode.
+  // Selects this camera mode for the selected robot, or for the first robot if no robot is
+  // selected. A second call ends the mode.
   toggleViewMode(mode: ViewMode): void {
     const { selection, viewMode, status } = this.store.get();
     const robot = selection ?? status?.robots[0]?.name ?? null;
@@ -192,7 +194,7 @@ export class App {
     this.store.set({ mapMode: false, viewMode: robot === null || viewMode === mode ? "orbit" : mode });
   }
 
-  // Handles Escape: cancels the present operation, or else clears the selection.
+  // Handles Escape: cancels the present operation. If there is none, clears the selection.
   escape(): void {
     if (!this.pointing.end() && !this.panels.host?.restoreSize()) this.select(null);
   }
@@ -224,7 +226,7 @@ export class App {
     this.world()?.resetView();
   }
 
-  // A view from a robot's own camera cannot be rotated, so this mode ends first.
+  // A view from a robot's own camera cannot be rotated, so the camera mode "eye" is ended first.
   private leaveEye(): void {
     if (this.store.get().viewMode === "eye") this.store.set({ viewMode: "orbit" });
   }
@@ -238,12 +240,13 @@ export class App {
     this.panels.open(IMAGES_PANEL);
   }
 
-  // Opens the panel of joints, which shows those of the selection.
+  // Opens the panel of joints, which shows the joints of the selected body.
   showJoints(): void {
     this.panels.open("joints");
   }
 
-  // All images need a large part, so a small one is maximised meanwhile.
+  // All images together need a large part of the page. So if their part is small, it is maximised
+  // while they are shown.
   showAllCameras(allCameras: boolean): void {
     this.store.set({ allCameras });
     this.panels.open(IMAGES_PANEL);
@@ -277,7 +280,7 @@ export class App {
     this.filming.toggle();
   }
 
-  // Copies a link, and also shows it in the address bar.
+  // Copies a link to the clipboard, and also shows it in the address bar.
   copyLink(): void {
     const link = this.link.linkTo(location.href);
     history.replaceState(null, "", link);
@@ -313,8 +316,8 @@ export class App {
     this.store.set(({ changedKeys }) => ({ changedKeys: withChangedKey(changedKeys, original, key) }));
   }
 
-  // Copies to the clipboard and reports it. If the browser does not allow this, shows the text to
-  // copy.
+  // Copies to the clipboard and reports this. If the browser does not allow copying, shows the
+  // text, so that the user can copy it.
   async copy(text: string, done: string): Promise<void> {
     try {
       await navigator.clipboard.writeText(text);

@@ -1,5 +1,5 @@
-// Replays a second recording together with the first recording, at the same simulated time, for
-// comparison.
+// Replays a second recording for comparison, together with the first recording and at the same
+// simulated time.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { CurveOf, WholeCurve } from "../api/curve";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
@@ -60,7 +60,7 @@ export class CompareControl {
     );
   }
 
-  // Returns the recordings with which the replayed one can be compared.
+  // Returns the recordings with which the replayed recording can be compared.
   async choices(): Promise<RecordingLine[]> {
     const { lines } = await fetchRecordings(this.api.rootServer);
     const shown = recordingOf(this.store.get());
@@ -137,7 +137,8 @@ export class CompareControl {
     client.connect();
   }
 
-  // Moves the second recording to the instant of the first, and plays or pauses it like the first.
+  // Moves the second recording to the instant of the first recording, and plays or pauses both
+  // together.
   private follow(isChange = false): void {
     if (!this.other) return;
     const { status, time, wishedTime } = this.store.get();
@@ -171,7 +172,7 @@ export class CompareControl {
     if (plays && phase !== "running") await api.act(simulation, phase === "created" ? "start" : "resume");
     else if (!plays && phase === "running") {
       await api.act(simulation, "pause");
-      // The replay advanced between the seek and the pause, so it must seek again.
+      // The replay has advanced between the seek and the pause, so it must seek again.
       this.movesAgain = true;
     }
   }

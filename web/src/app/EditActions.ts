@@ -1,5 +1,5 @@
-// The actions that edit the selected bodies, in a simulation (EditControl) or in the form for a new
-// one (SetUpControl).
+// The actions that edit the selected bodies. The bodies are in a simulation (EditControl) or in the
+// form for a new simulation (SetUpControl).
 import type { BodyPlace, SetUpApi } from "../api/SetUpApi";
 import type { Placed } from "../api/scenario";
 import { findRobot } from "../api/scenario";
@@ -21,12 +21,12 @@ export class EditActions {
     private readonly api: SetUpApi,
     private readonly edits: EditControl,
     private readonly setUp: SetUpControl,
-    private readonly placeOf: (body: string) => Required<BodyPlace> | null, // null: unknown
-    // The point that the camera looks at, in metres in the world; null: there is no view.
+    private readonly placeOf: (body: string) => Required<BodyPlace> | null, // null if the place is unknown
+    // The point at which the camera looks, in metres in the world; null if there is no view.
     private readonly lookedAt: () => { x: number; y: number } | null,
   ) {}
 
-  // Moves a body to the pose to which the user dragged it. Resolves to whether the body is now
+  // Moves a body to the pose to which the user dragged it. Resolves to true if the body is now
   // there.
   place(body: string, place: Placed): Promise<boolean> {
     this.store.set({ placing: false });
@@ -41,8 +41,8 @@ export class EditActions {
     return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
   }
 
-  // Adds a shape in front of the selected robot, or else at the point that the camera looks at. If
-  // that place is occupied, the shape gets the first free place.
+  // Adds a shape in front of the selected robot. If no robot is selected, adds it at the point at
+  // which the camera looks. If this place is occupied, the shape gets the first free place.
   async addShape(shape: Shape): Promise<boolean> {
     const { selection, editing } = this.store.get();
     const robot = editing?.chosen == null && selection !== null ? this.placeOf(selection) : null;
@@ -67,7 +67,8 @@ export class EditActions {
     if (this.edits.copy(allChosen(this.store.get())) > 0) void this.edits.paste();
   }
 
-  // Downloads the present state of the world, and with `scenario` also a scenario file for it.
+  // Downloads the present state of the world. If `scenario` is true, also downloads a scenario file
+  // for it.
   async saveWorld(scenario: boolean): Promise<void> {
     const { simulation } = this.store.get();
     if (!simulation) return;
@@ -94,7 +95,7 @@ export class EditActions {
     else if (!setUp) void this.edits.remove(selection);
   }
 
-  // In edit mode: rotates counter-clockwise, in radians.
+  // Rotates the selected bodies counter-clockwise, in radians. Only in edit mode.
   turn(angle: number): void {
     const body = chosenOf(this.store.get());
     if (this.store.get().editing && body !== null) void this.edits.turn(body, angle);

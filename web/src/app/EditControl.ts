@@ -13,7 +13,7 @@ import { inOrder, together } from "./edits";
 import { notify, offer } from "./notices";
 
 const MOST_EDITS = 100;
-const STANDS_M = 1e-6; // an edit that moves a body by less only rotates it
+const STANDS_M = 1e-6; // an edit that moves a body by less than this only rotates it
 const SHOWN_WITHIN_MS = 10_000;
 const SHOWN_POLL_MS = 20;
 const PASTED_AT_M = 0.5; // offset of a pasted copy from the original, along x and along y
@@ -41,10 +41,10 @@ export class EditControl {
   private done: Edit[] = []; // edits that can be undone; the newest is last
   private takenBack: Edit[] = [];
   private hasPaused = false; // whether editing paused the simulation
-  // The robot that was selected when an object was added. It is selected again when the object is
-  // no longer selected.
+  // The robot that was selected when an object was added. When the object is no longer selected,
+  // this robot is selected again.
   private robotBefore: string | null = null;
-  // Poses that were set here, but are not in a received scene yet.
+  // Poses that were set here, but that no received scene contains yet.
   private readonly unseen = new Map<string, BodyPlace>();
   private copied: Copied[] = [];
   private pastes = 0; // how many times the copied bodies were pasted
@@ -56,7 +56,7 @@ export class EditControl {
     private readonly pause: () => Promise<void>,
     private readonly resume: () => void,
   ) {
-    // Editing ends when the simulation resumes or when the page shows another one.
+    // Editing ends if the simulation resumes, or if the page shows another simulation.
     store.watch(
       ({ status, simulation }) => `${status?.phase === "paused" || status?.phase === "created"} ${simulation}`,
       () => this.store.get().editing && this.end(),
@@ -122,7 +122,7 @@ export class EditControl {
     this.patch({ wall });
   }
 
-  // Moves a body. Resolves to whether the body is now there.
+  // Moves a body. Resolves to true if the body is now there.
   place(body: string, place: Placed): Promise<boolean> {
     const before = this.placeOf(body);
     if (!before) return Promise.resolve(false);
@@ -132,7 +132,7 @@ export class EditControl {
     return move ? this.do({ ...move, name: `${isTurn ? "turn" : "move"} ${body}` }) : Promise.resolve(false);
   }
 
-  // Sets exactly these poses; robots stay upright on the floor. Resolves to whether all bodies now
+  // Sets exactly these poses; robots stay upright on the floor. Resolves to true if all bodies now
   // have their pose.
   pose(posed: readonly Posed[]): Promise<boolean> {
     const moves = posed.flatMap((each) => {
@@ -200,7 +200,7 @@ export class EditControl {
     return this.copied.length;
   }
 
-  // Adds the copied bodies beside the originals, and selects the new ones.
+  // Adds the copied bodies beside the originals, and selects the new bodies.
   async paste(): Promise<boolean> {
     const { simulation } = this.store.get();
     if (!simulation || this.copied.length === 0) return false;
@@ -246,7 +246,7 @@ export class EditControl {
     };
   }
 
-  // Returns the edit that adds an object. `names` receives the object's name.
+  // Returns the edit that adds an object. The edit adds the object's name to `names`.
   private addition(simulation: string, object: NewObject, names: string[]): Edit {
     let { name, place } = object;
     return {
@@ -264,8 +264,8 @@ export class EditControl {
     };
   }
 
-  // Waits until the received scene and poses include a body that was added. Before that, it could
-  // be neither selected, moved nor removed.
+  // Waits until the received scene and poses include a body that was added. Until then, the body
+  // cannot be selected, moved or removed.
   private hasCome(body: string): Promise<void> {
     return this.until(() => this.bodyOf(body) !== undefined && this.bodies.placeOf(body) !== null);
   }
@@ -393,8 +393,8 @@ export class EditControl {
     });
   }
 
-  // A selected object stays selected, unless it was added for a robot: then the robot is selected
-  // again.
+  // A selected object stays selected. But if it was added while a robot was selected, this robot is
+  // selected again.
   private end(): void {
     const object = this.store.get().editing?.chosen ?? null;
     if (object !== null) this.selectRobotBefore();
@@ -414,7 +414,7 @@ export class EditControl {
   }
 
   // Offers to resume the simulation after an edit for which it was paused. The offer ends when the
-  // simulation is no longer paused, or is edited again.
+  // simulation is resumed, or is edited again.
   private offerToResume(): void {
     const isStillPaused = ({ status, editing }: State) => status?.phase === "paused" && editing === null;
     if (!this.hasPaused || !isStillPaused(this.store.get())) return;
@@ -458,8 +458,8 @@ function upright(place: BodyPlace) {
   return { x: place.x, y: place.y, yaw: place.yaw, ...(place.z !== undefined && { z: place.z }) };
 }
 
-// Returns the place with the roll and pitch that the object had before the edit. If the object is
-// only rotated, it also keeps its height.
+// Returns the place with the roll and pitch that the object had before the edit. If the edit only
+// rotates the object, also keeps the object's height.
 function asObject(place: Placed, before: BodyPlace, isTurn: boolean): BodyPlace {
   const { roll = 0, pitch = 0, z } = before;
   return { ...place, roll, pitch, ...(isTurn && z !== undefined && { z }) };

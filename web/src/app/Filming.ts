@@ -1,5 +1,5 @@
-// Records a video of the view as WebM, from one press to the next, or until it reaches its maximum
-// size.
+// Records a video of the view as WebM. A press starts the video. The next press ends it, or it ends
+// at its maximum size.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { download, fileName } from "../ui/files";

@@ -1,5 +1,5 @@
-// Makes links to the present view. Opens the simulation, time and view that the page's address
-// contains.
+// Makes links to the present view. If the page's address contains a simulation, a time or a view,
+// opens them.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import type { LinkedView, Viewpoint } from "../state/link";
@@ -14,7 +14,7 @@ export interface Place {
 export interface LinkedPage {
   select(robot: string): void;
   pause(): Promise<void>;
-  seek(time: number): Promise<void>; // simulated time, s: of a recording, or of the past of a run
+  seek(time: number): Promise<void>; // simulated time, s: of a recording, or of the stored past of a run
 }
 
 // The functions for layouts that a link uses.
@@ -25,7 +25,7 @@ export interface LinkedLayouts {
 
 export class LinkControl {
   private wanted: LinkedView | null = null;
-  private instant: number | null = null; // simulated time, s, to go to as soon as that is possible
+  private instant: number | null = null; // simulated time, s, to which the page goes as soon as possible
 
   constructor(
     private readonly store: Store<State>,
@@ -34,8 +34,8 @@ export class LinkControl {
     private readonly layouts: LinkedLayouts | null = null,
   ) {}
 
-  // Shows the content of the page's address as soon as it is available, and after each change of
-  // the address.
+  // Shows the content of the page's address as soon as it is available. Does this again after each
+  // change of the address.
   start(window: Window): void {
     const read = () => {
       this.wanted = linkedView(window.location.hash);
@@ -84,14 +84,14 @@ export class LinkControl {
     void this.goToInstant();
   }
 
-  // Goes to the instant in the address. The page may learn only later that it shows a recording.
-  // This pauses the replay.
+  // Goes to the instant in the address, and pauses the replay. It may take some time until the page
+  // knows that it shows a recording.
   private async goToInstant(): Promise<void> {
     const { replay, kept, status } = this.store.get();
     const time = this.instant;
     if (time === null || (!replay && !kept)) return;
     this.instant = null;
-    // A time outside of the stored part of a run is ignored.
+    // A time outside of the stored part of a run's past is ignored.
     if (!replay && kept && (time < kept.start || time > kept.end)) return;
     if (replay && status?.phase === "running") await this.page.pause();
     await this.page.seek(time);

@@ -1,5 +1,5 @@
 // Notes at simulated times. Notes of a recording are saved beside its file. Notes of a running
-// simulation go to all viewers and into its recordings.
+// simulation are sent to all viewers and written to its recordings.
 import type { SimulationApi } from "../api/SimulationApi";
 import { youOf } from "../state/people";
 import type { State } from "../state/State";
@@ -30,7 +30,7 @@ export class NotesControl {
     this.store.watch(recordingOf, (recording) => void this.load(recording));
   }
 
-  // Adds a note at the instant that the page shows. Resolves to whether the server has stored it.
+  // Adds a note at the instant that the page shows. Resolves to true if the server has stored it.
   async add(text: string): Promise<boolean> {
     const state = this.store.get();
     const { simulation, wishedTime, time, people } = state;
@@ -46,8 +46,8 @@ export class NotesControl {
       await this.api.addNote(simulation, instant, text, author);
       const detail = author ? `${author}: ${text}` : text;
       const note = { time: instant, event: "note", robot: "", detail };
-      // Notes of a running simulation arrive with its other events. If the page shows the past,
-      // its replay was opened before this note, so the note is added here.
+      // Notes of a running simulation arrive with its other events. But if the page shows the past,
+      // its replay was opened before this note. So the note is added here.
       if (state.inPast) this.store.set(({ events }) => ({ events: withNewEvents(events, [note]) }));
     });
   }

@@ -13,8 +13,8 @@ import { shallowEqual } from "../state/Store";
 const MOST_READINGS = 16; // maximum number of sensors whose readings are drawn at a time
 const FRAMES_TOPIC = "/tf_static";
 const BEAMS_TOPIC = "/gsv/beams";
-// If there are more robots, only the beams of the selected robot are drawn, because the beams of
-// all robots would hide everything.
+// If there are more robots than this, only the beams of the selected robot are drawn. The beams of
+// all robots would hide everything else.
 export const MOST_ROBOTS_WITH_BEAMS = 20;
 const BUMPERS = ["contact", "bumper"];
 const RADIO_TOPIC = "/gsv/radio";
@@ -50,21 +50,21 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
     ...(beams === null ? [] : [beams]),
     ...(needsFrames && scene ? [FRAMES_TOPIC] : []),
     ...(mayHaveRadio ? [RADIO_TOPIC] : []),
-    // A recording contains the contacts of bumpers, but of other contacts only the beginning, so
-    // they cannot be drawn while they last.
+    // A recording contains the contacts of bumpers. Of other contacts, it contains only the
+    // beginning, so they cannot be drawn while they last.
     ...(shown.contacts && scene && replay === null ? [CURRENT_CONTACTS_TOPIC] : []),
     ...readings.map(({ topic }) => topic),
   ];
 }
 
-// A recording has one topic with the beams of all robots, and no topic for each robot.
+// A recording has one topic with the beams of all robots, and not one topic per robot.
 function beamsToDraw(robots: readonly SceneBody[], selection: string | null, isReplay: boolean): string | null {
   if (robots.length <= MOST_ROBOTS_WITH_BEAMS) return BEAMS_TOPIC;
   if (!robots.some(({ name }) => name === selection)) return null;
   return isReplay ? BEAMS_TOPIC : `${BEAMS_TOPIC}/${selection}`;
 }
 
-// Returns the sensors, beginning with those of the selected robot.
+// Returns the sensors. The sensors of the selected robot are first.
 function sensorsOf(scene: SceneDescription | null, selection: string | null): SceneSensor[] {
   const robots = robotsOf(scene);
   const first = robots.filter(({ name }) => name === selection);
@@ -82,8 +82,8 @@ export class OverlayFeed {
   ) {}
 
   start(): void {
-    // Watches only the inputs that matter, because the state changes many times per second and may
-    // contain thousands of sensors.
+    // Watches only the members on which the topics depend. The whole state changes many times per
+    // second and may contain thousands of sensors.
     this.store.watch(
       ({ simulation, scene, shown, selection, viewMode, replay }) => ({
         simulation,
@@ -99,7 +99,8 @@ export class OverlayFeed {
   }
 
   private listen(simulation: string | null, topics: string[]): void {
-    // In another simulation, a topic of the same name is another stream, so it is subscribed again.
+    // If the simulation changes, a topic with the same name is another stream. So it is subscribed
+    // again.
     const kept = new Set(simulation === this.simulation ? topics : []);
     this.simulation = simulation;
     for (const [topic, end] of [...this.ends]) {

@@ -1,4 +1,4 @@
-// Opens and closes panels by their ids in panels/registry.ts.
+// Opens and closes panels. The ids of the panels are in panels/registry.ts.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 
@@ -7,7 +7,7 @@ export interface PanelHost {
   isInSight(id: string): boolean; // false if the panel is closed or behind another tab
   reveal(id: string): void;
   enlarge(id: string): void; // maximises the part of a panel if it is small
-  restoreSize(): boolean; // ends Maximise; returns whether a part was maximised
+  restoreSize(): boolean; // ends Maximise; returns true if a part was maximised
 }
 
 export class PanelControl {

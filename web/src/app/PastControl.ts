@@ -12,11 +12,11 @@ import type { Session } from "./Session";
 import { notify } from "./notices";
 
 const POLL_MS = 2000;
-// Each request repeats the last second, because the server may have received some of its events
-// late.
+// Each request also requests the last second of the previous request again, because the server may
+// have received some events of this second late.
 const OVERLAP_S = 1;
-// A replay of the past that provides curves is used for this time; then a new replay is opened,
-// which contains more of the run.
+// A replay of the past that provides curves is used for this time. Then a new replay is opened,
+// because it contains more of the run.
 const READER_MS = 10_000;
 
 type PastApi = Pick<SimulationApi, "kept" | "eventsFrom" | "another">;
@@ -25,7 +25,7 @@ type PastSession = Pick<Session, "enterPast" | "goLive">;
 export class PastControl {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private entering: Promise<void> | null = null;
-  private asked = 0; // simulated time, s, up to which events are known
+  private asked = 0; // simulated time, s, up to which the events are known
   private reader: { api: Promise<SimulationApi>; simulation: string; openedMs: number } | null = null;
 
   constructor(
@@ -50,7 +50,7 @@ export class PastControl {
     );
   }
 
-  // Goes to an instant of the recording, or of the stored past.
+  // Goes to an instant of the recording or of the stored past.
   lookAt(time: number): Promise<void> {
     const { replay, kept } = this.store.get();
     if (replay) return this.replay.seek(time);
@@ -91,7 +91,7 @@ export class PastControl {
       const kept = await this.api.kept(simulation);
       if (!isWanted()) return;
       if (kept === null) return this.store.set({ kept });
-      // After a reset, simulated time starts at 0 again, so the events of the earlier run are
+      // After a reset, simulated time starts at 0 again. So the events of the previous run are
       // removed.
       if (kept.end < this.asked - OVERLAP_S) {
         this.asked = 0;

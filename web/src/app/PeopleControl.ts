@@ -10,7 +10,8 @@ import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
 import type { Session } from "./Session";
 
-// The stream reports changes at once. The page must report repeatedly that it is present.
+// The stream reports changes at once. The server forgets this page if it does not report
+// repeatedly.
 const TOPIC = "/gsv/viewers";
 const PRESENCE_MS = 3000;
 const NAME = "gsv-name";
@@ -77,7 +78,7 @@ export class PeopleControl {
     this.timer = setTimeout(() => void this.follow(), PRESENCE_MS);
   }
 
-  // Sends the name again after a restart of the server, or after a time offline.
+  // Sends the name again if the server has restarted, or if the page was offline for some time.
   async load(): Promise<void> {
     const simulation = this.store.get().simulation ?? "";
     try {
@@ -93,16 +94,16 @@ export class PeopleControl {
       this.isThere = people.you !== 0;
       this.take(people);
     } catch (error) {
-      // Ignored if the connection failed, which is reported elsewhere. A server without a list of
-      // viewers allows all actions.
+      // A failure of the connection is ignored, because it is reported elsewhere. A server without
+      // a list of viewers allows all actions.
       if (!(error instanceof ApiError)) return;
       this.isThere = false;
       this.store.set({ people: NO_PEOPLE });
     }
   }
 
-  // Takes the list of viewers from a message. The message goes to all viewers, so it does not say
-  // which one this page is.
+  // Takes the list of viewers from a message. All viewers get the same message, so it does not
+  // contain the number of this page's viewer.
   private hear(text: string): void {
     const { you } = this.store.get().people;
     if (you !== 0) this.take({ ...parsePeople(JSON.parse(text)), you });

@@ -1,4 +1,4 @@
-// Decides what the next clicks in the view do: move the selection, measure, or draw a wall.
+// Decides the effect of the next clicks in the view: move the selection, measure, or draw a wall.
 import type { WallDrawing } from "../state/editing";
 import { chosenOf } from "../state/editing";
 import { faultOf, modelOf, wallBetween } from "../state/shapes";
@@ -20,7 +20,7 @@ export class PointingControl {
     this.store.set({ placing: placing && (editing !== null || setUp !== null) && chosenOf(this.store.get()) !== null });
   }
 
-  // Draws a wall from the next click on the floor to the click after it.
+  // Draws a wall. The next two clicks on the floor are its ends.
   drawWall(wall: Omit<WallDrawing, "from"> | null): void {
     this.end();
     if (wall) this.edits.drawWall({ ...wall, from: null });
@@ -44,7 +44,7 @@ export class PointingControl {
     void this.edits.addObject({ name: "", model: modelOf(shape), place }, "wall");
   }
 
-  // Cancels the pending use of the next click. Returns false if there was none.
+  // Cancels the pending use of the next click. Returns false if no use is pending.
   end(): boolean {
     const { placing, ruler, editing } = this.store.get();
     const wasOn = placing || ruler !== null || editing?.wall != null;

@@ -1,5 +1,5 @@
-// Starts and stops the recording of the simulation, and polls its state, because other viewers may
-// change it and the disk may fail.
+// Starts and stops the recording of the simulation. Polls the state of the recording, because other
+// viewers may change it, and because the disk may fail.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { Recording } from "../api/recording";
 import type { State } from "../state/State";
@@ -26,8 +26,8 @@ export class RecordControl {
       }),
       ({ simulation, isOpen }, before) => {
         clearTimeout(this.timer);
-        // The last recording is still shown after its server has ended. Only another simulation
-        // removes it.
+        // After the server has ended, its last recording is still shown. It is removed only if
+        // another simulation is shown.
         if (simulation !== before?.simulation) this.store.set({ recording: null });
         if (simulation !== null && isOpen) void this.ask(simulation);
       },
@@ -36,7 +36,7 @@ export class RecordControl {
   }
 
   // Starts or ends the recording. If this page has not started the recording, it asks the user
-  // before it ends it, because a command line or another viewer may need it.
+  // before ending it, because a command line or another viewer may need the recording.
   press(): void {
     const { recording } = this.store.get();
     if (recording?.isOn && recording.path !== this.startedHere) this.store.set({ stopRecordingAsked: true });

@@ -1,6 +1,6 @@
 // Plays a recording, for the timeline and the keys.
 //
-// The server performs one seek at a time. While it does, only the last requested instant is kept,
+// The server performs one seek at a time. During a seek, only the last requested instant is kept,
 // for example while a slider is dragged. Steps are added up.
 import type { Action, SimulationApi } from "../api/SimulationApi";
 import type { Replay } from "../api/replay";
@@ -25,7 +25,8 @@ export class ReplayControl {
     private readonly act: (action: Action) => Promise<void>,
   ) {}
 
-  // Pauses a replay that plays, or plays a paused one. At the end, starts from the beginning.
+  // Pauses a replay that plays, or plays a replay that is paused. At its end, a replay starts from
+  // the beginning.
   async playOrPause(): Promise<void> {
     const { status, replay, time } = this.store.get();
     if (!status || !replay) return;
@@ -35,8 +36,8 @@ export class ReplayControl {
     return this.act("resume");
   }
 
-  // Goes to an instant of the recording. Resolves when the replay is at this instant, or at one
-  // that was requested later.
+  // Goes to an instant of the recording. Resolves when the replay is at this instant, or at an
+  // instant that was requested later.
   seek(time: number): Promise<void> {
     const { replay } = this.store.get();
     if (!replay) return Promise.resolve();

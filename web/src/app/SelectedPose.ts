@@ -7,8 +7,8 @@ import type { RobotPose } from "../state/State";
 
 export const SHORTEST_UPDATE_MS = 100;
 const SPEED_WINDOW_S = 0.2; // simulated
-// Longer than the time between updates at ten times real time; after a longer time, the replay has
-// jumped.
+// This is longer than the time between updates at ten times real time. If the time between two
+// poses is even longer, the replay has jumped.
 const LONGEST_WINDOW_S = 3;
 
 // A reported pose and its simulated time.

@@ -1,5 +1,5 @@
-// Keeps the store consistent with the server: finds the simulation, fetches its scene, reads its
-// live stream, and starts again when the connection was lost or the layout has changed.
+// Keeps the store consistent with the server. Finds the simulation, fetches its scene, and reads
+// its live stream. Starts again if the connection was lost or the layout has changed.
 import type { SimulationApi } from "../api/SimulationApi";
 import { ApiError, needsToken } from "../api/JsonServer";
 import type { SceneDescription } from "../api/scene";
@@ -79,7 +79,7 @@ type LayoutMessage = Pick<PosesMessage, "layout_version">;
 
 export class Session implements TopicSource, LiveViewSource {
   private client: LiveClient | null = null;
-  // The server's report of a problem of the connection; empty if there is none.
+  // The problem of the connection that the server has reported; empty if there is none.
   private lasting = "";
   private readonly slowPage = new SlowPage(
     () => this.client?.received ?? 0,
@@ -94,10 +94,11 @@ export class Session implements TopicSource, LiveViewSource {
   private sceneFailedAtMs = -Infinity;
   private wasOpen = false;
   private hasOpened = false; // whether the requested recording was opened
-  // s, simulated: the time to which the replay seeks after the page has connected again.
+  // s, simulated: time to which the replay seeks after a new connection.
   private instant: number | null = null;
   private newsSince = Infinity; // s, simulated; older events are not shown as notices
-  // While the page changes between a run and its past, a closed stream is no lost connection.
+  // If the page changes between a run and its past, a closed stream does not mean a lost
+  // connection.
   private isSwitching = false;
   private readonly topicRequests: TopicRequests;
 
@@ -186,13 +187,14 @@ export class Session implements TopicSource, LiveViewSource {
     this.views.attach(null);
   }
 
-  // Subscribes to a topic of the present simulation, and of each simulation that is shown later.
+  // Subscribes to a topic of the present simulation, and of each simulation that is shown
+  // afterwards.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void {
     this.topicRequests.lookSoon();
     return this.topics.subscribe(topic, handler, options);
   }
 
-  // Opens a view of the present simulation, and of each later one.
+  // Opens a view of the present simulation, and of each simulation that is shown afterwards.
   openView(reader: ViewReader): LiveView {
     return this.views.openView(reader);
   }
@@ -219,7 +221,8 @@ export class Session implements TopicSource, LiveViewSource {
     this.takeReplay(status);
   }
 
-  // The API reports whether this is a replay; the stream does not. The stream reports its speed.
+  // The stream does not report whether this is a replay, but the API does. The stream reports the
+  // speed of a replay.
   private takeReplay({ replay: told, targetFactor }: SimulationStatus): void {
     const known = this.store.get().replay;
     const replay = told ?? (known && { ...known, speed: targetFactor });
@@ -262,8 +265,8 @@ export class Session implements TopicSource, LiveViewSource {
     this.start();
   }
 
-  // Returns whether there is something to connect to: a requested recording may no longer exist.
-  // Throws errors that may not occur at the next attempt.
+  // Returns false if there is nothing to connect to, because a requested recording may no longer
+  // exist. Throws an error if a later attempt may succeed.
   private async openRecording(): Promise<boolean> {
     const { recording } = this.wanted;
     if (recording === null || this.hasOpened) return true;
@@ -279,8 +282,8 @@ export class Session implements TopicSource, LiveViewSource {
     return true;
   }
 
-  // Shows a problem of the connection. While there is one, also finds out whether in fact this page
-  // reads too slowly; if so, shows that problem instead.
+  // Shows a problem of the connection. While there is a problem, checks whether its cause is this
+  // page, because it reads too slowly. If so, shows this as the problem.
   private showLasting(sentence: string): void {
     this.lasting = sentence;
     if (sentence !== "") return this.slowPage.start();
@@ -292,7 +295,7 @@ export class Session implements TopicSource, LiveViewSource {
     try {
       this.store.set({ abilities: await this.api.setUp.abilities() });
     } catch {
-      // Ignored: without the answer, the page does not offer the actions that some servers do not
+      // Ignored: without the answer, the page does not offer the actions that only some servers
       // support.
     }
   }
@@ -358,8 +361,8 @@ export class Session implements TopicSource, LiveViewSource {
     this.topicRequests.lookSoon();
   }
 
-  // Checks whether the simulation still exists; it may not after a restart of the server. If not,
-  // the page searches for other simulations.
+  // Checks whether the simulation still exists. After a restart of the server, it may not exist any
+  // more. The page then searches for other simulations.
   private async checkStillThere(name: string): Promise<void> {
     try {
       await this.api.status(name);

@@ -1,5 +1,5 @@
-// Sets up a simulation: sends the user's changes to the server, which returns the scene at the
-// start and the problems. Finally creates the simulation.
+// Sets up a simulation. Sends the user's changes to the server. The server returns the scene at the
+// start and the problems. Finally, creates the simulation.
 //
 // One preview is requested at a time. While it is pending, only the last state of the form is kept
 // for the next request.
@@ -48,8 +48,8 @@ export class SetUpControl {
     await this.hold(async () => {
       const [worlds, models] = await Promise.all([this.api.worlds(), this.api.models()]);
       const world = worlds.includes(FIRST_WORLD) ? FIRST_WORLD : (worlds[0] ?? "");
-      // If the user has chosen a world during the request (by dropping a world file on the page),
-      // it is kept.
+      // The user may have chosen a world during the request, by dropping a world file on the page.
+      // This world is kept.
       this.patch(({ scenario }) => ({ worlds, models, scenario: { ...scenario, world: scenario.world || world } }));
     });
     await this.preview();
@@ -108,7 +108,7 @@ export class SetUpControl {
     this.takePedestrians((groups) => groups.map((group, i) => (i === index ? { ...group, ...patch } : group)));
   }
 
-  // Places a robot where the user has clicked or dragged it.
+  // Moves a robot to the place to which the user has clicked or dragged.
   async place(name: string, place: Placed): Promise<boolean> {
     const { setUp } = this.store.get();
     const found = setUp && findRobot(setUp.scenario, name);
@@ -144,7 +144,7 @@ export class SetUpControl {
   }
 
   // Uploads a world from this machine with its files. If there are several worlds, the user chooses
-  // a world.
+  // one of them.
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
     if (!this.store.get().setUp) await this.open();
     this.patch(() => ({ isBusy: true, isHeld: true }));

@@ -1,17 +1,18 @@
-// Finds out whether this page, and not the connection, is too slow for what the server sends. The
-// server cannot distinguish the two cases: in both, the browser confirms received data late. In a
-// busy page, timers run late and then the page receives many bytes at once, because the browser has
-// stored the messages. Over a slow connection, the browser has nothing to store.
+// Finds out whether this page is too slow for the data that the server sends, or only its
+// connection. The server cannot distinguish the two cases: in both, the browser confirms received
+// data late. If the page is busy, timers run late. Then the page receives many bytes at once,
+// because the browser has stored the messages. Over a slow connection, the browser has no messages
+// to store.
 
 const TICK_MS = 100;
 const WINDOW_MS = 8000; // a judgement uses the ticks of this period
 const DECIDE_MS = 2000; // time from start() to the first judgement
-// The page counts as slow until this long after it was last slow, because the server reports late
-// that the connection is good again.
+// After the page was slow, it still counts as slow for this time. The reason is that the server
+// reports late that the connection is good again.
 const HOLD_MS = 10_000;
 // Minimum sum of the ticks' delays in a busy page, as a fraction of the period.
 const MIN_LATE_SHARE = 1 / 3;
-const MIN_BYTES = 32 << 10; // minimum bytes that a busy page receives between two ticks, on average
+const MIN_BYTES = 32 << 10; // minimum mean number of bytes that a busy page receives between two ticks
 
 interface Tick {
   at: number; // ms

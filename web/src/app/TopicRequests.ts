@@ -1,6 +1,6 @@
-// If there are very many sensors, a server lists only the topics of the first sensors, and the
+// If there are very many sensors, a server lists only the topics of the first sensors. It lists the
 // topics of other robots on request (docs/formats/live.md). If the page subscribes to a sensor
-// whose topic is not listed, this class requests the topics of its robot.
+// whose topic is not listed, this class requests the topics of the sensor's robot.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";

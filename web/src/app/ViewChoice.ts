@@ -44,7 +44,7 @@ export class ViewChoice {
     this.explain(SLOW);
   }
 
-  // The other drawer that the user can choose; null if there is no choice.
+  // The drawer to which the user can change; null if there is no choice.
   get other(): Drawer | null {
     if (this.store.get().drawnBy === "browser") return "server";
     return this.options.canDraw ? "browser" : null;

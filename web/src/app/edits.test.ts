@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { Edit } from "./edits";
 import { inOrder, together } from "./edits";
 
-// Makes edits that log what they do. `refuses` is called before each edit.
+// Makes edits that write to a log. `refuses` is called before each edit.
 function recorder(refuses: (what: string, log: readonly string[]) => boolean = () => false) {
   const log: string[] = [];
   const edit = (name: string): Edit => {

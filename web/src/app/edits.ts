@@ -6,7 +6,7 @@ export interface Edit {
   revert(): Promise<void>;
 }
 
-// Performs the edits in this order. If one is refused, undoes the earlier ones and throws the
+// Performs the edits in this order. If an edit is refused, undoes the earlier edits and throws the
 // error.
 export function inOrder(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
@@ -28,8 +28,8 @@ export function inOrder(name: string, edits: readonly Edit[]): Edit {
   };
 }
 
-// Performs the edits in an order that the server allows. If an edit fails because another body
-// still occupies the place, it is tried again after the others.
+// Performs the edits in an order that the server allows. An edit may fail because another body
+// still occupies the place. It is then tried again after the other edits.
 export function together(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
     const done: Edit[] = [];

@@ -11,8 +11,8 @@ export function scenarioFileName(scenario: Scenario): string {
   return `${titleOf(scenario)}.yaml`;
 }
 
-// In a recording, `true` lets the server choose a name. A file for `gsv run` must contain a name
-// instead.
+// In a scenario for the server, `record` may be true, and the server then chooses a name. In a file
+// for `gsv run`, `record` must be a name.
 export function scenarioFile(scenario: Scenario): Blob {
   const json = scenarioJson(scenario);
   if (scenario.record) json.record = `${titleOf(scenario)}.mcap`;
@@ -24,7 +24,7 @@ function titleOf({ name, world }: Scenario): string {
   return title.replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
 }
 
-// Reads a scenario file. Throws an error with a sentence if the file is no scenario.
+// Reads a scenario file. Throws an error with a sentence if the file is not a scenario.
 export async function readScenario(file: TextFile): Promise<ReturnType<typeof parseScenario>> {
   try {
     if (file.size > LARGEST_BYTES) throw new Error("a scenario file must not be larger than 1 MB");

@@ -37,7 +37,7 @@ export interface Offer {
 
 // The offers that were found for a question.
 export interface Answer {
-  offers: Offer[]; // matching offers in the order of preference, then the others
+  offers: Offer[]; // matching offers in the order of preference, followed by the other offers
   isCut: boolean; // whether there are more offers than these
 }
 

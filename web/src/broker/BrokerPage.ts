@@ -1,5 +1,5 @@
-// The broker page: service types, the offers of the selected type with a constraint to try, and
-// links.
+// The broker page. It shows service types and links. For the selected type, it shows the offers,
+// and the user can try a constraint.
 import { showFrame } from "../frame/frame";
 import { NO_BROKER, isMissing } from "../frame/noBroker";
 import { needsToken } from "../api/JsonServer";
@@ -92,7 +92,7 @@ export class BrokerPage {
     }
     this.heading.textContent = type.name;
     this.declared.replaceChildren(declaration(type));
-    // The offers that are still shown belong to the type chosen before.
+    // The shown offers belong to the previous type.
     this.answer.replaceChildren();
     await this.find();
   }

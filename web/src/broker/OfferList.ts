@@ -1,5 +1,5 @@
-// The offers of a type: first matching offers, then the other offers with the reason why they do
-// not match.
+// The offers of a type: first the matching offers, then the other offers with the reason why they
+// do not match.
 import { element } from "../ui/element";
 import type { Answer, Offer, Term } from "./BrokerApi";
 

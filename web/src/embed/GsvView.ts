@@ -5,8 +5,8 @@ import type { Side } from "./camera";
 import { FIRST_SIDE, PLACING, imageUrl, turned, zoomed } from "./camera";
 
 const ATTRIBUTES = ["src", "simulation", "eye", "target", "follow", "camera", "fov", "quality", "fps", "token", "label"] as const;
-// While the user moves the camera, the page requests single images; a stream starts this long after
-// the last movement.
+// While the user moves the camera, the page requests single images. A stream starts this long after
+// the camera's last movement.
 const STEADY_MS = 400;
 const RETRY_MS = 2000;
 const SIDES_PX: [number, number] = [16, 4096]; // minimum and maximum side of an image, as in the server
@@ -126,8 +126,8 @@ export class GsvView extends HTMLElement {
     this.show("view.mjpeg");
   }
 
-  // While the camera moves, requests single images, one after the other, so that no image comes
-  // late.
+  // While the camera moves, requests single images. The next image is requested when the previous
+  // one has arrived, so that no image is late.
   private moved(): void {
     clearTimeout(this.steady);
     this.steady = setTimeout(() => this.refresh(), STEADY_MS);

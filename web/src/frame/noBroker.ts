@@ -1,4 +1,5 @@
-// Explains a missing broker: a server that replays a recording has none, and no addresses for it.
+// Explains why there is no broker: a server that replays a recording has no broker, and no
+// addresses for it.
 import { ApiError } from "../api/JsonServer";
 
 export const NO_BROKER = "A replay has no broker. Start a simulation with gsv run or gsv serve, and open this page there.";

@@ -1,5 +1,5 @@
-// Drives an avatar while keys are held: sends a command at each change, repeats it while keys are
-// held, and sends a stop when they are released.
+// Drives an avatar while keys are held. Sends a command at each change, and repeats it while keys
+// are held. When the keys are released, sends a command to stop.
 import type { Drive } from "../api/SimulationApi";
 import { isSingleKey, isTyping } from "./Keyboard";
 
@@ -36,8 +36,8 @@ export class AvatarSteering {
   private unsent: Drive | null = null;
   private told: Drive = STANDING;
 
-  // `avatar` returns the name of the avatar to drive, or null. `send` may fail; it reports this
-  // itself. `hearsSingleKeys` is whether letters also drive, and not only arrow keys.
+  // `avatar` returns the name of the avatar to drive, or null. `send` may fail; it reports failures
+  // itself. If `hearsSingleKeys` is true, letters also drive, and not only arrow keys.
   constructor(
     private readonly avatar: () => string | null,
     private readonly send: (avatar: string, drive: Drive) => Promise<void>,

@@ -84,8 +84,8 @@ export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) |
   }
 }
 
-// The user may have assigned another key to a command. Returns the event as if the user had pressed
-// the command's default key.
+// The user may have assigned another key to a command. If this key is pressed, returns the event as
+// if the user had pressed the command's default key.
 function asOriginal(event: Key, changed: ChangedKeys): Key {
   const { key, ctrlKey, altKey, metaKey } = event;
   return { key: isSingleKey(event) ? originalKey(key, changed) : key, ctrlKey, altKey, metaKey };
@@ -96,15 +96,16 @@ export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
   return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
 }
 
-// Whether the focused element handles keys itself. Two kinds of elements do not: the timeline's
-// slider, and a field of a dialog that was just closed and still has the focus for a moment.
+// Whether the focused element handles keys itself. Two kinds of elements are exceptions: the
+// timeline's slider, and a field of a dialog that was just closed and still has the focus for a
+// moment.
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof Element)) return false;
   if (target.closest("dialog:not([open])")) return false;
   return target.closest("input:not([type=range]), textarea, select, [contenteditable], dialog") !== null;
 }
 
-// Whether the key is Ctrl K (Cmd K). It works wherever the focus is.
+// Whether the key is Ctrl K (Cmd K). This key always works, regardless of the focus.
 export function isPaletteKey({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): boolean {
   return key.toLowerCase() === "k" && (ctrlKey || metaKey) && !altKey && !shiftKey;
 }
@@ -133,8 +134,8 @@ export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> =
     event.preventDefault();
     command(app);
   });
-  // A button that was clicked with the mouse must not receive Space. In a dialog, keys are no
-  // commands, and a button may wait for one.
+  // A button that was clicked with the mouse must not receive Space. In a dialog this is not
+  // needed, because keys are not commands there. Also, a button in a dialog may wait for a key.
   page.addEventListener("click", ({ detail, target }) => {
     if (detail > 0 && target instanceof Element && !target.closest("dialog")) target.closest("button")?.blur();
   });

@@ -1,5 +1,6 @@
 // The values of one curve, ordered by simulated time. Only the newest MOST_SAMPLES values are
-// stored: at one value per second, those of five hours; of poses, those of eleven minutes.
+// stored. At one value per second, these are the values of five hours. For poses, they are the
+// values of eleven minutes.
 
 export const MOST_SAMPLES = 20_000;
 const FIRST_CAPACITY = 512;
@@ -22,8 +23,8 @@ export class Series {
     return this.values[this.from + index]!;
   }
 
-  // Adds a value. It replaces an earlier value of the same instant. A value for an earlier instant
-  // is inserted at its place.
+  // Adds a value. If there is already a value for this instant, it is replaced. If the instant is
+  // before the newest one, the value is inserted in the order of time.
   push(time: number, value: number): void {
     if (this.to === this.times.length) this.makeRoom();
     let at = this.to;

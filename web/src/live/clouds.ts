@@ -28,7 +28,8 @@ export interface PointCloud {
   data: Uint8Array;
 }
 
-export const MOST_POINTS = 20_000; // maximum number per sensor; if there are more, every n-th is used
+// maximum number of points per sensor; if there are more, every n-th point is used
+export const MOST_POINTS = 20_000;
 
 const FLOAT32 = 7;
 const FLOAT64 = 8;
@@ -158,8 +159,8 @@ export function contactsOf(message: unknown): TouchPoint[] {
 export const CURRENT_CONTACTS_TOPIC = "/gsv/current_contacts";
 const MOST_WORLD_POINTS = 2000;
 
-// Returns the points of all contacts of the world, in the world frame, with the force on the first
-// body of each contact. For a body on the ground, this force points upwards.
+// Returns the points of all contacts in the world, in the world frame. Each point has the force on
+// the first body of the contact. If this body is on the ground, the force points upwards.
 export function worldContactsOf(message: unknown): TouchPoint[] {
   const contacts = (message as { contacts?: unknown } | null)?.contacts;
   if (!Array.isArray(contacts)) return [];

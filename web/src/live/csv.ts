@@ -27,7 +27,8 @@ export function csvOf(columns: Column[]): string {
   return `${lines.join("\r\n")}\r\n`;
 }
 
-// Names are untrusted. Text that a spreadsheet would read as a formula gets an apostrophe in front.
+// Names are untrusted. If a spreadsheet would read a text as a formula, an apostrophe is put in
+// front of it.
 function cell(text: string): string {
   const safe = /^[=+\-@\t]/.test(text) ? `'${text}` : text;
   return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;

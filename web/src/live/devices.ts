@@ -5,7 +5,7 @@ export interface Glow {
   brightness: number; // above 0, at most 1
   colour: [number, number, number];
   radius: number; // m
-  range: number; // range of the light, m; 0 means that it lights nothing
+  range: number; // range of the light, m; 0 means that the lamp lights no objects
   angle: number; // angle of the whole cone, rad; a full turn means all directions
   intensity: number; // intensity at full brightness
 }
@@ -23,12 +23,12 @@ export interface Jaws {
   opening: number; // m
   reach: number; // m
   height: number; // m
-  held: string; // empty: nothing
+  held: string; // name of the attached body; empty if there is none
 }
 
 type Fields = Record<string, unknown>;
 
-// Returns the state of a lamp; null if the lamp is off or the message is of another device.
+// Returns the state of a lamp; null if the lamp is off, or if the message is from another device.
 export function glowOf(message: unknown): Glow | null {
   const { brightness, color, radius_m, range_m, angle_rad, intensity } = fieldsOf(message);
   const { r, g, b } = fieldsOf(color);
@@ -44,7 +44,8 @@ export function glowOf(message: unknown): Glow | null {
   };
 }
 
-// Returns the state of a speaker; null if it is silent or the message is of another device.
+// Returns the state of a speaker; null if the speaker is silent, or if the message is from another
+// device.
 export function soundOf(message: unknown): Sound | null {
   const { sound, frequency_hz, volume, elapsed_s } = fieldsOf(message);
   const numbers = [frequency_hz, volume, elapsed_s];
@@ -52,7 +53,7 @@ export function soundOf(message: unknown): Sound | null {
   return { name: sound, frequency: numbers[0]!, volume: numbers[1]!, elapsed: numbers[2]! };
 }
 
-// Returns the state of a gripper; null if the message is of another device.
+// Returns the state of a gripper; null if the message is from another device.
 export function jawsOf(message: unknown): Jaws | null {
   const { opening_m, reach_m, height_m, held } = fieldsOf(message);
   const numbers = [opening_m, reach_m, height_m];

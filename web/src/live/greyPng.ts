@@ -5,8 +5,8 @@ import type { ValueImage } from "./valueImage";
 const SIGNATURE = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const MOST_PIXELS = 1 << 24;
 
-// Returns null if `png` is not a complete 16-bit grey PNG without filters, the form that gsv
-// writes.
+// Returns null if `png` is not a complete 16-bit grey PNG without filters. gsv writes PNGs in this
+// form.
 export async function valuesOfGreyPng(png: Uint8Array): Promise<ValueImage | null> {
   const parts = partsOf(png);
   if (!parts) return null;

@@ -1,5 +1,5 @@
-// Images whose pixels are values, such as depths in metres. They are drawn in colours, and show the
-// value under the pointer.
+// Images whose pixels are values, such as depths in metres. These images are drawn in colours. The
+// page also shows the value under the pointer.
 import type { PointCloud } from "./clouds";
 
 export interface ValueImage {
@@ -45,7 +45,8 @@ export function depthImageOf({ width, height, fields, data, point_step, row_step
   return { width, height, values, unit: "m" };
 }
 
-// Returns the smallest and the largest finite value; both are equal if there are none.
+// Returns the smallest and the largest finite value. If there are no finite values, returns two
+// equal numbers.
 export function spanOf(values: Float32Array): [number, number] {
   let [least, largest] = [Infinity, -Infinity];
   for (const value of values) {

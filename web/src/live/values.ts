@@ -13,8 +13,8 @@ export interface LiveValue {
 const MOST_VALUES = 64; // maximum number of values of one message
 const LONGEST_LISTED = 8; // longer lists are summarised
 const DEEPEST = 6;
-// Fields that are not shown: they describe the time, the uncertainty or the construction of the
-// sensor, not its reading.
+// Fields that are not shown. They describe the time, the uncertainty or the construction of the
+// sensor, and not its reading.
 const LEFT_OUT = new RegExp(
   `^(${[
     "header|stamp|.*covariance|.*_covariance_type|status",
@@ -30,7 +30,7 @@ export function valuesOf(message: unknown, units: Units = {}): LiveValue[] {
   return values.map((value) => ({ ...value, unit: value.unit || unitOf(value.key, units) }));
 }
 
-// Returns the unit of the longest path in `units` that contains the key.
+// Returns the unit of a key. Several paths in `units` may contain the key; the longest path counts.
 export function unitOf(key: string, units: Units): string {
   const parts = key.replace(/\[[^\]]*\]/g, "").split(".");
   for (let count = parts.length; count > 0; count--) {
@@ -72,7 +72,7 @@ function collectFields(
   }
 }
 
-// Collects the number of objects in a list, and the values of the first one.
+// Collects the number of objects in a list, and the values of the first object.
 function collectObjects(list: unknown[], key: string, depth: number, values: LiveValue[]): void {
   if (typeof list[0] === "string") return;
   add(values, `${key}.count`, list.length);
@@ -110,8 +110,8 @@ function isNumberList(value: unknown): value is NumberList {
   return Array.isArray(value) && typeof value[0] === "number";
 }
 
-// Returns the names in messages such as JointState, which have a name for each number in the other
-// fields.
+// Returns the names in messages such as JointState. These messages have one name for each number in
+// the other fields.
 function namesBeside(fields: Record<string, unknown>): string[] | null {
   const { name } = fields;
   if (!Array.isArray(name) || name.length === 0) return null;
