@@ -24,8 +24,8 @@ struct EngineOptions {
   std::string servers;   // a constraint on the servers; empty for any server
 };
 
-// Returns the spool of a results file: the folder in which tasks leave the results of their runs.
-// It is NAME.runs for NAME.sqlite.
+// Returns the spool of a results file: the folder in which tasks store the results of their runs.
+// The spool of NAME.sqlite is NAME.runs.
 std::filesystem::path SpoolOf(const std::string& results_file);
 
 // Adds the results in the spool to the results file, which is created if necessary. Does nothing if

@@ -101,8 +101,8 @@ std::vector<std::string> NamesOf(const CompletedCommand& command) {
 const std::array<std::pair<const char*, const char*>, 3> kListed{
     {{"--behaviour", "behaviours"}, {"--robot", "models"}, {"--avatar", "models"}}};
 
-// Returns the part of the script that bash and zsh share. It sets $words_found from $so_far (the
-// command so far), $prev and the values of options.
+// Returns the part of the script that bash and zsh share. This part sets $words_found from $so_far
+// (the command so far), $prev and the values of options.
 std::string Cases(const std::vector<CompletedCommand>& commands) {
   std::string text = "  case \"$so_far $prev\" in\n";
   for (const CompletedCommand& command : commands) {

@@ -17,9 +17,9 @@ struct Sandbox {
 inline constexpr int kWantsMoreMemory = 70;
 
 // Puts this process into a sandbox permanently. The process exits with kWantsMoreMemory if it
-// exceeds its memory limit, and is killed if it exceeds its time limit. It can read files, but
-// cannot write files, open sockets or start programs (seccomp(2), setrlimit(2)). Call this function
-// before threads start. Fails if the kernel does not support seccomp filters.
+// exceeds its memory limit, and is killed if it exceeds its time limit. The process can read files,
+// but cannot write files, open sockets or start programs (seccomp(2), setrlimit(2)). Call this
+// function before threads start. Fails if the kernel does not support seccomp filters.
 base::Status EnterSandbox(const Sandbox& bounds);
 
 }  // namespace gsv::app

@@ -17,9 +17,9 @@ namespace gsv::app {
 
 class Ffmpeg {
  public:
-  // Starts `program`, which is searched on the PATH, with its options for `input` and `output`. It
-  // never overwrites the file `path`. If the program is missing, the error's sentence ends with
-  // `instead`, which should name an alternative to ffmpeg.
+  // Starts `program`, which is searched on the PATH, with its options for `input` and `output`. The
+  // program never overwrites the file `path`. If the program is missing, the error's sentence ends
+  // with `instead`, which should name an alternative to ffmpeg.
   static base::Result<std::unique_ptr<Ffmpeg>> Start(const std::string& program,
                                                      const std::vector<std::string>& input,
                                                      const std::vector<std::string>& output,

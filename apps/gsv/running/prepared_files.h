@@ -1,7 +1,7 @@
 // Worlds and models that a process has read before it forks for a run. Each file is read once, so
 // later changes of the file have no effect.
 //
-// Threads  one at a time. It starts no thread.
+// Threads  one at a time. This class starts no thread.
 #pragma once
 
 #include <map>

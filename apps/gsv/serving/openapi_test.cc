@@ -89,8 +89,8 @@ const char* Spelling(Permission permission) {
                                             : "control";
 }
 
-// Returns the path as a description has it, with {path} for "{path...}". Its parameters are single
-// segments.
+// Returns the path in the form of the API description, which has {path} for "{path...}", because a
+// parameter in a description is a single segment.
 std::string AddressOf(const Route& route) {
   return route.method + " " + std::regex_replace(route.pattern, std::regex(R"(\.\.\.\})"), "}");
 }
