@@ -34,9 +34,9 @@ struct GatewayOptions : ServerOptions {
   std::function<metrics::BrokerCalls()> broker_calls{};
   std::filesystem::path web_root;     // the viewer's files; may be absent
   std::filesystem::path docs_root{};  // the documentation's files; may be absent
-  // If null, recording is not available. It must outlive the gateway.
+  // Null if recording is not available. Otherwise, the object must outlive the gateway.
   RecordingSwitch* recordings = nullptr;
-  // If null, simulations cannot be created. It must outlive the gateway.
+  // Null if simulations cannot be created. Otherwise, the object must outlive the gateway.
   SimulationFactory* factory = nullptr;
   // The folder of recordings to list and replay; empty: none.
   std::filesystem::path recordings_folder{};

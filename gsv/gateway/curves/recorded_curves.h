@@ -1,7 +1,7 @@
 // RecordedCurves reads curves over a whole recording in the background. The first request for a
 // curve starts reading. Later requests return the points that were read so far.
 //
-// Threads  Get() from any; its own thread reads, started by the first Get().
+// Threads  Get() from any thread. The first Get() starts a thread that reads the recording.
 // Bounded  keeps the sixteen most recently requested curves; reading a curve ends after a minute.
 #pragma once
 

@@ -31,7 +31,7 @@ class ViewSource {
   virtual base::Result<ViewInstant> Now() = 0;
 };
 
-// Makes the source for a running simulation. It does not keep the simulation alive.
+// Makes the source for a running simulation. The source does not keep the simulation alive.
 std::unique_ptr<ViewSource> MakeLiveSource(
     const std::shared_ptr<simulation::Simulation>& simulation);
 // Makes the source for a replay.

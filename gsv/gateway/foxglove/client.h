@@ -1,4 +1,4 @@
-// A Client is a connected viewer. This is the interface with which the server sends it messages.
+// A Client is a connected viewer. The server sends messages to the viewer through this interface.
 //
 // Threads  any; calls neither block nor call back.
 #pragma once

@@ -60,7 +60,7 @@ enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 std::string ServerInfoText(const ServerInfo& info);
 std::string AdvertiseText(std::span<const Channel> channels);
 std::string UnadvertiseText(std::span<const ChannelId> channels);
-// `id` identifies the status for RemoveStatusText(); empty: it cannot be removed.
+// `id` identifies the status for RemoveStatusText(). A status with an empty id cannot be removed.
 std::string StatusText(StatusLevel level, std::string_view message, std::string_view id = {});
 std::string RemoveStatusText(std::string_view id);
 // The id of the status message that says that the connection to the client is slow.

@@ -1,6 +1,6 @@
 // Histories keeps the last minutes of every simulation of this program (see RunHistory).
 //
-// Threads  any; its own thread samples the simulations.
+// Threads  any. This object has its own thread, which samples the simulations.
 #pragma once
 
 #include <functional>

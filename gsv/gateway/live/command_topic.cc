@@ -8,8 +8,8 @@
 namespace gsv::gateway {
 namespace {
 
-// Maximum number of messages per call of Publish(). It leaves space for other data in a viewer's
-// queue, even with a crowd of robots.
+// Maximum number of messages per call of Publish(). This limit leaves space for other data in a
+// viewer's queue, even with a crowd of robots.
 constexpr int kMaxPerRound = 64;
 
 }  // namespace

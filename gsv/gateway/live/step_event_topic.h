@@ -53,7 +53,8 @@ class StepEventTopic {
   }
 
  private:
-  // Maximum number of messages per Publish(). It leaves space for other data in viewers' queues.
+  // Maximum number of messages per Publish(). This limit leaves space for other data in viewers'
+  // queues.
   static constexpr std::size_t kMaxMoments = 64;
 
   class Watch final : public simulation::Observer {

@@ -1,7 +1,7 @@
 // A ReplayPlayer plays a recording for viewers. In a gateway for replays, it has the role of the
 // simulation.
 //
-// Threads  any; its own thread reads the file and publishes.
+// Threads  any. This object has its own thread, which reads the file and publishes.
 // Errors   kNotRunning with a sentence if the phase does not allow an action.
 #pragma once
 

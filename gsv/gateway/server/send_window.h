@@ -68,8 +68,8 @@ class SendWindow {
   std::uint64_t Ping(Time now, Time started);
   // Notes the pong of the ping with this number.
   void Pong(std::uint64_t number, Time now);
-  // Notes a pong without a number, which answers a keep-alive ping. It also confirms an earlier
-  // ping, because clients may answer only the last ping.
+  // Notes a pong without a number, which answers a keep-alive ping. Such a pong also confirms a
+  // numbered ping that was sent earlier, because clients may answer only the last ping.
   void PongOfAny(Time now) {
     if (mark_) Pong(mark_->number, now);
   }

@@ -14,8 +14,8 @@ using Time = SendWindow::Time;
 
 constexpr milliseconds kMessagePeriod{10}, kStep{1};
 
-// Simulates a connection with a rate in bytes per second, a delay and an unlimited buffer. Its
-// sender has a message each kMessagePeriod, and drops it if the window is closed.
+// Simulates a connection with a rate in bytes per second, a delay and an unlimited buffer. The
+// sender has a message every kMessagePeriod, and drops the message if the window is closed.
 class Link {
  public:
   Link(double rate, milliseconds delay, std::size_t message)

@@ -132,7 +132,8 @@ class BeastServer final : public Server {
   void Stop() override {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { SayGoodbye(); });
-    // The thread ends by itself when the last connection has ended. It is stopped after the limit.
+    // The thread ends by itself when the last connection has ended. If that takes longer than
+    // kStopTimeout, the thread is stopped.
     finished_.get_future().wait_for(kStopTimeout);
     io_.stop();
     thread_.join();

@@ -32,8 +32,8 @@ constexpr std::string_view kSlowSentence =
     "The connection is slow: the server leaves out older updates, so that the newest ones arrive "
     "in time.";
 
-// Makes the payload of a close frame. It has at most 125 bytes, including two for the code, so the
-// text may be truncated.
+// Makes the payload of a close frame. A payload has at most 125 bytes, including two for the code,
+// so the text may be truncated.
 websocket::close_reason Reason(CloseCode code, const std::string& text) {
   const std::size_t length = std::min(text.size(), websocket::reason_string::max_size_n);
   return {static_cast<websocket::close_code>(code), beast::string_view(text.data(), length)};

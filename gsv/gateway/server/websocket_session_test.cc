@@ -89,8 +89,8 @@ TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
   while (liar.Receive()) {
   }
   EXPECT_EQ(liar.close_code(), 1009);
-  // Each frame is invalid: it is not masked, as only a server's frame may be, or it has a reserved
-  // opcode or a reserved bit.
+  // Each frame is invalid: it has a reserved opcode or a reserved bit, or it is not masked. (Only a
+  // server may send frames that are not masked.)
   for (const std::string& bytes :
        {std::string("\x81\x01x"), std::string("\x83\x80mask"), std::string("\xf1\x80mask")}) {
     Viewer breaker(port());

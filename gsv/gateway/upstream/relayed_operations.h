@@ -16,8 +16,8 @@ namespace gsv::gateway::upstream {
 // The commands of a relayed simulation as services.
 class RelayedOperations final : public Operations {
  public:
-  // `simulation` is its name at the other instance; empty: the first simulation. Requests run on
-  // `workers`, which must outlive the last call.
+  // `simulation` is the name of the simulation at the other instance; empty: the first simulation.
+  // Requests run on `workers`, which must outlive the last call.
   RelayedOperations(const Address& address, const std::string& simulation, WorkerPool& workers);
 
   std::vector<foxglove::Service> services() const override { return services_.list(); }

@@ -28,8 +28,8 @@ void StartTls(transport::ByteStream& stream, const Address& address, transport::
   transport::ByteStream::Tls& tls = stream.StartTls(*address.tls);
   tls.set_verify_mode(ssl::verify_peer);
   tls.set_verify_callback(ssl::host_name_verification(address.host));
-  // Server name indication (RFC 6066): a server with several names selects its certificate by it.
-  // It must not be an IP address.
+  // Server name indication (RFC 6066): a server with several names selects its certificate by this
+  // name. An IP address is not allowed as a name.
   if (IsName(address.host)) SSL_set_tlsext_host_name(tls.native_handle(), address.host.c_str());
   stream.Handshake(ssl::stream_base::client, {}, std::move(then));
 }

@@ -18,9 +18,9 @@ namespace gsv::gateway::upstream {
 // Relays one simulation of another instance to a local hub.
 class Stream {
  public:
-  // `simulation`: its name at the other instance; empty: the first simulation. `socket`: path of
-  // the WebSocket: "/ws", or the path of a replay's WebSocket. `operations` may be null. `io` must
-  // outlive the stream.
+  // `simulation`: name of the simulation at the other instance; empty: the first simulation.
+  // `socket`: path of the WebSocket, which is "/ws" or the path of a replay's WebSocket.
+  // `operations` may be null. `io` must outlive the stream.
   static std::shared_ptr<Stream> Make(boost::asio::io_context& io, const Address& address,
                                       const std::string& simulation, const std::string& socket,
                                       std::shared_ptr<Operations> operations);
