@@ -45,7 +45,8 @@ struct PlanarPosition {
   double x = 0, y = 0;
   double cosine = 1, sine = 0;
 
-  // Scales the heading to length 1. Its length must be nearly 1, up to rounding errors.
+  // Scales the heading to length 1. Before the call, its length may differ from 1 only by rounding
+  // errors.
   void Normalize() {
     const double correction = 1.5 - 0.5 * (cosine * cosine + sine * sine);
     cosine *= correction, sine *= correction;
