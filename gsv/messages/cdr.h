@@ -4,8 +4,8 @@
 //          encapsulation header 00 01 00 00, then the fields; each primitive is aligned to its
 //          size, counted from the end of that header. A string is its length with the final NUL
 //          (uint32), its bytes and the NUL; a sequence is its count (uint32) and its elements.
-// Errors   writing cannot fail. Reading accepts any bytes. It never allocates more than a small
-//          multiple of the size of these bytes, whatever lengths they declare.
+// Errors   writing cannot fail. Reading accepts any bytes. The memory that reading allocates is at
+//          most a small multiple of the size of these bytes, whatever lengths they declare.
 //
 // The generated functions (gsv/messages/sensor_msgs.h and so on) are used as
 //   Encode(range, bytes);                                   // appends a whole message
