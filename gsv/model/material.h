@@ -27,8 +27,8 @@ struct Material {
   std::shared_ptr<const Image> emissive_map;
   // R: the fraction of ambient and baked light that reaches the surface.
   std::shared_ptr<const Image> occlusion_map;
-  // Baked light, sRGB. The surface reflects it as diffuse light: it adds light map times diffuse
-  // colour, as Gazebo does.
+  // Baked light, sRGB. The surface reflects the baked light as diffuse light: the light map times
+  // the diffuse colour is added to the colour of the surface, as in Gazebo.
   std::shared_ptr<const Image> light_map;
   // If true, the alpha of base_colour_map is a mask: a pixel is transparent if its alpha is below
   // one half. If false, alpha is blended.

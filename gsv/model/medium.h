@@ -17,8 +17,8 @@ struct Wind {
   double drag = 1;             // <force_approximation_scaling_factor>, 1/s
 };
 
-// A fluid as in Gazebo's Buoyancy. It pushes bodies up with the weight of the displaced fluid, at
-// the centre of the displaced volume.
+// A fluid as in Gazebo's Buoyancy. The fluid pushes a body up with a force that equals the weight
+// of the displaced fluid. This force acts at the centre of the displaced volume.
 struct Fluid {
   struct Layer {
     double above = 0;    // the height at which the layer begins, m
