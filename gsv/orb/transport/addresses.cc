@@ -86,7 +86,7 @@ omni::giopActiveConnection* LocalAddress::Connect(const omni_time_t& deadline, C
                                                   CORBA::Boolean& timed_out) const {
   omni::giopActiveConnection* const plain = unixAddress::Connect(deadline, flags, timed_out);
   if (plain == nullptr) return nullptr;
-  // omniORB connects; its socket is then used by a Connection of this folder.
+  // omniORB opens the connection. A Connection of this folder then uses the socket.
   const int socket =
       fcntl(static_cast<omni::unixActiveConnection*>(plain)->handle(), F_DUPFD_CLOEXEC, 0);
   plain->getConnection().decrRefCount(true);

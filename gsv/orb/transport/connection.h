@@ -27,8 +27,8 @@ struct ConnectionAddresses {
 };
 // Returns the addresses of a connected TCP socket. `scheme` is "giop:tcp" or "giop:ssl".
 ConnectionAddresses AddressesOfTcp(int socket, const char* scheme);
-// Returns the addresses of a Unix domain socket. Its peer has no name. `server` is
-// "giop:unix:FILE".
+// Returns the addresses of an accepted Unix domain socket. The peer of such a socket has no name.
+// `server` is "giop:unix:FILE".
 ConnectionAddresses AddressesOfAcceptedLocal(const std::string& server);
 ConnectionAddresses AddressesOfMadeLocal(const std::string& server);
 

@@ -1,4 +1,5 @@
-// TLS over one connection. It fails unless both peers show a certificate of the same authority.
+// TLS over one connection. Both peers must show a certificate of the same authority; otherwise the
+// handshake fails.
 //
 // Protocol TLS 1.2 and 1.3 (RFC 5246, RFC 8446), without resumption and renegotiation: every
 //          connection has a full handshake. The host name in the certificate is not checked: any
