@@ -18,8 +18,9 @@ constexpr double kFurthest = 50;    // echoes from further away are ignored, m
 constexpr double kMaxWidth = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
 constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // minimum log odds of a wall
-// Log odds of a cell on a line of wall. They exceed the sum of the evidence of all long readings
-// that pass through a smooth wall.
+// Log odds of a cell on a line of wall. A smooth wall reflects some sound away, so some readings
+// are longer than the distance to the wall. These readings are evidence against the wall, and this
+// value exceeds the sum of their evidence.
 constexpr double kWall = 10;
 
 // The beam of a sideways sonar moves along walls. Two consecutive echoes of one wall are connected

@@ -1,7 +1,7 @@
 // Reads and writes occupancy maps of ROS's map_server: an image (PGM or PNG) and a YAML file.
 //
-// Frame   cell (0, 0) is the lower left one; its lower left corner lies at `origin`. Images have
-//         their rows from the top.
+// Frame   cell (0, 0) is the lower left cell of the map. The lower left corner of this cell is at
+//         `origin`. Images have their rows from the top.
 // Source  https://wiki.ros.org/map_server, "Map format".
 // Input   untrusted: a side of at most 16384 cells, 64 million cells, 1 MiB of YAML.
 // Errors  kNotFound and kBadModel; the message names the file.
