@@ -53,7 +53,7 @@ class SimulationRecorder {
   // Returns the error that ended the recording early, if there was one.
   base::Status Stop();
 
-  // Whether the recording continues. It ends with the simulation, and if the disk fails.
+  // Whether the recording continues. A recording ends when the simulation ends or the disk fails.
   bool is_recording() const;
   McapWriter::Progress progress() const { return writer_->progress(); }
 

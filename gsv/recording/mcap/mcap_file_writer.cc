@@ -7,8 +7,8 @@
 namespace gsv::recording {
 namespace {
 
-// Builds the summary section at offset `start`. It has a group of records for each kind, and the
-// offset of each group.
+// Builds the summary section at offset `start`. The section has a group of records for each kind,
+// and the offset of each group.
 class SummaryBuilder {
  public:
   explicit SummaryBuilder(std::uint64_t start) : start_(start) {}

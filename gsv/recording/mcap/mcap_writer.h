@@ -38,8 +38,8 @@ struct WriterOptions {
   std::chrono::milliseconds wait_limit{10'000};
 };
 
-// The options of a channel. Its metadata "reproducible" is "false" if its messages depend on the
-// wall clock; they are then not part of the content hash.
+// The options of a channel. If its messages depend on the wall clock, the channel's metadata has
+// the value "false" for "reproducible", and the messages are not part of the content hash.
 struct ChannelOptions {
   bool reproducible = true;
 };
@@ -66,8 +66,8 @@ class McapWriter {
   // channel keep their order. `log_time` must not be negative.
   void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data);
 
-  // Attach() adds a file to the recording, AddMetadata() adds named values. They are never dropped:
-  // the caller waits while the queue is full.
+  // Attach() adds a file to the recording, AddMetadata() adds named values. Files and values are
+  // never dropped: the caller waits while the queue is full.
   void Attach(const AttachmentRecord& attachment);
   void AddMetadata(const MetadataRecord& metadata);
 

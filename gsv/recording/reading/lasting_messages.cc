@@ -105,7 +105,7 @@ class LastingSearch {
     }
   }
 
-  // Returns the key of a message. It replaces an earlier message with the same key.
+  // Returns the key of a message. A message replaces the earlier message with the same key.
   std::string KeyOf(const Channel& channel, const MessageRecord& message) const {
     if (channel.lasting == Lasting::kAll) return std::to_string(place_);
     if (!channel.definition) return {};
