@@ -1,5 +1,5 @@
 // The actuators of a robot besides its base and joints. Behaviours open and create them like
-// sensors (robot.Open<Lamp>("lamp")). Their readings report their state.
+// sensors (robot.Open<Lamp>("lamp")). The readings of an actuator report its state.
 //
 // Units    metres, seconds, Hz; values without unit lie in [0, 1].
 // Errors   a refused command returns an error and changes nothing, also after the end of the run.
@@ -46,7 +46,7 @@ class Gripper : public Sensor {
   using State = readings::Gripper;
   using Jaws [[deprecated("use State")]] = State;
 
-  // Closes the fingers. They attach the dynamic body between them until they open.
+  // Closes the fingers. A dynamic body between the fingers is attached to them until they open.
   base::Status Grasp() { return port().CommandDevice({0}, {}); }
   // Opens the fingers and detaches the body.
   base::Status Open() { return port().CommandDevice({1}, {}); }

@@ -1,6 +1,6 @@
 // The interface through which a behaviour uses its robot: sensors by name, a base to drive, and a
-// clock to wait on. It is the same for simulated robots in this process, simulated robots in other
-// processes, and real robots.
+// clock to wait on. The interface is the same for simulated robots in this process, simulated
+// robots in other processes, and real robots.
 //
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.

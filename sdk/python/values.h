@@ -56,7 +56,8 @@ class SharedObject {
 // traceback of a Python exception to stderr and throws a std::runtime_error with one line.
 void CallPython(const std::function<void()>& call);
 
-// Deletes objects without the GIL held. It is for objects whose destructors wait for other threads.
+// Deletes objects without the GIL held. This deleter is for objects whose destructors wait for
+// other threads.
 struct EndsWithoutGil {
   template <typename T>
   void operator()(T* object) const {
