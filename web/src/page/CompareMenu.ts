@@ -1,5 +1,5 @@
-// The menu for comparing the replayed recording with another recording. The menu reports where the
-// two recordings first differ.
+// The menu for comparing the replayed recording with another recording. The menu shows the first
+// difference between the two recordings.
 import type { App } from "../app/App";
 import type { RecordingLine } from "../recordings/recordings";
 import { resultOf } from "../state/comparison";

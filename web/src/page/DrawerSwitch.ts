@@ -11,7 +11,7 @@ const TITLE: Record<Drawer, string> = {
   server: "Let this browser draw the view",
 };
 
-// `choice` is null until the view has started. `canDraw` is whether the browser has WebGL.
+// `choice` is null until the view has started. `canDraw` is true if the browser has WebGL.
 export function createDrawerSwitch(
   store: Store<State>,
   choice: () => ViewChoice | null,

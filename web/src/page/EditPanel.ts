@@ -91,7 +91,7 @@ function createEditPanel(app: App): HTMLElement {
   return panel;
 }
 
-// The menu for saving: what each file contains, and who reads it.
+// The menu for saving. It explains what each file contains, and which programs read it.
 function saveMenu(app: App): HTMLElement {
   const line = (label: string, explanation: string, withScenario: boolean) => {
     const save = button(label, () => {

@@ -55,7 +55,8 @@ function someOf(names: string[]): string {
   return names.slice(0, MOST_NAMES).join(", ") + (more > 0 ? ` and ${count(more, "other")}` : "");
 }
 
-// Returns a link to the replay while the server runs, or else a command with the same effect.
+// Returns a link to the replay while the server runs. Afterwards, returns a command with the same
+// effect.
 function replayOf({ recording, abilities, connection }: State): HTMLElement | null {
   if (!recording?.path) return null;
   const name = recording.path.slice(recording.path.lastIndexOf("/") + 1);

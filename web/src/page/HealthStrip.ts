@@ -1,5 +1,5 @@
-// The states of all robots in one line: the number in each state, and the expectations. A click on
-// a state shows only those robots, in the list and in the view.
+// The states of all robots in one line: the number of robots in each state, and the expectations. A
+// click on a state shows only the robots in this state, in the list and in the view.
 import type { App } from "../app/App";
 import type { ListedRobot } from "../state/robotList";
 import { listedRobots } from "../state/listedRobots";
@@ -10,8 +10,8 @@ import { shallowEqual } from "../state/Store";
 import { element, setAttribute, setText } from "../ui/element";
 
 const EXPECTATIONS_PANEL = "expectations";
-// The order of the states: first robots that move, then the other states from the worst to the
-// best.
+// The order of the states. Robots that move are first. The other states follow, from the worst to
+// the best.
 const ORDER: readonly ShownState[] = ["moving", ...SHOWN_STATES.filter((state) => state !== "moving")];
 
 export function createHealthStrip(app: App): HTMLElement {

@@ -112,7 +112,7 @@ export function createHelpSheet(app: App): HTMLElement {
   return sheet;
 }
 
-// The setting that turns single keys off. Keys with Ctrl and arrow keys stay on, because speech
+// The setting that turns single keys off. Keys with Ctrl and arrow keys still work, because speech
 // input does not produce them by accident.
 function singleKeysSetting(app: App): HTMLElement {
   const field = checkField("Single-key shortcuts", (isOn) => app.useSingleKeys(isOn));
@@ -151,8 +151,8 @@ function keyLine(app: App, [names, meaning]: Line): Node[] {
   return line(isChangeable ? [keyButton(app, names[0]!, meaning)] : names.map((name) => element("kbd", {}, name)), meaning);
 }
 
-// Returns a button that shows the key. A press on the button and then on a key assigns that key;
-// Esc cancels.
+// Returns a button that shows the key. If the user presses the button and then a key, this key is
+// assigned. Esc cancels.
 function keyButton(app: App, original: string, meaning: string): HTMLElement {
   const key = element("kbd");
   const button = element("button", { class: "key-button", type: "button" }, key);

@@ -55,8 +55,8 @@ function rowsOf({ distance, dx, dy, dz, angleDeg }: Measured): HTMLElement[] {
   return Object.entries(rows).flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
 }
 
-// Returns the length in metres that the scale bar shows: the largest number of the form 1, 2 or 5
-// times a power of ten whose bar is at most BAR_PX wide.
+// Returns the length in metres that the scale bar shows: 1, 2 or 5 times a power of ten. It is the
+// largest such length whose bar is at most BAR_PX wide.
 export function barLength(metresPerPixel: number): number {
   const longest = BAR_PX * metresPerPixel;
   const power = 10 ** Math.floor(Math.log10(longest));

@@ -10,7 +10,8 @@ import { element } from "../ui/element";
 import type { Option } from "../ui/fields";
 import { choiceField, textField } from "../ui/fields";
 
-// In the list, values that begin with this prefix are objects. The value of a robot is its model.
+// In the list, a value that begins with this prefix is an object. The value of a robot is the name
+// of its model.
 const OBJECT = "object ";
 const COPY = "copy ";
 
@@ -75,7 +76,7 @@ function modelsOf({ editing, scene }: State): Option[] {
   ];
 }
 
-// Returns the names of the models of avatars, or of the other robots.
+// Returns the names of the models of avatars if `isAvatar` is true, otherwise of all other robots.
 function modelsBy({ models }: Editing, isAvatar: boolean): string[] {
   return models.filter((model) => model.isAvatar === isAvatar).map(({ name }) => name);
 }

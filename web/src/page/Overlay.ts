@@ -1,4 +1,4 @@
-// Covers the view while there is nothing to show, with the reason and what to do.
+// Covers the view if there is nothing to show. Explains the reason, and what the user can do.
 import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
@@ -8,8 +8,8 @@ import { createTokenForm } from "../ui/tokenForm";
 
 type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "ended" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
 
-// Whether the run is over. The result stays true after the end of the server. A replay can start
-// again, so a replay is never over.
+// Whether the run is over. It is still over after the server has ended. A replay can start again,
+// so a replay is never over.
 export function hasEnded({ status, replay }: State): boolean {
   return replay === null && (status?.phase === "finished" || status?.phase === "failed");
 }
@@ -24,7 +24,8 @@ function whatEnded(state: State): string {
 
 export function situationOf(state: State): Situation {
   const { connection, simulations, simulation, view, setUp, missing, refusal } = state;
-  const scene = view === "starting" ? null : state.scene; // while the view starts, the scene counts as missing
+  // while the view starts, nothing is shown of the scene
+  const scene = view === "starting" ? null : state.scene;
   if (refusal !== "") return "refused";
   if (missing !== "") return "missing";
   if (setUp) {
@@ -119,7 +120,7 @@ function content(app: App, situation: Situation): Node[] {
   }
 }
 
-// The link is missing if the server has no recordings.
+// There is no link if the server has no recordings.
 function recordingsLink(app: App): HTMLElement {
   const link = element("a", { class: "button", href: "recordings.html" }, "Open a recording");
   const unwatch = app.store.watch(
@@ -132,7 +133,7 @@ function recordingsLink(app: App): HTMLElement {
   return link;
 }
 
-// The button is missing if the server cannot create simulations.
+// There is no button if the server cannot create simulations.
 function createButton(app: App): HTMLElement {
   const button = element(
     "button",

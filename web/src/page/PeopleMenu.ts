@@ -33,7 +33,7 @@ function titleOf(people: People): string {
   return holder.number === people.you ? "Viewers (you have control)" : `Viewers (${holder.name} has control)`;
 }
 
-// Viewers of other simulations come last, with the simulation's name.
+// Viewers of other simulations are last, with the name of their simulation.
 function lines(people: People): string[] {
   const here = together(people);
   const others = people.viewers.filter((person) => !here.includes(person));
@@ -61,8 +61,8 @@ function nameField(app: App): HTMLElement {
   return element("label", { class: "people-name" }, element("span", {}, "Your name"), field);
 }
 
-// The button that requests or releases control, depending on whether you have control or wait for
-// it.
+// The button that requests or releases control. Its text depends on whether you have control or
+// wait for it.
 function controlButton(app: App): HTMLElement {
   const button = element("button", { class: "button", type: "button" });
   let wants = true;
@@ -90,8 +90,8 @@ function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {
   return asks ? "Cancel request" : "Ask for control";
 }
 
-// The question to the controller when somebody requests control. Without an answer, the other
-// viewer gets control.
+// The question to the viewer who has control, when another viewer requests control. If there is no
+// answer, the other viewer gets control.
 export function createControlQuestion(app: App): HTMLElement {
   const sentence = element("p", {});
   const button = (label: string, grants: boolean, primary: boolean) =>

@@ -1,4 +1,5 @@
-// Starts and stops recording, and shows whether the simulation is being recorded by anybody.
+// Starts and stops recording. Also shows whether the simulation is being recorded by any viewer or
+// program.
 import type { App } from "../app/App";
 import type { Recording } from "../api/recording";
 import { mayAct } from "../state/people";

@@ -84,15 +84,15 @@ export function createStatusBar(app: App): HTMLElement {
   return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, problem, frames, connection);
 }
 
-// Returns the text about the speed. In lockstep, there is no target factor, only an actual one. A
-// replay has its own speed.
+// Returns the text about the speed. In lockstep, there is only an actual factor, and no target
+// factor. A replay has its own speed.
 function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus, replay: Replay | null): string {
   if (replay) return formatFactor(replay.speed);
   const actual = formatFactor(realTimeFactor);
   return mode === "lockstep" ? `${actual} · lockstep` : `${actual} / ${formatFactor(targetFactor)}`;
 }
 
-// Returns a sentence if the simulation is slower than requested, else an empty text.
+// Returns a sentence if the simulation is slower than its target, otherwise an empty text.
 function lag({ phase, mode, realTimeFactor, targetFactor }: SimulationStatus): string {
   const isPaced = phase === "running" && mode === "real_time" && targetFactor > 0 && realTimeFactor > 0;
   if (!isPaced || realTimeFactor >= LAGGING_SHARE * targetFactor) return "";

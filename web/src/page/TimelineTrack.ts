@@ -13,7 +13,8 @@ export function createTimelineTrack(app: App): HTMLElement {
   return element("div", { class: "timeline-track" }, slider(app), marks(app));
 }
 
-// The time to show: the requested one until the server has answered.
+// The time to show. If an instant was requested, this is the requested time, until the server has
+// answered.
 export function shownTime({ time, wishedTime }: State): number {
   return wishedTime ?? time;
 }
@@ -32,7 +33,8 @@ function slider(app: App): HTMLElement {
     ({ replay, kept, time, now }) => {
       const span = spanOf(replay, kept, now);
       if (!span) return;
-      // While the slider is dragged, its range does not change, because that would move the thumb.
+      // While the user drags the slider, its range does not change, because this would move the
+      // thumb.
       if (!isHeld || replay) {
         input.min = String(span.start);
         input.max = String(span.end);

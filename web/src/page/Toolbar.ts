@@ -76,7 +76,7 @@ function newButton(app: App): HTMLElement {
   return button;
 }
 
-// Editing pauses a running simulation first.
+// A press on this button pauses a running simulation before editing begins.
 function editButton(app: App): HTMLElement {
   const title = "Move, add and remove robots (paused)";
   const button = iconButton({ picture: "edit", label: "Edit", title, onclick: () => void app.edits.toggle() });
@@ -98,8 +98,8 @@ function sidebarButton(toggle: () => void): HTMLElement {
   return button;
 }
 
-// The simulation's name, or a list if there are several simulations. It is also the heading of the
-// page.
+// The simulation's name. If there are several simulations, it is a list of their names. It is also
+// the heading of the page.
 function simulationChoice(app: App): HTMLElement {
   const place = element("div", { class: "simulation-choice" });
   app.store.watch(

@@ -1,4 +1,4 @@
-// Makes links to the other pages that have content.
+// Makes links to the other pages. A page without content gets no link.
 import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { element } from "../ui/element";

@@ -11,16 +11,17 @@ export interface DrawnCurve {
   unit: string;
   colour: string;
   series: Series;
-  isDashed?: boolean; // whether the curve is of the compared recording
+  isDashed?: boolean; // whether the curve belongs to the compared recording
 }
 
-// The curve is interrupted between two samples if the time between them exceeds both SHORTEST_GAP_S
-// and this multiple of the median interval.
+// If the time between two samples is long, the curve is interrupted between them. The time is long
+// if it exceeds SHORTEST_GAP_S and this multiple of the median interval.
 const GAP_INTERVALS = 8;
 const SHORTEST_GAP_S = 1.5;
 const MARGIN = 0.06; // margin above and below, as a fraction of the range
 
-// Returns the samples within the time range, and one more on each side. A gap in the curve is null.
+// Returns the samples within the time range, and one more sample on each side. A gap in the curve
+// is null.
 export function columnsOf(series: Series, time: Range): [number[], (number | null)[]] {
   const [times, values]: [number[], (number | null)[]] = [[], []];
   const gap = gapOf(series, time);
@@ -52,8 +53,8 @@ export function gapOf(series: Series, time: Range): number {
   return Math.max(SHORTEST_GAP_S, GAP_INTERVALS * steps[steps.length >> 1]!);
 }
 
-// Returns the points of a plot of `y` against `x`: one for each sample of `y`, with the newest
-// value that `x` has at that time.
+// Returns the points of a plot of `y` against `x`. There is one point for each sample of `y`, with
+// the newest value of `x` at that time.
 export function pathOf(x: Series, y: Series, time: Range): [number[], number[]] {
   const [xs, ys]: [number[], number[]] = [[], []];
   for (let i = y.firstFrom(time.min); i < y.length && y.timeAt(i) <= time.max; i++) {
@@ -84,8 +85,8 @@ export function rangeOf(lists: readonly (readonly (number | null)[])[]): Range {
   return { min: min - MARGIN * span, max: max + MARGIN * span };
 }
 
-// Returns the time range of the axis: the newest `span` seconds before `now`, or everything (null).
-// `whole` is the range of a recording.
+// Returns the time range of the axis: the newest `span` seconds before `now`. If `span` is null,
+// returns the whole range. `whole` is the range of a recording.
 export function timeRange(
   curves: readonly DrawnCurve[],
   span: number | null,

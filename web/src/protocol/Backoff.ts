@@ -1,5 +1,5 @@
-// Computes the waiting time before the next attempt. It doubles each time up to a limit, with a
-// random part, so that not all viewers reconnect to a restarted server at once.
+// Computes the waiting time before the next attempt. The time doubles with each attempt, up to a
+// limit. It has a random part, so that not all viewers reconnect to a restarted server at once.
 const FIRST_MS = 500;
 const LONGEST_MS = 8000;
 const SPREAD = 0.2;

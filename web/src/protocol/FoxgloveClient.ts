@@ -1,6 +1,6 @@
-// A client of the Foxglove WebSocket protocol. It subscribes by topic, decodes messages, and
-// reconnects with increasing waiting times when the connection is lost. Subscriptions survive a
-// reconnection: they are made again when a server advertises their topic.
+// A client of the Foxglove WebSocket protocol. It subscribes by topic and decodes messages. If the
+// connection is lost, it reconnects with increasing waiting times. A subscription survives a
+// reconnection: it is made again when the server advertises its topic.
 import { backoffMs } from "./Backoff";
 import type { LiveView, LiveViewSource, ViewReader } from "./LiveViews";
 import { ConnectedViews } from "./LiveViews";
@@ -54,7 +54,7 @@ interface Subscription {
   waiting: DataView | null; // the newest payload, if it is not decoded yet
   restsUntilMs: number;
   id: number | null; // null: not subscribed at the server
-  ended: boolean; // the server offered the topic on this connection, and withdrew it
+  ended: boolean; // whether the server has offered the topic on this connection, and withdrawn it
 }
 
 // A server refuses a second subscription of a channel, so all subscriptions of a channel share one.
@@ -72,7 +72,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   private nextSubscription = 1;
   private readonly channels = new Map<number, Channel>();
   private readonly subscriptions = new Set<Subscription>();
-  private readonly subscribed = new Map<number, SubscribedChannel>(); // by the ID that this client gave to the subscription
+  // by the ID that this client has given to the subscription
+  private readonly subscribed = new Map<number, SubscribedChannel>();
   private readonly decoders = new MessageDecoders();
   private readonly reported = new Set<string>();
   private readonly counted = new Map<string, TopicCount>(); // by topic
@@ -115,14 +116,14 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     return this.counted;
   }
 
-  // The subscribed topics that the server has not offered since the connection opened. A topic that
-  // the server withdrew is not among them: its robot was removed.
+  // The subscribed topics that the server has not offered since the connection opened. Topics that
+  // the server has withdrawn are left out, because their robots were removed.
   get missingTopics(): string[] {
     return [...this.subscriptions].filter(({ id, ended }) => id === null && !ended).map(({ topic }) => topic);
   }
 
-  // Subscribes to a topic; returns the function that ends the subscription. With `newestOnly`,
-  // messages are skipped so that decoding takes at most a fifth of the time.
+  // Subscribes to a topic. Returns the function that ends the subscription. With `newestOnly`,
+  // messages are skipped, so that decoding takes at most a fifth of the page's time.
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,
@@ -153,8 +154,8 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     });
   }
 
-  // The images of a view that the server draws. Call show() of the result when the reader's
-  // callback reports that the stream is open.
+  // A view whose images the server draws. Call show() of the result when the reader's callback
+  // reports that the stream is open.
   openView(reader: ViewReader): LiveView {
     return this.views.openView(reader);
   }
@@ -337,8 +338,9 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     known.bytes += bytes;
   }
 
-  // Decodes the newest message of the subscription after all messages that have already arrived,
-  // and after the pause that follows the previous one. Older messages that wait are dropped.
+  // Decodes the newest message of the subscription. Before this, it waits for all messages that
+  // have already arrived, and for the pause after the previous decoded message. If a newer message
+  // arrives during this time, the older one is dropped.
   private handOverLater(subscription: Subscription, channel: Channel, payload: DataView): void {
     const isScheduled = subscription.waiting !== null;
     subscription.waiting = payload;
@@ -368,7 +370,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     if (this.socket?.readyState === this.SocketClass.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  // Reports each sentence once, because a stream may repeat its faults many times per second.
+  // Reports each sentence only once, because a stream may repeat its faults many times per second.
   private problem(sentence: string): void {
     if (this.reported.has(sentence) || this.reported.size > 100) return;
     this.reported.add(sentence);

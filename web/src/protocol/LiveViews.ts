@@ -5,7 +5,7 @@ const HEADER_BYTES = 20; // after the header of all messages: sequence, number, 
 
 // An image that the server has pushed.
 export interface PushedImage {
-  // The number that the reader gave in show() for the camera with which the image was drawn.
+  // The number that the reader has passed to show() together with the camera of this image.
   sequence: number;
   // Number of the world's state that the image shows; a later state has a larger number.
   number: number;
@@ -28,7 +28,8 @@ export interface ViewReader {
 export interface LiveView {
   // `camera`: a text like the query of /view.mjpeg.
   show(camera: string, sequence: number): void;
-  // Reports that this image is on the screen, or was left out. The server then sends the next one.
+  // Reports that this image is on the screen, or was left out. The server then sends the next
+  // image.
   shown(image: PushedImage): void;
   end(): void;
 }
@@ -90,7 +91,8 @@ export class ConnectedViews implements LiveViewSource {
   }
 }
 
-// Views that survive a change of the source, as when the page goes to another simulation.
+// Views that continue to exist if the source changes, for example if the page shows another
+// simulation.
 export class SharedViews implements LiveViewSource {
   private source: LiveViewSource | null = null;
   private readonly opened = new Map<ViewReader, LiveView | null>(); // null: there is no source

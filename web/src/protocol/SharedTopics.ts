@@ -1,28 +1,28 @@
 // The topics that the page reads. A topic with several readers is subscribed once, so that each
-// message is sent and decoded once; a server refuses a second subscription of a channel. The
-// subscription ends with its last reader. If the source changes, each topic is subscribed again at
-// the new source.
+// message is sent and decoded once. A server would also refuse a second subscription of a channel.
+// The subscription ends with its last reader. If the source changes, each topic is subscribed again
+// at the new source.
 
 type Handler = (message: unknown) => void;
 
 export interface TopicOptions {
-  // If messages arrive faster than the page can decode them, only the newest is decoded. This
-  // applies to a topic only while all its readers request it.
+  // If messages arrive faster than the page can decode them, only the newest message is decoded.
+  // This option has an effect on a topic only while all its readers set it.
   newestOnly?: boolean;
   // The topic to read if the server does not offer the topic itself.
   orElse?: string;
 }
 
 export interface TopicSource {
-  // Calls the handler with each message of the topic, and at once with the newest message if other
-  // readers already read the topic. Returns the function that ends the subscription. A topic that
-  // nobody offers has no messages.
+  // Calls the handler with each message of the topic. If other readers already read the topic, also
+  // calls it at once with the newest message. Returns the function that ends the subscription. If
+  // no server offers the topic, there are no messages.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void;
 }
 
 interface SharedTopic {
   handlers: Map<Handler, { newestOnly: boolean }>;
-  // Topic to read if the server does not offer this one, as requested by the first reader.
+  // The topic to read if the server does not offer this topic. The first reader determines it.
   orElse: string | undefined;
   newest: { message: unknown } | null;
   newestOnly: boolean; // the mode of the subscription at the server

@@ -1,5 +1,6 @@
-// The ROS 2 messages that the viewer reads, in the form of @foxglove/rosmsg2-serialization. Their
-// definitions come with each channel; these types contain the fields that the viewer relies on.
+// The ROS 2 messages that the viewer reads, in the form of @foxglove/rosmsg2-serialization. The
+// server sends their definitions with each channel. These types contain only the fields that the
+// viewer uses.
 
 export interface Time {
   sec: number;

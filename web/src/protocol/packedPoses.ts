@@ -1,5 +1,5 @@
 // Unpacks the poses of the bodies. A server offers rounded poses (/gsv/packed_poses), because they
-// need a third of the bytes.
+// need only a third of the bytes of exact poses.
 import type { PackedPosesMessage, PosesMessage } from "./messages";
 
 export const PACKED_POSES = "/gsv/packed_poses";
@@ -23,7 +23,8 @@ export function posesOf(message: PosesMessage | PackedPosesMessage): PosesMessag
   return { stamp, step, layout_version, poses };
 }
 
-// The largest component of a unit quaternion x y z w is omitted. Two bits are its index.
+// The largest component of a unit quaternion x y z w is omitted. Two bits contain the index of this
+// component.
 function unpackRotation(packed: Uint16Array, from: number, out: Float64Array, at: number): void {
   const missing = 2 * (packed[from]! >> 15) + (packed[from + 1]! >> 15);
   let squared = 0;

@@ -8,7 +8,7 @@ export interface RecordingLine {
   size: number; // bytes
   modified: string; // in the format of RFC 3339; empty if unknown
   state: "complete" | "unfinished" | "unreadable";
-  problem: string; // why the recording cannot be read; empty if it can
+  problem: string; // why the recording cannot be read; empty if it can be read
   duration: number; // simulated time, s; only for complete recordings
   messages: number;
   world: string; // empty if unknown
@@ -24,7 +24,7 @@ export interface Recordings {
   lines: RecordingLine[]; // ordered by time; the newest is first
 }
 
-// The time limit is long, because reading many recordings for the first time takes long.
+// The time limit is long, because it takes long to read many recordings for the first time.
 const TIMEOUT_MS = 30_000;
 
 export async function fetchRecordings(server: JsonServer): Promise<Recordings> {
@@ -55,8 +55,8 @@ function parseRecordingLine(json: unknown): RecordingLine {
   };
 }
 
-// Returns the address of a page that replays the recording in its own session, from a simulated
-// time on.
+// Returns the address of a page that replays the recording. The replay belongs to this page only.
+// It starts at a simulated time.
 export function replayUrl(name: string, from: number | null = null): string {
   return `./?recording=${encodeURIComponent(name)}${from === null ? "" : `#t=${from}`}`;
 }

@@ -125,7 +125,8 @@ export function mount(ports: Ports): MountedPanel {
       build();
     },
   );
-  // In another simulation, a topic of the same name is another stream, so it is subscribed again.
+  // If the simulation changes, a topic with the same name is another stream. So it is subscribed
+  // again.
   state.watch(
     ({ simulation, view, replay }) => ({ simulation, isStarting: view === "starting", isRecorded: replay !== null }),
     listen,

@@ -1,5 +1,5 @@
-// One camera: its newest image with its time, and its age if it is late. Depth images also have a
-// colour scale and show the value under the pointer.
+// One camera: its newest image with the time of the image. If the image is late, also shows its
+// age. Depth images also have a colour scale and show the value under the pointer.
 import type { CameraChoice } from "../../api/scene";
 import type { ValueImage } from "../../live/valueImage";
 import { SCALE_CSS, spanOf } from "../../live/valueImage";
@@ -10,7 +10,7 @@ import type { CameraMessage } from "./ImagePainter";
 import { ImagePainter } from "./ImagePainter";
 
 const SAME_INSTANT_S = 1e-6;
-const BEHIND_S = 1.5; // the age of an image is shown if it is at least this
+const BEHIND_S = 1.5; // the age of an image is shown if it is at least this, s
 const MIN_ZOOM = 1;
 const MAX_ZOOM = 16;
 const ZOOM_STEP = 1.25;
@@ -73,8 +73,8 @@ export class CameraTile {
     setText(this.value, "");
     this.waiting.hidden = false;
     const { view, replay, inPast } = this.ports.state.get();
-    // A recording contains only images that were requested during recording. If it has one for the
-    // present instant, the replay sends it at once.
+    // A recording contains only images that were requested during recording. If there is an image
+    // for the present instant, the replay sends it at once.
     const missing = inPast ? "The stored past has no camera images. Press Live to see the present image." : "The recording has no image of this camera up to this time.";
     setText(this.waiting, replay ? missing : "Waiting for an image…");
     if (view === "starting") return;
@@ -118,7 +118,8 @@ export class CameraTile {
     this.judgeAge();
   }
 
-  // Shows the value under the pointer. The image is centred in the canvas and as large as it fits.
+  // Shows the value under the pointer. The image is in the centre of the canvas, as large as the
+  // canvas allows.
   private point({ offsetX, offsetY }: PointerEvent): void {
     if (!this.values) return setText(this.value, "");
     const { width, height, values, unit } = this.values;
@@ -135,7 +136,7 @@ export class CameraTile {
     event.preventDefault();
     const before = this.zoom;
     this.zoomBy(event.deltaY < 0 ? ZOOM_STEP : 1 / ZOOM_STEP);
-    // When the scale changes, the point of the image under the pointer stays where it is.
+    // When the scale changes, the point of the image under the pointer does not move on the page.
     const { left, top } = frame.getBoundingClientRect();
     const [x, y] = [event.clientX - left, event.clientY - top];
     const growth = this.zoom / before;

@@ -1,5 +1,5 @@
-// Paints the images of one camera. One image is decoded at a time. Of the images that arrive during
-// decoding, only the newest is decoded next.
+// Paints the images of one camera. One image is decoded at a time. If several images arrive during
+// decoding, only the newest of them is decoded next.
 import type { PointCloud } from "../../live/clouds";
 import { valuesOfGreyPng } from "../../live/greyPng";
 import type { ValueImage } from "../../live/valueImage";
@@ -20,8 +20,8 @@ export class ImagePainter {
   private busy = false;
   private isPainted = false;
   private generation = 0;
-  // The processor, and not the graphics, draws this canvas. Without a graphics card, the page would
-  // otherwise wait for the 3D view, which is being drawn.
+  // This canvas is drawn by the processor, and not by the graphics. Without a graphics card, the
+  // page would otherwise wait for the 3D view, which is drawn by the same graphics.
   private readonly context: CanvasRenderingContext2D | null;
 
   // `onProblem` gets a sentence if an image cannot be shown.
@@ -36,7 +36,8 @@ export class ImagePainter {
   clear(): void {
     this.generation += 1;
     this.next = null;
-    // Do not touch the canvas earlier: its first call waits until the browser has started to draw.
+    // Do not use the canvas earlier, because its first call waits until the browser has started to
+    // draw.
     if (this.isPainted) this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.isPainted = false;
   }

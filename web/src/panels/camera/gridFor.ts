@@ -6,12 +6,13 @@ const MIN_WIDTH_PX = 170; // minimum width of a cell
 
 export interface Grid {
   columns: number;
-  cellWidth: number | null; // CSS pixels; null: the columns share the width, and the grid scrolls
+  // in CSS pixels; null: the columns share the width of the panel, and the grid scrolls
+  cellWidth: number | null;
 }
 
-// Returns the columns with which `count` cells are the largest in a place of this size in CSS
-// pixels. If the cells would be narrower than MIN_WIDTH_PX, they are at least this wide, and the
-// grid scrolls.
+// Returns the number of columns with which `count` cells are as large as possible in an area of
+// this size in CSS pixels. If the cells would be narrower than MIN_WIDTH_PX, they get at least this
+// width, and the grid scrolls.
 export function gridFor(count: number, width: number, height: number): Grid {
   let [best, largest] = [1, 0];
   for (let columns = 1; columns <= count; columns++) {

@@ -1,4 +1,5 @@
-// The panel of the simulation's commands: a form for each, made from the server's description.
+// The panel of the simulation's commands. Each command has a form, which is made from the server's
+// description.
 import type { CommandArguments, CommandDescription, CommandParameter, CommandValue } from "../../api/commands";
 import { canAct } from "../../state/actions";
 import { element, setText } from "../../ui/element";
@@ -34,7 +35,7 @@ export function mount({ state, commands }: Ports): MountedPanel {
       say("");
     } catch (error) {
       if (shown !== simulation) return;
-      shown = null; // the commands are requested again when the panel opens next
+      shown = null; // so that the commands are requested again when the panel is opened again
       say((error as Error).message);
     }
   };

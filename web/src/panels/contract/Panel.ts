@@ -1,7 +1,7 @@
 // A panel beside the view, such as the log.
 //
-// It has one entry in registry.ts, which the panel bar, the keys and the help sheet use, and one
-// module that is fetched when the panel is first opened.
+// A panel has one entry in registry.ts and one module. The panel bar, the keys and the help sheet
+// use the entry. The module is fetched when the panel is first opened.
 import type { State } from "../../state/State";
 import type { IconName } from "../../ui/icons";
 import type { PanelPorts } from "./ports";
@@ -17,8 +17,8 @@ export interface Panel {
   picture: IconName;
   group: PanelGroup;
   key?: string; // the single key that opens and closes it, in upper case
-  // Whether server and simulation provide the panel's data, and the viewer has permission. If not,
-  // the panel is not offered; if it is already open, it shows `absence`.
+  // Whether the server and the simulation provide the panel's data, and the viewer has permission.
+  // If not, the panel is not offered. If it is already open, it shows `absence`.
   isAvailable(state: State): boolean;
   absence?: string; // the reason why there is nothing to show
   // Where the panel opens: beside the view, below it (default), or above the panels beside the
@@ -38,7 +38,7 @@ export interface MountedPanel {
   body: HTMLElement;
   tools?: HTMLElement[]; // controls above the body
   // Called whenever the panel becomes visible. The returned function is called when the panel is
-  // closed or hidden behind another tab. Read data (topics, the store) only in between, so that a
-  // hidden panel costs nothing.
+  // closed or hidden behind another tab. Read data (topics, the store) only between these two
+  // calls, so that a hidden panel costs nothing.
   whileOpen?(): () => void;
 }

@@ -1,8 +1,8 @@
 // The interfaces by which a panel accesses the page.
 //
-// A panel's mount function names the ports that it uses; the panel uses no other part of the page.
-// So tests or other pages can mount it with their own ports. app/panelPorts.ts implements the ports
-// for the viewer.
+// A panel's mount function names the ports that the panel uses. The panel uses no other part of the
+// page. So tests or other pages can mount the panel with their own ports. app/panelPorts.ts
+// implements the ports for the viewer.
 import type { ServerFigures } from "../../api/MetricsApi";
 import type { CommandArguments, CommandDescription } from "../../api/commands";
 import type { CurveOf, WholeCurve } from "../../api/curve";
@@ -23,8 +23,8 @@ import type { StateReader } from "../../state/Store";
 // All ports. A panel names the ports that it uses.
 export interface PanelPorts {
   state: StateReader<State>; // the page's state, read-only; the other ports change it
-  // Topics of the simulation that is shown; if the page changes to another simulation, a
-  // subscription continues there.
+  // Topics of the simulation that is shown. If the page changes to another simulation, a
+  // subscription continues with the other simulation.
   topics: TopicSource;
   traffic: TrafficPort;
   server: ServerPort;
@@ -46,8 +46,8 @@ export interface TrafficPort {
   open(topic: string): void; // shows the messages of a topic, and opens their panel
 }
 
-// Requests to the server for data that is not in the live stream. If the server refuses, promises
-// reject with its sentence.
+// Requests to the server for data that is not in the live stream. If the server refuses a request,
+// its promise rejects with the server's sentence.
 export interface ServerPort {
   // The metrics of /metrics (docs/monitoring.md).
   figures(): Promise<ServerFigures>;
@@ -57,21 +57,24 @@ export interface ServerPort {
   log(simulation: string): Promise<RecordedLine[]>;
   // The last output of a robot's behaviour.
   output(simulation: string, robot: string): Promise<OutputLine[]>;
-  // One value over a whole recording, as far as it is read, with at most `most` samples.
+  // One value over a whole recording, or over the part that is read so far, with at most `most`
+  // samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
   // One value over the stored past of a running simulation.
   pastCurve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
-  // One value over the recording that the page compares with; null: there is no comparison.
+  // One value over the recording with which the page compares; null if there is no comparison.
   comparedCurve(of: CurveOf, most: number): Promise<WholeCurve | null>;
 }
 
-// Commands to a simulation. If the server refuses, promises reject with its sentence.
+// Commands to a simulation. If the server refuses a command, its promise rejects with the server's
+// sentence.
 export interface CommandsPort {
   list(simulation: string): Promise<CommandDescription[]>;
   run(simulation: string, command: string, given: CommandArguments): Promise<void>;
 }
 
-// Commands to bodies. If the server refuses, promises reject with its sentence.
+// Commands to bodies. If the server refuses a command, its promise rejects with the server's
+// sentence.
 export interface ControlPort {
   // Takes control of the simulation, or requests it from the viewer who has it.
   take(): Promise<void>;
@@ -80,14 +83,14 @@ export interface ControlPort {
   drive(simulation: string, robot: string, drive: Drive): Promise<void>;
   setDriven(robot: string | null): void; // sets the robot that this page drives by hand
   joints(simulation: string, body: string): Promise<BodyJoints>;
-  showJoints(): void; // opens the panel of joints, which shows those of the selection
+  showJoints(): void; // opens the panel of joints, which shows the joints of the selected body
   commandJoint(simulation: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void>;
 }
 
 // The shapes of models. Promises reject with a sentence.
 export interface ShapesPort {
-  // The visuals of the model with this identifier. The identifier of its collision shapes returns
-  // the collision shapes.
+  // The visuals of the model with this identifier. If it is the identifier of collision shapes,
+  // returns the collision shapes.
   visuals(model: string, links: readonly string[]): Promise<readonly VisualFacts[]>;
 }
 
@@ -121,7 +124,7 @@ export interface PlotsPort {
 }
 
 export interface EditsPort {
-  // In edit mode, moves a body to exactly this pose. Resolves to whether the server has moved it.
+  // In edit mode, moves a body to exactly this pose. Resolves to true if the server has moved it.
   pose(pose: BodyPose): Promise<boolean>;
 }
 

@@ -1,11 +1,10 @@
-// A line that explains why commands need control of the simulation, with the button that requests
-// control.
+// A line that explains why commands need control of the simulation. Its button requests control.
 import { holderOf, needsControl, youOf } from "../../state/people";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
 import type { PanelPorts } from "../contract/ports";
 
-// `follow` calls a function on each change, and returns a function that ends this.
+// `follow` calls a function on each change. It returns a function that ends these calls.
 export function controlLine(state: PanelPorts["state"], control: Pick<PanelPorts["control"], "take">) {
   const sentence = element("span");
   const button = element("button", { class: "button", type: "button", onclick: () => void control.take() });

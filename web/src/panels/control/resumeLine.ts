@@ -1,4 +1,4 @@
-// The line that says that the simulation is paused, with the button that resumes it.
+// The line that says that the simulation is paused. Its button resumes the simulation.
 import { mainAction } from "../../state/actions";
 import { needsControl } from "../../state/people";
 import { shallowEqual } from "../../state/Store";
@@ -6,7 +6,7 @@ import { element, setText } from "../../ui/element";
 import type { PanelPorts } from "../contract/ports";
 
 // `consequence` is a sentence on what a paused simulation means for this panel. `follow` calls a
-// function on each change, and returns a function that ends this.
+// function on each change. It returns a function that ends these calls.
 export function resumeLine(state: PanelPorts["state"], control: Pick<PanelPorts["control"], "resume">, consequence: string) {
   const sentence = element("span");
   const button = element("button", { class: "button", type: "button", onclick: () => control.resume() });

@@ -1,5 +1,5 @@
-// Collects diagnostics between start() and the call of the returned function: /diagnostics of the
-// stream, the server's metrics, and the number of updates dropped for this page.
+// Collects diagnostics from start() until the function that it returns is called: /diagnostics of
+// the stream, the server's metrics, and the number of updates dropped for this page.
 import type { DiagnosticArrayMessage } from "../../protocol/messages";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { Store } from "../../state/Store";

@@ -18,7 +18,7 @@ const NOTHING_YET = "No data yet. The panel fills when the server responds.";
 export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "topics" | "server">): MountedPanel {
   const store = new Store<Diagnostics>(NO_DIAGNOSTICS);
   const feed = new DiagnosticsFeed(store, topics, server);
-  // The data of one simulation does not apply to another, so it is removed.
+  // If the simulation changes, the data of the previous simulation is removed.
   state.watch(
     ({ simulation }) => simulation,
     () => store.set(NO_DIAGNOSTICS),
@@ -26,8 +26,8 @@ export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "top
   return panelOf(store, state, () => feed.start());
 }
 
-// Makes the panel for the data in the store. `start` starts collecting the data, and returns a
-// function that ends it.
+// Makes the panel for the data in the store. `start` starts to collect the data. It returns a
+// function that stops collecting.
 export function panelOf(store: Store<Diagnostics>, state: PanelPorts["state"], start: () => () => void): MountedPanel {
   const simulation = createFacts("Simulation", NOTHING_YET);
   const robots = createFacts("Robots", NOTHING_YET);

@@ -1,5 +1,5 @@
-// The expectations of the scenario with verdict, margin and time. In a recording, a click goes to
-// that time.
+// The expectations of the scenario with verdict, margin and time. In a recording, a click on an
+// expectation goes to this time.
 import type { Expectation } from "../../state/expectations";
 import { marginText, summaryOf, verdictWord } from "../../state/expectations";
 import { shallowEqual } from "../../state/Store";

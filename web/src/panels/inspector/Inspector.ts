@@ -64,7 +64,7 @@ export function createInspector(ports: Ports): HTMLElement {
     output,
     createSensorList(ports),
   );
-  // The output of a dead behaviour stands directly below the reason of its death.
+  // The output of a dead behaviour is placed directly below the reason of its death.
   const placeOutput = (isDead: boolean) => {
     const before = isDead ? why : detail;
     if (before.nextElementSibling !== output) before.after(output);

@@ -1,5 +1,5 @@
-// The inspector as a panel: the selected robot, or the selected object, link, joint or sensor.
-// Without a selection, it explains how to select one.
+// The inspector as a panel: the selected robot, or the selected object, link, joint or sensor. If
+// nothing is selected, it explains how to select something.
 import type { WorldNode } from "../world/nodes";
 import { nodeId, nodeOf } from "../world/nodes";
 import { NodeInspector } from "../world/NodeInspector";

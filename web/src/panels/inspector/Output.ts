@@ -40,7 +40,7 @@ class OutputReader {
 
   read(): void {
     const { simulation, selection, connection } = this.ports.state.get();
-    // If the connection is lost, the printed lines stay.
+    // If the connection is lost, the lines that are shown stay.
     if (connection.phase !== "open" && this.robot === selection) return;
     this.end();
     this.end = () => {};

@@ -31,7 +31,8 @@ export function createSensorList(ports: Ports): HTMLElement {
     list.replaceChildren(...readings.show(body, isOpen));
   };
   details.addEventListener("toggle", () => {
-    if (details.open === isOpen) return; // browsers report a list that was open from the start
+    // browsers also report this event for a list that was open from the start
+    if (details.open === isOpen) return;
     isOpen = details.open;
     refresh();
   });
@@ -39,8 +40,8 @@ export function createSensorList(ports: Ports): HTMLElement {
   return details;
 }
 
-// Whether the list may subscribe without a request by the user. Images and point clouds are too
-// large for that.
+// Whether the list may subscribe to the sensor without a request by the user. Images and point
+// clouds are too large for this.
 export function isLight({ overlay, type }: SceneSensor): boolean {
   return overlay !== "picture" && !LARGE_TYPES.includes(type);
 }
@@ -52,7 +53,8 @@ class Readings {
 
   constructor(private readonly ports: Ports) {}
 
-  // Subscribes to the body's sensors instead of the previous ones, if `isOpen`. Returns their rows.
+  // If `isOpen`, subscribes to the sensors of the body, and ends the previous subscriptions.
+  // Returns the rows.
   show(body: SceneBody | null, isOpen: boolean): HTMLElement[] {
     for (const end of this.ends) end();
     clearTimeout(this.timer);

@@ -1,4 +1,4 @@
-// One joint: its position between its limits, and a slider and a number field that command it.
+// One joint: its position between its limits. A slider and a number field command the joint.
 import { NewestOnly } from "../../api/NewestOnly";
 import type { Joint } from "../../api/joints";
 import { element, setAttribute, setText } from "../../ui/element";
@@ -6,8 +6,8 @@ import { formatNumber } from "../../ui/format";
 
 const STEPS = 400; // number of steps of the slider
 const USUAL_VELOCITY = 2; // used if the joint has no velocity limit, rad/s or m/s
-// After the user sets a value, the field shows it for this time, because the server reports it
-// later.
+// After the user has set a value, the field shows this value for this time, because the server
+// reports it with a delay.
 const HELD_MS = 600;
 
 interface Actions {
@@ -33,7 +33,7 @@ export class JointRow {
   private readonly kind: "position" | "velocity";
   private inDegrees = false;
   private heldUntil = 0; // ms
-  private waiting: number | null = null; // the value that was set while the simulation is paused
+  private waiting: number | null = null; // value that the user has set while the simulation is paused
 
   constructor(joint: Joint, { command, problem }: Actions) {
     const hasLimits = Number.isFinite(joint.minimum) && Number.isFinite(joint.maximum);

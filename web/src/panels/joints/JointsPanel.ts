@@ -1,5 +1,5 @@
-// The joints of a robot or an arm: the position of each between its limits, and a slider that
-// commands it.
+// The joints of a robot or an arm: the position of each joint between its limits, and a slider that
+// commands the joint.
 import type { BodyJoints } from "../../api/joints";
 import { shownPart } from "../../state/parts";
 import { needsControl } from "../../state/people";
@@ -113,13 +113,13 @@ export function mount({ state, control }: Ports): MountedPanel {
   return { body: element("div", { class: "joints-body" }, line, paused.line, note, list), tools: [choice, inDegrees], whileOpen };
 }
 
-// Returns the body that the inspector shows, or the body of the part that it shows.
+// Returns the body in the inspector. If the inspector shows a part of a body, returns this body.
 function selected(state: State): string | null {
   return shownPart(state)?.body ?? null;
 }
 
-// Returns robots first, then arms and other objects. Static bodies are left out, because their
-// joints do not move.
+// Returns the bodies with joints: first robots, then arms and other objects. Static bodies are left
+// out, because their joints do not move.
 function jointedBodies({ scene }: State): string[] {
   const jointed = (scene?.bodies ?? []).filter(({ joints }) => joints.length > 0);
   return [...jointed.filter(({ isRobot }) => isRobot), ...jointed.filter(({ isRobot }) => !isRobot)].map(({ name }) => name);

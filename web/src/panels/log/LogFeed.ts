@@ -1,5 +1,5 @@
-// Collects the lines of /rosout: for a running simulation as they arrive, for a recording all at
-// once.
+// Collects the lines of /rosout. The lines of a running simulation are collected as they arrive.
+// The lines of a recording are read all at once.
 import type { LogMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
 import type { Store } from "../../state/Store";

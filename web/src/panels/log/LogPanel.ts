@@ -10,8 +10,9 @@ import { LogFeed } from "./LogFeed";
 import type { Log, LogLine } from "./log";
 import { LEVELS, NO_LOG, countUntil, levelWord, shownLines } from "./log";
 
-const MOST_ROWS = 500; // maximum number of shown lines: those around the present instant
-const NEAR_END_PX = 24; // if the user has scrolled farther up than this, new lines do not scroll the list
+const MOST_ROWS = 500; // maximum number of shown lines; these are the lines around the present instant
+// if the user has scrolled farther up than this, the list does not scroll to new lines
+const NEAR_END_PX = 24;
 
 const NOTHING_YET =
   "No messages yet. This panel lists events of the simulation: starts and pauses, robots " +

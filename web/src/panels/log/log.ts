@@ -23,8 +23,8 @@ export const LEVELS: readonly { level: number; label: string; word: string }[] =
   { level: 40, label: "Errors only", word: "error" },
 ];
 
-// Number of newest lines that are compared with a new line: a new subscription delivers the last
-// hundred lines again.
+// The number of newest lines with which a new line is compared. This is needed because a new
+// subscription delivers the last hundred lines again.
 const LIKELY_AGAIN = 200;
 
 // Returns "info", "warning", "error" or "debug".
@@ -47,7 +47,7 @@ export function shownLines({ lines, lowest, filter }: Log): LogLine[] {
   );
 }
 
-// Returns the number of lines up to an instant. The lines must be ordered by time.
+// Returns the number of lines up to an instant. `lines` must be ordered by time.
 export function countUntil(lines: readonly LogLine[], time: number): number {
   const after = lines.findIndex((line) => line.time > time + 1e-9);
   return after < 0 ? lines.length : after;

@@ -41,7 +41,7 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
     steps.show(costs.longest(MAX_STEPS));
     holdUps.show(costs);
   };
-  // A server without this parameter sends no answer, so the value stays unknown.
+  // If the server does not have this parameter, it does not answer, and the value stays unknown.
   const ask = async (key: keyof World, parameter: string) => {
     const value = await server.parameter(parameter).catch(() => null);
     if (typeof value !== "number") return;
@@ -128,7 +128,7 @@ class Bars {
   }
 }
 
-// The longest steps: a line for each, with a bar for each part.
+// The longest steps. Each step is a line, with a bar for each part.
 class Waterfall {
   private readonly lines: { step: HTMLElement; bar: HTMLElement; who: HTMLElement; total: HTMLElement; element: HTMLElement }[] = [];
   private readonly rows = element("tbody");

@@ -33,8 +33,8 @@ export interface HoldUp {
 }
 
 const KEPT_MESSAGES = 10; // five seconds of wall-clock time
-const SLOW = 0.95; // a run below this fraction of its target factor is slower than requested
-const LARGE = 0.5; // a part that takes this fraction of the busy time is named as the reason
+const SLOW = 0.95; // a run below this fraction of its target factor is slower than its target
+const LARGE = 0.5; // if a part takes this fraction of the busy time, the page names it as the reason
 
 export class StepCosts {
   private messages: StepCostsMessage[] = [];
@@ -87,7 +87,7 @@ export function busyTime(cost: StepCost): number {
 
 type Pace = Pick<SimulationStatus, "mode" | "phase" | "targetFactor" | "realTimeFactor">;
 
-// Returns a sentence about what determines the speed of the run, and how to change it.
+// Returns a sentence about what limits the speed of the run, and how the user can change this.
 export function paceSentence({ mode, phase, targetFactor, realTimeFactor }: Pace, costs: StepCosts): string {
   if (phase !== "running") return "The simulation does not run. Start it to measure its steps.";
   if (costs.steps === 0) return "No step yet.";

@@ -28,7 +28,8 @@ export class PlotDrawing {
   private isOpen = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private pointed: number | null = null; // position of the pointer, CSS pixels from the left
-  private heldSpan: Range | null = null; // while the user drags in a recording, the axis does not change
+  // while the user drags in a recording, the time range of the axis does not change
+  private heldSpan: Range | null = null;
   private readonly values = new Map<string, HTMLElement>();
   private readonly instant = element("span", { class: "plot-instant number" });
 
@@ -118,7 +119,7 @@ export class PlotDrawing {
     });
   }
 
-  // Returns the curves of the same quantities from the compared recording. They are dashed.
+  // Returns the curves of the same quantities in the compared recording. They are drawn dashed.
   private compared(curves: readonly Shown[]): DrawnCurve[] {
     return curves.flatMap(({ id, unit, colour }) => {
       const series = this.feed.comparedOf(id);

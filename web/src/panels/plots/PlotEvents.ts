@@ -1,5 +1,5 @@
-// Collects the events that plots mark: all events of a recording; for a running simulation, the new
-// ones and the hundred before them.
+// Collects the events that plots mark. For a recording, these are all events. For a running
+// simulation, they are the new events and the hundred events before them.
 import type { RecordedEvent } from "../../api/replay";
 import type { LifecycleEventMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
@@ -34,7 +34,8 @@ export class PlotEvents {
     }));
   }
 
-  // A new subscription repeats earlier events. A reset starts a new list.
+  // A new subscription repeats earlier events, so they are not added again. A reset starts a new
+  // list.
   private take(event: RecordedEvent): void {
     const { simulation } = this.ports.state.get();
     if (simulation !== this.simulation || event.event === "reset") this.live = [];

@@ -1,6 +1,6 @@
 // Collects the values of the plotted curves as they arrive, by simulated time. A sensor is
 // subscribed only while one of its values is plotted. For a recording, the server computes the
-// whole curve, which then replaces the values from playback.
+// whole curve. This curve then replaces the values from playback.
 import type { WholeCurve } from "../../api/curve";
 import type { SceneDescription } from "../../api/scene";
 import { robotsOf } from "../../api/scene";
@@ -39,13 +39,13 @@ interface PlacedAt {
 }
 
 export class PlotFeed {
-  private readonly series = new Map<string, Series>(); // by curve
+  private readonly series = new Map<string, Series>(); // samples by curve
   // Whole curves that the server has computed.
   private readonly whole = new Map<string, WholeCurve>();
   // Curves of the second recording of a comparison.
   private readonly compared = new Map<string, Series>();
-  private readonly ends = new Map<string, () => void>(); // by topic
-  private readonly last = new Map<string, PlacedAt>(); // by robot
+  private readonly ends = new Map<string, () => void>(); // functions that end subscriptions, by topic
+  private readonly last = new Map<string, PlacedAt>(); // last position, by robot
   // The collected values: curves, and the fields of expressions.
   private inputs: readonly Input[] = [];
   private formulas: readonly Formula[] = [];
@@ -67,8 +67,8 @@ export class PlotFeed {
       () => this.listen(),
       shallowEqual,
     );
-    // When the page changes between live data and a replay (also of the run's own past), the curves
-    // are cleared, so that values of both do not mix.
+    // If the page changes between live data and a replay (also a replay of the run's own past), the
+    // curves are cleared. So live values and replayed values are not mixed.
     this.state.watch(
       ({ replay }) => replay !== null,
       () => this.forgetRecorded(),
@@ -97,7 +97,7 @@ export class PlotFeed {
     return this.series.get(id) ?? null;
   }
 
-  // The curve of the same value in the second recording of a comparison.
+  // The curve of the same value in the second recording of a comparison; null if there is none.
   comparedOf(id: string): Series | null {
     return this.compared.get(id) ?? null;
   }
@@ -188,7 +188,8 @@ export class PlotFeed {
     const isField = ({ source }: Input) => source.kind === "topic" && source.topic === topic;
     const fields: Record<string, number> = {};
     for (const { key } of this.inputs.filter(isField)) {
-      // An expression may also use the inspector's name of a value, such as "ranges.min".
+      // The expression may also use the name that the inspector shows for a value, such as
+      // "ranges.min".
       const value = numberAt(message, parsePath(key) ?? []) ?? values[key];
       if (value !== undefined) fields[key] = value;
     }
@@ -216,8 +217,8 @@ export class PlotFeed {
     if (!this.whole.has(id)) this.series.get(id)?.push(time, value);
   }
 
-  // If simulated time goes back, a run was reset, so its values are removed. In a replay the user
-  // may go back, and the values remain valid.
+  // If simulated time decreases, a run was reset, so its values are removed. In a replay, the user
+  // may go back in time, and the values remain valid.
   private goOn(time: number): void {
     const wasReset = time < this.newest - LONGEST_GAP_S && this.state.get().replay === null;
     if (wasReset) {

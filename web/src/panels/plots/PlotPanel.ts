@@ -42,7 +42,7 @@ export function mount(ports: Ports): MountedPanel {
   }).start();
   const save = smallButton("save", "Save as CSV", () => saveTable(ports, feed));
   const { button, form } = expressionForm(ports);
-  // In a narrow panel the tools have several lines; the button to save never stands alone in one.
+  // In a narrow panel, the tools have several lines. The button to save is never alone in one line.
   const last = element("span", { class: "plot-last" }, eventsCheck(ports), element("span", { class: "spacer" }), save);
   const plots = element("div", { class: "plot-body" }, drawing.legend, element("div", { class: "plot-place" }, drawing.place, empty));
   return {

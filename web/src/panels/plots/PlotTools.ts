@@ -8,8 +8,8 @@ import type { PanelPorts } from "../contract/ports";
 
 type Ports = Pick<PanelPorts, "state" | "plots">;
 
-// The values of the simulation and of the selected robot. Values of sensors are added in the
-// inspector, all others in the panel of topics.
+// The values of the simulation and of the selected robot. Other values are added elsewhere: values
+// of sensors in the inspector, and all other values in the panel of topics.
 export function addChoice({ state, plots }: Ports): HTMLElement {
   const choice = element("select", { "aria-label": "Add a curve" });
   const fill = ({ selection, isFull }: { selection: string | null; isFull: boolean }) => {

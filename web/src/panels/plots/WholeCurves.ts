@@ -1,6 +1,6 @@
-// Fetches the plotted curves of a whole recording, of the stored past of a running simulation, and
-// of the recording that is compared. The server needs time to read a recording; until it has
-// finished, requests repeatedly what it has read so far.
+// Fetches the plotted curves of three sources: a whole recording, the stored past of a running
+// simulation, and the compared recording. The server needs time to read a recording. Until it has
+// finished, the curve that it has read so far is requested repeatedly.
 import type { CurveOf, WholeCurve } from "../../api/curve";
 import { MOST_SAMPLES } from "../../live/Series";
 import { parseExpression } from "../../live/expression";
@@ -39,7 +39,8 @@ export class WholeCurves {
   start(): void {
     this.ports.state.watch(
       ({ replay }) => replay !== null,
-      // A recording is plotted from end to end, a running simulation only over the newest seconds.
+      // For a recording, the whole time range is plotted. For a running simulation, only the newest
+      // seconds are plotted.
       (isReplay) => isReplay && this.ports.plots.setSpan(null),
     );
     this.ports.state.watch(
@@ -98,7 +99,7 @@ export class WholeCurves {
     }
   }
 
-  // Requests the value until all of it is read. If it cannot be read, and `isMissed` is true,
+  // Requests the value until it is read completely. If it cannot be read and `isMissed` is true,
   // reports this.
   private async read(
     plotted: Curve,

@@ -1,5 +1,5 @@
-// Computes a curve from other curves. It has a value at each time at which one of the others has a
-// sample; the value is computed from the newest sample of each.
+// Computes a curve from other curves (inputs). The curve has a value at each time at which one of
+// the inputs has a sample. The value is computed from the newest sample of each input.
 import type { WholeCurve } from "../../api/curve";
 import type { Expression } from "../../live/expression";
 

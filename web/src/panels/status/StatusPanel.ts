@@ -28,7 +28,7 @@ export function mount({ state, topics, robots }: Ports): MountedPanel {
     simulation.show(status ? simulationFacts(status) : []);
     table.show(status?.robots ?? []);
   };
-  // The data of one simulation does not apply to another, so it is removed.
+  // If the simulation changes, the data of the previous simulation is removed.
   state.watch(
     (known) => known.simulation,
     () => show(null),

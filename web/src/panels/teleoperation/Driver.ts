@@ -1,5 +1,6 @@
-// Drives one robot at a time: sends a command when it changes, repeats it while it lasts, and stops
-// the robot when there is no input. After a refusal it sends nothing until all inputs are released.
+// Drives one robot at a time. Sends a command when it changes, repeats it while it applies, and
+// stops the robot when there is no input. After a refusal, sends nothing until all inputs are
+// released.
 import { NewestOnly } from "../../api/NewestOnly";
 import type { Drive } from "../../api/SimulationApi";
 import type { Speeds, Wish } from "./driving";

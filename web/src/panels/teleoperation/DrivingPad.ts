@@ -1,5 +1,5 @@
-// A round pad that commands a motion when the user drags on it, or presses keys while it has the
-// focus. These keys do not reach the page.
+// A round pad that commands a motion when the user drags on it, or presses keys while the pad has
+// the focus. The page does not receive these keys.
 import { element } from "../../ui/element";
 import type { Wish } from "./driving";
 import { STILL, isDrivingKey, isStill, wishOfKeys, wishOfPoint } from "./driving";
@@ -10,7 +10,7 @@ const REACH_PERCENT = 35;
 export class DrivingPad {
   private readonly knob = element("div", { class: "pad-knob" });
   readonly element = element("div", { class: "pad", tabindex: "0", role: "application", "aria-label": "Driving pad" }, this.knob);
-  private readonly held = new Set<string>(); // keys
+  private readonly held = new Set<string>(); // keys that are held
   private pointed: Wish = STILL;
 
   constructor(private readonly onWish: (wish: Wish) => void) {

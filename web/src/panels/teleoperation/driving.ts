@@ -1,5 +1,5 @@
-// The motion that keys, a pad under a finger or a gamepad command, as fractions of the maximum
-// speeds.
+// The motion that an input commands, as fractions of the maximum speeds. The input is keys, a pad
+// or a gamepad.
 
 export interface Wish {
   ahead: number; // -1 to 1
@@ -38,8 +38,8 @@ export function wishOfKeys(held: ReadonlySet<string>): Wish {
   };
 }
 
-// The motion for a point on the pad: x to the right and y down from its centre, as fractions of its
-// radius.
+// The motion for a point on the pad. x is to the right of the pad's centre and y is down from it,
+// as fractions of the pad's radius.
 export function wishOfPoint(x: number, y: number): Wish {
   const length = Math.max(1, Math.hypot(x, y));
   return { ahead: -y / length || 0, left: 0, turn: -x / length || 0 };

@@ -1,5 +1,5 @@
-// A message as a tree: every field with its value, and a curve for numbers. Collapsed parts cost
-// nothing.
+// A message as a tree: every field with its value, and a curve for numbers. Collapsed parts are not
+// computed.
 import { isTime, numberOf, pathOf } from "../../live/fieldPath";
 import type { Step } from "../../live/fieldPath";
 import { element, setText } from "../../ui/element";
@@ -149,7 +149,8 @@ function noteOf(value: object): string {
   return "";
 }
 
-// Returns the name of an element of a list, such as the robot's name in a list of robots.
+// Returns the name of an element of a list. For example, elements of a list of robots have the
+// robot's name.
 function nameOf(value: object): string {
   const { name, robot } = value as { name?: unknown; robot?: unknown };
   const found = [name, robot].find((each) => typeof each === "string" && each !== "");

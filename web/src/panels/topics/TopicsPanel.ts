@@ -1,4 +1,4 @@
-// All topics of the simulation, and the newest message of the selected one.
+// All topics of the simulation, and the newest message of the selected topic.
 import { element, setText } from "../../ui/element";
 import { icon } from "../../ui/icons";
 import { shallowEqual } from "../../state/Store";

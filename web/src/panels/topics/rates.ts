@@ -15,7 +15,7 @@ const WINDOW_MS = 3000;
 export class Rates {
   private readonly samples: { atMs: number; counts: ReadonlyMap<string, Count> }[] = [];
 
-  // Adds the current counters. Returns the rates since the oldest stored sample.
+  // Adds the current counters. Returns the rates over the time since the oldest stored sample.
   update(counts: ReadonlyMap<string, Count>, nowMs: number): Map<string, Traffic> {
     const copy = new Map([...counts].map(([topic, { messages, bytes }]) => [topic, { messages, bytes }]));
     this.samples.push({ atMs: nowMs, counts: copy });

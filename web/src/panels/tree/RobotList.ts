@@ -1,4 +1,4 @@
-// The list of robots, filtered, sorted and grouped. Only the rows in sight exist.
+// The list of robots, filtered, sorted and grouped. Only the visible rows exist.
 import { listedRobots } from "../../state/listedRobots";
 import type { Entry, ListedRobot, RobotFilter } from "../../state/robotList";
 import { NameOrder, entriesOf, inOrderOf, isFiltering, isTitle } from "../../state/robotList";
@@ -12,8 +12,8 @@ import { VirtualRows } from "./VirtualRows";
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
 const TITLE_PX = 30; // must equal the height in style/robots.css
-// If the list has more robots, all rows have the same height and long sentences are cut off, so
-// that a change of one row does not move the rows below it.
+// If the list has more robots than this, all rows have the same height, and long sentences are
+// truncated. So a change of one row does not move the rows below it.
 const MAX_WRAPPED = 100;
 
 export class RobotList {
@@ -25,7 +25,7 @@ export class RobotList {
   private heights = new Map<string, number>(); // px, by robot
   private isPointed = false;
   private hasFocus = false;
-  // The inputs with which the present order of the rows was made.
+  // The filter with which the present order of the rows was computed.
   private held: { filter: RobotFilter } | null = null;
 
   constructor(private readonly ports: Ports) {
@@ -79,7 +79,7 @@ export class RobotList {
     this.rows.show(this.entries);
   }
 
-  // Once computed, a height is valid until the rows may move.
+  // A computed height is valid until the rows may move.
   private heightOf(robot: ListedRobot): number {
     if (this.entries.length > MAX_WRAPPED) return ROW_PX;
     const known = this.heights.get(robot.status.name);

@@ -10,7 +10,7 @@ import type { PanelPorts } from "../contract/ports";
 export const ROW_PX = 50;
 const FIRST_LINE_PX = 33; // the name and the padding
 const LINE_PX = 17; // must equal the line height in style/robots.css
-const LINE_CHARACTERS = 31; // characters in one line if the list has its smallest width
+const LINE_CHARACTERS = 31; // number of characters in one line at the smallest width of the list
 const MAX_LINES = 4;
 
 // Returns the sentence about what is wrong with the robot; empty if there is no problem.
@@ -18,7 +18,8 @@ export function troubleOf({ health, state }: ListedRobot, now: number): string {
   return health && (isTrouble(state) || health.level > 0) ? sentenceOf(health, now) : "";
 }
 
-// Returns the height of a row in px: a robot in trouble has lines for its whole sentence.
+// Returns the height of a row in px. If the robot is in trouble, the row has lines for its whole
+// sentence.
 export function rowHeight(trouble: string): number {
   if (trouble === "") return ROW_PX;
   return FIRST_LINE_PX + LINE_PX * Math.min(MAX_LINES, Math.ceil(trouble.length / LINE_CHARACTERS));

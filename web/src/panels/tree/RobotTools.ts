@@ -8,7 +8,7 @@ import type { PanelPorts } from "../contract/ports";
 
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
-// The number of robots from which the search field is shown.
+// If there are at least this many robots, the search field is shown.
 const FEWEST_ROBOTS = 6;
 
 const SORTING_LABELS: Record<Sorting, string> = {

@@ -72,7 +72,7 @@ function stationsOf(scene: SceneDescription | null): Set<string> {
   return new Set(robotsOf(scene).flatMap(({ name, isStation }) => (isStation ? [name] : [])));
 }
 
-// "3 robots", "1 robot, 2 stations", "Robots".
+// Returns a text such as "3 robots", "1 robot, 2 stations", or "Robots".
 function headingFor(statuses: RobotStatus[], stations: Set<string>): string {
   const fixed = statuses.filter(({ name }) => stations.has(name)).length;
   const robots = statuses.length - fixed;

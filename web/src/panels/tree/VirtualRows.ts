@@ -1,5 +1,5 @@
-// A list that may have thousands of entries. Only for the visible entries there are elements in the
-// page; they are reused for other entries when the user scrolls.
+// A list that may have thousands of entries. The page has elements only for the visible entries.
+// When the user scrolls, the elements are reused for other entries.
 import { element, setAttribute } from "../../ui/element";
 
 const BEYOND_PX = 200; // there are also elements this far above and below the visible part
@@ -12,7 +12,7 @@ export interface Row<Entry> {
 }
 
 export interface RowKinds<Entry> {
-  keyOf(entry: Entry): string; // the key of an entry, which stays when the entry moves
+  keyOf(entry: Entry): string; // the key of an entry; it does not change when the entry moves
   kindOf(entry: Entry): string; // the kind of an entry; entries of one kind share rows
   heightOf(entry: Entry): number; // px
   make(kind: string): Row<Entry>;
@@ -65,8 +65,8 @@ export class VirtualRows<Entry> {
     this.look();
   }
 
-  // The scroll position. It is read only after scrolling, because the browser must lay out the page
-  // for it.
+  // The scroll position. It is read only after scrolling, because reading it makes the browser lay
+  // out the page.
   private look(): void {
     this.scrollTop = this.scroller.scrollTop;
     this.height = this.scroller.clientHeight || HEIGHT_WITHOUT_LAYOUT_PX;
@@ -98,8 +98,8 @@ export class VirtualRows<Entry> {
       row.top = top;
       row.element.style.transform = `translateY(${top}px)`;
     }
-    // The elements have the order of the entries, because keyboard users move through them in this
-    // order.
+    // The elements must have the order of the entries, because keyboard users move from element to
+    // element in this order.
     const there = this.list.children[nth];
     if (there !== row.element) this.list.insertBefore(row.element, there ?? null);
     setAttribute(row.element, "aria-setsize", String(this.entries.length));
@@ -114,7 +114,7 @@ export class VirtualRows<Entry> {
     return { element: row.element, write: (entry) => row.write(entry), kind, top: -1 };
   }
 
-  // Returns the last entry that begins at or above that height.
+  // Returns the last entry whose top is at or above that height.
   private indexAt(height: number): number {
     let [low, high] = [0, Math.max(0, this.entries.length - 1)];
     while (low < high) {

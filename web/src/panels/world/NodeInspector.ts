@@ -116,7 +116,7 @@ export class NodeInspector {
     };
   }
 
-  // Adds a plot button beside the value, unless the value has one already.
+  // Adds a plot button beside the value, unless there is already one.
   private addPlot(key: string, { topic, name }: SceneSensor, unit: string): void {
     const cell = this.cells.get(key)?.parentElement;
     if (!cell || cell.querySelector("button")) return;

@@ -74,7 +74,7 @@ export function mount(ports: Ports): MountedPanel {
       }, shallowEqual),
       state.watch(({ scene, simulation }) => ({ scene, simulation }), () => {
         showBodies();
-        // In a new scene, the selected part may be missing or different, so it is looked up again.
+        // In a new scene, the selected part may be missing or different, so it is searched again.
         const name = chosen && chosen.kind !== "transform" ? chosen.body.name : null;
         if (name === null) return;
         const body = state.get().scene?.bodies.find((each) => each.name === name);

@@ -26,7 +26,7 @@ export function nodeId(node: WorldNode): string {
   }
 }
 
-// The selected part in the tree. Null if the scene has no such part.
+// Returns the node of the selected part. Null if the scene has no such part.
 export function nodeOf(scene: SceneDescription | null, part: WorldPart | null): WorldNode | null {
   const body = part && scene?.bodies.find(({ name }) => name === part.body);
   if (!body) return null;
@@ -41,7 +41,7 @@ export function nodeOf(scene: SceneDescription | null, part: WorldPart | null): 
   return sensor ? { kind, body, sensor } : null;
 }
 
-// Null for a transform, which is no part of the scene.
+// Returns null for a transform, because it is not a part of the scene.
 export function partOf(node: WorldNode): WorldPart | null {
   switch (node.kind) {
     case "body":

@@ -30,8 +30,8 @@ export function factsOf(body: SceneBody, link: string | null): Line[] {
   ];
 }
 
-// Returns the lines about the pose of a body or of one of its links, in the world. A link without
-// its own pose moves with its model. A static body keeps its initial pose.
+// Returns the lines about the pose of a body or of one of its links, in the world. A link that has
+// no pose in the message moves together with its model. A static body keeps its initial pose.
 export function poseLines(scene: SceneDescription | null, message: PosesMessage | null, body: SceneBody, link: string | null, now: number): Line[] {
   const entry = scene?.poses.findIndex((each) => scene.bodies[each.body]?.name === body.name && each.link === link) ?? -1;
   const isFresh = message !== null && scene?.layoutVersion === message.layout_version && entry >= 0;
