@@ -26,7 +26,7 @@ struct LogOptions {
   spdlog::level::level_enum level = spdlog::level::warn;
   LogFormat format = LogFormat::kText;
   std::size_t lines_per_second = 20;  // mean rate; a burst may have 50 times this number
-  std::size_t line_bytes = 8192;      // the maximum length of a message; longer ones are truncated
+  std::size_t line_bytes = 8192;      // maximum length of a message; a longer message is truncated
 };
 
 // Parses "trace", "debug", "info", "warning", "error" or "off". Other text is a kInvalidArgument

@@ -55,7 +55,7 @@ const std::vector<EngineType>& EngineTypes();
 
 // The options of the command line that concern the engine. They override the campaign's file.
 struct EngineRequest {
-  std::string name;               // empty for the engine of the file
+  std::string name;               // empty for the engine in the file
   std::size_t runs_per_task = 0;  // 0 for the number in the file
   // values of the engine's options, by the flag of the option
   std::map<std::string, std::vector<std::string>> options;

@@ -17,8 +17,8 @@ struct QueueCost {
   std::size_t nodes = 0;
   std::size_t slots = 0;               // maximum number of concurrent runs
   double mean_wait = 0, max_wait = 0;  // from submission to the first start of a share, s
-  double run_seconds = 0;              // sum over the runs, s
-  double task_seconds = 0;             // sum over the slots of the tasks, s
+  double run_seconds = 0;              // sum of the durations of all runs, s
+  double task_seconds = 0;             // sum over the tasks of slots times duration, s
   double idle_seconds = 0;             // slots · (last end − first start) − task_seconds
   double span = 0;                     // from the first submission to the last end, s
 };

@@ -30,7 +30,7 @@ struct Batch {
   std::size_t runs_per_task = 1;
   std::vector<std::int64_t> runs;
   double timeout = 300;  // wall-clock time limit of a run, s
-  std::string failures;  // a folder for the files of failed runs; empty: none
+  std::string failures;  // folder for the files of failed runs; empty if there is none
 
   std::size_t tasks() const { return (runs.size() + runs_per_task - 1) / runs_per_task; }
   std::vector<std::int64_t> RunsOf(std::size_t task) const;  // the runs of a task

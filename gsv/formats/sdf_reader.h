@@ -38,8 +38,8 @@ class ModelLibrary {
   ModelLibrary& operator=(const ModelLibrary&) = delete;
 
   // Reads a world. `path` is a world file, or the file or folder of a model. For a model, makes a
-  // world with the model and a sun, and with a ground plane unless the model has a plane as
-  // collision shape.
+  // world with the model and a sun. This world also has a ground plane, unless the model has a
+  // plane as collision shape.
   base::Result<model::WorldDescription> ReadWorld(const std::filesystem::path& path,
                                                   base::Problems& problems);
 

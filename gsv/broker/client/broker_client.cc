@@ -72,7 +72,7 @@ void AppendOffers(const CosTrading::OfferSeq& offers, std::size_t limit,
 }
 
 // Returns an error if the broker is on another host and the service listens on this host's loopback
-// address, because the broker cannot reach the service then.
+// address. The broker cannot reach such a service.
 base::Status CheckReachable(CORBA::ORB_ptr orb, CORBA::Object_ptr object,
                             const std::string& broker) {
   const std::string broker_host = HostOf(broker);

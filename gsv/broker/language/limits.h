@@ -51,7 +51,7 @@ struct TraderLimits {
   std::size_t offer_bytes = 32 * 1024;  // maximum size of encoded properties and reference
   // total length of all type names, so that the answer of list_types fits into a message
   std::size_t type_names_bytes = 32 * 1024;
-  std::size_t type_bytes = 32 * 1024;  // description of one type with everything that it inherits
+  std::size_t type_bytes = 32 * 1024;  // maximum size of a type with all that it inherits
   std::size_t super_types = 64;        // maximum number of direct and indirect super types
   std::size_t iterators = 1000;
   std::size_t offers_in_iterators = 2'000'000;

@@ -32,9 +32,9 @@ class DynamicEvaluator {
                                         Clock::time_point deadline) = 0;
 };
 
-// The values of dynamic properties in one query. Each property is evaluated only if its value is
-// needed, and at most once, so that the constraint, the preference and the answer use the same
-// value. When the query's time is over, properties that were not evaluated have no value.
+// The values of dynamic properties in one query. Each property is evaluated at most once, and only
+// if its value is needed. So the constraint, the preference and the answer use the same value. When
+// the query's time is over, properties that were not evaluated have no value.
 //
 // Threads  not safe; each query has its own.
 class DynamicValues {

@@ -33,7 +33,7 @@ struct TraderAttributes {
   bool supports_modifiable_properties = true;
   bool supports_dynamic_properties = true;
   bool supports_proxy_offers = true;
-  std::string request_id_stem{};  // octets that differ from those of every other trader
+  std::string request_id_stem{};  // octets that no other trader uses
 };
 
 // The policies of one query. For an absent policy, the trader's default applies.

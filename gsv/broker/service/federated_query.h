@@ -11,7 +11,7 @@ namespace gsv::broker {
 
 struct FederatedQuery {
   Query query;
-  const CosTrading::PolicySeq& policies;  // as they came from the importer
+  const CosTrading::PolicySeq& policies;  // the importer's policies, unchanged
   const DesiredProperties& desired;
   std::string request_id;
 };

@@ -97,7 +97,7 @@ class Crowd {
   std::vector<Interval> levels_;       // heights at which walls are sliced
   std::vector<ObstacleField> walls_;   // slices of the walls at each of levels_
   std::vector<int> standing_;          // static bodies, which are walls
-  std::vector<geometry::Pose> poses_;  // the poses of these bodies when they were sliced
+  std::vector<geometry::Pose> poses_;  // poses of the bodies in standing_ when they were sliced
   bool is_sliced_ = false;
 
   std::vector<Other> others_;  // bodies that pedestrians avoid, in the order of bodies

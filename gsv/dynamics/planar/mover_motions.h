@@ -64,7 +64,7 @@ class MoverMotions {
 
   // One entry for each of the scene's movers.
   std::vector<geometry::PlanarPosition> positions;
-  std::vector<world::DriveCommand> drives;  // motion of the drive during the leg, then at its end
+  std::vector<world::DriveCommand> drives;  // motion of the drive, updated after each leg
   std::vector<geometry::Twist> twists;      // twist in this leg
   std::vector<double> times;                // duration in this leg; 0 at rest
   std::vector<double> reaches;              // maximum distance that any part moves in this step, m

@@ -157,7 +157,7 @@ TEST(PlanarFidelity, SlippingRobotDriftsOutOfItsArc) {
 }
 
 // The drift is the same as in SlippingRobotDriftsOutOfItsArc. The wheels of Gazebo's WheelSlip have
-// a constant load instead of their share of the weight, so the compliances are divided by the ratio
+// a constant load instead of their share of the weight. So the compliances are divided by the ratio
 // of both loads.
 TEST(PlanarFidelity, WheelsOfGazebosWheelSlipDriftByTheirOwnCompliance) {
   const double speed = 1.5, rate = 0.8, lateral = 2, mass = 12, load_ratio = 1.25;

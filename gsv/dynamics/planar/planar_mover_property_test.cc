@@ -258,7 +258,7 @@ void CommandAll(TestWorld& world, Random& random) {
 TEST(PlanarMoverProperty, OverlapCheckOfThisTestFindsAnOverlap) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", testing::DiscRobot(0.25), geometry::PlanarPose(0, 0, 0, 0));
-  world.AddBox("wall", {0.1, 4, 1}, 0.299, 0);  // a millimetre deep in the wall
+  world.AddBox("wall", {0.1, 4, 1}, 0.299, 0);  // the robot is a millimetre deep in the wall
   ASSERT_TRUE(world.Start());
   const std::vector<Solid> solids = SolidsOf(world.layout(), world.state());
   ASSERT_EQ(solids.size(), 2u);

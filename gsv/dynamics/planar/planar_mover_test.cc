@@ -331,7 +331,7 @@ TEST(PlanarMover, OverlapsReturnsTheOverlappingPairs) {
 TEST(PlanarMover, RobotThatStartsInsideAWallCanLeaveIt) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
-  world.AddBox("wall", {1, 4, 1}, 0.6, 0);  // 10 cm deep in the wall
+  world.AddBox("wall", {1, 4, 1}, 0.6, 0);  // the robot is 10 cm deep in the wall
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 0});
   world.Run(1, 0.01);

@@ -51,11 +51,11 @@ Polygon Clip(const Polygon& polygon, double sign, double half) {
   return clipped;
 }
 
-// Returns the four corners that span the largest area. These are the deepest corner, the corner
-// farthest from it, and on each side of the line between these two the corner farthest from the
-// line. If the depths of several corners differ by less than a millimetre per metre of their
-// distance, their positions decide. So the same corners are chosen from step to step, and each
-// corner starts from its impulse of the previous step.
+// Returns the four corners that span the largest area. Two of them are the deepest corner and the
+// corner farthest from it. The other two are the corners farthest from the line between the first
+// two, one on each side. If the depths of several corners differ by less than a millimetre per
+// metre of their distance, their positions decide. So the same corners are chosen from step to
+// step, and each corner starts from its impulse of the previous step.
 Polygon ChooseFour(const Polygon& all) {
   constexpr double kSteady = 1e-3, kGolden = 0.618;
   if (all.count <= 4) return all;

@@ -27,7 +27,7 @@ namespace gsv::dynamics {
 struct Collider {
   const Solid* solid = nullptr;
   int moving = -1, part = 0;  // index of the rigid body, and its part; -1: none
-  bool bounces = false;       // has contacts without a margin, so that it bounces at its full speed
+  bool bounces = false;       // whether its contacts have no margin, so that it bounces fully
   // set for planar bodies
   geometry::Vector3 position, velocity, angular_velocity;
 };

@@ -36,8 +36,8 @@ void TakeDirections(const Vector3& direction, double along, double across, Conta
 }
 
 // Adds the slip of a wheel to the slip of the surfaces. The slip along the wheel's rolling
-// direction is added to the contact's axis that is nearest to this direction, and the slip along
-// the axle to the other axis.
+// direction is added to the contact's axis that is nearest to this direction. The slip along the
+// axle is added to the other axis.
 void AddSlip(const SlippingContact& wheel, Contact& contact) {
   const auto [first, second] = contact.axes;
   const double along_first = std::abs(Dot(wheel.forwards, first)) / Norm(first);

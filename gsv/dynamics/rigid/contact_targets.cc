@@ -26,7 +26,7 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
   const double gap = contact.point.distance + kRestingDepth;
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
   // The fraction of the slip that friction removes in this substep. If the bodies still have a gap,
-  // they close the gap in this substep, and lose the rest of their closing speed in the next
+  // they close the gap in this substep. They lose the rest of their closing speed in the next
   // substep. Of the slip, friction removes in this substep only the fraction that is also removed
   // of the closing speed. Otherwise a body that lands on two edges at once would be thrown to one
   // side.

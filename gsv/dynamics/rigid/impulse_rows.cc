@@ -10,11 +10,11 @@
 namespace gsv::dynamics {
 namespace {
 
-// Returns the impulses x = (x0, x1) with the least energy within a circle, for the diagonal matrix
-// a = (a0, a1), both above 0, and the right side b = (b0, b1). If the solution of a x = b is within
-// the circle, it is the result. Otherwise the result is the x on the circle with (a + shift) x = b.
-// Newton's method on 1 / |x(shift)| approaches this solution monotonically from below (Moré and
-// Sorensen 1983). It begins at `shift`.
+// Returns the impulses x = (x0, x1) with the least energy within a circle. The matrix a = (a0, a1)
+// is diagonal, with both values above 0, and b = (b0, b1) is the right side. If the solution of a x
+// = b is within the circle, it is the result. Otherwise the result is the x on the circle with (a +
+// shift) x = b. Newton's method on 1 / |x(shift)| approaches this solution monotonically from below
+// (Moré and Sorensen 1983). It begins at `shift`.
 [[gnu::always_inline]] inline std::array<double, 2> WithinCircle(double a0, double a1, double b0,
                                                                  double b1, double radius,
                                                                  double& shift) {

@@ -1,9 +1,9 @@
 // Finds the impulses that satisfy the velocity constraints of a substep. The constraints are given
 // as numbers, without shapes or joints.
 //
-// Row       J v + softness x = target, where v is the change of velocities (of all bodies, one
-//           after the other) and x the row's impulse, between a lower and an upper bound. A row
-//           acts on at most two bodies.
+// Row       J v + softness x = target. Here v is the change of velocities of all bodies, one after
+//           the other. x is the row's impulse, between a lower and an upper bound. A row acts on at
+//           most two bodies.
 // Cone      two friction rows of a contact. The length of their impulse is at most the friction
 //           coefficient times the impulse of the normal row (Coulomb). At this limit, the impulse
 //           is opposite to the slip, for any axes of the two rows.

@@ -300,7 +300,7 @@ void IslandSolver::SolveBySweeps(const ContactFinder& finder,
   for (const int index : contacts_) {
     const Contact& contact = contacts[IndexOf(index)];
     ContactSweeps::Side sides[2];
-    Vector3 free, start, known;  // relative velocities
+    Vector3 free, start, known;  // velocities of the first body relative to the second
     for (const int s : {0, 1}) {
       const Collider& collider = finder.collider(s == 0 ? contact.first : contact.second);
       const Vector3 point = s == 0 ? contact.on_first() : contact.point.on_second;

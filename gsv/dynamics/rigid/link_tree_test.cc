@@ -199,8 +199,9 @@ Momentum MomentumOf(const Tree& body, const LinkTree& tree, const std::vector<Ve
   return sum;
 }
 
-// A step of h changes the momenta of a body without outer forces by the error of the integration
-// alone, which is in proportion to h². Wrong equations would change them in proportion to h.
+// Without outer forces, a step of h changes the momenta of a body only by the error of the
+// integration. This error is in proportion to h². Wrong equations would change them in proportion
+// to h.
 TEST(LinkTree, FloatingTreeKeepsItsMomenta) {
   const model::Model model = Satellite();
   std::vector<Vector3> inertias;

@@ -3,10 +3,10 @@
 // and Solving Constraints", GDC 2009).
 //
 // Method   along the normal of each pair, the bodies separate by kShare of their overlap in a
-//          substep, and pairs that do not overlap may approach by their gap. The velocities w
-//          minimise the sum of m |w|². They are found by projected Gauss-Seidel, forwards and
-//          backwards in turn. Bodies are only shifted, not rotated. So each pair has one row, for
-//          its deepest point.
+//          substep. Pairs that do not overlap may approach by their gap. The velocities w minimise
+//          the sum of m |w|². They are found by projected Gauss-Seidel, forwards and backwards in
+//          turn. Bodies are only shifted, not rotated. So each pair has one row, for its deepest
+//          point.
 // Speed    all velocities are scaled so that none exceeds kMaxSpeed. At this speed, two bodies
 //          approach within a substep by less than the margin of contacts, so that no body is pushed
 //          through another.

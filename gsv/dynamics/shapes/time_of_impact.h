@@ -36,7 +36,7 @@ inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
 // The first contact of two pieces.
 struct Impact {
   double time = 0;
-  Vector2 normal;                  // points from the first to the second
+  Vector2 normal;                  // points from the first piece to the second piece
   bool first_approaches = false;   // the first piece moves towards the second
   bool second_approaches = false;  // the second piece moves towards the first
 };

@@ -18,8 +18,8 @@ class GlbBuffer {
  public:
   // Each of these functions returns the index by which other parts of the file refer to the added
   // data.
-  int AddBytes(std::span<const std::uint8_t> bytes);  // a buffer view
-  int AddPositions(std::span<const float> xyz);       // an accessor with min and max
+  int AddBytes(std::span<const std::uint8_t> bytes);  // adds a buffer view
+  int AddPositions(std::span<const float> xyz);       // adds an accessor with min and max
   // Adds an accessor of vectors with this number of components.
   int AddVectors(std::span<const float> values, int components);
   // Adds an accessor of triangle indices.

@@ -22,7 +22,7 @@ enum class XmlDialect { kSdf, kUrdf };
 struct XmlFile {
   std::filesystem::path path;
   std::filesystem::path named;  // the name as given to ReadXml(), with the arguments for xacro
-  std::vector<ElementSource> sources;  // the origins of its elements, if the file is a xacro file
+  std::vector<ElementSource> sources;  // origins of the elements of a xacro file; else empty
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;
@@ -59,7 +59,7 @@ class LineKeepingPrinter {
 
   std::string out_;
   int line_ = 1;
-  bool marks_lines_ = false;  // prints kLineAttribute
+  bool marks_lines_ = false;  // whether to print kLineAttribute
 };
 
 // Returns an element as text without line breaks. Equal elements give equal texts.

@@ -23,7 +23,7 @@ struct Property {
   Value value;
   NodePtr defined_at;
   bool is_lazy = false;
-  bool is_resolving = false;  // whether its text is being evaluated; shows cycles
+  bool is_resolving = false;  // whether its text is being evaluated, to detect cycles
 };
 
 // The nodes that <xacro:insert_block> inserts.
