@@ -68,8 +68,8 @@ double RayToBox(Point from, Point along, const geometry::Pose& pose,
   return enter >= 0 ? enter : leave;
 }
 
-// Returns the penetration depth of a robot's disc in a box. If it is negative, its absolute value
-// is the distance between them.
+// Returns the penetration depth of a robot's disc in a box. If the result is negative, its absolute
+// value is the distance between the disc and the box.
 double DepthInBox(Point centre, const geometry::Pose& pose, const geometry::Vector3& size) {
   const Point p = InBox(pose, centre);
   const double out_x = std::abs(p.x) - size.x / 2, out_y = std::abs(p.y) - size.y / 2;

@@ -18,8 +18,8 @@ class RunExecutor {
  public:
   // `folder` is for temporary files. `failures` is a folder for the recordings of failed runs, or
   // empty if they are not recorded. `timeout` is the limit of wall-clock time per run, in s.
-  // `servers` execute the runs and must outlive this object; if it is null, this machine executes
-  // them.
+  // `servers` execute the runs and must outlive this object. If `servers` is null, this machine
+  // executes the runs.
   RunExecutor(const campaign::Campaign& campaign, std::filesystem::path folder,
               std::filesystem::path failures, double timeout, ScenarioServers* servers = nullptr);
 

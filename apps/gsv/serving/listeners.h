@@ -19,7 +19,7 @@ struct Listener {
   bool is_dds = false;      // whether it is a UDP socket of ROS 2
   bool takes_keys = false;  // whether its process uses DDS Security
 
-  bool IsLocal() const;  // Whether only this machine can reach it.
+  bool IsLocal() const;  // Whether only programs on this machine can connect to the socket.
 };
 
 // A running program of GSV, and its sockets.
