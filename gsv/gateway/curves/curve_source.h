@@ -35,8 +35,8 @@ class CurveSource {
   virtual std::optional<double> SampleIn(const recording::MessageRecord& message) = 0;
 };
 
-// Makes the source of a curve. `reader` and `scene` must outlive it. Fails with kNotFound if the
-// recording has no such topic or robot, and with kInvalidArgument if there is no such value.
+// Makes the source of a curve. `reader` and `scene` must outlive the source. Fails with kNotFound
+// if the recording has no such topic or robot, and with kInvalidArgument if there is no such value.
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
                                                            const CurveRequest& request);

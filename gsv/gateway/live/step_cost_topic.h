@@ -1,5 +1,5 @@
 // StepCostTopic publishes the live topic /gsv/step_costs: the wall-clock time of each part of the
-// steps, and the behaviours that delay them.
+// steps, and the behaviours that delay the steps.
 //
 // Steps are timed only while there are subscribers.
 //

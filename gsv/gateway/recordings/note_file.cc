@@ -107,8 +107,8 @@ base::Status NoteFile::Remove(std::int64_t id) const {
   return Write(*notes);
 }
 
-// Writes a new file, and then replaces the old file by it. So if the program crashes meanwhile, the
-// notes are still complete: the old or the new version.
+// Writes a new file, and then replaces the old file by the new file. So if the program crashes in
+// the meantime, one complete version of the notes remains: the old or the new one.
 base::Status NoteFile::Write(const std::vector<Note>& notes) const {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Note& note : notes) {

@@ -10,8 +10,8 @@
 
 namespace gsv::gateway {
 
-// Serves `socket`, with TLS if the context has it. Calls `keep_track` with this session and with
-// the WebSocket session that replaces it.
+// Serves `socket`, with TLS if `context->tls` is set. Calls `keep_track` with this session. If a
+// WebSocket session replaces this session, also calls `keep_track` with the WebSocket session.
 void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
                       std::unique_ptr<ConnectionSlot> slot,
                       std::function<void(std::weak_ptr<Connection>)> keep_track);

@@ -13,8 +13,8 @@
 // for the window and the excess is below half of kAimedDelay.
 //
 // The minimum delay may increase, for example after a change of the route. If it was measured
-// longer than kMinDelayAge ago, and the delay of a pong exceeds it, the window closes until all
-// data are confirmed. Then a ping without data measures the minimum delay again.
+// longer than kMinDelayAge ago, and the delay of a pong exceeds the minimum delay, the window
+// closes until all data are confirmed. Then a ping without data measures the minimum delay again.
 //
 // Threads  one thread.
 #pragma once

@@ -69,7 +69,7 @@ base::Status Listen(tcp::acceptor& acceptor, const tcp::endpoint& endpoint,
   return {};
 }
 
-// Sends a refusal to a client above the limit, without waiting for it.
+// Sends a refusal to a client above the limit, without waiting for the client.
 void RefuseConnection(tcp::socket& socket) {
   static constexpr std::string_view kAnswer =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: application/json\r\n"

@@ -8,8 +8,8 @@
 
 namespace gsv::gateway::upstream {
 
-// Begins TLS on a connected stream if `address` has it, then calls then(error_code). Fails if the
-// certificate is not valid for the address.
+// Begins TLS on a connected stream if `address` requires TLS, then calls then(error_code). Fails if
+// the certificate is not valid for the address.
 void StartTls(transport::ByteStream& stream, const Address& address, transport::Completion then);
 
 // Returns the reason for a failed connection, with advice.
