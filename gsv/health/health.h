@@ -1,6 +1,6 @@
-// The health of robots: the state of each robot (State), its last command, its actual motion, and
-// the obstacle that stops it. The state is computed from a simulation's status and the readings of
-// range sensors.
+// The health of robots. For each robot, this is the state (State), the last command, the actual
+// motion, and the obstacle that stops the robot. It is computed from a simulation's status and the
+// readings of range sensors.
 //
 // Units        metres, radians, seconds; instants of simulated time.
 // Determinism  everything except `late` depends only on the states of the run.
