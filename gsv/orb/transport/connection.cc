@@ -104,8 +104,8 @@ CORBA::Boolean Connection::Peek() { return channel_->HasBytes() || SocketHolder:
 
 int Connection::Send(void* buffer, std::size_t size, const omni_time_t& deadline) {
   if (hooks_ != nullptr) hooks_->OnSend({static_cast<const char*>(buffer), size});
-  // A reply is sent even after the deadline if the socket has space for it, which is nearly always
-  // so. A request is not sent after the deadline.
+  // A reply is sent even after the deadline, if the socket has space for the reply. There is nearly
+  // always enough space. A request is not sent after the deadline.
   int sent = is_accepted_ ? static_cast<int>(channel_->TrySend(buffer, size)) : -1;
   if (sent <= 0) sent = channel_->Send(buffer, size, deadline);
   if (sent > 0 && hooks_ != nullptr) hooks_->OnSent(static_cast<std::size_t>(sent));

@@ -1,4 +1,5 @@
-// Tests an ORB with raw connections. A process has only one ORB; each test starts it.
+// Tests an ORB with raw connections. A process can have only one ORB at a time, so each test starts
+// and ends the ORB.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
