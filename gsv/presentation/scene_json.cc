@@ -278,7 +278,7 @@ std::optional<Bounds> VisibleBounds(const model::Model& model) {
 }  // namespace
 
 Bounds SceneBounds(const world::Snapshot& snapshot) {
-  // The bounds of each model, because many bodies may share it.
+  // The bounds are computed once for each model, because many bodies may share a model.
   std::map<const model::Model*, std::optional<Bounds>> of_model;
   std::optional<Bounds> bounds;
   for (std::size_t i = 0; i < snapshot.layout->bodies.size(); ++i) {
