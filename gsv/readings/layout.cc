@@ -34,7 +34,8 @@ std::string Shortened(const std::string& name, const std::string& before) {
   return is_beside ? name.substr(dot) : name;
 }
 
-// Returns the names. A unit that several columns share appears once, after them.
+// Returns the names. If adjacent columns have the same unit, the unit appears once, after their
+// names.
 std::string Listed(const Columns& columns, Multiplicity occurs) {
   std::string text, before;
   for (std::size_t i = 0; i < columns.size(); ++i) {
