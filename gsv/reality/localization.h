@@ -27,7 +27,7 @@ class LikelihoodField {
   double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
                std::size_t stride) const;
   // Returns the pose with the best score near `guess`. The local search starts with steps of `reach`
-  // (in m, and half that number in rad) and halves them.
+  // m and `reach` / 2 rad, and halves the steps repeatedly.
   TimedPose Refined(const Log& log, const RangeScan& scan, TimedPose guess, double reach) const;
 
   const OccupancyMap& map() const { return map_; }

@@ -15,7 +15,8 @@ struct PlacedScans {
   std::vector<RangeScan> scans;  // each scan has `base`
 };
 
-// Returns the log with the poses of its scans, if its wheel readings suffice to compute them.
+// Returns the log. If its scans have no poses but there are wheel readings, the returned scans have
+// poses that are computed from the wheel readings.
 Log WithBases(Log log, const CompareOptions& options);
 
 // Returns the scans of the log's even blocks (`for_fitting`) or of its odd blocks. Worlds are
