@@ -32,8 +32,8 @@ base::Result<sensing::Reading> HealthTopic::Read(
   const auto description = std::find_if(list->second.begin(), list->second.end(),
                                         [&](const auto& each) { return each.name == sensor; });
   if (description == list->second.end()) return base::Fail(base::ErrorCode::kNotFound, sensor);
-  // Sensors with equal descriptions share one object. `made_` does not own it, so `sensors_` keeps
-  // it alive.
+  // Sensors with equal descriptions share one object. `made_` does not own this object, so
+  // `sensors_` keeps the object alive.
   auto& held = sensors_[robot + "/" + sensor];
   if (held == nullptr || !(held->description() == *description)) {
     auto made = made_.Of(*description);

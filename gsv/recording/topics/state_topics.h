@@ -1,7 +1,7 @@
 // Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock,
 // /tf, /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status,
-// events, notes and state_hash. The first edit adds the topic /gsv/edits, even if that is not
-// selected, because resimulation needs it.
+// events, notes and state_hash. The first edit adds the topic /gsv/edits, even if this topic is not
+// selected, because resimulation needs the edits.
 #pragma once
 
 #include <map>
