@@ -39,7 +39,8 @@ std::string Add(const PythonSimulation& simulation, const std::string& model, do
   return ValueOrRaise(simulation.Get().AddRobot(request));
 }
 
-// Runs until the instant. Ends early after a signal, with the exception that Python raises for it.
+// Runs until the instant. Ends early after a signal, with the exception that Python raises for this
+// signal.
 void RunUntil(const PythonSimulation& simulation, double instant, double patience) {
   const base::SimTime until = TimeFrom(instant);
   const auto limit = std::chrono::duration_cast<std::chrono::seconds>(TimeFrom(patience));
