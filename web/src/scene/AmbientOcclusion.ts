@@ -1,7 +1,7 @@
-// Draws ambient occlusion: darkens corners and the ground below bodies, which less ambient light
-// reaches. The method is "Scalable Ambient Obscurance" (McGuire, Mara, Luebke 2012). The depths of
-// the bodies are drawn once more at half the resolution, and each pixel is compared with some
-// pixels around it. The result is smoothed and multiplied with the image.
+// Draws ambient occlusion: darkens corners, and the ground below bodies, because less ambient light
+// reaches them. The method is "Scalable Ambient Obscurance" (McGuire, Mara, Luebke 2012). The
+// depths of the bodies are drawn once more at half the resolution, and each pixel is compared with
+// some pixels around it. The result is smoothed, and the image is multiplied by it.
 import type { Matrix4, PerspectiveCamera, Scene, Texture, WebGLRenderer } from "three";
 import {
   CustomBlending,
@@ -80,7 +80,7 @@ void main() {
   gl_FragColor = vec4(vec3(max(${DARKEST.toFixed(2)}, 1.0 - taken)), 1.0);
 }`;
 
-// Returns the mean of the surrounding pixels whose depth is similar.
+// Returns the mean of the surrounding pixels with a similar depth.
 const SMOOTH = `
 varying vec2 at;
 uniform vec2 size;

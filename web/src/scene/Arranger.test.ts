@@ -10,7 +10,7 @@ import { HERE, body, scene } from "./testScene";
 
 // px: width of the image; the camera looks straight down, and its centre shows the origin
 const SIZE = 400;
-const HEIGHT = 10; // m: height of the camera, whose image is 20 m wide
+const HEIGHT = 10; // m: height of the camera. At this height, the image shows 20 m.
 const PX = SIZE / 20; // px: one metre on the floor
 
 function box(size: number, depth = 0.4): ModelTemplate {
@@ -90,7 +90,7 @@ test("a body is dragged over the floor at the point where it was grabbed", async
   pointer("pointerup", 2.2, 1.1);
   expect(onPlace).toHaveBeenCalledWith("a", { x: expect.closeTo(2, 6), y: expect.closeTo(1, 6), yaw: 0 });
   await Promise.resolve();
-  expect(arranger.holds).toBe(true); // until the new scene arrives
+  expect(arranger.holds).toBe(true); // true until the new scene arrives
 });
 
 test("after a refusal, the next poses show the body at its former place", async () => {
@@ -140,7 +140,7 @@ test("an object is selected by a click, and keeps its tilt when it is rotated", 
   pointer("pointermove", 0, 7);
   const [x, y, z] = [new Vector3(), new Vector3(), new Vector3()];
   bodies.poseOf(3)!.extractBasis(x, y, z);
-  expect(y.z).toBeCloseTo(1, 6); // still rolled by a quarter turn
+  expect(y.z).toBeCloseTo(1, 6); // the body is still rolled by a quarter turn
   expect(x.y).toBeCloseTo(1, 6);
   pointer("pointerup", 0, 7);
   expect(onPlace).toHaveBeenCalledWith("box", expect.objectContaining({ yaw: expect.closeTo(Math.PI / 2, 6) }));

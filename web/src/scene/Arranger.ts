@@ -10,11 +10,11 @@ import { rayThrough, screenPlaceOf } from "./picking";
 import type { RobotPlaces } from "./RobotPlaces";
 import { TurnHandle } from "./TurnHandle";
 
-const TIP_PX = 14; // px: a press within this distance of the tip drags the arrow
+const TIP_PX = 14; // px: if a press is within this distance of the tip, it drags the arrow
 const DRAG_PX = 5;
 
 export interface ArrangerView {
-  host: HTMLElement; // holds the canvas
+  host: HTMLElement; // contains the canvas
   camera: Camera;
   bodies(): BodyLayer | null;
   robots(): RobotPlaces | null;
@@ -68,7 +68,7 @@ export class Arranger {
     else this.handle.hide();
   }
 
-  // The place of the arrow's tip; null while it is hidden.
+  // The place of the arrow's tip; null while the arrow is hidden.
   tipOnScreen(): ScreenPlace | null {
     const { tip } = this.handle;
     return tip && screenPlaceOf(tip, this.view.camera, this.view.host.getBoundingClientRect());
@@ -81,8 +81,8 @@ export class Arranger {
     if (body !== null && subject) void this.events.onPlace(body, { x, y, yaw: subject.yaw });
   }
 
-  // Whether the displayed pose differs from the last reported one: the body is being dragged, or
-  // was just released.
+  // Whether the displayed pose differs from the last reported pose, because the user is dragging
+  // the body or has just released it.
   get holds(): boolean {
     return this.held !== null && this.held === this.view.bodies();
   }
@@ -96,7 +96,7 @@ export class Arranger {
     const body = turns ? this.selected() : (bodies?.pick(this.ray(start)) ?? null);
     const index = body && bodies ? bodies.indexOf(body.name) : -1;
     const before = bodies?.poseOf(index)?.clone();
-    // A body that is fixed in place can be dragged only after it was selected.
+    // A body that is fixed to the world can be dragged only after the user has selected it.
     if (!body || !before || body.isFixed || (body.isStatic && body.name !== this.view.selection())) return;
     const grip = this.onPlane(start, before.elements[14]!);
     if (!grip) return;
@@ -156,7 +156,8 @@ export class Arranger {
     return rayThrough(at, this.view.host.getBoundingClientRect(), this.view.camera);
   }
 
-  // Returns the place on a fixed body under the pointer, or else on the floor.
+  // Returns the place on a fixed body under the pointer. If there is none, returns the place on the
+  // floor.
   floorAt(at: ScreenPlace): Vector3 | null {
     return this.view.bodies()?.pointOf(this.ray(at)) ?? this.onPlane(at, 0);
   }

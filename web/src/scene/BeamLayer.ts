@@ -1,5 +1,5 @@
 // Draws the beams of range sensors as lines in one draw call. A beam is measured at one instant and
-// drawn in several frames: it moves with the displayed robot.
+// drawn in several frames. In these frames, it moves with the displayed robot.
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import type { MarkerMessage } from "../protocol/messages";
@@ -8,7 +8,8 @@ import { Segments } from "./Segments";
 
 const WIDTH_PX = 1.5;
 const OPACITY = 0.85;
-// Used if the marker has no colour for each beam. The marker's single colour is not used.
+// Used if the marker does not have a colour for each beam. The single colour of the marker is not
+// used.
 const BEAM_COLOUR = { r: 1, g: 0.012, b: 0.006 };
 const SMALLEST_CAPACITY = 64; // segments
 const NUMBERS_PER_POINT = 3;
@@ -46,8 +47,8 @@ export class BeamLayer {
     return this.drawn.count;
   }
 
-  // The beams of one robot, as lines in the world at the time when the robot was at
-  // `worldFromRobot`.
+  // Sets the beams of one robot. `marker` contains lines in the world at the time when the robot
+  // was at `worldFromRobot`.
   setRobot(robot: string, marker: MarkerMessage, worldFromRobot: Matrix4): void {
     if (marker.type !== LINE_LIST || marker.action !== 0 || marker.points.length < 2) {
       this.beams.delete(robot);

@@ -1,7 +1,7 @@
-// The displayed poses of a scene's bodies, and of the links that move relative to them, in one list
-// of numbers: seven for each frame (x y z qx qy qz qw, metres). The frames of the scene's `poses`
-// come first, in their order; the frames of the other bodies follow. All instances are drawn from
-// this list.
+// The displayed poses of a scene's bodies, and of the links that move relative to their bodies.
+// They are in one list of numbers, with seven numbers for each frame (x y z qx qy qz qw, metres).
+// The frames of the scene's `poses` are first, in their order. The frames of the other bodies
+// follow. All instances are drawn from this list.
 import type { Vector3 } from "three";
 import { Matrix4, Quaternion, Vector3 as Vector } from "three";
 import type { PoseNumbers, SceneDescription } from "../api/scene";
@@ -34,7 +34,7 @@ export class BodyFrames {
     return this.ofBodies[body]!;
   }
 
-  // The links of a body that move relative to it, and their frames.
+  // The links of a body that move relative to the body, and their frames.
   linksOf(body: number): ReadonlyMap<string, number> {
     return this.ofLinks[body]!;
   }
@@ -54,8 +54,8 @@ export class BodyFrames {
     rotation.toArray(this.numbers, POSE_NUMBERS * frame + 3);
   }
 
-  // Writes world_from_frame as sixteen numbers, column by column. Matrix4.compose does the same,
-  // but takes several times as long for a crowd, because each number goes through an object.
+  // Writes world_from_frame as sixteen numbers, column by column. Matrix4.compose does the same.
+  // But it takes several times as long for a crowd, because it uses an object for each number.
   writeMatrix(frame: number, out: Float32Array, at: number): void {
     const { numbers } = this;
     const from = POSE_NUMBERS * frame;

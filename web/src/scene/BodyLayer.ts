@@ -1,5 +1,5 @@
 // Draws the bodies of a scene, all from one list of poses. A link that moves relative to its model
-// has its own pose.
+// has a separate pose in this list.
 import type { Box3, Intersection, Material, Mesh, PerspectiveCamera } from "three";
 import { Group, InstancedMesh, Matrix4, Raycaster, Vector3 } from "three";
 import type { SceneBody, SceneDescription } from "../api/scene";
@@ -49,7 +49,7 @@ export class BodyLayer {
     this.detail.choose(camera, height);
   }
 
-  // The poses in the order of the scene's list, with seven numbers each.
+  // Takes the poses in the order of the scene's list, with seven numbers for each pose.
   setPoses(poses: Float64Array): void {
     this.frames.numbers.set(poses);
     this.place();
@@ -60,7 +60,7 @@ export class BodyLayer {
     this.setPoses(other.frames.numbers);
   }
 
-  // Shows one body with its links at another pose until the next poses arrive.
+  // Shows one body and its links at another pose until the next poses arrive.
   moveBody(body: number, worldFromBody: Matrix4): void {
     const { frames } = this;
     const frame = frames.frameOf(body);
@@ -70,12 +70,12 @@ export class BodyLayer {
     this.place();
   }
 
-  // -1 if there is no body with this name.
+  // Returns the index of a body; -1 if there is no body with this name.
   indexOf(name: string): number {
     return this.indices.get(name) ?? -1;
   }
 
-  // Index of the body in the pose messages; null if they do not contain it.
+  // Returns the index of the body in the pose messages; null if they do not contain it.
   poseEntryOf(name: string): number | null {
     return this.poseEntries.get(name) ?? null;
   }
@@ -85,7 +85,8 @@ export class BodyLayer {
     return this.scene.bodies[body] ? this.frames.matrixOf(this.frames.frameOf(body)) : null;
   }
 
-  // Returns the displayed pose of a link that moves relative to its body: world_from_link.
+  // Returns the displayed pose of a link that moves relative to its body; the pose is
+  // world_from_link.
   linkPoseOf(body: number, link: string): Matrix4 | null {
     const frame = this.scene.bodies[body] && this.frames.linksOf(body).get(link);
     return frame === undefined ? null : this.frames.matrixOf(frame);
@@ -112,8 +113,8 @@ export class BodyLayer {
     return this.staticHitsOf(raycaster)[0]?.point ?? null;
   }
 
-  // The free distance from a place in a direction (unit length) to the next fixed body; Infinity if
-  // there is none within `far`.
+  // Returns the free distance from a place in a direction (unit length) to the next fixed body;
+  // Infinity if there is no fixed body within `far`.
   freeAlong(from: Vector3, direction: Vector3, far: number): number {
     const blocks = ({ object }: Intersection) => !((object as Mesh).material as Material).transparent;
     return this.staticHitsOf(new Raycaster(from, direction, 0, far)).find(blocks)?.distance ?? Infinity;

@@ -21,8 +21,8 @@ export interface PickedView {
 export class BodyPicker {
   constructor(private readonly view: PickedView) {}
 
-  // Returns the robot or avatar at a place, or else the nearest robot that is drawn close to the
-  // place.
+  // Returns the robot or avatar at a place. If there is none, returns the nearest robot that is
+  // drawn close to the place.
   robotAt(place: ScreenPlace): string | null {
     const hit = this.bodyAt(place);
     if (hit && hasAgent(hit)) return hit.name;
@@ -45,7 +45,7 @@ export class BodyPicker {
     return hit && !hit.isFixed ? hit.name : null;
   }
 
-  // A static body that the user has added.
+  // Returns the static body at a place, if a user has added it; otherwise null.
   addedStaticAt(place: ScreenPlace): string | null {
     const hit = this.bodyAt(place);
     return hit?.isStatic && !hit.isFixed ? hit.name : null;

@@ -1,6 +1,6 @@
-// Draws many boxes in one draw call, with vertices computed by the processor: without a graphics
-// card, each instance would cost a draw call of about 20 µs. The graphics derive the normals of the
-// flat faces, so a box has only eight vertices.
+// Draws many boxes in one draw call. The processor computes their vertices, because without a
+// graphics card each instance would be a draw call of about 20 µs. The graphics compute the normals
+// from the flat faces, so a box has only eight vertices.
 import type { Box3, Material, Matrix4 } from "three";
 import { BoxGeometry, BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, Vector3 } from "three";
 
@@ -15,8 +15,8 @@ export class BoxCrowd {
   // The three edges of the box that start at `corner`, in the body's frame.
   private readonly edges: readonly [Vector3, Vector3, Vector3];
 
-  // `count` is the number of boxes, one for each body. `box` is in the frame of a part of the body;
-  // frameFromPart is the pose of the part in the body's frame.
+  // `count` is the number of boxes, one for each body. `box` is in the frame of a part of the body.
+  // `frameFromPart` is the pose of the part in the body's frame.
   constructor(
     box: Box3,
     frameFromPart: Matrix4,
@@ -34,7 +34,7 @@ export class BoxCrowd {
     this.positions = new Float32Array(3 * CORNERS * count);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(this.positions, 3).setUsage(DynamicDrawUsage));
-    // Normals are set only because three.js displaces shadows along them.
+    // Normals are set only because three.js uses them to displace shadows.
     geometry.setAttribute("normal", new BufferAttribute(repeated([0, 0, 1], CORNERS * count, 0), 3));
     geometry.setAttribute("uv", new BufferAttribute(repeated([0, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 0, 1, 1, 1], count, 0), 2));
     geometry.setIndex(new BufferAttribute(Uint32Array.from(repeated(FACES, count, CORNERS)), 1));
@@ -94,7 +94,7 @@ function flat(material: Material): Material {
   return copy;
 }
 
-// Repeats the numbers, each time increased by `more`.
+// Repeats the numbers. In each repetition, they are larger by `more` than in the previous one.
 function repeated(numbers: ArrayLike<number>, count: number, more: number): Float32Array {
   const all = new Float32Array(numbers.length * count);
   for (let i = 0; i < all.length; i++) {

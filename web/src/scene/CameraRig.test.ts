@@ -41,7 +41,7 @@ test("a chase is drawn from in front of a wall, and from the camera's place if t
   expectNear(rig.viewpoint.position, stand.x, stand.y, stand.z);
   const direction = (from: Vector3) => from.clone().sub(HERE.middle).normalize();
   expectNear(direction(rig.camera.position), ...direction(stand).toArray());
-  rig.follow(null); // the camera stays there from now on
+  rig.follow(null); // from now on, the camera does not move
   rig.update(2500);
   expect(drawnFrom(rig)).toBeCloseTo(0.85);
   rig.follow(HERE, true);
@@ -95,8 +95,8 @@ test("following keeps the direction of the view while the robot moves and turns"
   expectNear(rig.camera.position.clone().sub(rig.controls.target), offset.x, offset.y, offset.z);
 });
 
-// Regression: the view from a shared link moved up by half the robot's height when the robot's
-// model arrived.
+// Regression: when the robot's model arrived, the view from a shared link moved up by half the
+// robot's height.
 test("the view does not move when the robot's shape is loaded", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow({ ...HERE, middle: HERE.position });

@@ -1,5 +1,5 @@
 // The camera of the view: orbits, flies to views, follows a robot, or shows a robot's view. The
-// world's z is up. If a wall is between the camera and a followed robot, the camera moves nearer to
+// world's z is up. If a wall hides the robot that the camera follows, the camera moves nearer to
 // the robot.
 import type { Box3 } from "three";
 import { MOUSE, MathUtils, Matrix4, PerspectiveCamera, TOUCH, Vector3 } from "three";
@@ -13,10 +13,11 @@ import { fittingDistance } from "./framing";
 const { clamp, degToRad: radians } = MathUtils;
 
 const FIELD_OF_VIEW_DEG = 50;
-// The field of view of a map. It is so narrow that the map deviates from an orthographic one by
+// The field of view of a map. It is so narrow that the map deviates from an orthographic map by
 // less than 1%. The server supports no narrower field of view.
 const MAP_FIELD_OF_VIEW_DEG = 1;
-const MAP_DEPTH = 200; // m: a map shows what is at most this far below or above the camera's target
+// m: a map shows everything that is at most this far below or above the camera's target
+const MAP_DEPTH = 200;
 const FLIGHT_MS = 450;
 const MARGIN = 1.04;
 // The direction of the first view: from the south-west, and steep enough to see over the walls of a
@@ -30,15 +31,15 @@ const FOLLOWING_STEEPNESS = Math.tan((68 * Math.PI) / 180);
 const BEHIND = 2.4; // m: distance behind a followed robot
 const ABOVE = 1.5;
 const NEAREST = 0.4; // m: smallest distance to the followed robot
-const BEFORE_WALL = 0.15; // m
+const BEFORE_WALL = 0.15; // m: distance of the camera from a wall behind it
 const LOOK_MS = 100; // time between checks for walls
 // Time in which the camera moves back when no wall hides the robot any more.
 const BACK_OFF_MS = 250;
 // m: when the view of a robot's eye ends, the camera's target is set this far ahead of the eye.
 const AHEAD = 2;
 
-// A robot that is followed: its position, the centre of its shape (equal to the position until the
-// shape is known), and the direction of its x axis (radians about the world's z).
+// A robot that is followed: its position, the centre of its shape, and the direction of its x axis
+// (radians about the world's z). Until the shape is known, the centre equals the position.
 export interface Subject {
   position: Vector3;
   middle: Vector3;
@@ -58,9 +59,9 @@ interface Flight {
 
 export class CameraRig {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.05, 500); // the camera that draws
-  readonly controls: OrbitControls; // controls that move `stand`
-  // The camera as the user has placed it; `camera` may be nearer to the robot, because a wall would
-  // hide the robot.
+  readonly controls: OrbitControls; // controls that move the camera `stand`
+  // The camera as the user has placed it. If a wall would hide the robot from there, `camera` is
+  // nearer to the robot.
   private readonly stand = this.camera.clone();
   private free = Infinity; // m: free distance from the followed robot towards the camera
   private looked = -Infinity; // ms
@@ -69,17 +70,17 @@ export class CameraRig {
   private flight: Flight | null = null;
   private subject: Subject | null = null;
   private turning = false; // whether the camera rotates with the subject
-  // The view before that of a robot; null: no robot's view is shown.
+  // The view before the view of a robot; null if no robot's view is shown.
   private beforeEye: Viewpoint | null = null;
   private eyeView: CameraView | null = null; // field of view of the robot's camera
-  private beforeMap: Viewpoint | null = null; // the view before the map; null: no map is shown
+  private beforeMap: Viewpoint | null = null; // the view before the map; null if no map is shown
   private height = 1; // px
   // m: the range of depths that is drawn in all views except the map
   private orbitDepth = { near: 0.05, far: 500 };
   private readonly still: boolean;
 
-  // `freeAlong`: the free distance in metres from a place in a direction (unit length), up to
-  // `far`; larger if nothing is in the way.
+  // `freeAlong` returns the free distance in metres from a place in a direction (unit length), up
+  // to `far`. If nothing is in the way, the result may be larger than `far`.
   constructor(
     canvas: HTMLElement,
     onChange: () => void,
@@ -137,7 +138,7 @@ export class CameraRig {
     this.viewpoint = { position: new Vector3(x, y, z), target: new Vector3(tx, ty, tz) };
   }
 
-  // Shows the box obliquely from above. If `fly` is false, the camera jumps there.
+  // Shows the box obliquely from above. If `fly` is false, the camera is there at once.
   frame(box: Box3, fly: boolean): void {
     this.lookAt(box, FIRST_DIRECTION, fly);
   }
@@ -146,8 +147,8 @@ export class CameraRig {
     this.lookAt(box, DOWN, true);
   }
 
-  // Shows the view from above, north up and without perspective; dragging moves it. The centre and
-  // the scale stay as they were.
+  // Shows the view from above, north up and without perspective. Dragging moves the map. The centre
+  // and the scale of the view do not change.
   setMap(isOn: boolean): void {
     if (isOn === (this.beforeMap !== null)) return;
     const { position, target } = this.viewpoint;
@@ -178,8 +179,8 @@ export class CameraRig {
     return (2 * distance * Math.tan(radians(this.camera.fov) / 2)) / this.height;
   }
 
-  // Flies to the subject and follows it; null ends following. With `turning`, the camera stays
-  // behind the subject and rotates with it.
+  // Flies to the subject and follows it. If `subject` is null, ends following. If `turning` is
+  // true, the camera stays behind the subject and rotates with it.
   follow(subject: Subject | null, turning = false): void {
     if (!subject) {
       if (this.subject && this.turning) this.stayBeforeWall();
@@ -194,7 +195,7 @@ export class CameraRig {
     this.fly({ position: target.clone().add(turning ? behind(subject.yaw) : this.overhead()), target });
   }
 
-  // Moves with the followed robot.
+  // Moves the camera with the followed robot.
   moveTo({ position, middle, yaw }: Subject): void {
     const { subject } = this;
     if (!subject) return;
@@ -209,7 +210,7 @@ export class CameraRig {
     for (const point of this.points()) point.applyMatrix4(motion);
   }
 
-  // Shows the scene from a robot's camera. With null, the view returns to where it was before.
+  // Shows the scene from a robot's camera. If `eye` is null, returns to the view before that.
   lookFrom(eye: Eye | null): void {
     if (!eye) return this.leaveEye();
     const { worldFromEye, view } = eye;
@@ -232,14 +233,13 @@ export class CameraRig {
     return moved || isBackingOff || this.flight !== null;
   }
 
-  // When the camera stops following a robot, it stays at the place from which the last image was
-  // drawn.
+  // When the camera stops following a robot, it stays where the last image was drawn from.
   private stayBeforeWall(): void {
     if (!this.beforeEye) this.stand.position.copy(this.camera.position);
   }
 
-  // Draws from the camera's position, or from in front of a wall between robot and camera. Returns
-  // whether there is room to move back.
+  // Draws from the camera's position. If a wall is between robot and camera, draws from a place in
+  // front of the wall. Returns whether there is space to move back.
   private draw(nowMs: number): boolean {
     this.camera.position.copy(this.stand.position);
     this.camera.quaternion.copy(this.stand.quaternion);
@@ -281,8 +281,8 @@ export class CameraRig {
     this.fly(beforeEye);
   }
 
-  // Sets the field of view: in a robot's view the field of view of the robot's camera, else the
-  // usual field of view.
+  // Sets the field of view. In a robot's view, this is the field of view of the robot's camera.
+  // Otherwise it is the usual field of view.
   private widen(): void {
     const { camera, eyeView } = this;
     const ownFov = this.beforeMap ? MAP_FIELD_OF_VIEW_DEG : FIELD_OF_VIEW_DEG;
@@ -352,7 +352,8 @@ export class CameraRig {
   }
 }
 
-// Raises the camera, if necessary, to the minimum height for following a robot. The heading stays.
+// If the camera is too low for following a robot, raises it to the minimum height. The heading
+// stays.
 function steepened(back: Vector3): Vector3 {
   back.z = Math.max(back.z, FOLLOWING_STEEPNESS * Math.hypot(back.x, back.y));
   return back;

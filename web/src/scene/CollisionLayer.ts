@@ -1,5 +1,5 @@
-// Draws collision shapes as wireframes: those of the selected robot, else of all bodies. The shapes
-// are fetched when they are first needed.
+// Draws collision shapes as wireframes. If a robot is selected, only its shapes are drawn,
+// otherwise the shapes of all bodies. The shapes are fetched when they are first needed.
 import type { Group, Scene } from "three";
 import { MeshBasicMaterial } from "three";
 import type { SceneDescription } from "../api/scene";
@@ -70,8 +70,8 @@ export class CollisionLayer {
   }
 }
 
-// Returns a scene with the same bodies and poses, whose models are the collision shapes. Bodies
-// that are not shown have no model.
+// Returns a scene with the same bodies and poses. The models of the bodies are their collision
+// shapes. Bodies that are not shown have no model.
 export function collisionScene(scene: SceneDescription, selection: string | null): SceneDescription {
   const bodies = scene.bodies.map((body) => ({
     ...body,

@@ -50,11 +50,11 @@ describe("CrowdDetail", () => {
   it("draws boxes for a crowd whose nearest robot is small in the image, and shapes again when it is near", () => {
     const { look } = crowd(50);
     const isCoarse = (distance: number) => look(distance).boxes.length > 0;
-    expect(isCoarse(6)).toBe(false); // 13 pixels
-    expect(isCoarse(7)).toBe(true); // 11
-    // Between the two limits, so the level of detail stays the same.
+    expect(isCoarse(6)).toBe(false); // the robot is 13 pixels wide
+    expect(isCoarse(7)).toBe(true); // 11 pixels wide
+    // The robot's size is between the two limits, so the level of detail does not change.
     expect(isCoarse(6)).toBe(true);
-    expect(isCoarse(4.5)).toBe(false); // 18
+    expect(isCoarse(4.5)).toBe(false); // 18 pixels wide
   });
 
   it("draws all boxes of a part at once, each with its size and at its place", () => {
@@ -76,7 +76,7 @@ describe("CrowdDetail", () => {
     const middle = new Vector3();
     for (let i = 0; i < 8; i++) middle.add(at(i));
     [7, 8, 9].forEach((value, k) => expect(middle.getComponent(k) / 8).toBeCloseTo(value, 5));
-    // The first corner was at (-1, -1, -1) radii from the centre, and is at (1, -1, -1) radii now.
+    // The first corner was at (-1, -1, -1) radii from the centre. Now it is at (1, -1, -1) radii.
     [7 + RADIUS, 8 - RADIUS, 9 - RADIUS].forEach((value, k) => expect(at(0).getComponent(k)).toBeCloseTo(value, 5));
   });
 

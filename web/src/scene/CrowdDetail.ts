@@ -1,5 +1,6 @@
-// Draws the parts of a distant crowd as boxes and omits small parts: a thousand robots of a few
-// pixels need no thousands of triangles each, which take seconds without a graphics card.
+// Draws the parts of a distant crowd as boxes, and omits small parts. A thousand robots of a few
+// pixels do not need thousands of triangles each. Without a graphics card, these would take
+// seconds.
 import type { Mesh, PerspectiveCamera } from "three";
 import { Group, Vector3 } from "three";
 import type { FramedPart } from "./bakedParts";
@@ -10,13 +11,13 @@ import type { ModelInstances, Rig } from "./ModelInstances";
 import { boundsOf } from "./ModelTemplate";
 
 const SMALLEST_CROWD = 50;
-// A crowd is drawn as boxes if its nearest robot is smaller than COARSE_BELOW pixels in the image,
-// and with its shapes if it is larger than FINE_ABOVE pixels. Between the two limits, nothing
-// changes.
+// If the nearest robot of a crowd is smaller than COARSE_BELOW pixels in the image, the crowd is
+// drawn as boxes. If this robot is larger than FINE_ABOVE pixels, the crowd is drawn with its
+// shapes. Between the two limits, nothing changes.
 const COARSE_BELOW = 12;
 const FINE_ABOVE = 16;
-// Parts smaller than this fraction of the largest part have no box. At the limits above, such a
-// part is two or three pixels wide.
+// Parts smaller than this fraction of the largest part have no box. When the crowd is at the limits
+// above, such a part is two or three pixels wide.
 const SMALL_SHARE = 0.4;
 
 interface Crowd {
@@ -97,7 +98,7 @@ function sizeOf({ part }: FramedPart): number {
 }
 
 function boxesFor({ part, frameFromPart }: FramedPart, count: number): BoxCrowd {
-  boundsOf(part); // this computes the bounds of the geometry
+  boundsOf(part); // so that the bounds of the geometry are computed
   const boxes = new BoxCrowd(part.geometry.boundingBox!, frameFromPart, part.material, count);
   boxes.mesh.castShadow = boxes.mesh.receiveShadow = !part.material.transparent;
   return boxes;

@@ -20,7 +20,7 @@ import { glowOf, jawsOf, soundOf } from "../live/devices";
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 
-// Maximum number of lights of each kind, because each costs time for every pixel.
+// Maximum number of lights of each kind. Each light costs time for every pixel.
 const MOST_LIGHTS = 4;
 const HALO = 10; // radii
 const SOUND_COLOUR = rgb(0x00a7b5);
@@ -41,7 +41,8 @@ export class DeviceLayer {
   readonly sounds = new Map<string, Sound>(); // by topic
   private readonly jaws = new Map<string, Jaws>(); // by topic
   private readonly glows = new Map<string, Glow>(); // by topic
-  private readonly lamps: Lamp[] = []; // reused: their number is the maximum number of lamps that were on at once
+  // lamps are reused, so their number is the maximum number of lamps that were on at once
+  private readonly lamps: Lamp[] = [];
   private readonly points: PointLight[] = [];
   private readonly spots: SpotLight[] = [];
   private readonly ball = new SphereGeometry(1, 16, 12);
@@ -107,7 +108,8 @@ export class DeviceLayer {
     return this.halo;
   }
 
-  // The number of lights never decreases, because a change compiles every shader again.
+  // The number of lights never decreases, because each change of this number compiles every shader
+  // again.
   private placePoints(lit: { glow: Glow; frame: Matrix4 }[]): void {
     while (this.points.length < Math.min(MOST_LIGHTS, lit.length)) {
       this.points.push(new PointLight());
@@ -168,7 +170,7 @@ function setLight(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; 
   light.decay = 2;
 }
 
-// Draws rings about the sensor's x axis that expand and fade.
+// Draws rings around the sensor's x axis. They expand and fade.
 function drawRings(lines: LineLayer, worldFromSensor: Matrix4, { elapsed, volume }: Sound): void {
   const reach = RING_REACH * Math.max(0.2, volume);
   for (let ring = 0; ring < RINGS; ring++) {
@@ -183,7 +185,7 @@ function drawRings(lines: LineLayer, worldFromSensor: Matrix4, { elapsed, volume
   }
 }
 
-// Draws the inner face of each finger; green if the gripper holds a body.
+// Draws the inner face of each finger. It is green if a body is attached to the gripper.
 function drawJaws(lines: LineLayer, worldFromSensor: Matrix4, { opening, reach, height, held }: Jaws): void {
   const colour = held === "" ? EMPTY_COLOUR : HOLDING_COLOUR;
   const z = height / 2;

@@ -15,7 +15,7 @@ import { RectangleChoice } from "./RectangleChoice";
 import type { RobotPlaces } from "./RobotPlaces";
 import { poseOf } from "./poses";
 
-// The use of a click: it selects a body, moves the selection there, or provides a point.
+// The effect of a click: it selects a body, moves the selection to this place, or provides a point.
 export type ClickUse = "choose" | "place" | "point";
 
 export interface EditToolsView {
@@ -37,7 +37,7 @@ export interface EditToolsEvents {
   onPlacePoint(point: Point): void;
   // Called with the pose of the first selected body while it is dragged.
   onDrag(pose: BodyPose): void;
-  // Resolves to whether all bodies have their pose now.
+  // Resolves to true if all bodies have their pose now.
   onPose(poses: readonly BodyPose[]): Promise<boolean>;
 }
 
@@ -73,28 +73,29 @@ export class EditTools {
     return this.use;
   }
 
-  // While clicks do not select, the gizmo is hidden, because its handles would receive the clicks.
+  // If clicks do not select bodies, the gizmo is hidden, because its handles would receive the
+  // clicks.
   set clickUse(use: ClickUse) {
     this.use = use;
     this.show();
     this.view.redraw();
   }
 
-  // Sets the mode of the gizmo; null: edit mode is off.
+  // Sets the mode of the gizmo. Null means that edit mode is off.
   setTool(tool: GizmoTool | null): void {
     this.tool = tool;
     this.rectangle.isOn = tool !== null;
     this.refresh();
   }
 
-  // Selects the bodies. The gizmo is on the first one.
+  // Selects the bodies. The gizmo is at the first body.
   choose(chosen: readonly string[]): void {
     this.chosen = chosen;
     this.refresh();
   }
 
-  // Whether the displayed pose differs from the last reported one: the user drags the body, or has
-  // just released it.
+  // Whether the displayed pose differs from the last reported pose, because the user is dragging
+  // the body or has just released it.
   get holds(): boolean {
     return this.held !== null && this.held === this.view.bodies();
   }
@@ -115,7 +116,7 @@ export class EditTools {
     return this.tool !== null && this.use === "choose" && this.gizmo.isAt(at);
   }
 
-  // Handles a click that moves the selection or provides a point. Returns false if clicks select
+  // Handles a click if it moves the selection or provides a point. Returns false if clicks select
   // bodies.
   click(at: ScreenPlace): boolean {
     if (this.use === "choose") return false;

@@ -1,7 +1,7 @@
-// The environment map, which lights the scene from all directions and which smooth and metallic
-// surfaces reflect: a sky with bright windows over a darker ground. It is computed, and filtered
-// once by the graphics (PMREM). On diffuse surfaces it is as bright as the world's ambient light:
-// from above in its colour, from below darker.
+// The environment map lights the scene from all directions. Smooth and metallic surfaces reflect
+// it. It is a sky with bright windows over a darker ground. The page computes it, and the graphics
+// filter it once (PMREM). On diffuse surfaces, it is as bright as the world's ambient light. From
+// above, it has the colour of the ambient light. From below, it is darker.
 import type { Scene, WebGLRenderer, WebGLRenderTarget } from "three";
 import { BackSide, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, PMREMGenerator, Scene as EnvironmentScene, SphereGeometry, Vector3 } from "three";
 import type { SceneDescription } from "../api/scene";
@@ -28,7 +28,7 @@ export class Environment {
     private readonly scene: Scene,
   ) {}
 
-  // Lights the scene like a world with this look.
+  // Lights the scene as `look` describes.
   show(look: Look): void {
     const isSame = this.look !== null && JSON.stringify(look) === JSON.stringify(this.look);
     this.look = look;
@@ -79,7 +79,7 @@ export function meanOf(radiance: Radiance, sign = 1): Color {
   return sum.multiplyScalar(1 / (rings * SAMPLES));
 }
 
-// Returns 1 in a window and 0 beside it, with soft edges.
+// Returns 1 inside a window and 0 outside of it, with soft edges.
 function windowAt({ x, y, z }: Vector3): number {
   const across = smooth(0.1, 0.3, Math.sin(WINDOWS * Math.atan2(y, x)));
   return across * smooth(LOWEST_WINDOW - 0.05, LOWEST_WINDOW + 0.05, z) * smooth(HIGHEST_WINDOW + 0.05, HIGHEST_WINDOW - 0.05, z);

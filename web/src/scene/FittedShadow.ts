@@ -1,9 +1,9 @@
-// The shadow map of a sun. It covers a sphere about the visible part of the world, so that near a
-// robot its texels are small enough for the shadow of a wheel. The sphere moves and grows in steps,
-// so that shadows are seldom drawn again and their edges do not flicker.
+// The shadow map of a sun. It covers a sphere around the visible part of the world. So near a
+// robot, its texels are small enough for the shadow of a wheel. The sphere moves and grows in
+// steps, so that shadows are seldom drawn again and their edges do not flicker.
 import type { DirectionalLight, Sphere, Vector3 } from "three";
 
-const SMALL_MAP = 1024; // texels; enough for a room
+const SMALL_MAP = 1024; // texels; sufficient for a room
 const LARGE_MAP = 2048;
 const ROOM_RADIUS = 12; // m
 const LARGEST_RADIUS = 40; // m: with a larger radius, a texel is wider than a robot's wheel
@@ -12,8 +12,8 @@ const SMALLEST_RADIUS = 3; // m
 const REACH = 4;
 const STEP = Math.SQRT2; // ratio of two successive radii
 const BIAS = 0.0016; // fraction of the radius
-// The sphere moves only if the camera's target is farther from its centre than this fraction of its
-// radius.
+// The sphere moves only if the distance of the camera's target from the sphere's centre exceeds
+// this fraction of the sphere's radius.
 const SLACK = 0.25;
 
 export class FittedShadow {
@@ -21,7 +21,8 @@ export class FittedShadow {
   private readonly centre: Vector3;
   private radius = 0; // m
 
-  // `direction` of the light has unit length. `world` bounds everything that can be shadowed.
+  // `direction` is the direction of the light, with unit length. `world` contains everything on
+  // which a shadow may fall.
   constructor(
     private readonly sun: DirectionalLight,
     private readonly direction: Vector3,

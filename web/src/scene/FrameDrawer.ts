@@ -1,5 +1,5 @@
-// Draws one frame of the view: updates the objects that have moved, draws the shadows again when
-// they are due, and draws the scene, or draws over an image of the server.
+// Draws one frame of the view. Updates the objects that have moved, and draws the shadows again if
+// they are due. Draws the scene, or draws overlays on an image of the server.
 import type { Object3D, PerspectiveCamera, Scene } from "three";
 import type { Shown } from "../state/overlays";
 import type { Arranger } from "./Arranger";
@@ -31,7 +31,7 @@ export interface DrawnLayers {
   frameRate: FrameRate;
   hasFineLight: boolean;
   parts(): SceneParts | null;
-  frames(): number; // drawn so far
+  frames(): number; // number of frames drawn so far
 }
 
 export class FrameDrawer {
@@ -40,13 +40,13 @@ export class FrameDrawer {
 
   constructor(private readonly layers: DrawnLayers) {}
 
-  // The camera of the image on the screen. An image from the server shows the view of an earlier
-  // camera.
+  // The camera of the image on the screen. If the server has drawn this image, its camera is an
+  // earlier one.
   get shownCamera(): PerspectiveCamera {
     return this.layers.surface.drawnImage?.camera ?? this.layers.rig.camera;
   }
 
-  // Returns whether another frame must follow. `now`: ms, as performance.now().
+  // Returns whether another frame must follow. `now` is a time in ms, as from performance.now().
   draw(now: number, shown: Shown): boolean {
     const { surface, root, rig, poses, overlays, collisions, signs, follower, arranger, tools, frameRate } = this.layers;
     if (!this.hasGraphics && !surface.isDrawnByServer) return false;

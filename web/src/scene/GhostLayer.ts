@@ -1,4 +1,4 @@
-// Draws the robots of a second recording as transparent ghosts over the scene of the first.
+// Draws the robots of a second recording as transparent ghosts in the scene of the first recording.
 import { Group, MeshBasicMaterial } from "three";
 import type { SceneDescription } from "../api/scene";
 import { BodyLayer } from "./BodyLayer";
@@ -9,7 +9,7 @@ const NUMBERS_A_POSE = 7;
 
 export class GhostLayer {
   readonly group = new Group();
-  // One material for all ghosts, which only need to be visible and distinguishable from the robots.
+  // One material for all ghosts. They need only be visible, and look different from the robots.
   private readonly material = new MeshBasicMaterial({
     color: 0x8b5cf6,
     transparent: true,
@@ -18,7 +18,8 @@ export class GhostLayer {
   });
   private shown: { bodies: BodyLayer; entries: readonly number[]; layoutVersion: number } | null = null;
 
-  // Shows the robots of a scene; null: none. Calls `onChange` when there is something new to draw.
+  // Shows the robots of a scene; null: shows no robots. Calls `onChange` when the view must be
+  // drawn again.
   setScene(scene: SceneDescription | null, library: ModelLibrary, onChange: () => void): void {
     this.shown?.bodies.dispose();
     this.shown = null;
@@ -40,7 +41,8 @@ export class GhostLayer {
     }
   }
 
-  // Takes poses in the order of that scene's list. Poses of another layout are ignored.
+  // Takes poses in the order of the list of the second recording's scene. Poses of another layout
+  // are ignored.
   setPoses(layoutVersion: number, poses: Float64Array): void {
     if (!this.shown || this.shown.layoutVersion !== layoutVersion) return;
     const { bodies, entries } = this.shown;
@@ -64,7 +66,7 @@ export class GhostLayer {
   }
 }
 
-// Returns the scene with its robots only, and the indices of their poses in the list of the whole
+// Returns the scene with only its robots, and the indices of their poses in the list of the whole
 // scene.
 export function ghostsOf(scene: SceneDescription): { ghosts: SceneDescription; entries: number[] } {
   const robots = scene.bodies.flatMap(({ isRobot, isAvatar }, index) => (isRobot || isAvatar ? [index] : []));

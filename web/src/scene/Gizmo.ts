@@ -1,5 +1,5 @@
-// The handles that move and rotate the selected bodies: three's TransformControls, attached to a
-// separate frame that the bodies follow.
+// The handles that move and rotate the selected bodies. They are three's TransformControls,
+// attached to a separate frame. The bodies follow this frame.
 import type { BufferAttribute, BufferGeometry, Camera } from "three";
 import { Box3, Group, Matrix4, Mesh, Object3D, Vector3 } from "three";
 import type { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -10,7 +10,8 @@ import { screenPlaceOf } from "./picking";
 
 const SIZE = 0.85; // as a fraction of three's default
 const AXES: Readonly<Record<string, number>> = { X: 0, Y: 1, Z: 2 };
-// Handles that cover the body itself, where a drag moves the body over the floor.
+// These handles are left out, because they cover the body. A drag on the body moves it over the
+// floor.
 const LEFT_OUT: ReadonlySet<string> = new Set(["XYZ", "XZ", "YZ"]);
 const HANDLE_SHARE = 0.5; // fraction of an arrow's length at which tests drag it
 
@@ -80,8 +81,8 @@ export class Gizmo {
     this.tool = tool;
     this.isUpright = isUpright;
     this.controls.setMode(tool.mode === "turn" ? "rotate" : "translate");
-    // Rotation is about the body's own axes; motion is along the axes of the world, whose
-    // coordinates are shown.
+    // A rotation is about the body's own axes. A motion is along the axes of the world, because the
+    // page shows coordinates in the world.
     this.controls.setSpace(tool.mode === "turn" ? "local" : "world");
     this.controls.setTranslationSnap(tool.snaps ? tool.distance : null);
     this.controls.setRotationSnap(tool.snaps ? (tool.angleDeg * Math.PI) / 180 : null);
@@ -112,7 +113,8 @@ export class Gizmo {
     return this.controls.axis !== null;
   }
 
-  // The place on the page where the handle of a world axis is drawn; null while it is hidden.
+  // Returns the place on the page where the handle of a world axis is drawn; null while the handle
+  // is hidden.
   handleAt(axis: "x" | "y" | "z"): ScreenPlace | null {
     if (!this.controls.object) return null;
     const origin = this.frame.getWorldPosition(new Vector3());

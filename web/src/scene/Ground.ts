@@ -2,11 +2,12 @@
 import { Box3, BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments } from "three";
 import { Mesh, MeshBasicMaterial, RingGeometry, Vector3 } from "three";
 
-const HIGHEST_FLOOR = 0.004; // m above the world's floor, so that the grid is not inside it
+// m: height of the grid over the world's floor, so that the grid is not inside of the floor
+const HIGHEST_FLOOR = 0.004;
 const MOST_CELLS = 200;
 const RING_COLOUR = new Color(0x2f81f7);
 
-// Makes lines at a distance of one metre (ten in a large world) over the floor of the box.
+// Makes lines on the floor of the box. Their distance is one metre (ten metres in a large world).
 export function makeGrid(box: Box3): LineSegments {
   const size = box.getSize(new Vector3());
   const cell = Math.max(size.x, size.y) > MOST_CELLS ? 10 : 1;

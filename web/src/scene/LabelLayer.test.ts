@@ -3,8 +3,8 @@ import { PerspectiveCamera } from "three";
 import { expect, test, vi } from "vitest";
 import { LabelLayer } from "./LabelLayer";
 
-// At the origin, looking along -z, with a vertical field of view of 90 degrees and an aspect ratio
-// of 2.
+// The camera is at the origin and looks along -z. It has a vertical field of view of 90 degrees and
+// an aspect ratio of 2.
 const camera = new PerspectiveCamera(90, 2, 0.1, 100);
 camera.updateMatrixWorld(true);
 

@@ -1,6 +1,7 @@
-// Names above the robots, as text of the page and not of the image, so that they are sharp and
-// accessible to screen readers. They never overlap: the selected robot's name has priority, then
-// those of robots in trouble (worst first), then the nearest.
+// Names above the robots. They are text of the page and not of the image, so that they are sharp
+// and accessible to screen readers. They never overlap. The selected robot's name has the highest
+// priority. Then follow the names of robots in trouble (worst first), and then of the nearest
+// robots.
 import type { Camera } from "three";
 import { Matrix4, Vector3 } from "three";
 
@@ -8,8 +9,8 @@ const MOST_LABELS = 40;
 const TEXT_PX = 11.5; // as in style/panels.css
 const HEIGHT_PX = 20;
 const PADDING_PX = 14; // padding on both sides, with the gap between two names
-// While robots move and the camera is at rest, the labelled robots are chosen again after this
-// time. A choice in every frame would exchange labels all the time.
+// While robots move and the camera is at rest, the robots with labels are chosen again after this
+// time. If they were chosen in every frame, labels would change all the time.
 const CHOICE_MS = 200;
 const CHARACTER_PX = 7; // used if the browser does not return the width of a text
 
@@ -46,7 +47,8 @@ interface Choice {
   robots: number[];
 }
 
-// A label of the page, with its current content: a comparison costs less than a write.
+// A label of the page, with a copy of its content. To compare the copy takes less time than to
+// write the label.
 interface Label {
   element: HTMLElement;
   frame: number; // the frame in which it was last shown
@@ -55,12 +57,12 @@ interface Label {
   kind: string; // its CSS classes
 }
 
-// Priorities are numbers, so that thousands of them are sorted fast; the lowest number is labelled
-// first. A number combines, in this order, the rank (0 if the robot is selected, else BEST_RANK
-// minus its badness), the distance in centimetres, and the robot's index.
+// Priorities are numbers, so that thousands of them are sorted fast. The robot with the lowest
+// number gets a label first. A number combines, in this order, the rank (0 if the robot is
+// selected, else BEST_RANK minus its badness), the distance in centimetres, and the robot's index.
 const ROBOTS_IN_KEY = 2 ** 20;
 const DISTANCES_IN_KEY = 2 ** 24;
-const BEST_RANK = 100; // more than the badness of all robots
+const BEST_RANK = 100; // more than the badness of any robot
 const CENTIMETRES = 100;
 
 export class LabelLayer {
@@ -98,8 +100,8 @@ export class LabelLayer {
     }
   }
 
-  // Draws the labels at their present places on an image of the view, whose width on the page is
-  // `width`.
+  // Draws the labels at their present places on an image of the view. `width` is the width of the
+  // image on the page.
   paint(context: CanvasRenderingContext2D, width: number): void {
     const scale = context.canvas.width / width;
     context.save();
@@ -125,7 +127,8 @@ export class LabelLayer {
     this.choice = null;
   }
 
-  // Returns the labels to show. A choice stays for a short time, if only the robots have moved.
+  // Returns the labels to show. If only the robots have moved, the labels are not chosen again for
+  // a short time.
   private shown(camera: Camera, width: number, height: number, robots: LabelledRobots): ShownLabel[] {
     this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     const now = performance.now();
@@ -160,8 +163,8 @@ export class LabelLayer {
     return taken;
   }
 
-  // Finds the robots in front of the camera and inside the image. Returns their number, and leaves
-  // their places in `across` and `down` and their order in `keys`.
+  // Finds the robots in front of the camera and inside the image. Returns the number of these
+  // robots. Writes their places to `across` and `down`, and their order to `keys`.
   private findInImage(camera: Camera, width: number, height: number, robots: LabelledRobots): number {
     const { names, tops, selection } = robots;
     if (this.keys.length < names.length) {
@@ -182,8 +185,8 @@ export class LabelLayer {
     return found;
   }
 
-  // Finds the place of a robot in the image. Returns whether it is in front of the camera and
-  // inside.
+  // Finds the place of a robot in the image. Returns true if the robot is in front of the camera
+  // and inside the image.
   private project(tops: Float64Array, robot: number, width: number, height: number): boolean {
     const m = this.clipFromWorld.elements;
     const x = tops[3 * robot]!;
@@ -231,8 +234,8 @@ function overlap(a: Box, b: Box): boolean {
   return a.left < b.right && b.left < a.right && Math.abs(a.bottom - b.bottom) < HEIGHT_PX;
 }
 
-// Returns a function that measures texts. Measuring the labels on the page would cause a layout for
-// each.
+// Returns a function that measures texts. To measure the labels on the page would cause one layout
+// per label.
 function measureText(): (text: string) => number {
   let context: CanvasRenderingContext2D | null = null;
   return (text) => {

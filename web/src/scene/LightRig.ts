@@ -1,6 +1,6 @@
-// The lights of a scene, as in the robots' cameras (gsv/rendering). An intensity of 1 lights a
-// white surface that faces the light to full white, as in the world file. The factor pi cancels the
-// division by pi in three.js's reflectance. Light colours are linear, not sRGB.
+// The lights of a scene, as in the robots' cameras (gsv/rendering). As in the world file, an
+// intensity of 1 lights a white surface that faces the light to full white. The factor pi cancels
+// the division by pi in three.js's reflectance. Light colours are linear, not sRGB.
 import type { Box3, Light } from "three";
 import {
   Color,
@@ -46,8 +46,8 @@ export class LightRig {
   // The shadow of the first sun that casts shadows.
   private readonly shadow: FittedShadow | null = null;
 
-  // `focus` is the part of the world that shadows must cover. With `hasEnvironment`, the ambient
-  // light is the scene's environment map.
+  // `focus` is the part of the world that shadows must cover. If `hasEnvironment` is true, the
+  // ambient light comes from the scene's environment map.
   constructor(scene: SceneDescription, focus: Box3, hasEnvironment = false) {
     if (!hasEnvironment) this.group.add(ambient(scene.look.ambient));
     const lights = scene.lights.length > 0 ? scene.lights : [WITHOUT_LIGHTS];
@@ -69,8 +69,8 @@ export class LightRig {
     }
   }
 
-  // Fits the shadows to the view of a camera at `eye` with this target. Returns whether they must
-  // be drawn again.
+  // Fits the shadows to the view of a camera at `eye` with this target. Returns whether the shadows
+  // must be drawn again.
   fitShadow(eye: Vector3, target: Vector3): boolean {
     return this.shadow?.fit(eye, target) ?? false;
   }
@@ -81,8 +81,8 @@ export class LightRig {
   }
 }
 
-// Ambient light has a minimum, because many worlds define almost none, and other simulators add
-// their own.
+// Ambient light has a minimum. Many worlds define almost none, because other simulators add their
+// own.
 export function ambientOf(asked: Triple): Color {
   const above = lightOf(asked);
   const brightness = 0.2126 * above.r + 0.7152 * above.g + 0.0722 * above.b;

@@ -1,7 +1,7 @@
-// Draws the bodies of one model. Several bodies are instances: all parts that move with one frame
+// Draws the bodies of one model. Several bodies are instances. All parts that move with one frame
 // (the body, or one of its links) share one buffer of matrices, and parts of one material are one
-// draw call. A single body is drawn part by part, so that three.js omits the parts outside the view
-// and sorts transparent ones.
+// draw call. A single body is drawn part by part. So three.js omits the parts outside of the view,
+// and sorts transparent parts.
 import type { BufferGeometry } from "three";
 import { DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, Matrix4, Mesh } from "three";
 import { OCCLUDING_LAYER } from "./AmbientOcclusion";
@@ -57,7 +57,7 @@ export class ModelInstances {
       matrices.needsUpdate = true;
     }
     for (const { mesh, frame, frameFromPart } of this.singles) {
-      if (!all && mesh.frustumCulled) continue; // fixed
+      if (!all && mesh.frustumCulled) continue; // the body is fixed
       this.frames.matrixOf(frame, mesh.matrix).multiply(frameFromPart);
       mesh.matrixWorldNeedsUpdate = true;
     }

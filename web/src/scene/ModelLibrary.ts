@@ -1,4 +1,4 @@
-// Fetches models by ID, each once, and keeps those that the present scene uses.
+// Fetches models by ID, each model once. Keeps the models that the present scene uses.
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { SceneDescription } from "../api/scene";
 import { LightMaps } from "./LightMaps";
@@ -25,7 +25,7 @@ export class ModelLibrary {
     return template;
   }
 
-  // Starts to fetch the models of a scene. Errors are reported to the caller of get().
+  // Starts to fetch the models of a scene. Only get() reports errors.
   prepare({ bodies }: SceneDescription): void {
     for (const { model, links } of bodies) this.get(model, links).catch(() => {});
   }

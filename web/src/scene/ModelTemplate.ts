@@ -18,8 +18,8 @@ export interface ModelTemplate {
   bounds: Box3; // in the model's frame; empty when nothing is drawn
 }
 
-// `root` has one node per link with the link's name. GLTFLoader changes names and keeps the
-// originals in the nodes' userData.
+// `root` has one node for each link, with the link's name. GLTFLoader changes names, and stores the
+// original names in the nodes' userData.
 export function makeTemplate(root: Object3D, links: readonly string[]): ModelTemplate {
   root.updateMatrixWorld(true);
   const modelFromWorld = root.matrixWorld.clone().invert();
@@ -69,7 +69,7 @@ function originalName(node: Object3D): string {
   return typeof name === "string" ? name : node.name;
 }
 
-// The node of the visual that contains a mesh; the mesh itself if there is none.
+// Returns the node of the visual that contains a mesh. If there is none, returns the mesh itself.
 function visualAbove(mesh: Object3D, frame: Object3D): Object3D {
   for (let each: Object3D | null = mesh; each && each !== frame; each = each.parent) {
     if (each.userData.visual !== undefined) return each;

@@ -77,7 +77,7 @@ test("points are at their sensor's place, on a rotated link", () => {
   overlays.place(new Vector3());
   expect(points.geometry.drawRange.count).toBe(1);
   const place = Array.from(points.geometry.getAttribute("position").array.slice(0, 3));
-  // One metre along the arm to the sensor, and two more to the point. The arm points along y.
+  // The point is one metre along the arm (to the sensor) plus two metres. The arm points along y.
   [10, 3, 1].forEach((value, i) => expect(place[i]).toBeCloseTo(value, 5));
   overlays.keepReadings(new Set());
   overlays.place(new Vector3());

@@ -50,7 +50,8 @@ export class OverlayLayers {
   private readonly radio = new RadioLinks();
   readonly expectations: ExpectationMarks;
   private trailsOf = ""; // name of the scene to which the trails belong
-  private readonly contacts = new Map<string, TouchPoint[]>(); // by topic; in the sensor's frame, or in the world frame
+  // in the sensor's frame, or in the world frame; by topic
+  private readonly contacts = new Map<string, TouchPoint[]>();
   private bodies: BodyLayer | null = null;
   private sensors = new Map<string, MountedSensor>(); // by topic
   private robots: { name: string; entry: number }[] = [];
@@ -59,7 +60,7 @@ export class OverlayLayers {
   private readonly boxes = new Map<SceneInertial, EquivalentBox>();
   private selection: string | null = null;
 
-  // `thin`: lines of one pixel, for browsers without a graphics card.
+  // If `thin` is true, lines are one pixel wide, for browsers without a graphics card.
   constructor(mostBeams: number, thin = false) {
     this.beams = new BeamLayer(mostBeams, thin);
     this.lines = new LineLayer({ widthPx: 2, onTop: true, thin });
@@ -141,7 +142,7 @@ export class OverlayLayers {
     );
   }
 
-  // Beams are relative to the robots' poses at the time of measuring.
+  // Takes beams. They are relative to the poses that the robots had at the time of measuring.
   takeBeams({ markers }: MarkerArrayMessage, posesAt: (stamp: number) => Float64Array | null): void {
     for (const marker of markers) {
       const poses = posesAt(seconds(marker.header.stamp));
@@ -210,8 +211,8 @@ export class OverlayLayers {
 
   private drawViews(bodies: BodyLayer): void {
     const cameras = [...this.sensors.values()].filter(
-      // Selects cameras by what a sensor reads, whatever its type is: images, or the objects in its
-      // view.
+      // Selects cameras by the content of their readings (images, or the objects in view), and not
+      // by their type.
       ({ robot, overlay, view }) =>
         (overlay === "picture" || view !== null) && (this.selection ?? robot) === robot,
     );
@@ -221,7 +222,7 @@ export class OverlayLayers {
     }
   }
 
-  // Draws all axes of the selected robot, or else only the robots' own axes.
+  // Draws all axes of the selected robot. If no robot is selected, draws only the robots' own axes.
   private drawFrames(bodies: BodyLayer): void {
     const robots = this.robots.filter(({ name }) => (this.selection ?? name) === name);
     for (const { name } of robots.slice(0, MOST_AXES)) {
@@ -236,7 +237,8 @@ export class OverlayLayers {
     }
   }
 
-  // Draws the joints of the selected robot, or else of all bodies.
+  // Draws the joints of the selected robot. If no robot is selected, draws the joints of all
+  // bodies.
   private drawJoints(bodies: BodyLayer): void {
     let left = MOST_AXES;
     bodies.scene.bodies.forEach(({ name, joints }, body) => {
@@ -250,7 +252,8 @@ export class OverlayLayers {
     });
   }
 
-  // Draws the masses of the selected robot's links, or else of all bodies that can move.
+  // Draws the masses of the selected robot's links. If no robot is selected, draws the masses of
+  // all bodies that can move.
   private drawMasses(bodies: BodyLayer): void {
     let left = MOST_AXES;
     bodies.scene.bodies.forEach(({ name, model, isStatic }, body) => {

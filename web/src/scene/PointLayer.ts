@@ -1,5 +1,5 @@
 // Draws the points measured by sensors in one draw call, coloured by distance, height or intensity.
-// Like beams, they move with the displayed sensor.
+// The points move with the displayed sensor, like beams.
 import type { Matrix4 } from "three";
 import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, PointsMaterial, SRGBColorSpace, Vector3 } from "three";
 import type { Points as Cloud } from "../live/clouds";
@@ -8,9 +8,9 @@ import type { PointColour } from "../state/overlays";
 
 const SIZE_PX = 3;
 const SMALLEST_CAPACITY = 1024; // points
-// The lower end of the colour scale, because darker points do not stand out from the floor.
+// The lower end of the colour scale. Darker points would not stand out from the floor.
 const DARKEST = 0.25;
-// The upper end of the colour scale, because brighter points do not stand out from a light floor.
+// The upper end of the colour scale. Brighter points would not stand out from a light floor.
 const BRIGHTEST = 0.85;
 const LEVELS = 65; // number of colours in the scale
 

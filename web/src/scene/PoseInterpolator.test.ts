@@ -100,7 +100,7 @@ test("the poses at a simulated time lie between two updates, and the newest one 
   expect(interpolator.readAt(1, out)).toBe(false);
   interpolator.push(update(100, poseAt(1)), 0);
   interpolator.push(update(200, poseAt(3)), 40);
-  interpolator.push(update(200, poseAt(5)), 80); // edited while paused
+  interpolator.push(update(200, poseAt(5)), 80); // the user has edited the simulation while it is paused
   const at = (stamp: number) => (interpolator.readAt(stamp, out), out[0]);
   expect(at(1.5)).toBeCloseTo(2, 12);
   expect(at(1)).toBe(1);

@@ -1,5 +1,5 @@
-// Computes poses for every frame from updates that arrive irregularly: shows the recent past,
-// slightly more than one update ago, interpolated between two updates.
+// Computes poses for every frame from updates that arrive irregularly. The displayed instant is
+// slightly more than one update ago. Its poses are interpolated between two updates.
 //
 // Poses are lists of seven numbers (x y z qx qy qz qw). Times are wall-clock milliseconds;
 // simulated time may run at any factor.
@@ -83,7 +83,8 @@ export class PoseInterpolator {
   readAt(stamp: number, out: Float64Array): boolean {
     const last = this.samples.at(-1);
     if (!last || last.poses.length !== out.length) return false;
-    // An edit in a paused simulation adds a sample with the same time. The newest of them is used.
+    // An edit in a paused simulation adds a sample with the same time. Of such samples, the newest
+    // is used.
     const after = this.samples.findIndex((sample) => sample.stamp > stamp);
     const to = this.samples[after];
     const from = this.samples[after - 1];
@@ -92,7 +93,7 @@ export class PoseInterpolator {
     return true;
   }
 
-  // Whether `read` gives the same result until the next update arrives.
+  // Whether `read` returns the same poses until the next update arrives.
   isSettled(nowMs: number): boolean {
     const last = this.samples.at(-1);
     return !last || nowMs - this.delayMs >= last.shownAtMs;
@@ -102,7 +103,7 @@ export class PoseInterpolator {
     if (!previous) return nowMs;
     const gap = nowMs - this.lastArrivalMs;
     if (gap > LONGEST_DELAY_MS) {
-      // After a pause, moves from the old pose to the new one within one interval.
+      // After a pause, the displayed poses move from the old to the new poses within one interval.
       previous.shownAtMs = nowMs - this.intervalMs;
       return nowMs;
     }
@@ -120,8 +121,8 @@ function interpolatePoses(from: Float64Array, to: Float64Array, share: number, o
   }
 }
 
-// Interpolates between two unit quaternions linearly on the shorter arc, and normalises the result.
-// The angle between two updates is small, so the result is close to that of slerp.
+// Interpolates linearly between two unit quaternions, on the shorter arc, and normalises the
+// result. The angle between two updates is small, so the result is close to the result of slerp.
 function interpolateRotation(
   from: Float64Array,
   to: Float64Array,

@@ -1,5 +1,6 @@
-// Keeps the frame rate up if drawing is slow, for example without a graphics card: omits ambient
-// occlusion, then reduces the number of pixels, and increases it again when there is time.
+// Keeps the frame rate up if drawing is slow, for example without a graphics card. First omits
+// ambient occlusion, and then reduces the number of pixels. Increases the number again when drawing
+// is fast enough.
 
 const SLOW_MS = 55;
 const VERY_SLOW_MS = 200; // a frame of this length counts as several slow frames
@@ -13,14 +14,14 @@ export class Quality {
   private slow = 0;
   private fast = 0;
 
-  // `isRich` means that ambient occlusion is on at first.
+  // If `isRich` is true, ambient occlusion is on at first.
   constructor(
     private readonly deviceRatio: number,
     private readonly fixed: boolean,
     private isRich = false,
   ) {}
 
-  // Whether ambient occlusion is drawn. Once it was too slow, it stays off.
+  // Whether ambient occlusion is drawn. If it was too slow once, it stays off.
   get hasOcclusion(): boolean {
     return this.isRich;
   }
@@ -30,8 +31,8 @@ export class Quality {
     return Math.min(HIGHEST_DEVICE_RATIO, this.deviceRatio) * this.scale;
   }
 
-  // Takes the time between two consecutive frames. Returns true if the next frame is drawn in
-  // another way.
+  // Takes the time between two consecutive frames. Returns true if the quality of the next frame
+  // differs.
   frameTook(milliseconds: number): boolean {
     if (this.fixed) return false;
     this.slow = milliseconds > SLOW_MS ? this.slow + (milliseconds > VERY_SLOW_MS ? 4 : 1) : 0;

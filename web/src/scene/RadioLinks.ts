@@ -1,5 +1,5 @@
-// Draws radio messages for a moment: a line from the sender to each receiver, or a short vertical
-// line at a sender without receivers.
+// Draws each radio message for a short time. It is a line from the sender to each receiver. If
+// there is no receiver, it is a short vertical line at the sender.
 import type { Matrix4 } from "three";
 import { Matrix4 as Place, Vector3 } from "three";
 import type { LineLayer } from "./LineLayer";
@@ -13,14 +13,15 @@ const WORLD = new Place();
 
 interface Link {
   from: string;
-  to: string | null; // null: no robot received it
+  to: string | null; // null if no robot has received the message
   until: number; // ms
 }
 
 export class RadioLinks {
   private links: Link[] = [];
 
-  // Ignores everything except messages of /gsv/radio. `now`: ms of the page's clock.
+  // Takes a message of /gsv/radio; ignores all other messages. `now` is the time of the page's
+  // clock in ms.
   take(message: unknown, now: number): void {
     const { sender, heard_by } = (message ?? {}) as Record<string, unknown>;
     if (typeof sender !== "string" || !Array.isArray(heard_by)) return;

@@ -1,8 +1,9 @@
 // Draws a frame on request, so that a page without changes costs nothing. The next frame begins
-// when the last one is drawn, and not when it is submitted; otherwise a click would wait for all
-// pending frames.
+// when the previous frame is drawn completely. If it began when the previous frame was submitted, a
+// click would wait for all pending frames.
 
-// A longer time is not the drawing time of a frame: the user has shown another tab, for example.
+// If the time between two frames is longer, it is not the drawing time. For example, another tab
+// was in front.
 const LONGEST_FRAME_MS = 10_000;
 // If a frame takes longer than this (without a graphics card, for example), the loop pauses between
 // frames, so that the page reacts to the user and the simulation gets CPU time.
@@ -14,8 +15,8 @@ const LONGEST_REST_MS = 400;
 const SLOW_MS = 50;
 const ANSWER_MS = 120;
 
-// Finds out whether the submitted frame is drawn: mark() after submitting it, then poll
-// isReached().
+// Finds out whether the submitted frame is drawn. Call mark() after the frame is submitted, and
+// then poll isReached().
 export interface Fence {
   mark(): void;
   isReached(): boolean;
@@ -32,10 +33,10 @@ export class RenderLoop {
   private isSlow = false; // whether the last frame was slow
   private heldUntilMs = -Infinity;
   private awaitedUntilMs = -Infinity;
-  private isUrgent = false; // whether the next frame follows without a rest
+  private isUrgent = false; // whether the next frame follows without a pause
 
-  // `draw` returns whether the next frame will differ; then the next frame is drawn as well.
-  // `onFrameTook` gets the time until a frame was drawn.
+  // `draw` returns true if the next frame will differ from this frame. Then the next frame is drawn
+  // as well. `onFrameTook` gets the time until a frame was drawn.
   constructor(
     private readonly draw: (nowMs: number) => boolean,
     private readonly onFrameTook: (milliseconds: number) => void,
@@ -95,7 +96,7 @@ export class RenderLoop {
     this.frames += 1;
     this.beganMs = now;
     this.isUrgent = false;
-    this.isWanted = false; // because drawing may request another frame
+    this.isWanted = false; // reset before drawing, because drawing may request another frame
     this.isWanted = this.draw(performance.now()) || this.isWanted;
     this.fence.mark();
     this.schedule();

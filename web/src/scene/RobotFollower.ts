@@ -1,5 +1,5 @@
-// Moves the camera with the selected robot, according to the camera mode, and draws the ring around
-// the selected body.
+// Moves the camera with the selected robot, according to the camera mode. Also draws the ring
+// around the selected body.
 import type { ViewMode } from "../state/State";
 import type { CameraRig } from "./CameraRig";
 import { SelectionRing } from "./Ground";

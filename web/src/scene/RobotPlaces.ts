@@ -49,7 +49,8 @@ export class RobotPlaces {
     return { position: new Vector3().setFromMatrixPosition(pose), middle, yaw: Math.atan2(y!, x!) };
   }
 
-  // Returns the pose of the robot's first camera, or else of a point at the front of its top.
+  // Returns the pose of the robot's first camera. If it has no camera, returns a pose at the front
+  // of its top.
   eyeOf(robot: string): Eye | null {
     const body = this.bodies.indexOf(robot);
     const pose = this.bodies.poseOf(body);
@@ -80,8 +81,8 @@ export class RobotPlaces {
     return places;
   }
 
-  // Returns half of each robot's diagonal in metres. If the shape is not loaded yet, returns half
-  // the diagonal of a small robot.
+  // Returns half of each robot's diagonal in metres. While a robot's shape is not loaded, this is
+  // half the diagonal of a small robot.
   radii(): Float64Array {
     return Float64Array.from(this.robots, ({ body }) => {
       const bounds = this.bodies.templateOf(body)?.bounds;

@@ -55,7 +55,7 @@ export class RobotSigns {
     this.radii = this.robots?.radii() ?? new Float64Array(0);
   }
 
-  // Call this before a frame is drawn. `height` is that of the view in CSS pixels.
+  // Call this before a frame is drawn. `height` is the height of the view in CSS pixels.
   placeMarks(camera: PerspectiveCamera, height: number, ratio: number, { states }: SignsShown): void {
     const { chosen } = this.known;
     this.tops = this.robots?.tops() ?? this.tops;

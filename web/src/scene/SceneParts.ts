@@ -21,7 +21,7 @@ export class SceneParts {
   private readonly sky: Sky;
   private isGone = false;
 
-  // `hasEnvironment` means that the environment map of `root` is the ambient light.
+  // If `hasEnvironment` is true, the environment map of `root` is the ambient light.
   constructor(description: SceneDescription, root: Scene, hasEnvironment: boolean) {
     this.bodies = new BodyLayer(description);
     this.focus = focusOf(description);
@@ -31,7 +31,7 @@ export class SceneParts {
     root.add(this.sky.mesh, this.bodies.group, this.lights.group, this.grid);
   }
 
-  // Fetches the models, and shows each when it has arrived.
+  // Fetches the models, and shows each model when it has arrived.
   load(library: ModelLibrary, events: ModelEvents): void {
     const links = new Map(this.bodies.scene.bodies.map((body) => [body.model, body.links]));
     let missing = links.size;

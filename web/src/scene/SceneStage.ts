@@ -15,7 +15,7 @@ import type { RobotFollower } from "./RobotFollower";
 import { SceneParts } from "./SceneParts";
 import type { ShownPoses } from "./ShownPoses";
 
-// A scene is first drawn with its shapes, unless they take longer than this.
+// A scene is first drawn when its shapes have arrived, or after this time.
 const LONGEST_WAIT_FOR_SHAPES_MS = 400;
 
 // The layers of the view, which are the same for all scenes.
@@ -48,7 +48,7 @@ export class SceneStage {
     private readonly events: StageEvents,
   ) {}
 
-  // Shows another scene, or none. If only the layout has changed, the camera stays where it is.
+  // Shows another scene, or none. If only the layout has changed, the camera does not move.
   setScene(scene: SceneDescription | null): void {
     this.clear();
     this.layers.library.keepOnly(new Set(scene?.bodies.flatMap(({ model, collisions }) => [model, collisions ?? model])));

@@ -15,8 +15,8 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 
 export interface SegmentsLook {
   widthPx: number;
-  // Draws lines of one device pixel instead. Wide lines are instances, each of which costs a draw
-  // call of about 40 µs without a graphics card.
+  // If true, draws lines of one device pixel instead of wide lines. A wide line is an instance.
+  // Without a graphics card, each instance is a draw call of about 40 µs.
   thin: boolean;
   opacity?: number;
   depthTest?: boolean;

@@ -1,6 +1,6 @@
 // Selects the frames in which shadows are drawn again. While frames are fast, these are all frames
-// in which something has moved. If frames are slow, they are every fourth frame, because the
-// shadows of a thousand robots take as long as the robots.
+// in which something has moved. While frames are slow, only every fourth frame is selected, because
+// the shadows of a thousand robots take as long as the robots.
 
 const SLOW_MS = 90;
 const FRAMES_APART = 4;
@@ -8,7 +8,7 @@ const FRAMES_APART = 4;
 export class ShadowPace {
   private isStale = false;
   private isSlow = false;
-  private since = 0; // frames
+  private since = 0; // number of frames since the shadows were drawn
 
   // Takes the time that a frame has taken.
   frameTook(milliseconds: number): void {
@@ -20,8 +20,8 @@ export class ShadowPace {
     this.isStale = true;
   }
 
-  // Returns whether shadows are due; called once per frame. When motion has stopped, shadows are
-  // redrawn at once.
+  // Returns whether shadows are due. Call this once per frame. When the motion ends, shadows are
+  // due at once.
   areDue(isMoving: boolean): boolean {
     this.since += 1;
     if (!this.isStale || (this.isSlow && isMoving && this.since < FRAMES_APART)) return false;

@@ -17,7 +17,7 @@ export class ShownPoses {
   // `onSample` receives the poses of the scene.
   constructor(private readonly onSample: (sample: PoseSample) => void) {}
 
-  // Sets another scene or none, and clears the last poses. Poses may arrive before their scene.
+  // Sets another scene or none, and clears the previous poses. Poses may arrive before their scene.
   setScene(bodies: BodyLayer | null): void {
     this.interpolator.clear();
     this.bodies = bodies;
@@ -42,7 +42,8 @@ export class ShownPoses {
     return true;
   }
 
-  // Like show(), with the poses at a simulated time in seconds, such as that of a server's image.
+  // Like show(), but with the poses at a simulated time in seconds. This may be the time of a
+  // server's image.
   showAt(stamp: number): boolean {
     if (!this.bodies || !this.interpolator.readAt(stamp, this.shown)) return false;
     this.bodies.setPoses(this.shown);
@@ -53,7 +54,8 @@ export class ShownPoses {
     return this.interpolator.isSettled(nowMs);
   }
 
-  // Returns the poses at this simulated instant, or else the newest ones.
+  // Returns the poses at this simulated instant. If they are not known any more, returns the newest
+  // poses.
   at(stamp: number): Float64Array | null {
     return this.interpolator.at(stamp) ?? this.interpolator.latest?.poses ?? null;
   }

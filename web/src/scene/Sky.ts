@@ -1,6 +1,6 @@
-// The background: darker above and below than at the horizon, as in the robots' cameras
-// (gsv/rendering), but hazy below, because the camera looks down over the edge of the ground. It
-// moves with the camera, so that it is always far away.
+// The background. It is darker above and below than at the horizon, as in the robots' cameras
+// (gsv/rendering). But it is hazy below, because the camera looks down over the edge of the ground.
+// The background moves with the camera, so that it is always far away.
 import type { OrthographicCamera, PerspectiveCamera } from "three";
 import { BackSide, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import type { SceneDescription } from "../api/scene";
@@ -54,8 +54,8 @@ export class Sky {
     this.geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
   }
 
-  // Moves the sky to the middle of the drawn depths, because the depths of a map begin many metres
-  // away from its camera.
+  // Moves the sky to the middle of the drawn depths. This is needed for a map, whose depths begin
+  // many metres away from its camera.
   private stayAround(camera: PerspectiveCamera | OrthographicCamera): void {
     const radius = (camera.near + camera.far) / 2;
     const [x, y, z] = camera.matrixWorld.elements.slice(12) as [number, number, number];

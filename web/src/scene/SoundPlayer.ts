@@ -23,7 +23,7 @@ export class SoundPlayer {
     return this.voices.size;
   }
 
-  // Sets the sounds to play, by topic. Plays none while it is muted.
+  // Sets the sounds to play, by topic. If the player is muted, plays no sounds.
   play(sounds: ReadonlyMap<string, Sound>): void {
     if (sounds.size === 0 && this.voices.size === 0) return;
     for (const [topic, { sound }] of [...this.voices]) {
@@ -60,7 +60,8 @@ export class SoundPlayer {
   }
 }
 
-// Returns whether a sound continues. A sound that was started again has played for less time.
+// Returns whether a sound continues. If the elapsed time is shorter than before, the sound was
+// started again.
 function isSame(now: Sound, before: Sound): boolean {
   const { name, frequency, volume, elapsed } = before;
   return (

@@ -1,6 +1,6 @@
 // Draws a mark at each robot that is far away, in trouble, or selected by the filter. The mark
-// shows the state by colour and by shape (for people who do not see colours). All marks are one
-// draw call, on top of everything.
+// shows the state by colour, and also by shape for people who do not see colours. All marks are one
+// draw call. They are drawn over everything else.
 import type { PerspectiveCamera } from "three";
 import {
   BufferAttribute,
@@ -13,7 +13,7 @@ import {
 import type { ShownState } from "../state/health";
 import { SHOWN_STATES, isTrouble } from "../state/health";
 
-// The size of a robot in CSS pixels below which it is shown as a mark.
+// A robot that is smaller than this in the image, in CSS pixels, is shown as a mark.
 const FAR_PX = 14;
 const SIZE_PX = 9;
 const TROUBLE_SIZE_PX = 14;
@@ -77,7 +77,8 @@ export class StateMarks {
     this.points.visible = false;
   }
 
-  // `tops` has x y z above each robot, in the world. `height` is that of the view in CSS pixels.
+  // `tops` has x y z above each robot, in the world. `height` is the height of the view in CSS
+  // pixels.
   place(tops: Float64Array, robots: MarkedRobots, camera: PerspectiveCamera, height: number, ratio: number): void {
     const total = tops.length / 3;
     if (total === 0) return this.hide();

@@ -1,5 +1,5 @@
 // The surface that shows the view: the canvas of the browser's renderer, or the images of the
-// server. It resizes the canvas just before a frame is drawn, because a resized canvas is empty
+// server. The canvas is resized just before a frame is drawn, because a resized canvas is empty
 // until then.
 import type { Object3D, PerspectiveCamera, Scene } from "three";
 import type { DrawnView } from "../view/DrawnView";
@@ -50,8 +50,8 @@ export class Surface {
     return this.renderer.getPixelRatio();
   }
 
-  // Shows images from the server from now on; null: the browser draws. Calls `onImage` when there
-  // is a new image.
+  // Shows images from the server from now on. With null, the browser draws again. Calls `onImage`
+  // when there is a new image.
   drawBy(drawn: DrawnView | null, onImage: () => void): void {
     this.drawn?.dispose();
     this.drawn = drawn;
@@ -71,8 +71,8 @@ export class Surface {
     this.renderer.shadowMap.needsUpdate = true;
   }
 
-  // Takes the time between two consecutive frames. Returns true if the next frame is drawn in
-  // another way.
+  // Takes the time between two consecutive frames. Returns true if the quality of the next frame
+  // differs.
   frameTook(milliseconds: number): boolean {
     if (this.drawn) return false;
     const hasChanged = this.quality.frameTook(milliseconds);

@@ -1,4 +1,4 @@
-// The paths of the robots: the last places of each at small distances.
+// The paths of the robots. A path consists of the last places of a robot, at small distances.
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 import { scaleColour } from "./PointLayer";
@@ -31,8 +31,8 @@ export class Trails {
     this.stamp = -Infinity;
   }
 
-  // Adds the robots' places at the instant `stamp` (s, simulated). An earlier instant than the last
-  // one restarts all trails.
+  // Adds the robots' places at the instant `stamp` (s, simulated). If the instant is earlier than
+  // the last one, all trails are cleared first.
   push(stamp: number, robots: Iterable<{ name: string; x: number; y: number; z: number }>): void {
     if (stamp < this.stamp) this.trails.clear();
     this.stamp = stamp;
@@ -51,8 +51,8 @@ export class Trails {
     for (const name of [...this.trails.keys()]) if (!robots.has(name)) this.trails.delete(name);
   }
 
-  // Draws the trails in a colour for each robot, or by speed, from 0 (dark) to the largest speed of
-  // all trails.
+  // Draws the trails in a colour for each robot, or coloured by speed. The scale is from 0 (dark)
+  // to the largest speed of all trails.
   draw(lines: LineLayer, by: TrailColour = "robot"): void {
     const topSpeed = by === "speed" ? this.topSpeed() : 1;
     let index = 0;

@@ -24,7 +24,8 @@ export class TurnHandle {
     this.group.visible = false;
   }
 
-  // Moves the arrow to a robot's place on the floor. `radius` is that of the ring around the robot.
+  // Moves the arrow to a robot's place on the floor. `radius` is the radius of the ring around the
+  // robot.
   show(position: Vector3, yaw: number, radius: number): void {
     this.group.visible = true;
     this.group.position.set(position.x, position.y, position.z + ABOVE_FLOOR);
@@ -38,7 +39,7 @@ export class TurnHandle {
     this.group.visible = false;
   }
 
-  // The place of the tip in the world; null while it is hidden.
+  // The place of the tip in the world; null while the arrow is hidden.
   get tip(): Vector3 | null {
     return this.group.visible ? this.knob.getWorldPosition(new Vector3()) : null;
   }

@@ -1,5 +1,5 @@
-// The 3D view, the only interface between three.js and the rest of the page. It draws frames only
-// after changes. Screen positions are in CSS pixels of the page.
+// The 3D view. It is the only interface between three.js and the rest of the page. It draws frames
+// only after changes. Screen positions are in CSS pixels of the page.
 import type { Matrix4 } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
@@ -38,8 +38,8 @@ import { ShownPoses } from "./ShownPoses";
 import { Surface } from "./Surface";
 import type { DrawnView } from "../view/DrawnView";
 
-// The maximum number of beams that are drawn with a graphics card, and without one. Without a card,
-// drawing more would take longer than everything else.
+// The maximum number of beams that are drawn with a graphics card, and without a graphics card.
+// Without a card, more beams would take longer than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
 // If the server draws the view and no image arrives within this time after new poses, the page
@@ -51,7 +51,7 @@ export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditT
   onModelsMissing(count: number): void;
   onProblem(sentence: string): void;
   onFrameRate(framesPerSecond: number): void;
-  // Called with each frame; the scale is that at the camera's target.
+  // Called with each frame. The scale is the scale at the camera's target.
   onScale(metresPerPixel: number): void;
   onGraphics(isThere: boolean): void; // the browser has removed WebGL, or restored it
 }
@@ -146,7 +146,7 @@ export class World3D {
     return this.loop.isBusy;
   }
 
-  // Shows another scene, or none. If only the layout has changed, the camera stays where it is.
+  // Shows another scene, or none. If only the layout has changed, the camera does not move.
   setScene(scene: SceneDescription | null): void {
     this.stage.setScene(scene);
   }
@@ -154,8 +154,8 @@ export class World3D {
   setPoses(message: PosesMessage): void {
     this.poses.take(message);
     if (!this.surface.isDrawnByServer) return this.loop.request();
-    // The server draws these poses too, and its image requests a frame. While the simulation is
-    // paused, the poses may come after their image.
+    // The server draws these poses too. When its image arrives, it requests a frame. While the
+    // simulation is paused, the poses may arrive after their image.
     clearTimeout(this.latePoses);
     this.latePoses = setTimeout(() => this.loop.request(), LATE_POSES_MS);
   }
@@ -200,8 +200,8 @@ export class World3D {
     this.loop.request();
   }
 
-  // Sets whether the user may move bodies by hand. `hasArrow`: with an arrow that rotates the body,
-  // if there is no gizmo.
+  // Sets whether the user may move bodies by hand. If `hasArrow` is true and there is no gizmo, an
+  // arrow is shown that rotates the body.
   setArranging(isOn: boolean, hasArrow = true): void {
     this.arranger.isOn = isOn;
     this.arranger.hasArrow = hasArrow;
@@ -228,7 +228,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // Sets the states of the robots, and those that a filter selects.
+  // Sets the states of the robots, and the robots that a filter selects.
   setStates(states: RobotStates): void {
     this.signs.setStates(states);
     this.loop.request();
@@ -282,7 +282,7 @@ export class World3D {
     return { x, y };
   }
 
-  // Moves the camera at once: its position and target, in metres.
+  // The position and target of the camera, in metres. Setting them moves the camera at once.
   get viewpoint(): Viewpoint {
     return this.rig.viewNumbers;
   }
@@ -292,7 +292,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // Shows images of the server from now on; null: the browser draws.
+  // Shows images of the server from now on. With null, the browser draws again.
   drawBy(drawn: DrawnView | null): void {
     this.surface.drawBy(drawn, () => this.loop.request());
     this.refresh();
@@ -422,8 +422,8 @@ export class World3D {
     const robot = this.picker.robotAt(place);
     const added = robot === null && this.arranger.isOn ? this.picker.addedStaticAt(place) : null;
     const firm = added === this.follower.selection ? null : added;
-    // In edit mode, a click beside all bodies keeps the selection, because the user wants to move
-    // it.
+    // In edit mode, a click outside of all bodies does not change the selection, because the user
+    // wants to move the selected body.
     if (firm === null && robot === null && this.arranger.isOn && this.follower.selection !== null) return;
     this.events.onPick(firm ?? robot ?? (this.arranger.isOn ? null : this.picker.objectAt(place)));
   }

@@ -1,5 +1,5 @@
-// The parts of a model as few geometries, in the frame with which they move: parts of one material
-// are one geometry, so that all instances of them are one draw call.
+// The parts of a model as a few geometries, each in the frame with which it moves. Parts of one
+// material are one geometry, so that all instances of them are one draw call.
 import type { BufferGeometry, Material } from "three";
 import { Matrix4 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
@@ -35,7 +35,8 @@ function bake(geometry: BufferGeometry, frameFromPart: Matrix4): BufferGeometry 
   return copy;
 }
 
-// Reverses the triangles of a mirrored part, which would otherwise show their backs.
+// Reverses the triangles of a mirrored part. Otherwise, the backs of the triangles would be
+// visible.
 function turnFaces(geometry: BufferGeometry): void {
   const vertices = geometry.getAttribute("position").count;
   if (!geometry.index) geometry.setIndex(Array.from({ length: vertices }, (_, i) => i));

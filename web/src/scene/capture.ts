@@ -2,8 +2,8 @@
 
 const PICTURES_PER_SECOND = 30;
 
-// Captures a canvas that was drawn in this task; the browser clears it afterwards. `paint` draws on
-// the image.
+// Captures a canvas. It must have been drawn in this task, because the browser clears it
+// afterwards. `paint` draws on the image.
 export async function pngOf(
   canvas: HTMLCanvasElement,
   paint: (context: CanvasRenderingContext2D) => void,

@@ -6,13 +6,14 @@ import type { CameraView } from "../api/scene";
 const DEFAULT_HEIGHT = 0.3; // m
 const WIDEST = (120 * Math.PI) / 180; // wider perspective images are distorted at the edges
 
-// The pose of a robot's camera, and its field of view; null: that of the page's view.
+// The pose of a robot's camera, and its field of view. If it is null, the field of view of the
+// page's view is used.
 export interface Eye {
   worldFromEye: Matrix4;
   view: CameraView | null;
 }
 
-// Returns the pose of the view for a robot without a camera: at the front of its top.
+// Returns the pose of the view for a robot without a camera. It is at the front of the robot's top.
 export function eyeAt(worldFromRobot: Matrix4, bounds: Box3 | null): Matrix4 {
   const isKnown = bounds !== null && !bounds.isEmpty();
   const place = isKnown ? [bounds.max.x, 0, bounds.max.z] : [0, 0, DEFAULT_HEIGHT];

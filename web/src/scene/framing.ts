@@ -5,16 +5,16 @@ import { robotsOf } from "../api/scene";
 
 const UP = new Vector3(0, 0, 1);
 const AROUND_ROBOTS = 4; // m: margin around the robots in the first view
-const SMALL_WORLD = 13; // m: a world of at most this half-width is shown completely
+const SMALL_WORLD = 13; // m: if half the width of a world is at most this, the world is shown completely
 const TALLEST_SHOWN = 3; // m: higher parts of the world do not move the camera farther away
 
-// A body is far away if its distance from the centre exceeds FAR_RADII times that of all nearer
-// bodies, and FAR metres. `gsv world draw` uses the same rule.
+// A body is far away if its distance from the centre exceeds FAR metres plus FAR_RADII times the
+// largest distance of the nearer bodies. `gsv world draw` has a similar rule.
 const FAR_RADII = 20;
 const FAR = 100;
 
-// The part of the scene in the first view: a small world completely, else the robots with their
-// surroundings.
+// The part of the scene in the first view. A small world is shown completely. Otherwise, the robots
+// and their surroundings are shown.
 export function focusOf(scene: SceneDescription): Box3 {
   const world = boundsWithoutFarAway(scene);
   const robots = new Box3().setFromPoints(withoutFarAway(robotsOf(scene).map(placeOf)));
@@ -35,8 +35,8 @@ function placeOf({ pose }: { pose: readonly number[] }): Vector3 {
   return new Vector3(pose[0], pose[1], pose[2]);
 }
 
-// The bounds of the scene. If some bodies are so far away that the other bodies would be too small
-// to see, only the nearer bodies count.
+// The bounds of the scene. Bodies that are far away are left out, because the other bodies would be
+// too small to see.
 function boundsWithoutFarAway(scene: SceneDescription): Box3 {
   const bounds = new Box3(new Vector3(...scene.bounds.min), new Vector3(...scene.bounds.max));
   const places = scene.bodies.map(placeOf);
@@ -47,9 +47,9 @@ function boundsWithoutFarAway(scene: SceneDescription): Box3 {
   return box.intersect(bounds);
 }
 
-// Returns the places that are not far away, ordered by their distance from the centre: the median
-// of all places, or the origin if there are fewer than three. At least half of the places are
-// returned.
+// Returns the places that are not far away, ordered by their distance from the centre. The centre
+// is the median of all places, or the origin if there are fewer than three places. At least half of
+// the places are returned.
 export function withoutFarAway(places: Vector3[]): Vector3[] {
   const middle = new Vector3();
   if (places.length >= 3) {
@@ -65,8 +65,9 @@ export function withoutFarAway(places: Vector3[]): Vector3[] {
   return gap < 0 ? sorted : sorted.slice(0, gap);
 }
 
-// Returns an identifier of the world for which the camera is set up. The camera stays while the
-// identifier is unchanged. Different worlds may have one name, such as the previews of a set-up.
+// Returns an identifier of the world for which the camera is set up. If the identifier does not
+// change, the camera does not move. Different worlds may have one name, such as the previews of a
+// set-up.
 export function environmentOf({ name, bodies }: SceneDescription): string {
   return JSON.stringify([name, bodies.filter(({ isFixed }) => isFixed).map(({ model, pose }) => [model, pose])]);
 }

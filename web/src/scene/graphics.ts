@@ -1,5 +1,5 @@
-// Makes the browser start its graphics, and waits without blocking the page: without a graphics
-// card this takes most of a second, in which the page can request its data.
+// Makes the browser start its graphics, and waits without blocking the page. Without a graphics
+// card, the start takes most of a second. Meanwhile, the page can request its data.
 import { drawsInSoftware } from "./software";
 
 const LONGEST_MS = 5000;
@@ -9,7 +9,7 @@ export async function startGraphics(): Promise<boolean> {
   return (await askWorker()) ?? drawsInSoftware(document.createElement("canvas")) ?? true;
 }
 
-// Resolves to null if no worker can determine this. Then the page blocks while the view starts.
+// Resolves to null if no worker can determine this. Then the page is blocked while the view starts.
 function askWorker(): Promise<boolean | null> {
   if (typeof Worker === "undefined" || typeof OffscreenCanvas === "undefined") return Promise.resolve(null);
   let worker: Worker;

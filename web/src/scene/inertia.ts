@@ -4,7 +4,8 @@ import type { SceneInertial } from "../api/scene";
 
 export interface EquivalentBox {
   frameFromBox: Matrix4; // a rotation about the centre of mass, in the frame of the inertia
-  half: readonly [number, number, number]; // m; if no body can have this inertia, one of them is 0
+  // m; if no real body can have this inertia, one of the numbers is 0
+  half: readonly [number, number, number];
 }
 
 const SWEEPS = 12; // Jacobi's method converges quadratically: a 3 x 3 matrix needs about five

@@ -82,8 +82,8 @@ export function drawMass(lines: LineLayer, worldFromInertia: Matrix4, { frameFro
   }
 }
 
-// Draws the pyramid of a camera's field of view, one metre deep; if its angles are unknown, draws
-// only the camera's direction.
+// Draws the pyramid of a camera's field of view, one metre deep. If the angles of the field of view
+// are unknown, draws only the camera's direction.
 export function drawView(lines: LineLayer, worldFromCamera: Matrix4, view: CameraView | null): void {
   if (!view) {
     lines.add(worldFromCamera, ORIGIN, [VIEW_DEPTH, 0, 0], VIEW_COLOUR);
@@ -109,7 +109,7 @@ export function forceLength(newtons: number): number {
   return Math.min(LONGEST_FORCE, FORCE_LENGTH * Math.sqrt(newtons / FORCE_UNIT));
 }
 
-// Draws a cross at the point, and an arrow along the force on the robot. If the force is not known,
+// Draws a cross at the point, and an arrow along the force on the robot. If the force is unknown,
 // draws a line along the normal towards the touched body.
 export function drawContact(lines: LineLayer, worldFromSensor: Matrix4, { point, normal, force }: TouchPoint): void {
   const [x, y, z] = point;
@@ -130,8 +130,8 @@ function drawForce(lines: LineLayer, worldFromSensor: Matrix4, point: readonly n
   const along = force.map((component) => component / newtons);
   const tip = point.map((value, i) => value + length * along[i]!);
   lines.add(worldFromSensor, point, tip, CONTACT_COLOUR);
-  // A direction perpendicular to the arrow, computed from the axis to which the arrow is least
-  // parallel.
+  // A direction perpendicular to the arrow. It is computed from the axis that is least parallel to
+  // the arrow.
   const least = along.reduce((best, value, i) => (Math.abs(value) < Math.abs(along[best]!) ? i : best), 0);
   const aside = along.map((value, i) => (i === least ? 1 : 0) - value * along[least]!);
   for (const side of [-1, 1]) {

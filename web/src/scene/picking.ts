@@ -8,7 +8,8 @@ export interface ScreenPlace {
   y: number;
 }
 
-// A click within this distance selects a robot, because small robots are hard to hit.
+// A click within this distance selects a robot, because it is difficult to click on small robots
+// exactly.
 const NEAREST_PX = 18;
 const DRAG_PX = 5;
 
@@ -40,7 +41,7 @@ export function screenPlaceOf(point: Vector3, camera: Camera, frame: DOMRect): S
   return { x: frame.left + ((x + 1) / 2) * frame.width, y: frame.top + ((1 - y) / 2) * frame.height };
 }
 
-// The robot drawn nearest to the place, if it is near enough.
+// Returns the robot that is drawn nearest to the place, if it is near enough.
 export function nearest(
   place: ScreenPlace,
   robots: { name: string; at: ScreenPlace | null }[],

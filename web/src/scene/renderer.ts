@@ -7,7 +7,7 @@ export type ViewRenderer = Pick<
   "domElement" | "render" | "setSize" | "setPixelRatio" | "getPixelRatio"
 > & { shadowMap: Pick<WebGLRenderer["shadowMap"], "needsUpdate"> };
 
-// A canvas for the pointer only: the server draws the view.
+// A canvas that only receives the pointer, for use while the server draws the view.
 export function makeBareRenderer(): ViewRenderer {
   return {
     domElement: makeCanvas(),
@@ -29,10 +29,10 @@ function makeCanvas(): HTMLCanvasElement {
   return canvas;
 }
 
-// `isFine`: with antialiasing. Null if the browser has no WebGL 2.
+// If `isFine` is true, the renderer uses antialiasing. Returns null if the browser has no WebGL 2.
 export function makeRenderer(isFine: boolean): WebGLRenderer | null {
   const canvas = makeCanvas();
-  // Opaque, so that the page behind is hidden.
+  // The canvas is opaque, so that the page behind it is hidden.
   const context = canvas.getContext("webgl2", {
     alpha: false,
     antialias: isFine,
