@@ -33,9 +33,9 @@ class Channel {
 
 // Transfers bytes without encryption. The caller keeps the ownership of the socket.
 //
-// If the previous Receive() took less than 50 µs, Receive() first polls the socket for 50 µs, and
-// yields the processor between two polls. If no bytes have arrived by then, the thread sleeps. So
-// behaviours that make many short calls avoid two context switches per call (ADR 101).
+// If the previous Receive() took less than 50 µs, Receive() first polls the socket for at most 50
+// µs, and yields the processor between two polls. If no bytes have arrived by then, the thread
+// sleeps. So behaviours that make many short calls avoid two context switches per call (ADR 101).
 class PlainChannel final : public Channel {
  public:
   explicit PlainChannel(int socket) : socket_(socket) {}
