@@ -5,9 +5,9 @@
 //             avatars (an avatar without a drive accepts any velocity). Other bodies keep their
 //             poses.
 // How         A base follows its command within its drive's limits (DriveKinematics) along an exact
-//             arc. Its z, roll and pitch stay as the caller placed it. It does not move joints
-//             other than wheels and steering (planar_joints.h does). Footprints are computed with
-//             all joints at zero.
+//             arc. Its z, roll and pitch stay as the caller placed it. The mover moves only the
+//             joints of wheels and steering. planar_joints.h moves all other joints. Footprints are
+//             computed with all joints at zero.
 // Ground      Obstacles lower than a robot can climb count as ground: see PlanarScene and
 //             ClimbHeight.
 // Contact     A base stops about half a micrometre before an obstacle in its way, at any speed and

@@ -50,7 +50,7 @@ inline double OverlapRemoval::SolveRow(Row& row) {
 
 bool OverlapRemoval::Solve(double substep) {
   constexpr int kMaxSweeps = 10;
-  // m/s: slower motion is not worth a sweep, and does not wake a body at rest
+  // m/s: slower motion is neglected, and does not wake a body at rest
   constexpr double kMinSpeed = 1e-4;
   // Sweeps end if no velocity changes by more than this fraction of the greatest target.
   constexpr double kTolerance = 0.02;

@@ -216,9 +216,9 @@ TEST(RigidFidelity, BallsAndWheelsRollDownTrianglesAsDownAPlane) {
   EXPECT_WITHIN(ball.z, 0.1, 2e-5, "m");
 }
 
-// A scanned surface: squares of 4 mm, with bumps of 1 µm. A wheel is near hundreds of its triangles.
-// Each of the 250 edges per metre turns the surface by at most 1 mrad, which takes 1e-6 of the
-// energy.
+// A scanned surface: squares of 4 mm, with bumps of 1 µm. A wheel is near hundreds of its
+// triangles. There are 250 edges per metre. Each edge bends the surface by at most 1 mrad, so that
+// a rolling body loses 1e-6 of its energy.
 TEST(RigidFidelity, BallsAndWheelsRollDownAFineMeshAsDownAPlane) {
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   constexpr std::uint32_t kRows = 300, kColumns = 75;

@@ -1,7 +1,7 @@
 // The obstacles in one slice of the world, in a grid for queries by position.
 //
-// A uniform grid. Each cell lists the obstacles within `margin` of it, so that a query with a reach
-// up to `margin` needs only one cell.
+// The grid is uniform. Each cell lists the obstacles within `margin` of it, so that a query with a
+// reach up to `margin` needs only one cell.
 //
 // Units    metres, world frame.
 // Threads  const members may run concurrently.

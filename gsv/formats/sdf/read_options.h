@@ -24,9 +24,10 @@ struct ReadOptions {
   // ModelLibrary::ReadModel() reads the model. The value has the form of model/drive_choice.h.
   std::map<std::string, std::string> drives;
   ReadLimits limits;
-  // Whether to check the files that the caller names by SDFormat's rules on names and references.
-  // Each broken rule is added as an error, see gsv/formats/support/naming_rules.h. The files are
-  // repaired in both cases.
+  // Whether to check SDFormat's rules on names and references (gsv/formats/support/naming_rules.h).
+  // Only the files that the caller passes to ReadWorld() and ReadModel() are checked, and not the
+  // files that they include. Each broken rule is added as an error. The files are repaired in both
+  // cases.
   bool check_rules = false;
   SensorCheck check_sensor;  // if it is empty, sensors are not checked
 };

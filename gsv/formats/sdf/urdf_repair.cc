@@ -255,7 +255,7 @@ class UrdfRepair {
   // Gives a mass to links without mass. libsdformat drops a link without mass, with its joint and
   // all links below it. A group of links that are fixed together needs only one link with mass.
   void GiveMass() {
-    // whether the group has mass, by the top link of each group of links that are fixed together
+    // whether each group of links that are fixed together has mass, by the top link of the group
     std::map<std::string, bool> has_mass;
     std::vector<std::string> order;
     for (auto* link = robot_.FirstChildElement("link"); link != nullptr;
