@@ -84,7 +84,7 @@ std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers) {
 }
 
 std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers, std::size_t count) {
-  // If more than this part of the numbers is needed, sorting all numbers is as fast.
+  // If more than 1/kMaxPart of the numbers are needed, sorting all numbers is as fast.
   constexpr std::size_t kMaxPart = 8;
   if (count > numbers.size() / kMaxPart) {
     std::vector<std::uint32_t> order = AscendingOrder(numbers);
