@@ -1,4 +1,4 @@
-// The page's first script. It is small, so that it runs while the browser reads the others.
+// The page's first script. It is small, so that it runs while the browser reads the other scripts.
 import "dockview/dist/styles/dockview.css";
 import "uplot/dist/uPlot.min.css";
 import "./style/page.css";

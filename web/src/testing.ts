@@ -1,5 +1,5 @@
-// window.gsv: what browser tests and scripts can query. web/README.md documents it; nothing else in
-// the page uses it.
+// window.gsv contains what browser tests and scripts can query. web/README.md documents it. Nothing
+// else in the page uses it.
 import type { World3D } from "./scene/World3D";
 import { allChosen } from "./state/editing";
 import type { State } from "./state/State";
@@ -26,7 +26,7 @@ export interface PageHandle {
   readonly robots: string[];
   // The last reported position of the robot in metres, and its simulated time; null while unknown.
   robotPosition(name: string): { x: number; y: number; z: number; time: number } | null;
-  // The place where the ghost of this robot is drawn, in metres; null: there is no ghost. Ghosts
+  // The place where the ghost of this robot is drawn, in metres; null if there is no ghost. Ghosts
   // are the robots of the second recording of a comparison.
   ghostPosition(name: string): { x: number; y: number } | null;
   // The place where the robot's centre is drawn, in CSS pixels of the page; null if it is outside
@@ -36,7 +36,7 @@ export interface PageHandle {
   turnHandle(): { x: number; y: number } | null;
   // The place of the gizmo's handle for this axis of the world; null while it is hidden.
   gizmoHandle(axis: "x" | "y" | "z"): { x: number; y: number } | null;
-  // The selected bodies, the first one first.
+  // The selected bodies. The body that was selected first is the first one.
   readonly chosen: readonly string[];
 }
 
@@ -104,7 +104,8 @@ function firstPicture(store: Store<State>, world: () => World3D | null): Promise
       unwatch();
       resolve();
     };
-    // A scene exists a moment before the view reports how many of its shapes are missing.
+    // For a moment, a scene exists, but the view has not yet reported how many of its shapes are
+    // missing.
     const unwatch = store.watch(
       ({ view, scene, modelsMissing }) => view !== "starting" && scene !== null && modelsMissing === 0,
       (isComplete) => {

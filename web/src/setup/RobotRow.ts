@@ -81,8 +81,8 @@ export class RobotRow {
     this.yaw.show(robot.place ? robot.place.yaw * DEGREES : null);
   }
 
-  // `input` is the name of the field. If it is empty, or has no input of its own, the whole robot
-  // is meant.
+  // `input` is the name of the field. If it is empty, or if the field has no input, the error is
+  // shown for the whole robot.
   refuse(input: string, sentence: string): void {
     for (const field of this.fields.values()) field.refuse("");
     const field = this.fields.get(input);
@@ -146,7 +146,7 @@ export class RobotRow {
     this.app.setUp.changeRobot(this.list, this.index, change);
   }
 
-  // Returns the name of an offer, or else the constraint.
+  // Takes the name of an offer. If there is no offer with this name, the value is the constraint.
   private changeBehaviour(value: string): void {
     const offers = this.app.store.get().setUp?.behaviours?.offers ?? [];
     const isName = value === "" || offers.some(({ name }) => name === value) || value === this.robot?.behaviour;
@@ -167,7 +167,8 @@ export class RobotRow {
   }
 }
 
-// The choices: no behaviour, each offer once, and a behaviour from the file that nobody offers.
+// The choices: no behaviour, and each offer once. If the file names a behaviour that is not
+// offered, it is also a choice.
 function behaviourOptions({ behaviours }: SetUp, { behaviour }: RobotSetUp) {
   const names = [...new Set((behaviours?.offers ?? []).map(({ name }) => name))].sort();
   const options = names.map((name) => ({ value: name, label: name }));

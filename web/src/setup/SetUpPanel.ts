@@ -137,7 +137,8 @@ function head(app: App): HTMLElement {
   );
 }
 
-// The input for worlds from this machine: chosen here, or dropped anywhere on the page.
+// The input for worlds from this machine. The user chooses files here, or drops them anywhere on
+// the page.
 function uploads(app: App): HTMLElement {
   const chooser = (label: string, isFolder: boolean) => {
     const file = element("input", {
@@ -162,8 +163,7 @@ function uploads(app: App): HTMLElement {
   );
 }
 
-// Handle drops on the whole page, because the browser would otherwise show the file instead of the
-// page.
+// Handles drops on the whole page. Otherwise, the browser would show the file instead of the page.
 function takeDrops(app: App): void {
   const isTaken = ({ dataTransfer }: DragEvent) => {
     const { setUp, abilities } = app.store.get();

@@ -65,15 +65,15 @@ export interface BodyPose extends Point {
   yaw: number;
 }
 
-// Whether the browser draws in 3D. "interrupted" means that the browser has stopped WebGL; it may
-// start it again.
+// Whether the browser draws in 3D. "interrupted" means that the browser has stopped WebGL. The
+// browser may start WebGL again.
 export type View = "starting" | "open" | "interrupted" | "none";
 
 // The program that draws the view.
 export type Drawer = "browser" | "server";
 
-// The camera mode: free, following the selected robot, behind it and rotating with it, or the
-// robot's own view.
+// The camera mode: free, following the selected robot, behind this robot and rotating with it, or
+// the robot's own view.
 export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 // The whole state of the page.
@@ -82,27 +82,29 @@ export interface State {
   // A present problem of the connection, for example that it is slow; empty if there is none.
   connectionProblem: string;
   abilities: Abilities; // the capabilities of the server
-  missing: string; // why the content of the page's address cannot be shown; empty if it can
-  refusal: string; // why the server rejects this page's token; empty if it does not
+  missing: string; // why the content of the page's address cannot be shown; empty if it can be shown
+  refusal: string; // why the server rejects this page's token; empty if it accepts the token
   people: People; // the other viewers, and who has control
-  editing: Editing | null; // null while nobody edits the simulation here
-  recording: Recording | null; // recording of the simulation; null if there cannot be one, or if unknown
+  editing: Editing | null; // null while this page does not edit the simulation
+  // recording of the simulation; null if it cannot be recorded, or if this is unknown
+  recording: Recording | null;
   stopRecordingAsked: boolean; // whether the page asks the user to confirm the end of the recording
   endSeen: boolean; // whether the user has closed the summary of an ended run
   setUp: SetUp | null; // null while no simulation is being set up
-  // Null if unknown.
+  // null if unknown
   simulations: SimulationSummary[] | null;
   simulation: string | null;
   status: SimulationStatus | null;
   time: number; // s, simulated
-  replay: Replay | null; // null if this is no replay, or if unknown
-  isLive: boolean; // whether the server has said that this is no replay
-  kept: Kept | null; // the stored past of the running simulation; null if there is none, or if unknown
+  replay: Replay | null; // null if this is not a replay, or if this is unknown
+  isLive: boolean; // whether the server has reported that this is not a replay
+  // the stored past of the running simulation; null if there is none, or if this is unknown
+  kept: Kept | null;
   inPast: boolean; // whether the page replays the past of a running simulation
   events: RecordedEvent[]; // events of the recording or the run, ordered by time
   notes: readonly RecordingNote[]; // notes of the recording, ordered by time
   comparison: Comparison | null; // null while no recording is compared
-  // s: the instant that the user has requested; null as soon as the replay shows it.
+  // s: the instant that the user has requested; null when the replay shows this instant
   wishedTime: number | null;
   view: View;
   drawnBy: Drawer | null; // null before the view has started
@@ -134,8 +136,8 @@ export interface State {
   notices: Notice[];
   helpOpen: boolean;
   paletteOpen: boolean;
-  singleKeys: boolean; // whether single keys are commands
-  changedKeys: ChangedKeys; // keys that differ from the default
+  singleKeys: boolean; // whether a single key is a command
+  changedKeys: ChangedKeys; // keys that differ from the default keys
   filming: boolean;
   framesPerSecond: number;
 }

@@ -1,5 +1,5 @@
-// The state of the page, in one place. Panels watch the parts that they show, and share nothing
-// else.
+// The state of the page, in one place. Panels watch the parts of the state that they show. They
+// share nothing else.
 
 export type Listener<T> = (value: T, previous: T | undefined) => void;
 
@@ -21,8 +21,8 @@ export class Store<State extends object> {
     for (const notify of [...this.watchers]) notify();
   }
 
-  // Calls `listener` now and whenever the selected part changes (according to `equal`). Returns a
-  // function that ends these calls.
+  // Calls `listener` now, and whenever the selected part of the state changes (according to
+  // `equal`). Returns a function that ends these calls.
   watch<T>(
     select: (state: State) => T,
     listener: Listener<T>,
@@ -46,7 +46,8 @@ export class Store<State extends object> {
 // Read-only access to the state.
 export type StateReader<State extends object> = Pick<Store<State>, "get" | "watch">;
 
-// Compares members: for selectors that create an object or a list.
+// Compares the members of two values. It is for selectors that create an object or a list in each
+// call.
 export function shallowEqual(a: unknown, b: unknown): boolean {
   if (Object.is(a, b)) return true;
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;

@@ -1,4 +1,5 @@
-// The actions that a viewer may request in each phase of a simulation. The server decides.
+// The actions that a viewer may request in each phase of a simulation. The server decides whether
+// to perform them.
 import type { Action } from "../api/SimulationApi";
 import type { Phase, RobotStatus } from "../api/status";
 import type { State } from "./State";
@@ -23,7 +24,7 @@ export function canAct({ connection, pending, people }: State): boolean {
   return connection.phase === "open" && pending === null && mayAct(people);
 }
 
-// Whether the simulation can be edited. A running one is paused first.
+// Whether the simulation can be edited. A running simulation is paused first.
 export function canEdit({ abilities, connection, replay, status, setUp, people }: State): boolean {
   const phase = status?.phase;
   return (

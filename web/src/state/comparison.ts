@@ -8,10 +8,11 @@ export interface Comparison {
   simulation: string; // name of its simulation
   scene: SceneDescription | null; // null if unknown
   difference: Difference | null; // null if unknown, or not requested
-  problem: string; // why it cannot be compared; empty if it can
+  problem: string; // why the recordings cannot be compared; empty if they can be compared
 }
 
-// Returns a sentence that says how the recordings differ, and below it the details.
+// Returns a sentence about the difference of the recordings, and the details that are shown below
+// it.
 export function resultOf({ recording, difference, problem }: Comparison): { sentence: string; details: string } {
   if (problem !== "") return { sentence: `${recording}: ${problem}`, details: "" };
   if (difference === null) return { sentence: `Compared with ${recording}.`, details: "" };

@@ -17,12 +17,12 @@ export interface WallDrawing {
   thickness: number;
   height: number;
   colour: string; // RRGGBB
-  from: { x: number; y: number } | null; // the first click; null before it
+  from: { x: number; y: number } | null; // the first click; null before the first click
 }
 
 export interface Editing {
   models: ModelChoice[];
-  objects: string[]; // models that are no robots
+  objects: string[]; // models that are not robots
   chosen: string | null; // the selected object; null for the selected robot
   more: readonly string[]; // other selected bodies
   tool: GizmoTool;
@@ -46,7 +46,7 @@ export const FIRST_EDITING: Editing = {
   isBusy: false,
 };
 
-// The movable bodies other than robots: the name of one body of each model.
+// Returns the names of movable bodies other than robots, with one body for each model.
 export function copiesOf(scene: SceneDescription | null): string[] {
   const names = new Map<string, string>(); // names of bodies, by model
   for (const { name, model, isRobot, isAvatar, isFixed } of scene?.bodies ?? []) {
@@ -55,7 +55,7 @@ export function copiesOf(scene: SceneDescription | null): string[] {
   return [...names.values()].sort();
 }
 
-// The body that edits change: the selected object, or else the selected robot.
+// The body that edits change: the selected object. If no object is selected, the selected robot.
 export function chosenOf({ editing, selection }: { editing: Editing | null; selection: string | null }): string | null {
   return editing?.chosen ?? selection;
 }

@@ -40,7 +40,7 @@ function tuples(numbers: ArrayLike<number>, size: number): number[][] {
   return Array.from({ length: Math.floor(all.length / size) }, (_, i) => all.slice(size * i, size * (i + 1)));
 }
 
-// Returns a text such as "3 of 5 hold" or "2 of 5 violated"; empty without expectations.
+// Returns a text such as "3 of 5 hold" or "2 of 5 violated"; empty if there are no expectations.
 export function summaryOf(expectations: readonly Expectation[]): string {
   const count = (verdict: Verdict) => expectations.filter((each) => each.verdict === verdict).length;
   if (expectations.length === 0) return "";
@@ -53,7 +53,7 @@ export function verdictWord(verdict: Verdict): string {
   return verdict === "holds" ? "held" : verdict;
 }
 
-// Returns a text such as "0.26 m at 0:12.40"; empty without a margin.
+// Returns a text such as "0.26 m at 0:12.40"; empty if there is no margin.
 export function marginText({ margin }: Expectation): string {
   return margin === null ? "" : `${formatValue(margin.value, margin.unit)} at ${formatTime(margin.time)}`;
 }

@@ -4,8 +4,9 @@ import type { HealthMessage, RobotHealthMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import { formatNumber } from "../ui/format";
 
-// The states that the server reports, the worst first, and two states of the page. A `told` robot
-// does not move although it was commanded to. The state of an `unknown` robot is not reported.
+// The states that the server reports, the worst first, and two states of the page. The state `told`
+// means that the robot does not move although it was commanded to move. The state `unknown` means
+// that no state is reported.
 export const SHOWN_STATES = ["dead", "stuck", "contact", "late", "told", "standing", "unknown", "moving"] as const;
 export type ShownState = (typeof SHOWN_STATES)[number];
 
@@ -27,8 +28,9 @@ export interface RobotHealth {
   since: number; // s, simulated
   command: { linear: number; lateral: number; angular: number }; // the last command, m/s and rad/s
   actual: { linear: number; angular: number };
-  limit: { sensor: string; value: number; unit: string } | null; // the shortest distance that its sensors measure
-  contact: string; // the body that it touches; empty if there is none
+  // the shortest distance that the robot's sensors measure
+  limit: { sensor: string; value: number; unit: string } | null;
+  contact: string; // the body that the robot touches
   summary: string; // such as "has not moved"
   reason: string; // such as "commanded 0, sonar_00 reads 0.26 m"; empty if there is none
 }
@@ -74,14 +76,14 @@ function robotHealthOf(message: RobotHealthMessage): RobotHealth {
 
 const OF_AGENT: Record<string, ShownState> = { dead: "dead", unresponsive: "late" };
 
-// Without a health report, only the state of the behaviour is known.
+// If there is no health report, only the state of the behaviour is known.
 export function stateOf(health: Health | null, robot: Pick<RobotStatus, "name" | "agentPhase">): ShownState {
   if (!health) return OF_AGENT[robot.agentPhase] ?? "unknown";
   return health.robots.get(robot.name)?.state ?? "moving";
 }
 
-// A number for sorting; higher is worse. It is a table, because it is used for thousands of robots
-// several times per second.
+// A number for sorting; higher is worse. The numbers are in a table, because they are needed for
+// thousands of robots several times per second.
 const BADNESS = Object.fromEntries(
   SHOWN_STATES.map((state, i) => [state, SHOWN_STATES.length - i]),
 ) as Record<ShownState, number>;

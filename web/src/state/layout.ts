@@ -1,4 +1,5 @@
-// A layout: how the area beside the robot list is divided, and which panels are tabs of which part.
+// A layout. It describes how the area beside the robot list is divided, and which panels are tabs
+// of which part.
 //
 // The text of a layout is readable, and short enough for a link. r(…) is a row and c(…) is a
 // column. Commas separate the parts of a row or column. Points separate the tabs of one part, and *
@@ -7,7 +8,7 @@
 //   r(view~740,c(inspector.topics*~600,camera~400)~260)
 export interface Tabs {
   tabs: string[]; // ids of panels; at least one
-  front: string; // the id of the visible one
+  front: string; // id of the visible panel
 }
 
 // A part of the layout that is divided into a row or a column.
@@ -26,8 +27,8 @@ export const MAX_LAYOUT_CHARACTERS = 4000;
 const MAX_PANELS = 100;
 const MAX_DEPTH = 12;
 
-// Reads a text, or returns the reason why it is not a layout. Panels that are not `known` are
-// omitted and listed.
+// The result of reading a text: a layout, or the reason why the text is not a layout. Panels that
+// are not `known` are left out of the layout, and listed.
 export type ReadLayout = { layout: Split; unknown: string[] } | { problem: string };
 
 export function readLayout(text: string, known: ReadonlySet<string>): ReadLayout {
@@ -136,8 +137,8 @@ class Reader {
   }
 }
 
-// Returns the part without unknown panels, and without parts that become empty; null if no part
-// remains.
+// Returns the part without unknown panels, and without parts that are empty as a result. Null if no
+// part remains.
 function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   if ("tabs" in part) {
     const tabs = part.tabs.filter((id) => known.has(id));

@@ -1,4 +1,4 @@
-// The saved layouts by name, and the present one.
+// The saved layouts by name, and the present layout.
 import { MAX_LAYOUT_CHARACTERS } from "./layout";
 
 export interface SavedLayout {
@@ -42,7 +42,8 @@ export function keepCurrent(storage: Writing, text: string): void {
   try {
     storage?.setItem(CURRENT_KEY, text);
   } catch {
-    // Nothing is saved if the storage is full or not allowed, as in a private window.
+    // Nothing is saved if the storage is full, or if the browser does not allow storage, as in a
+    // private window.
   }
 }
 

@@ -1,6 +1,6 @@
-// Writes the present view to the page's address, and reads it:
+// Writes the present view to the page's address, and reads it from there:
 // #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid&layout=drive. All parts are
-// optional. A missing part has the same effect as no link.
+// optional. If a part is missing, the page behaves in this respect as if there were no link.
 import type { OverlayName, Shown } from "./overlays";
 import { OVERLAY_NAMES } from "./overlays";
 import type { ViewMode } from "./State";
@@ -31,7 +31,7 @@ export function hashOf({ time, viewpoint, selection, viewMode, shown, layout }: 
   return `#${parts.join("&")}`;
 }
 
-// Ignores invalid parts, because a link is untrusted.
+// Reads the view in an address. Invalid parts are ignored, because a link is untrusted.
 export function linkedView(hash: string): LinkedView {
   const parts = new URLSearchParams(hash.replace(/^#/, ""));
   const time = parts.get("t");

@@ -38,7 +38,7 @@ function listed(robots: readonly RobotStatus[], health: Health | null, scene: Sc
 
 const knownKinds = new WeakMap<SceneDescription, Map<string, RobotKind>>();
 
-// Returns the bodies that are no robots.
+// Returns the kinds of avatars and stations, by name. All other bodies in the list are robots.
 function kindsOf(scene: SceneDescription | null): ReadonlyMap<string, RobotKind> {
   if (!scene) return new Map();
   let kinds = knownKinds.get(scene);

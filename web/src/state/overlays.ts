@@ -1,4 +1,4 @@
-// The overlays of the view. Each can be switched by menu or key, and the browser stores the choice.
+// The overlays of the view. A menu or a key switches each overlay. The browser stores the choice.
 
 export interface OverlayKind {
   name: OverlayName;
@@ -91,7 +91,8 @@ export function keepColours(storage: Pick<Storage, "setItem"> | null, colours: O
   try {
     storage?.setItem(COLOURS_KEY, JSON.stringify(colours));
   } catch {
-    // Nothing is saved if the storage is full or not allowed, as in a private window.
+    // Nothing is saved if the storage is full, or if the browser does not allow storage, as in a
+    // private window.
   }
 }
 
@@ -101,7 +102,7 @@ function isKeyOf<Names extends object>(names: Names, value: unknown): value is k
 
 const KEY = "gsv.overlays";
 
-// Reads the stored choice. Missing or invalid entries have their default.
+// Reads the stored choice. If an entry is missing or invalid, its default is used.
 export function loadShown(storage: Pick<Storage, "getItem"> | null): Shown {
   let kept: unknown = null;
   try {
@@ -119,7 +120,8 @@ export function keepShown(storage: Pick<Storage, "setItem"> | null, shown: Shown
   try {
     storage?.setItem(KEY, JSON.stringify(shown));
   } catch {
-    // Nothing is saved if the storage is full or not allowed, as in a private window.
+    // Nothing is saved if the storage is full, or if the browser does not allow storage, as in a
+    // private window.
   }
 }
 

@@ -6,15 +6,16 @@ export function bodyPart(body: string): WorldPart {
   return { body, kind: "body", name: body };
 }
 
-// The part that inspectors and the tree show: the selected part, or else the edited object or the
-// selected robot.
+// The part that inspectors and the tree show. This is the selected part. If there is none, it is
+// the edited object, or else the selected robot.
 export function shownPart({ part, editing, selection }: Pick<State, "part" | "editing" | "selection">): WorldPart | null {
   if (part) return part;
   const body = editing?.chosen ?? selection;
   return body === null ? null : bodyPart(body);
 }
 
-// The object that the view marks: the edited object, or else the object that the inspector shows.
+// The object that the view marks. This is the edited object. If there is none, it is the object in
+// the inspector.
 export function markedObject({ part, editing, selection }: State): string | null {
   if (editing) return editing.chosen;
   return part === null || part.body === selection ? null : part.body;

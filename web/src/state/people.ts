@@ -17,21 +17,21 @@ export function holderOf(people: People): Person | null {
   return together(people).find(({ holds }) => holds) ?? null;
 }
 
-// While nobody has control, all viewers may act. The server decides.
+// While no viewer has control, all viewers may act. The server makes the final decision.
 export function mayAct(people: People): boolean {
   const holder = holderOf(people);
   return holder === null || holder.number === people.you;
 }
 
-// Returns why this viewer must take control before it drives a body: another viewer has control, or
-// could drive the body too. Empty if control is not needed.
+// Returns the reason why this viewer must take control before driving a body. Another viewer has
+// control, or could drive the body too. Empty if control is not needed.
 export function needsControl(people: People): string {
   const holder = holderOf(people);
   if (holder !== null) return holder.number === people.you ? "" : `${holder.name} has control.`;
   return together(people).length > 1 ? "Others are watching this simulation. Take control first." : "";
 }
 
-// Returns the viewer whose request you must answer, if there is one.
+// Returns the viewer whose request for control you must answer, if there is one.
 export function asker(people: People): Person | null {
   if (!youOf(people)?.holds) return null;
   return together(people).find(({ asks }) => asks === 1) ?? null;

@@ -21,7 +21,7 @@ export interface Curve {
 // The plotted curves and the axes.
 export interface Plots {
   curves: Curve[];
-  span: number | null; // show the newest seconds only; null for all
+  span: number | null; // if set, only the newest seconds are shown; null for all
   against: string | null; // id of the curve on the horizontal axis; null for simulated time
   events: boolean; // whether events are marked
 }
@@ -91,7 +91,8 @@ export function referenceTo({ source, key }: Pick<Curve, "source" | "key">): str
   return `{${of} ${key}}`;
 }
 
-// The values from which a curve is computed: its own value, or those that its expression refers to.
+// Returns the values from which a curve is computed. This is its own value, or the values to which
+// its expression refers.
 export function inputsOf(curve: Pick<Curve, "source" | "key">): Pick<Curve, "source" | "key">[] {
   if (curve.source.kind !== "expression") return [curve];
   return parseExpression(curve.key).references.map(referredTo);

@@ -10,7 +10,7 @@ export type Grouping = (typeof GROUPINGS)[number];
 
 export interface RobotFilter {
   text: string; // the text that the user typed
-  state: ShownState | null; // null: all
+  state: ShownState | null; // null for all states
   sorting: Sorting;
   grouping: Grouping;
 }
@@ -32,8 +32,8 @@ export function isTitle(entry: Entry): entry is { title: string; count: number }
   return "title" in entry;
 }
 
-// Returns the part of a name before its last slash; if it has no slash, the name without the number
-// at its end.
+// Returns the part of a name before its last slash. If the name has no slash, returns the name
+// without the number at its end.
 export function namespaceOf(name: string): string {
   const slash = name.lastIndexOf("/");
   return slash > 0 ? name.slice(0, slash) : name.replace(/[_-]?\d+$/, "");
@@ -53,8 +53,9 @@ const FIELDS: Record<string, (robot: ListedRobot) => string> = {
   state: ({ state }) => `${state} ${STATE_WORDS[state]}`,
 };
 
-// Parses words that must all match: "pebble" is a part of the name, "model:scout" a part of another
-// field, "/^a\d$/" a regular expression for the name, and "model:/^sc/" one for a field.
+// Parses the words of a search. All of them must match. The word "pebble" matches a part of the
+// name, and "model:scout" a part of another field. "/^a\d$/" is a regular expression for the name,
+// and "model:/^sc/" one for a field.
 export function queryOf(text: string): Query {
   const tests: ((robot: ListedRobot) => boolean)[] = [];
   let problem = "";
@@ -96,8 +97,8 @@ export function filtered(robots: readonly ListedRobot[], { text, state }: RobotF
 
 const COLLATOR = new Intl.Collator("en", { numeric: true });
 
-// Sorts names in natural order: "a2" before "a10". Cached while the names do not change, because
-// comparing thousands of texts for each update would take too long.
+// Sorts names in natural order: "a2" before "a10". The order is cached while the names do not
+// change. To compare thousands of texts for each update would take too long.
 export class NameOrder {
   private names: readonly string[] = [];
   private ranks = new Map<string, number>();
@@ -122,7 +123,7 @@ export function entriesOf(robots: readonly ListedRobot[], filter: RobotFilter, o
   return filter.grouping === "none" ? sorted : grouped(sorted, filter.grouping);
 }
 
-// Returns `entries` in the order of `shown`. New entries come last.
+// Returns `entries` in the order of `shown`. New entries are last.
 export function inOrderOf(shown: readonly Entry[], entries: readonly Entry[]): Entry[] {
   const places = new Map(shown.map((entry, place) => [nameOf(entry), place]));
   const placeOf = (entry: Entry) => places.get(nameOf(entry)) ?? shown.length;

@@ -5,7 +5,8 @@ import type { RobotList, Scenario } from "../api/scenario";
 
 // An error in the form for a new simulation.
 export interface Wrong {
-  field: string; // the server's name of the field, such as "robots[1].model"; empty for none
+  // the server's name of the field, such as "robots[1].model"; empty if the error concerns no field
+  field: string;
   sentence: string;
 }
 
@@ -33,11 +34,13 @@ export interface SetUp extends Choices {
   warnings: string[]; // parts of the files that could not be read
   poses: Float64Array | null; // poses of the scene that is shown; null if unknown
   isBusy: boolean; // whether a request is pending
-  isHeld: boolean; // whether nothing can be created now: data is being loaded, or the simulation is being created
+  // true while nothing can be created, because data is being loaded or the simulation is being
+  // created
+  isHeld: boolean;
 }
 
-// Returns the server's sentence, with the names of uploaded files as the user knows them, without
-// the server's folder.
+// Returns the server's sentence. The paths of uploaded files are replaced by the names that the
+// user knows.
 export function inTheirWords(sentence: string, uploaded: readonly UploadedWorld[]): string {
   const folders = uploaded.filter(({ name, path }) => path.endsWith(name)).map(({ name, path }) => path.slice(0, -name.length));
   return folders.reduce((said, folder) => (folder === "" ? said : said.replaceAll(folder, "")), sentence);
@@ -65,7 +68,7 @@ const ROBOT_FIELD = /^(robots|avatars)\[(\d+)\](?:\.(\w+))?$/;
 // The fields that have their own input in a robot's row.
 const ROBOT_INPUTS = ["name", "model", "behaviour", "behaviour_constraint", "drive", "x", "y", "yaw"];
 
-// Returns the robot and the input to which a field belongs; null if it belongs to no robot.
+// Returns the robot and the input to which a field belongs; null if the field belongs to no robot.
 export function robotOfField(field: string): { list: RobotList; index: number; input: string } | null {
   const [, list, index, input = ""] = ROBOT_FIELD.exec(field) ?? [];
   if (!list) return null;
@@ -78,7 +81,8 @@ export function robotOfField(field: string): { list: RobotList; index: number; i
 
 const PEDESTRIANS_FIELD = /^pedestrians\[(\d+)\](?:\.(\w+))?/;
 
-// Returns the group of pedestrians and the input to which a field belongs; null if there is none.
+// Returns the group of pedestrians and the input to which a field belongs; null if it belongs to no
+// group.
 export function pedestriansOfField(field: string): { index: number; input: string } | null {
   const found = PEDESTRIANS_FIELD.exec(field);
   return found && { index: Number(found[1]), input: found[2] ?? "" };

@@ -5,7 +5,7 @@ export type ShapeKind = "box" | "wall" | "cylinder" | "sphere";
 // Lengths in metres. Each kind of shape uses only some of them.
 export interface Shape {
   kind: ShapeKind;
-  length: number; // along x; for a cylinder its height
+  length: number; // along x; for a cylinder, the height
   width: number; // along y
   height: number; // along z
   radius: number;
@@ -35,7 +35,7 @@ export function lengthsOf(kind: ShapeKind): readonly LengthName[] {
   return kind === "cylinder" ? ["radius", "height"] : ["length", "width", "height"];
 }
 
-// Returns why the shape is invalid; empty if it is valid.
+// Returns the reason why the shape is invalid; empty if it is valid.
 export function faultOf(shape: Shape): string {
   for (const name of lengthsOf(shape.kind)) {
     const value = shape[name];

@@ -1,5 +1,5 @@
-// Whether single keys (letters, digits, punctuation, Space) are commands. They can be turned off,
-// because speech input or an accidental key press would trigger commands (WCAG 2.1.4).
+// Whether single keys (letters, digits, punctuation, Space) are commands. The user can turn them
+// off. Otherwise, speech input or an accidental key press would trigger commands (WCAG 2.1.4).
 const KEY = "gsv.single-keys";
 const OFF = "off";
 
@@ -11,7 +11,8 @@ export function keepSingleKeys(storage: Pick<Storage, "setItem"> | null, isOn: b
   try {
     storage?.setItem(KEY, isOn ? "on" : OFF);
   } catch {
-    // Nothing is saved if the storage is full or not allowed, as in a private window.
+    // Nothing is saved if the storage is full, or if the browser does not allow storage, as in a
+    // private window.
   }
 }
 
@@ -37,7 +38,8 @@ export function keepChangedKeys(storage: Pick<Storage, "setItem"> | null, change
   try {
     storage?.setItem(CHANGED, JSON.stringify(changed));
   } catch {
-    // Nothing is saved if the storage is full or not allowed, as in a private window.
+    // Nothing is saved if the storage is full, or if the browser does not allow storage, as in a
+    // private window.
   }
 }
 
@@ -57,7 +59,7 @@ export function originalKey(pressed: string, changed: ChangedKeys): string {
 }
 
 // Assigns another key to the command with this default key. If another command has that key, the
-// two exchange their keys.
+// two commands exchange their keys.
 export function withChangedKey(changed: ChangedKeys, original: string, pressed: string): ChangedKeys {
   const [own, key] = [original.toLowerCase(), pressed.toLowerCase()];
   const former = keyOf(own, changed);

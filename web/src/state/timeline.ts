@@ -1,4 +1,4 @@
-// Computes the marks of events on the timeline. Events close together share a mark.
+// Computes the marks of events on the timeline. Events that are close together share a mark.
 import type { Difference, Kept, RecordingNote } from "../api/history";
 import type { RecordedEvent, Replay } from "../api/replay";
 import { count, formatTime } from "../ui/format";
@@ -20,7 +20,7 @@ const BAD = ["agent_dead", "agent_unresponsive", "failed", "expectation_violated
 
 const MOST_EVENTS = 3000;
 
-// The time range of a timeline: the recording, or the stored past of a run until now.
+// The time range of a timeline: the range of the recording, or of a run's stored past until now.
 export type Span = Pick<Replay, "start" | "end">;
 
 export function spanOf(replay: Replay | null, kept: Kept | null, time: number): Span | null {
@@ -29,8 +29,8 @@ export function spanOf(replay: Replay | null, kept: Kept | null, time: number): 
   return { start: kept.start, end: Math.max(kept.end, time) };
 }
 
-// Returns `known` and the events of `found` that it does not contain, ordered by time. If there are
-// none, returns `known` itself.
+// Returns `known`, with the events of `found` that it does not contain yet, ordered by time. If
+// there are no new events, returns `known` itself.
 export function withNewEvents(known: RecordedEvent[], found: readonly RecordedEvent[]): RecordedEvent[] {
   const keys = new Set(known.map(keyOf));
   const added = found.filter((event) => !keys.has(keyOf(event)));

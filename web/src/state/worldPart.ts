@@ -3,5 +3,5 @@
 export interface WorldPart {
   body: string;
   kind: "body" | "link" | "joint" | "sensor";
-  name: string; // that of the body itself for the kind "body"
+  name: string; // for the kind "body": the name of the body
 }

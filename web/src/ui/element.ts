@@ -1,5 +1,5 @@
-// Builds elements of the page. Text is never read as markup, so that a name with markup is shown
-// literally.
+// Builds elements of the page. Text is never interpreted as markup, so a name that contains markup
+// is shown literally.
 
 type Child = Node | string | null | false;
 type Attributes = Record<string, string | boolean | ((event: never) => void)>;
@@ -21,7 +21,7 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-// Writes only if the text differs, because a new text loses the reader's selection.
+// Writes only if the text differs, because a new text removes the user's text selection.
 export function setText(node: Node, text: string): void {
   if (node.textContent !== text) node.textContent = text;
 }

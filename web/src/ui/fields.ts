@@ -35,8 +35,8 @@ function labelled<Value>(
   };
 }
 
-// Calls `take` with the typed text when typing is finished. New values (from the server or another
-// field) wait until then, so that typed text is not lost.
+// Calls `take` with the typed text when the user has finished typing. Until then, new values (from
+// the server or from another field) are not shown, so that typed text is not lost.
 function keepTyped(input: HTMLInputElement, take: () => void) {
   let isTyping = false;
   let latest = input.value;
@@ -65,7 +65,8 @@ export function textField(label: string, placeholder: string, take: (text: strin
   return labelled(label, input, show);
 }
 
-// A number field. An empty field means `otherwise`. `digits` are shown after the decimal point.
+// A number field. An empty field means `otherwise`. `digits` is the number of digits after the
+// decimal point.
 export function numberField(
   label: string,
   otherwise: number | null,
@@ -102,7 +103,7 @@ export interface ChoiceField extends Field<string> {
   offer(options: Option[]): void;
 }
 
-// A selection from a list, which may change.
+// A selection from a list. The options of the list may change.
 export function choiceField(label: string, take: (value: string) => void): ChoiceField {
   const select = element("select", {});
   const replace = replaceOptions(select);
@@ -120,7 +121,7 @@ export function choiceField(label: string, take: (value: string) => void): Choic
   };
 }
 
-// Replaces the options if they differ, because a list that is open closes when its options are
+// Replaces the options only if they differ, because a list that is open closes when its options are
 // replaced. Returns whether they differed.
 function replaceOptions(select: HTMLSelectElement) {
   let offered = "";

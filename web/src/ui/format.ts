@@ -1,7 +1,6 @@
 // Formats numbers for the page.
 
-// Returns "1:15.25" for 75.25, and "1:01:15.25" for one hour more. The last digit is never rounded
-// up.
+// Returns "1:15.25" for 75.25, and "1:01:15.25" for 3675.25. The last digit is never rounded up.
 export function formatTime(seconds: number): string {
   const hundredths = Math.max(0, Math.floor(seconds * 100 + 1e-6));
   const two = (value: number) => String(value).padStart(2, "0");
@@ -38,7 +37,7 @@ export function formatNumber(value: number, digits: number): string {
 }
 
 // Returns a measured value with its unit and a readable number of digits. Degrees of latitude and
-// longitude are shown to about a centimetre.
+// longitude are rounded to about a centimetre.
 export function formatValue(value: number, unit: string): string {
   const tail = unit === "" ? "" : unit === "°" ? unit : ` ${unit}`;
   if (Number.isNaN(value)) return "–";

@@ -1,4 +1,4 @@
-// A button with an icon, a word below it where the page is wide enough, and a tooltip.
+// A button with an icon and a tooltip. If the page is wide enough, there is a word below the icon.
 import { element } from "./element";
 import type { IconName } from "./icons";
 import { icon } from "./icons";

@@ -1,5 +1,5 @@
-// A button that opens a small sheet of choices above the page. A click elsewhere or Esc closes it. On
-// a narrow screen, where the sheet covers the page, a choice closes it too.
+// A button that opens a small sheet of choices above the page. A click outside of the sheet or Esc
+// closes it. On a narrow screen, the sheet covers the page; there, a choice closes it too.
 import { element } from "./element";
 import type { IconName } from "./icons";
 import { icon } from "./icons";
@@ -24,7 +24,7 @@ interface MenuLook {
   label: string;
   picture: IconName;
   word: string;
-  title?: string; // tooltip; the label if it is absent
+  title?: string; // tooltip (default: the label)
 }
 
 export function createWordedMenu({ label, picture, word, title = label }: MenuLook, ...items: HTMLElement[]): Menu {
@@ -36,7 +36,7 @@ export function createWordedMenu({ label, picture, word, title = label }: MenuLo
   );
   const sheet = element("div", { class: "card menu-sheet", role: "group", "aria-label": label, popover: "manual" }, ...items);
   sheet.hidden = true;
-  // Choices that arrive later make the sheet larger.
+  // Choices may be added later, and make the sheet larger.
   if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => sheet.hidden || standBelow(button, sheet)).observe(sheet);
   const place = element("div", { class: "menu" }, button, sheet);
 

@@ -1,4 +1,5 @@
-// Screens on which the page shows one thing at a time, such as phones.
+// Determines whether the screen is so narrow that the page shows one thing at a time, for example
+// on a phone.
 
 export const NARROW = "(max-width: 760px)"; // as in the style sheets
 

@@ -1,4 +1,4 @@
-// The pages besides the viewer.
+// The pages other than the viewer.
 export interface Page {
   name: string;
   href: string;

@@ -1,4 +1,4 @@
-// A field for the token, shown if the server requires one or rejects the present one.
+// A field for the token. It is shown if the server requires a token or rejects the present token.
 import { element } from "./element";
 
 export function createTokenForm(enter: (token: string) => void): HTMLFormElement {

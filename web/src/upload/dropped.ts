@@ -1,10 +1,10 @@
-// Handles files that the user dropped onto the page or chose: a world, or a folder or zip archive
-// that contains one.
+// Handles files that the user dropped onto the page or chose. They are a world, or a folder or zip
+// archive that contains a world.
 import type { DroppedFile } from "../api/DroppedFile";
 import { droppedFile, isHidden, LARGEST_FILE, MOST_FILES } from "../api/DroppedFile";
 import { filesInZip, isZip } from "./zip";
 
-// The files to send: worlds first, beginning with the most likely one.
+// The files to send. World files are first, beginning with the most likely world.
 export interface Delivery {
   files: DroppedFile[];
   worlds: number; // number of worlds among the files, at least one
@@ -20,13 +20,13 @@ export function worldsFirst(files: readonly DroppedFile[]): Delivery {
   if (files.length === 1) return { files: [...files], worlds: 1 };
   const candidates = files.filter(({ path }) => rankOf(path) < NO_WORLD).sort(byLikelihood);
   if (candidates.length === 0) throw new Error("These files contain no world. Add a file whose name ends in .world or .sdf.");
-  // If there are worlds, the models are parts of them, so no model can be chosen.
+  // If there are world files, models are parts of these worlds. So the user cannot choose a model.
   const worlds = candidates.filter(({ path }) => rankOf(path) < A_MODEL);
   const front = new Set(worlds.length > 0 ? worlds : candidates.slice(0, 1));
   return { files: [...front, ...files.filter((each) => !front.has(each))], worlds: front.size };
 }
 
-// Sorts world files before model files, and outer folders before inner ones.
+// Sorts world files before model files, and files in outer folders before files in inner folders.
 function byLikelihood(a: DroppedFile, b: DroppedFile): number {
   const depth = ({ path }: DroppedFile) => path.split("/").length;
   return rankOf(a.path) - rankOf(b.path) || depth(a) - depth(b) || a.path.localeCompare(b.path);
@@ -42,7 +42,8 @@ function rankOf(path: string): number {
   return /\.urdf$/i.test(path) ? 3 : NO_WORLD;
 }
 
-// A single archive is replaced by its content. Throws a sentence for the user.
+// If there is a single file and it is an archive, returns its content. Throws a sentence for the
+// user.
 export async function unpacked(files: readonly DroppedFile[]): Promise<readonly DroppedFile[]> {
   const [only, ...others] = files;
   if (!only || others.length > 0) return files;

@@ -46,8 +46,8 @@ export async function filesInZip(name: string, archive: Blob): Promise<DroppedFi
   }));
 }
 
-// Whether the entry is a normal file: not a folder, and not a hidden file of an operating system. A
-// name with ".." is not a hidden file.
+// Whether the entry is a normal file. It must be neither a folder nor a hidden file of an operating
+// system. A name with ".." does not count as hidden.
 function isWanted({ filename, directory }: Entry): boolean {
   return !directory && !filename.startsWith("__MACOSX/") && (leadsOut(filename) || !isHidden(filename));
 }

@@ -1,5 +1,6 @@
-// Shows the view drawn by the server: its images on a separate canvas, with the page's overlays on
-// top. The canvas lies over the canvas that receives the pointer, and does not block the pointer.
+// Shows the view that the server draws. The images are on a separate canvas, with the page's
+// overlays on top. This canvas lies over the canvas that receives the pointer, and does not block
+// the pointer.
 import type { Object3D, PerspectiveCamera } from "three";
 import { Vector3 } from "three";
 import type { LiveViewSource } from "../protocol/LiveViews";
@@ -16,7 +17,7 @@ export interface ImageSources {
 export interface DrawnViewEvents {
   onImage(): void;
   onProblem(sentence: string): void;
-  // The server pushes no images, so the page must request each image.
+  // Called if the server does not push images. The page must then request each image.
   onNotPushed(): void;
 }
 
@@ -56,7 +57,8 @@ export class DrawnView {
     private readonly events: DrawnViewEvents,
   ) {
     this.canvas.className = "drawn-view";
-    this.canvas.setAttribute("aria-hidden", "true"); // the canvas below it has the name
+    // the other canvas, which is below this one, has the accessible name
+    this.canvas.setAttribute("aria-hidden", "true");
     const taken = {
       onImage: (image: ArrivedImage) => this.take(image),
       onProblem: (sentence: string) => events.onProblem(sentence),
@@ -71,8 +73,8 @@ export class DrawnView {
     });
   }
 
-  // The camera of the image that is shown, and its simulated time in seconds (null: unknown); null:
-  // there is no image yet.
+  // The camera of the image that is shown, and the image's simulated time in seconds (null if
+  // unknown). Null if there is no image yet.
   get shown(): { camera: PerspectiveCamera; stamp: number | null } | null {
     return this.present && { camera: this.present.camera, stamp: this.present.arrived.stamp };
   }
@@ -87,8 +89,8 @@ export class DrawnView {
     this.report(this.present.arrived);
   }
 
-  // Requests images of this camera in an area of this size in CSS pixels. The camera is read again
-  // only at the next call.
+  // Requests images of this camera in an area of this size in CSS pixels. If the camera moves, call
+  // show() again.
   show(camera: PerspectiveCamera, width: number, height: number): void {
     this.wanted = serverCameraOf(camera, width, height, devicePixelRatio);
     const query = queryOf(this.wanted);
@@ -120,7 +122,7 @@ export class DrawnView {
   }
 
   private take(image: ArrivedImage): void {
-    // The older image is skipped; the server sends the next one only after shown().
+    // The previous image is skipped. The server sends the next image only after shown().
     this.waiting?.shown();
     this.waiting = image;
     if (!this.isDecoding) void this.decode();
@@ -140,7 +142,7 @@ export class DrawnView {
         continue;
       }
       if (this.next) {
-        this.next.bitmap.close(); // the older image is skipped
+        this.next.bitmap.close(); // the previous image is skipped
         this.next.arrived.shown();
       }
       this.next = { bitmap, camera, arrived };

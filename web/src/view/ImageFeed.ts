@@ -1,6 +1,6 @@
-// Fetches images that the server draws, one after another, from servers that do not push images.
-// The next image is requested when the last one has arrived, so that a slow connection gets fewer
-// images, but never old ones.
+// Fetches images that the server draws, one after another. It is for servers that do not push
+// images. The next image is requested when the previous image has arrived. So a slow connection
+// gets fewer images, but never old images.
 
 // The camera in the server's form; lengths in metres, the size in pixels.
 export interface ServerCamera {
@@ -23,8 +23,7 @@ export interface ArrivedImage {
 
 export interface FeedEvents {
   onImage(image: ArrivedImage): void;
-  // Called if the server draws no images, with a sentence about the reason. The feed has then
-  // ended.
+  // Called with the reason if the server draws no images. The feed has then ended.
   onProblem(sentence: string): void;
 }
 
@@ -37,7 +36,8 @@ export interface Feed {
 export type FetchImage = (query: string, signal: AbortSignal) => Promise<Response>;
 
 export const RETRY_MS = 1000;
-// Number of consecutive failures that are allowed, as while the server restarts.
+// Number of consecutive failures that are allowed. For example, requests fail while the server
+// restarts.
 export const TRIES = 3;
 
 export class ImageFeed implements Feed {
@@ -47,7 +47,7 @@ export class ImageFeed implements Feed {
   private asking: AbortController | null = null;
   private failures = 0;
   private isEnded = false;
-  private asked = ""; // the camera of the request under way
+  private asked = ""; // the camera of the pending request, as a query
 
   constructor(
     private readonly fetchImage: FetchImage,
@@ -59,7 +59,8 @@ export class ImageFeed implements Feed {
     const isOther = this.wanted === null || queryOf(this.wanted) !== queryOf(camera);
     this.wanted = camera;
     if (this.isEnded || !isOther) return;
-    // Aborts a request that waits for a change, but not one that is being drawn.
+    // Aborts a request that waits for a change. A request whose image is being drawn is not
+    // aborted.
     if (this.asking && this.number !== "" && this.shown === this.asked) this.asking.abort();
     else if (!this.asking) void this.ask();
   }

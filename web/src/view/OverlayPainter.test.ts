@@ -31,8 +31,8 @@ function fakeContext() {
   return { lines, squares, context: context as unknown as CanvasRenderingContext2D };
 }
 
-// Returns a camera at the origin that looks along x with z up and a 90° field of view: the upper
-// edge is at 1 m ahead, 1 m up.
+// Returns a camera at the origin that looks along x, with z up and a 90° field of view. At a
+// distance of 1 m, the upper edge of the view is 1 m up.
 function camera(): PerspectiveCamera {
   const eye = new PerspectiveCamera(90, 2, 0.1, 100);
   eye.up.set(0, 0, 1);
@@ -55,8 +55,9 @@ test("lines and points are painted at their places in the camera's image", () =>
   const point = new Points(geometry([4, -4, 0]), new PointsMaterial());
   point.position.set(0, 0, 2); // 4 m ahead, 4 m to the right, 2 m up
   painter.paint([line, point]);
-  // The line goes from the middle to a point 2 m to the left and up at a distance of 2 m, which is
-  // at half of the half width on the upper edge.
+  // The line goes from the centre of the image to a point at a distance of 2 m. This point is 2 m
+  // to the left and 2 m up. So it is on the upper edge, halfway between the middle and the left
+  // corner.
   expect(lines[0]!.map((value) => Math.round(value * 1e3) / 1e3 + 0)).toEqual([100, 50, 50, 0]);
   expect(squares[0]!.map((value) => Math.round(value * 1e3) / 1e3)).toEqual([150, 25]);
 });

@@ -1,5 +1,5 @@
-// Paints the lines, points and plain surfaces of overlays on an image, projected with its camera.
-// They are on top, because an image has no depths that could hide them.
+// Paints the lines, points and plain surfaces of overlays on an image, projected with the image's
+// camera. They are on top of the image, because it has no depths that could hide them.
 import type { BufferAttribute, BufferGeometry, Camera, InterleavedBufferAttribute, Object3D, Side } from "three";
 import { Color, FrontSide, InstancedMesh, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
@@ -156,7 +156,8 @@ function plainColour(material: unknown): string {
   return its instanceof Color ? its.getStyle() : "white";
 }
 
-// Returns whether a material is invisible, like that of an object that only receives the pointer.
+// Returns whether a material is invisible. For example, an object that only receives the pointer is
+// invisible.
 function isInvisible(material: unknown): boolean {
   return (material as { visible?: boolean }).visible === false;
 }
@@ -169,7 +170,8 @@ function isOneSided(material: unknown): boolean {
   return (material as { side?: Side }).side === FrontSide;
 }
 
-// Returns whether the camera sees the back of a triangle, whose corners then go clockwise.
+// Returns whether the camera sees the back of a triangle. The corners of the triangle are then in
+// clockwise order.
 function showsItsBack([a, b, c]: readonly Corner[]): boolean {
   const [ax, ay, bx, by, cx, cy] = [a!, b!, c!].flatMap(([x, y, w]) => [x / w, y / w]) as [number, number, number, number, number, number];
   return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax) >= 0; // y is downwards

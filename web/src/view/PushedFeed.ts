@@ -1,6 +1,6 @@
 // Receives the images that the server pushes over the live stream. The server sends the next image
-// when the last image has been shown, so that a slow connection gets fewer images, but never old
-// ones.
+// when the previous image has been shown. So a slow connection gets fewer images, but never old
+// images.
 import type { LiveView, LiveViewSource, PushedImage } from "../protocol/LiveViews";
 import type { Feed, FeedEvents, ServerCamera } from "./ImageFeed";
 import { RETRY_MS, TRIES, queryOf } from "./ImageFeed";
@@ -20,7 +20,7 @@ export class PushedFeed implements Feed {
   private sequence = 0;
   private isReady = false;
   private isEnded = false;
-  private failures = 0; // number of failures in a row
+  private failures = 0; // number of consecutive failures
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
@@ -72,7 +72,7 @@ export class PushedFeed implements Feed {
     const shown = () => void whenVisible(this.isHidden).then(() => this.isEnded || this.view.shown(image));
     const camera = this.cameras.get(image.sequence);
     if (!camera) return shown();
-    // Earlier cameras belong to images that will not arrive any more.
+    // Earlier cameras belong to images that will never arrive.
     for (const known of this.cameras.keys()) {
       if (known === image.sequence) break;
       this.cameras.delete(known);

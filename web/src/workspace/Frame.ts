@@ -1,5 +1,5 @@
 // The place of one panel in the workspace: its tools and its body, or the reason why they are
-// missing. The panel is fetched when it is first in sight, and then kept.
+// missing. The panel is fetched when it is first visible, and then kept.
 import type { MountedPanel, Panel } from "../panels/contract/Panel";
 import type { PanelPorts } from "../panels/contract/ports";
 import { element, setText } from "../ui/element";
@@ -50,7 +50,7 @@ export class Frame {
 
   // Loads the panel. Returns whether this call has loaded it.
   private async load(): Promise<boolean> {
-    if (this.isLoading) return false; // the first caller shows the panel
+    if (this.isLoading) return false; // the first call shows the panel
     this.isLoading = true;
     const { id, title, load } = this.panel;
     try {

@@ -1,4 +1,5 @@
-// The buttons at the right end of a part's tabs. They move the tab in front without a mouse.
+// The buttons at the right end of a part's tabs. With them, the user can move the visible tab
+// without a mouse.
 import type { DockviewApi, DockviewGroupPanel, IDockviewPanel, IHeaderActionsRenderer } from "dockview";
 import { element, setText } from "../ui/element";
 import { icon } from "../ui/icons";
@@ -11,8 +12,8 @@ export interface HeadParts {
   isNarrow(): boolean; // whether the page is too narrow for parts beside each other
 }
 
-// With more tabs than this, a narrow part has no room for the button Maximise. Its menu then has the
-// command.
+// If a narrow part has more tabs than this, there is no space for the button Maximise. The command
+// is then in the part's menu.
 const MAX_TABS = 2;
 const SIDES = [
   ["left", "Move to the left of the view"],

@@ -1,5 +1,5 @@
-// Keeps parts of the column beside the view high enough. A part that would become too low joins the
-// part above it as a tab, and returns to its place later.
+// Makes sure that parts of the column beside the view are high enough. A part that would become too
+// low joins the part above it as a tab. It returns to its place later.
 import type { DockviewApi, DockviewGroupPanel } from "dockview";
 
 // The minimum height of a part, CSS pixels: its tabs, tools and some lines.
@@ -7,7 +7,7 @@ const MIN_PART_PX = 170;
 
 interface Joined {
   panel: string;
-  height: number; // of the part that it came from, CSS pixels
+  height: number; // height of the part from which the panel has come, CSS pixels
 }
 
 export class SideRoom {
@@ -15,8 +15,8 @@ export class SideRoom {
 
   constructor(private readonly api: DockviewApi) {}
 
-  // Joins the lowest parts of the column until each part has the minimum height in this fraction of
-  // the column. `column`: its parts from the top.
+  // Joins the lowest parts of the column until each part has the minimum height. The column has
+  // this fraction of its present height. `column` contains its parts, from the top.
   make(column: readonly DockviewGroupPanel[], fraction: number): void {
     const parts = [...column];
     const height = fraction * parts.reduce((sum, part) => sum + part.height, 0);
@@ -32,7 +32,7 @@ export class SideRoom {
     }
   }
 
-  // Returns the panels that have joined another part, below that part again.
+  // Moves the panels that have joined another part back to a part below it.
   restore(): void {
     const joined = this.joined;
     this.joined = [];

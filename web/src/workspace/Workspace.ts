@@ -1,5 +1,5 @@
 // The area beside the robot list: the view and the panels, docked by dockview. The store lists the
-// open panels (openPanels). The user may move, resize, maximise and close them, or give them a
+// open panels (openPanels). The user may move, resize, maximise and close panels, or open them in a
 // separate window.
 import type { DockviewApi, DockviewGroupPanel, IContentRenderer, IDockviewPanel, IHeaderActionsRenderer, ITabRenderer } from "dockview";
 import { createDockview } from "dockview";
@@ -104,7 +104,7 @@ export class Workspace {
     return this.api.getPanel(id)?.api.isVisible ?? false;
   }
 
-  // Brings a panel to the front if it is behind another tab.
+  // If a panel is behind another tab, brings it to the front.
   reveal(id: string): void {
     this.api.getPanel(id)?.api.setActive();
   }
@@ -126,7 +126,7 @@ export class Workspace {
     this.room.forget();
     try {
       const panels = panelsOf(layout).map((id) => ({ id, title: this.titleOf(id) }));
-      // Sets the size of the dock first, because a dock without a size cannot use the sizes of
+      // Sets the size of the dock first, because a dock without a size ignores the sizes of its
       // parts.
       this.api.layout(this.space.width, this.space.height, true);
       this.api.fromJSON(toDockview(layout, this.space, panels), { reuseExistingPanels: true });
@@ -145,8 +145,8 @@ export class Workspace {
     for (const id of ids) if (!this.api.getPanel(id)) this.add(id);
   }
 
-  // Opens a panel beside panels of its kind, or else in a new part at the side of the view or below
-  // it.
+  // Opens a panel beside panels of its kind. If there are none, opens it in a new part at the side
+  // of the view or below the view.
   private add(id: string): void {
     const panel = this.of.panels.find((each) => each.id === id);
     if (!panel) return;
@@ -168,7 +168,8 @@ export class Workspace {
     this.constrain(this.api.addPanel({ id, component: id, tabComponent: "tab", title: panel.title, position, ...(kin ? {} : size) }));
   }
 
-  // An open panel whose part accepts this panel as a tab; `place` null: any part except the view's.
+  // Returns an open panel whose part accepts this panel as a tab. If `place` is null, any part
+  // except the view's part is accepted.
   private kinOf(id: string, place: Panel["place"] | null): IDockviewPanel | undefined {
     const viewGroup = this.api.getPanel(VIEW)?.group;
     const placeOf = (each: string) => this.of.panels.find((panel) => panel.id === each)?.place ?? "below";

@@ -64,7 +64,7 @@ function partOf(node: GridNode, isRow: boolean): Part | null {
   const parts = children.flatMap((child): Split["parts"] => {
     const part = partOf(child, !isRow);
     const share = Math.max(1, Math.round((1000 * (child.size ?? 0)) / total));
-    // Dockview stores divisions that contain only one part; these are removed.
+    // Dockview also stores rows and columns that contain only one part. These are removed.
     if (part && "split" in part && part.split === split) {
       return part.parts.map((inner) => ({ ...inner, share: Math.max(1, Math.round((inner.share * share) / 1000)) }));
     }
