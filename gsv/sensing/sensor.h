@@ -87,7 +87,7 @@ class Sampling {
   RaySceneCache& rays_;
   mutable std::shared_ptr<const RayScene> scene_;  // null until the first use
   mutable std::size_t expected_rays_ = 0;
-  mutable bool has_gathered_ = false;  // whether candidates_ are those of the present body
+  mutable bool has_gathered_ = false;  // whether candidates_ belong to the present body
   mutable std::unique_ptr<CandidateSet> candidates_;
   mutable int link_ = -1;  // index of the link whose pose is world_from_link_
   mutable geometry::Pose world_from_link_;

@@ -27,9 +27,9 @@ class SimulationHost {
         library_(std::move(library)),
         max_simulations_(max_simulations) {}
 
-  // Reads the world, unless `specification.world` is set, and creates a simulation. Chooses a name
-  // if the specification has none. Fails if another simulation has the name. Adds problems of the
-  // files to `problems`.
+  // Creates a simulation. If `specification.world` is not set, reads the world first. Chooses a
+  // name if the specification has none. Fails if another simulation has the name. Adds problems of
+  // the files to `problems`.
   base::Result<std::shared_ptr<simulation::Simulation>> Create(
       simulation::Specification specification, const std::string& world, base::Problems& problems);
   // Creates a simulation for a preview. The simulation is not in the list, and another simulation

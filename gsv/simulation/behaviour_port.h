@@ -22,7 +22,8 @@ class BehaviourPort {
  public:
   virtual ~BehaviourPort() = default;
 
-  // Gives the behaviour its robot. It may open sensors before it returns.
+  // Initialises the behaviour with the agent of its robot. The behaviour may open sensors in this
+  // call.
   virtual base::Status Init(const std::shared_ptr<Agent>& agent) = 0;
   // Starts the behaviour at the start of the run.
   virtual base::Status Start() = 0;

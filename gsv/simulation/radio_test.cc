@@ -77,8 +77,8 @@ std::shared_ptr<ThreadBehaviour> Hears(std::vector<SimTime> instants,
 TEST(Radio, DeliversWithTheNextStepInTheOrderOfSenders) {
   std::map<SimTime, Inbox> heard;
   auto simulation = Make(Lockstep(300ms));
-  // The robots are added in another order than that of their names: the robot that is added first
-  // has the last name.
+  // The robots are not added in the order of their names: the robot that is added first is the last
+  // by name.
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("zoe", 0, 2, Says({"z1", "z2"}))));
   ASSERT_TRUE(
       simulation->AddRobot(RobotWithRadio("ear", 0, 0, Hears({100ms, 110ms, 200ms}, heard))));

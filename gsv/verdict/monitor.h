@@ -29,7 +29,7 @@ class Monitor {
   // is already known.
   void Step(base::SimTime now, base::SimTime step, const std::function<bool(int atom)>& holds);
   // Ends the run. Pending "eventually" obligations become violated; pending "always" obligations
-  // hold.
+  // become satisfied.
   void End();
 
   // The verdict; nullopt while it is undecided.

@@ -19,8 +19,8 @@ constexpr double kBoundless = std::numeric_limits<double>::infinity();
 // A body is too far away if its distance exceeds kFarMetres plus kFarRadii times the radius of all
 // nearer bodies. It is then not shown.
 constexpr double kFarRadii = 20, kFarMetres = 100;
-// A body counts as ground if its height is at most kFlat times its width, and its area is at least
-// kMuchMore times that of the other bodies.
+// A body counts as ground if it is flat and large: its height is at most kFlat times its width, and
+// its area is at least kMuchMore times the area of the other bodies.
 constexpr double kFlat = 0.02, kMuchMore = 4;
 
 Bounds Nothing() {

@@ -11,7 +11,7 @@ namespace gsv::rendering {
 namespace {
 
 constexpr int kMaxLayers = 16;
-// maximum number of pixels in all layers, unless one layer alone has more
+// maximum number of pixels in all layers; if one image has more pixels, there is only one layer
 constexpr int kMaxPixels = 4 << 20;
 
 }  // namespace

@@ -21,12 +21,12 @@ class BatchRenderer {
  public:
   virtual ~BatchRenderer() = default;
 
-  // Renders the images; image i is that of views[i]. Fails if the back end fails, usually for lack
-  // of memory.
+  // Renders the images; image i shows views[i]. Fails if the back end fails, usually because there
+  // is not enough memory.
   virtual base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
 
-  // Renders depth and label images; element i is that of views[i]. Fails if no rasteriser is
+  // Renders depth and label images; element i is the image of views[i]. Fails if no rasteriser is
   // available.
   virtual base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;

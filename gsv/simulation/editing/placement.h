@@ -14,7 +14,7 @@ namespace gsv::simulation {
 // Returns the position as a text, such as "(1, 2)".
 std::string PlaceText(const geometry::Pose& pose);
 
-// A robot that was pushed out of a body other than a robot.
+// A robot that was pushed out of another body. This body is not a robot.
 struct PushedOut {
   std::string robot;
   std::string sentence;  // a sentence with the new position and the reason

@@ -43,8 +43,8 @@ class RobotCommands {
   };
 
   void SetDrive(const Drive& drive) { drive_ = drive; }
-  // Sets the drive command, unless the command that is already set came from a clock with a higher
-  // id.
+  // Sets the drive command. If the command that is already set came from a clock with a higher id,
+  // does nothing.
   void OfferDrive(const Drive& drive);
   void CommandJoint(int joint, const world::JointCommand& command);
   // Removes the command of a joint.

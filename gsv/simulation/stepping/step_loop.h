@@ -78,8 +78,8 @@ class StepLoop {
   void ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread);
   // Adds an agent whose turn has ended to the lists of SharedState.
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
-  // Sets SharedState::held_up_by to the robot whose turn took the longest, unless another agent
-  // still delays the step.
+  // Sets SharedState::held_up_by to the robot whose turn took the longest. Does nothing if another
+  // agent still delays the step.
   void NoteLongestTurn() GSV_REQUIRES(simulation_mutex);
   // Runs the work of Turn::Block() on another thread. The agent is then ready for its next turn.
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);

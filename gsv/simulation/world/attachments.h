@@ -8,7 +8,7 @@
 
 namespace gsv::simulation {
 
-// Attaches the bodies that grippers hold, in the engine.
+// Attaches grasped bodies to their grippers in the engine.
 class Attachments {
  public:
   // Sets the layout of `engine`, with the attachments of `state`.

@@ -1,4 +1,5 @@
-// The simulations of earlier servers that ended unexpectedly, until somebody dismisses them.
+// The simulations of earlier servers that ended unexpectedly. A simulation is listed until a user
+// dismisses it.
 import { ApiError } from "../api/JsonServer";
 import type { JsonServer } from "../api/JsonServer";
 import { listAt, numberAt, objectAt, textAt, textOr } from "../api/json";

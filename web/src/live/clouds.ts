@@ -144,7 +144,7 @@ export interface TouchPoint {
 
 const MOST_CONTACTS = 200;
 
-// Returns the contacts in a bumper's message, or none if it is not such a message.
+// Returns the contacts in a bumper's message. If the message is of another kind, there are none.
 export function contactsOf(message: unknown): TouchPoint[] {
   const contacts = (message as { contacts?: unknown } | null)?.contacts;
   if (!Array.isArray(contacts)) return [];

@@ -57,7 +57,7 @@ function slider(app: App): HTMLElement {
   return input;
 }
 
-// A press on a mark goes to its time; the keys "," and "." do the same.
+// A press on a mark goes to its time. The keys "," and "." go to the previous and the next mark.
 function marks(app: App): HTMLElement {
   const place = element("div", { class: "timeline-marks", role: "group", "aria-label": "Events" });
   let timer: ReturnType<typeof setTimeout> | undefined;

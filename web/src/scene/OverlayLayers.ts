@@ -174,7 +174,8 @@ export class OverlayLayers {
     }
   }
 
-  // The beams of the selected robot have priority, then those of the nearest robots.
+  // The beams of the selected robot have the highest priority, then the beams of the nearest
+  // robots.
   private placeBeams(bodies: BodyLayer, eye: Vector3): void {
     const place = new Vector3();
     this.beams.place(
