@@ -245,7 +245,7 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
   read(simulation + "/robots/{robot}/topics", &TopicsOf, "List the topics of a robot's sensors");
   read(simulation + "/replay", &PlaybackOf,
        "Get the time, speed and state of a replay (replays only)");
-  read(simulation + "/events", &EventsOf, "List the events so far, or those of a recording");
+  read(simulation + "/events", &EventsOf, "List the events of a simulation or of a recording");
   read(simulation + "/log", &LogOf, "List the log messages of a recording, /rosout (replays only)");
   read(simulation + "/curve", &CurveOf, "Get a value over the whole recording (replays only)");
   change("POST", "/replay", &ChangePlayback,

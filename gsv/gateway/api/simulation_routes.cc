@@ -127,7 +127,7 @@ std::vector<Route> BodyRoutes(const std::shared_ptr<SimulationDirectory>& direct
        OfSimulation(directory, &RemoveObject), "Remove an object"},
       {"POST", simulation + "/bodies/{body}/place", kControl, true, kCommanders,
        OfSimulation(directory, &PlaceBody),
-       "Set the pose of a robot, an avatar or an object; it then stands still"},
+       "Set the pose of a robot, an avatar or an object, and stop its motion"},
   };
 }
 

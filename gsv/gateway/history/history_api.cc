@@ -77,13 +77,13 @@ std::vector<Route> HistoryApi::Routes() {
   return {
       {"GET", simulation + "/history", kWatch, false, kReaders,
        of([this](const auto& of_name, const Request&) { return Extent(of_name); }),
-       "Get which part of the past of a simulation is kept"},
+       "Get the part of a simulation's past that the server stores"},
       {"POST", simulation + "/history", kWatch, false, kCommanders,
        of([this](const auto& of_name, const Request&) { return Open(of_name); }),
        "Open the stored past of a simulation as your own replay"},
       {"GET", simulation + "/events", kWatch, false, kReaders,
        of([this](const auto& of_name, const Request& request) { return Events(of_name, request); }),
-       "List the events so far, or those of a recording"},
+       "List the events of a simulation or of a recording"},
       {"POST", simulation + "/notes", kControl, true, kReaders,
        of([this](const auto& of_name, const Request& request) {
          return AddNote(of_name, request.body);

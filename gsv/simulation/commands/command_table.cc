@@ -42,7 +42,7 @@ std::span<const Command> Commands() {
          return s.Step(given.Get<std::int64_t>("count"));
        }},
       {"real_time_factor",
-       "Set the target real-time factor of a simulation in real time",
+       "Set the target real-time factor of a simulation in real-time mode",
        {{.name = "real_time_factor",
          .former_name = "factor",
          .type = kNumber,
@@ -55,7 +55,7 @@ std::span<const Command> Commands() {
        },
        "factor"},
       {"set_gravity",
-       "Set gravity along the world's z, while created or paused",
+       "Set the gravity of a created or paused simulation, along the world's z axis",
        {{.name = "z",
          .type = kNumber,
          .unit = "m/s²",
