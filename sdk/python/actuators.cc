@@ -52,7 +52,7 @@ void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
   gripper
       .def(
           "grasp", [](Gripper& self) { RunCommand([&] { return self.Grasp(); }); },
-          "Closes the fingers. They attach the dynamic body between them until they open.")
+          "Closes the fingers. A dynamic body between the fingers is attached until they open.")
       .def(
           "open", [](Gripper& self) { RunCommand([&] { return self.Open(); }); },
           "Opens the fingers and detaches the body.")

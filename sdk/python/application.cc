@@ -75,7 +75,7 @@ void BindState(py::module_& module) {
           "agent", &RobotState::agent,
           "state of the behaviour: \"running\", \"waiting\", \"finished\", \"unresponsive\", "
           "\"dead\", …")
-      .def_readonly("place", &RobotState::place, "its pose in the world")
+      .def_readonly("place", &RobotState::place, "pose of the robot in the world")
       .def_readonly("distance", &RobotState::distance, "driven distance in m")
       .def_readonly("collisions", &RobotState::collisions)
       .def("__repr__", [](const RobotState& r) {
@@ -141,7 +141,8 @@ void BindApplications(py::module_& module) {
            }),
            py::arg("broker"));
   py::class_<PythonSimulation, Owned<PythonSimulation>>(
-      module, "Simulation", "A simulation on a server. It is destroyed together with this object.")
+      module, "Simulation",
+      "A simulation on a server. The server destroys it when this object is deleted.")
       .def(py::init(&Create), py::arg("application"), py::arg("world"), py::arg("constraint"),
            py::arg("preference"), py::arg("lockstep"), py::arg("factor"), py::arg("step"),
            py::arg("seed"), py::arg("name"), py::arg("options"))
@@ -163,8 +164,8 @@ void BindApplications(py::module_& module) {
            "Executes a command of the simulator with named arguments: "
            "command(\"step\", count=10).")
       .def("run_until", &RunUntil, py::arg("instant"), py::kw_only(), py::arg("patience") = 600.0,
-           "Runs until that simulated time in seconds and pauses. Blocks until then, but at most "
-           "`patience` seconds of wall-clock time.")
+           "Runs until the simulated time `instant` (in seconds), and pauses. Blocks until then, "
+           "but at most `patience` seconds of wall-clock time.")
       .def("state", Calling(&RemoteSimulation::State), LetOthersRun(),
            "Returns the current state of the simulation and its robots.")
       .def("state_hash", Calling(&RemoteSimulation::StateHash), LetOthersRun(),

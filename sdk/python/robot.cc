@@ -117,7 +117,7 @@ void BindJoints(py::module_& module) {
       .def_readonly("position", &JointState::position)
       .def_readonly("velocity", &JointState::velocity);
   py::class_<Joint>(module, "Joint",
-                    "A joint that accepts commands. A command applies until the next one.")
+                    "A joint that accepts commands. A command applies until the next command.")
       .def_property_readonly("traits", &Joint::traits)
       .def("move_to", &Joint::MoveTo, py::arg("position"), LetOthersRun())
       .def("move_at", &Joint::MoveAt, py::arg("velocity"), LetOthersRun())
@@ -132,7 +132,7 @@ void BindRobot(py::module_& module) {
   BindJoints(module);
   py::class_<RemoteRobot, std::shared_ptr<RemoteRobot>>(
       module, "Robot",
-      "A robot as its behaviour sees it. After the end of the run every call returns at once and "
+      "The robot that a behaviour drives. After the end of the run every call returns at once and "
       "does nothing. Times are in simulated seconds. Use a robot in one thread only.")
       .def_property_readonly("name", &RemoteRobot::name)
       .def_property_readonly(
@@ -165,7 +165,7 @@ void BindRobot(py::module_& module) {
           },
           py::arg("linear"), py::arg("angular"), py::arg("lateral") = 0.0, LetOthersRun(),
           "Commands the velocity of the base in m/s and rad/s. The command applies until the next "
-          "one. `lateral` is the velocity to the left, for bases that can move sideways.")
+          "command. `lateral` is the velocity to the left, for bases that can move sideways.")
       .def(
           "now", [](RemoteRobot& robot) { return SecondsOf(robot.Now()); }, LetOthersRun(),
           "Returns the time of the robot's clock in simulated seconds.")
@@ -173,18 +173,19 @@ void BindRobot(py::module_& module) {
           "sleep_until",
           [](RemoteRobot& robot, double instant) { return robot.SleepUntil(TimeFrom(instant)); },
           py::arg("instant"), LetOthersRun(),
-          "Sleeps until this simulated time in seconds. Returns False if the run has ended.")
+          "Sleeps until the simulated time `instant` (in seconds). Returns False if the run has "
+          "ended.")
       .def(
           "sleep_for",
           [](RemoteRobot& robot, double duration) { return robot.SleepFor(TimeFrom(duration)); },
           py::arg("duration"), LetOthersRun(),
-          "Sleeps for this simulated time in seconds. Returns False if the run has ended.")
-      .def(
-          "exchange", &Exchange, py::arg("linear"), py::arg("angular"), py::arg("until"),
-          py::arg("lateral") = 0.0,
-          "Does one control cycle in one round trip: commands the base, sleeps until the instant "
-          "`until`, then reads all open sensors. Returns a dict of Reading by sensor name, or None "
-          "if the run has ended.")
+          "Sleeps for `duration` simulated seconds. Returns False if the run has ended.")
+      .def("exchange", &Exchange, py::arg("linear"), py::arg("angular"), py::arg("until"),
+           py::arg("lateral") = 0.0,
+           "Performs one control cycle in one round trip: commands the base, sleeps until the "
+           "instant `until`, then reads all open sensors. Returns a dict of Reading by sensor "
+           "name, or None "
+           "if the run has ended.")
       .def_property_readonly("is_running", &RemoteRobot::IsRunning)
       .def_property_readonly(
           "error", &RemoteRobot::error,

@@ -33,7 +33,7 @@ py::array_t<std::uint8_t> ToArray(Image image) {
   return py::array_t<std::uint8_t>({of.height, of.width, 3}, of.rgb.data(), owner);
 }
 
-// Returns the struct of a reading in Python. It is empty after the end of the run.
+// Returns the values of a reading as a struct. After the end of the run, the struct is empty.
 template <typename Values>
 Values ValuesIn(Sensor& sensor, const Reading& reading) {
   return sensor.In<Values>(reading).value_or(Values());
@@ -111,7 +111,7 @@ void BindPlainData(py::module_& module) {
       .def_readonly("type", &SensorTraits::type, "\"sonar\", \"camera\", …")
       .def_readonly("robot_from_sensor", &SensorTraits::robot_from_sensor)
       .def_readonly("update_rate", &SensorTraits::update_rate,
-                    "in Hz; 0 if each request makes a new reading")
+                    "rate of new readings in Hz; 0 if each request makes a new reading")
       .def_readonly("parameters", &SensorTraits::parameters)
       .def("__repr__",
            [](const SensorTraits& t) { return py::str("<{} \"{}\">").format(t.type, t.name); });
@@ -191,7 +191,7 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
 
 void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
   BindKind<PositioningSystem>(module, "PositioningSystem", sensor,
-                              "Measures its pose in the world.")
+                              "Measures the pose of the sensor in the world.")
       .def("locate", &PositioningSystem::Locate, LetOthersRun(),
            "Returns the pose of the sensor in the world.");
   auto imu = BindKind<Imu>(module, "Imu", sensor, "Measures angular velocity and specific force.");
@@ -217,9 +217,9 @@ void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
   BindKind<Magnetometer>(module, "Magnetometer", sensor, "Measures the magnetic field.")
       .def("field", &Magnetometer::Field, LetOthersRun(),
            "Returns the field in the sensor's frame, in tesla.");
-  auto altimeter =
-      BindKind<Altimeter>(module, "Altimeter", sensor,
-                          "Measures the height above its reference, and the vertical speed.");
+  auto altimeter = BindKind<Altimeter>(
+      module, "Altimeter", sensor,
+      "Measures the height above the reference height, and the vertical speed.");
   altimeter.def("measured", &Altimeter::Measured, LetOthersRun());
   BindReading<Altimeter::Height>(altimeter, "Height",
                                  "Height above the reference in m, and vertical speed in m/s.");
@@ -253,7 +253,7 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
       .def("distance", &Ranging::Distance, LetOthersRun(),
            "Returns the distance in m; inf if the anchor is not received.");
   auto radio = BindKind<Radio>(module, "Radio", sensor,
-                               "Sends messages to other robots and receives theirs.");
+                               "Sends messages to other robots and receives their messages.");
   const auto send = [](Radio& from, const std::string& receiver, const std::string& content) {
     base::Status sent;
     {
@@ -264,14 +264,14 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
   };
   radio
       .def("send", send, py::arg("receiver"), py::arg("content"),
-           "Sends to the robot of this name. There is no confirmation that it was received.")
+           "Sends a message to the robot `receiver`, without a confirmation of its reception.")
       .def(
           "broadcast", [send](Radio& from, const std::string& content) { send(from, "", content); },
-          py::arg("content"), "Sends to all robots in range.")
+          py::arg("content"), "Sends a message to all robots in range.")
       .def("receive", &Radio::Receive, LetOthersRun(),
            "Returns the messages that were received since the last call, the oldest first.")
       .def_property_readonly("missed", &Radio::missed,
-                             "number of lost messages: the inbox was full before receive()");
+                             "number of messages that were lost because the inbox was full");
   py::class_<Radio::Message>(radio, "Message")
       .def_readonly("sender", &Radio::Message::sender)
       .def_property_readonly(

@@ -11,8 +11,8 @@ _open: dict[int, tuple[weakref.ref[Any], Callable[[Any], None]]] = {}
 
 
 def end_at_exit(thing: Any, end: Callable[[Any], None]) -> None:
-    """Registers the call `end(thing)` for the exit of the interpreter. It is made only if `thing`
-    still exists then. The last registered call is made first."""
+    """Registers the call `end(thing)`, which is made when the interpreter exits, if `thing` still
+    exists then. The calls are made in the reverse order of their registration."""
     key = id(thing)
     _open[key] = weakref.ref(thing, lambda _: _open.pop(key, None)), end
 

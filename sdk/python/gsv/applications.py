@@ -41,7 +41,7 @@ class Simulation(_native.Simulation):
 
 
 class Application(_native.Application):
-    """A connection to a broker, which creates simulations on the servers that it knows."""
+    """A connection to a broker. It creates simulations on the servers that the broker knows."""
 
     def create(self, world: str = "", *, constraint: str = "", preference: str = "first",
                lockstep: bool = True, factor: float = 1.0, step: float = 0.0, seed: int = 0,
@@ -49,8 +49,8 @@ class Application(_native.Application):
         """Creates a simulation of `world` on a server whose offer matches `constraint` (with the
         properties in docs/services.md). If several match, `preference` ("first", "min load",
         "random") decides. In lockstep, the simulation is reproducible and as fast as possible;
-        otherwise it runs at `factor` times real time. `step` is in seconds; 0 means the world's own
-        step. `options` are those of sba::SimulationSpecification: "on_failure", "deadline_s",
+        otherwise it runs with the target real-time factor `factor`. `step` is in seconds; 0 means the
+        step of the world. `options` are those of sba::SimulationSpecification: "on_failure", "deadline_s",
         "abandoned_after_s"."""
         simulation = Simulation(self, world, constraint, preference, lockstep, factor, step, seed,
                                 name, dict(options))
@@ -59,7 +59,8 @@ class Application(_native.Application):
 
 
 def connect(broker: str = "") -> Application:
-    """Connects to the broker `broker` (corbaloc::1.2@HOST:PORT/TradingService) or $GSV_BROKER."""
+    """Connects to `broker` (corbaloc::1.2@HOST:PORT/TradingService); if it is empty, to the broker
+    that the variable GSV_BROKER names."""
     broker = broker or os.environ.get("GSV_BROKER", "")
     if not broker:
         raise Refused("no broker was named: pass its reference, or set GSV_BROKER; "

@@ -13,7 +13,7 @@ from gsv import _native
 from gsv._ending import end_at_exit
 from gsv.errors import Error, Refused
 
-_USAGE, _INFRASTRUCTURE = 2, 5  # exit codes, the same as for C++ programs
+_USAGE, _INFRASTRUCTURE = 2, 5  # exit codes, equal to those of C++ programs
 
 
 class Behaviour:

@@ -7,7 +7,7 @@ class Error(Exception):
 
 
 class Refused(Error, ValueError):
-    """A request that cannot succeed unless it is changed."""
+    """A request that can never succeed in this form and must be changed."""
 
 
 class BadModel(Error, ValueError):

@@ -39,7 +39,7 @@ _BAD_SCENARIO = 3  # exit code
 
 
 def find_program(name: str) -> str:
-    """Returns the path of one of GSV's programs. Searches beside $GSV_PROGRAM, in the installation of
+    """Returns the path of the GSV program `name`. Searches beside $GSV_PROGRAM, in the installation of
     this package, and on the PATH. A `name` with a slash is returned unchanged."""
     if os.sep in name:
         return name
@@ -73,7 +73,7 @@ class PrivateSimulator:
         return self.application.create(world, **request)
 
     def start(self, program: str, *options: str) -> None:
-        """Starts a program that offers a behaviour, and waits until it does."""
+        """Starts a program that offers a behaviour, and waits for the offer."""
         path = find_program(program)
         command = [sys.executable, path] if path.endswith(".py") else [path]
         self._run("offered at", *command, *options)
@@ -119,15 +119,15 @@ class ScenarioResult:
     """The result of `gsv test` for one scenario."""
 
     scenario: str
-    status: str  # "passed", "failed", "error", "interrupted"
-    message: str  # the reason, if it has not passed
-    folder: str  # the folder with the recording of a failure; empty if it was not recorded
+    status: str  # "passed", "failed", "error" or "interrupted"
+    message: str  # the reason why the scenario has not passed; empty if it has passed
+    folder: str  # the folder with the recording of a failure; empty if there is no recording
     state_hashes: list[str]  # final state hash of each repetition
     report: dict[str, Any]  # the report of `gsv run --json`; empty if the run has no report
 
 
 def run_scenarios(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
-    """Runs `gsv test ARGUMENT…` and returns one result per scenario. Arguments are files, folders
+    """Runs `gsv test ARGUMENT…` and returns one result per scenario. The arguments are files, folders
     and options such as "--repeat", "3". Raises BadModel with gsv's message if a file is missing or
     is not a scenario."""
     command = [find_program("gsv"), "test", "--json", *(os.fspath(each) for each in arguments)]
@@ -167,8 +167,8 @@ else:
 
     @pytest.fixture
     def expect_passes(tmp_path: Path) -> Callable[..., list[ScenarioResult]]:
-        """Runs scenarios like run_scenarios(), and fails the test with the messages of those that do
-        not pass. Recordings of failures are in the test's tmp_path."""
+        """Runs scenarios like run_scenarios(), and fails the test if a scenario does not pass. The
+        failure lists the messages of these scenarios. Their recordings are in the test's tmp_path."""
 
         def expect(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
             results = run_scenarios("--failures", tmp_path / "gsv-failures", *arguments)
