@@ -326,8 +326,8 @@ void AddBrokerBench(const CommandLine& bench) {
     std::uint32_t offers = 100'000;
     bool json = false;
   };
-  CLI::App* command =
-      bench.app.add_subcommand("broker", "Speed and memory of a broker with many offers");
+  CLI::App* command = bench.app.add_subcommand(
+      "broker", "Measure the speed and memory of a broker with many offers");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("--offers", arguments->offers, "number of offers")
       ->type_name("N")

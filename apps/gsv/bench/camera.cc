@@ -237,7 +237,7 @@ int Run(const CameraArguments& arguments) {
 
 void AddCameraBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "camera", "Camera images of driving robots in real time: throughput and latency");
+      "camera", "Measure throughput and latency of camera images of driving robots, in real time");
   auto arguments = std::make_shared<CameraArguments>();
   command->add_option("--cameras", arguments->cameras, "images per batch")
       ->type_name("N")
@@ -258,7 +258,7 @@ void AddCameraBench(const CommandLine& bench) {
       ->type_name("MODEL")
       ->capture_default_str();
   command->add_flag("--overview", arguments->overview,
-                    "use cameras that circle above the world, instead of those of the robots");
+                    "use cameras that circle above the world, instead of the robots' cameras");
   command->add_option("--duration", arguments->duration, "wall-clock time of the measurement")
       ->type_name("SECONDS")
       ->capture_default_str()

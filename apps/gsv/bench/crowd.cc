@@ -229,7 +229,7 @@ int Crowd(const CrowdArguments& arguments) {
 
 void AddCrowdBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "crowd", "Many wandering robots in a walled square, in process and as fast as possible");
+      "crowd", "Measure many wandering robots in a walled square, in process and in lockstep");
   auto arguments = std::make_shared<CrowdArguments>();
   command->add_option("--robots", arguments->robots, "numbers of robots, one row for each")
       ->type_name("N,...")

@@ -190,7 +190,7 @@ int RunLidarBench(LidarArguments arguments) {
 
 void AddLidarBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "lidar", "Lidar scans of driving robots: rays and scans per second, processor time per ray");
+      "lidar", "Measure lidar scans of driving robots: scans and rays per second, time per ray");
   auto arguments = std::make_shared<LidarArguments>();
   arguments->scene.mode = simulation::Mode::kLockstep;
   command->add_option("--rays", arguments->rays, "rays per scan, in a full circle")

@@ -89,7 +89,8 @@ int Rigid(RigidArguments arguments) {
 
 void AddRigidBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "rigid", "Rigid-body dynamics: rovers, a heap of boxes, rovers on terrain, or arms");
+      "rigid",
+      "Measure rigid-body dynamics of rovers, a heap of boxes, rovers on terrain, or arms");
   auto arguments = std::make_shared<RigidArguments>();
   command->add_option("--scene", arguments->scene, "scene")
       ->type_name("rovers|boxes|terrain|arms")

@@ -293,7 +293,8 @@ std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> 
 
 void AddTypicalBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "typical", "Robots with the typical behaviour, in other processes and in real time");
+      "typical",
+      "Measure robots with the typical behaviour, in separate processes and in real time");
   auto arguments = AddCommon(*command, {1, 2, 3, 4, 5});
   auto* behaviour =
       command->add_option("--behaviour", arguments->behaviour, "behaviour of the robots")
@@ -314,8 +315,7 @@ void AddTypicalBench(const CommandLine& bench) {
 
 void AddLockstepBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "lockstep",
-      "Behaviours in other processes, as fast as possible: separate calls and one exchange");
+      "lockstep", "Compare cycles with separate calls and with one exchange, in lockstep");
   auto arguments = AddCommon(*command, {5});
   arguments->mode = simulation::Mode::kLockstep;
   command->callback([arguments, bench] { bench.exit_code = Lockstep(*arguments); });

@@ -65,7 +65,7 @@ void AddBrokerCommand(const CommandLine& line) {
           ->add_option("--data", arguments->file,
                        "file that keeps offers and service types (default: broker-PORT.db)\n"
                        "The default is in the folder gsv of $XDG_DATA_HOME (~/.local/share). "
-                       "With --port 0, there is none.")
+                       "With --port 0, there is no default file.")
           ->type_name("FILE");
   command->add_flag("--memory", arguments->memory, "keep offers and service types in memory only")
       ->excludes(file);

@@ -43,8 +43,8 @@ base::Status FindBroker(std::string& broker) {
   const std::vector<Instance> instances = RunningInstances();
   if (instances.empty()) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "no gsv of this user is running, so no broker is known; give its address "
-                      "with --broker");
+                      "no gsv of this user is running, so no broker is known; give the address "
+                      "of a broker with --broker");
   }
   broker = instances.front().broker;
   return {};
@@ -65,7 +65,7 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
       ->envname("GSV_BROKER");
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   const std::string which(one);
-  arguments->list = command->add_subcommand("list", "List all (default)");
+  arguments->list = command->add_subcommand("list", "List all " + std::string(name) + " (default)");
   arguments->add = command->add_subcommand("add", "Add " + which);
   arguments->remove = command->add_subcommand("remove", "Remove " + which);
   for (CLI::App* sub : {arguments->list, arguments->add, arguments->remove}) sub->fallthrough();
@@ -198,13 +198,14 @@ void AddTypesCommand(const CommandLine& line) {
       ->add_option("--interface", arguments->interface_name,
                    "interface that offered services must have, IDL:...")
       ->type_name("ID");
-  arguments->add->add_option("--super", arguments->super_types, "super type")->type_name("NAME");
+  arguments->add->add_option("--super", arguments->super_types, "super type of the service type")
+      ->type_name("NAME");
   arguments->add
       ->add_option(
           "--property", arguments->properties,
           "property in the form [mandatory] [readonly] TYPE NAME, as `gsv types` prints it")
       ->type_name("PROPERTY");
-  arguments->remove->add_option("NAME", arguments->name, "name of the entry")->required();
+  arguments->remove->add_option("NAME", arguments->name, "name of the service type")->required();
 }
 
 void AddLinksCommand(const CommandLine& line) {
@@ -232,7 +233,7 @@ void AddLinksCommand(const CommandLine& line) {
       ->transform(CLI::CheckedTransformer(rules))
       ->type_name("local_only|if_no_local|always")
       ->default_str("always");
-  arguments->remove->add_option("NAME", arguments->name, "name of the entry")->required();
+  arguments->remove->add_option("NAME", arguments->name, "name of the link")->required();
 }
 
 }  // namespace gsv::app

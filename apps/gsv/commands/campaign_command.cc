@@ -215,7 +215,7 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
   EngineOptions& options = arguments->options;
   run->add_option(
          "-j,--jobs", options.jobs,
-         "runs to execute in parallel (default: one per processor; servers: all that they accept)")
+         "runs in parallel (default: one per processor; with --broker: all that servers accept)")
       ->check(Between(0, 256))
       ->type_name("N");
   run->add_option("--timeout", options.timeout, "limit of the wall-clock time of a run")
@@ -239,7 +239,8 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
       ->type_name("CONSTRAINT");
   AddEngineOptions(run, arguments)->excludes(broker);
   run->add_option("--shard", arguments->shard,
-                  "run only the I-th of N equal shares; `gsv campaign status` collects the results")
+                  "run only the I-th of N equal shares of the runs\n`gsv campaign status` collects "
+                  "the results.")
       ->type_name("I/N");
   run->callback([=] { line.exit_code = RunCampaign(*arguments, line.signals); });
 }

@@ -63,8 +63,7 @@ void AddCertificatesCommand(const CommandLine& line) {
   command->add_option("folder", arguments->folder, "folder of the authority and its certificates")
       ->required();
   command
-      ->add_option("--name", arguments->names,
-                   "name of the certificate and its files; repeat it for several")
+      ->add_option("--name", arguments->names, "name of a certificate and of its files; repeatable")
       ->allow_extra_args(false)
       ->type_name("NAME")
       ->capture_default_str();

@@ -182,7 +182,7 @@ void AddCheckCommands(const CommandLine& line) {
   CLI::Option* security =
       doctor->add_flag("--security", asked->security,
                        "list the ports of running gsv programs, and who can reach them");
-  doctor->add_flag("--json", asked->json, "print one JSON object per program, with --security")
+  doctor->add_flag("--json", asked->json, "print one JSON object per program; only with --security")
       ->needs(security);
   doctor->add_option("--broker", asked->broker, "broker that must respond")
       ->type_name("ADDRESS")

@@ -212,7 +212,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--model-path", arguments->model_path, "folder to search for models")
       ->type_name("FOLDER");
-  command.add_flag("--json", arguments->json, "one JSON object");
+  command.add_flag("--json", arguments->json, "print one JSON object");
   return arguments;
 }
 
@@ -222,7 +222,7 @@ void AddCompareCommands(const CommandLine& line) {
   CLI::App* compare = line.app.add_subcommand(
       "compare", "Compare a real robot's log with simulated devices at the same poses");
   auto compared = AddOptions(*compare);
-  compare->add_option("--plot", compared->plot, "SVG file for the distributions");
+  compare->add_option("--plot", compared->plot, "write the distributions as SVG to this file");
   compare->callback([compared, line] { line.exit_code = Compare(*compared); });
 
   CLI::App* fit =

@@ -222,7 +222,8 @@ void AddCompletionCommand(const CommandLine& line) {
   auto shell = std::make_shared<std::string>();
   command
       ->add_option("shell", *shell,
-                   "shell\nThe packages install these scripts. Otherwise: source <(gsv completion "
+                   "name of the shell\n"
+                   "The packages install these scripts. Otherwise: source <(gsv completion "
                    "bash)")
       ->required()
       ->check(OneOf({"bash", "zsh", "fish"}))

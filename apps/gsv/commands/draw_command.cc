@@ -126,7 +126,7 @@ void AddDrawCommand(const CommandLine& line) {
           ->add_option("-o,--output", arguments->image, "image to write, .jpg or .png (required)")
           ->type_name("FILE")
           ->check(CheckImageName);
-  command->add_option("image", arguments->image, "the same as --output")
+  command->add_option("image", arguments->image, "image to write, instead of --output")
       ->check(CheckImageName)
       ->excludes(output);
   command->add_option("--model-path", arguments->model_path, "folder to search for models")

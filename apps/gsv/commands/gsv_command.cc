@@ -71,13 +71,13 @@ void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
       ->type_name("FILE")
       ->envname("GSV_CORBA_KEY");
   app.add_option("--corba-authority", corba.authority,
-                 "authority to trust (default: ca.pem beside NAME.pem)")
+                 "certificate authority to trust (default: ca.pem beside NAME.pem)")
       ->type_name("FILE")
       ->envname("GSV_CORBA_AUTHORITY");
   app.add_flag("--insecure-corba", corba.is_insecure,
                "accept CORBA calls without certificates\n"
-               "Everyone who can reach this machine may then control it. GSV_INSECURE_CORBA=1 does "
-               "the same.");
+               "Everyone who can reach this machine may then control it. GSV_INSECURE_CORBA=1 has "
+               "the same effect.");
 }
 
 // Sets the variables for orb::PrepareAccess(), and for programs that this process starts.

@@ -365,7 +365,9 @@ void AddReplayCommand(const CommandLine& line) {
       command->add_option("--at", arguments->at, "simulated time at which the replay begins")
           ->type_name("SECONDS")
           ->check(Between(0.0, 1e9));
-  command->add_option("--select", arguments->select, "robot that the viewer selects, with --at")
+  command
+      ->add_option("--select", arguments->select,
+                   "robot that the viewer selects first; only with --at")
       ->type_name("ROBOT")
       ->needs(at);
   command->add_flag("--open", arguments->open, "open the viewer in a browser");
@@ -377,19 +379,19 @@ void AddReplayCommand(const CommandLine& line) {
   CLI::Option* resimulate = command->add_flag(
       "--resimulate", arguments->resimulate,
       "run the simulation again and print where the result first differs (exit code 1)\n"
-      "It runs in lockstep, with live behaviours and without a viewer.");
+      "The simulation runs in lockstep, with live behaviours and without a viewer.");
   command
       ->add_option("--broker", arguments->broker,
-                   "broker that offers the behaviours, with --resimulate")
+                   "broker that offers the behaviours; only with --resimulate")
       ->type_name("ADDRESS")
       ->needs(resimulate);
   command
       ->add_flag("--commands", arguments->commands,
-                 "apply the recorded commands instead of behaviours, with --resimulate\n"
-                 "The motions of the bodies are compared.")
+                 "apply the recorded commands instead of behaviours; only with --resimulate\n"
+                 "gsv then compares only the motions of the bodies.")
       ->needs(resimulate);
   command->add_flag("--json", arguments->json,
-                    "print one JSON object, with --headless or --resimulate");
+                    "print one JSON object; only with --headless or --resimulate");
   command->callback([arguments, line] { line.exit_code = Replay(*arguments, line.signals); });
 }
 
@@ -478,7 +480,8 @@ void AddRecordingCommands(const CommandLine& line) {
   {
     const auto [command, arguments] =
         add("diff", "Print where two recordings first differ; exit code 1 if they do", Diff);
-    command->add_option("other", arguments->other, "the other recording")->required();
+    command->add_option("other", arguments->other, "recording to compare with the file")
+        ->required();
     command->add_flag("--json", arguments->json, "print one JSON object");
   }
 

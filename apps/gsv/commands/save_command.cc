@@ -102,7 +102,7 @@ void AddSaveCommand(const CommandLine& line) {
       ->envname("GSV_TOKEN");
   command
       ->add_option("--authority", arguments->authority,
-                   "authority of its HTTPS, PEM (default: the system's)")
+                   "certificate authority of the server, PEM (default: the system's)")
       ->type_name("FILE");
   command->callback([arguments, line] {
     base::RedactInLog(arguments->token);

@@ -230,7 +230,9 @@ void AddTestCommand(const CommandLine& line) {
       ->capture_default_str()
       ->type_name("N")
       ->group(kRunGroup);
-  command->add_option("--shard", arguments->shard, "run only the I-th of N equal shares")
+  command
+      ->add_option("--shard", arguments->shard,
+                   "run only the I-th of N equal shares of the scenarios")
       ->capture_default_str()
       ->type_name("I/N")
       ->group(kRunGroup);

@@ -68,7 +68,7 @@ void AddViewCommand(const CommandLine& line) {
       ->group(kOtherGroup);
   command
       ->add_option("--authority", arguments->authority,
-                   "authority of the other instance's certificate, PEM (default: the system's)")
+                   "certificate authority of the other instance, PEM (default: the system's)")
       ->type_name("FILE")
       ->group(kOtherGroup);
   AddViewerOptions(*command, arguments->web);

@@ -31,10 +31,11 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       ->type_name("MODEL[@X,Y[,YAW]]")
       ->group(kGroup);
   command
-      .add_option("--place", a.place,
-                  "add N robots of the --robot without a pose, on a grid or at random places\n"
-                  "The grid has cells of 1 m. Random places follow --seed. The model is pebble if "
-                  "there is no --robot.")
+      .add_option(
+          "--place", a.place,
+          "add N robots of the model in --robot without a pose, on a grid or at random places\n"
+          "The grid has cells of 1 m. Random places follow --seed. The model is pebble if "
+          "there is no --robot.")
       ->type_name("WHERE")
       ->group(kGroup);
   command.add_option("--avatar", a.avatars, "add an avatar that people steer from the viewer")
@@ -81,7 +82,8 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
   constexpr const char* kGroup = "Behaviours";
   command
       .add_option("--behaviour", a.behaviours,
-                  "behaviour of all robots, or of one robot\nIts options may follow, such as 'goto "
+                  "behaviour of all robots, or of one robot\n"
+                  "Options of the behaviour may follow its name, such as 'goto "
                   "--goal-x 3'. "
                   "NAME is a behaviour that the broker offers, or a program gsv-NAME to start.")
       ->type_name("[ROBOT=]NAME")
@@ -89,7 +91,7 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
   command
       .add_flag("--in-process", a.in_process,
                 "run behaviours inside gsv, from plug-ins gsv-NAME.so\n"
-                "The results are the same, and a machine can run many more robots.")
+                "Programs give the same results, but plug-ins allow many more robots on a machine.")
       ->group(kGroup);
   command
       .add_option("--on-failure", a.mode_on_failure,
@@ -140,8 +142,7 @@ void AddTimeOptions(CLI::App& command, RunArguments& a) {
       .add_option("--threads", a.threads,
                   "threads for physics and behaviours (default: auto)\n"
                   "Auto, or 0, means one per processor in lockstep, else one. Only in-process "
-                  "behaviours use them. The results "
-                  "do not depend on it.")
+                  "behaviours use these threads. The number does not change the results.")
       ->check(Between(0, 256))
       ->type_name("N")
       ->group(kGroup);
@@ -177,7 +178,7 @@ void AddRecordOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--failure-picture", a.failure_image,
-                  "image of the first violated expectation (.jpg, .png)")
+                  "write an image of the first violated expectation (.jpg, .png)")
       ->type_name("FILE")
       ->group(kGroup);
 }

@@ -55,7 +55,7 @@ void AddRos2ReplayOptions(CLI::App& command, Ros2Arguments& arguments) {
 void AddRos2Options(CLI::App& command, Ros2Arguments& arguments) {
   command
       .add_flag("--ros2", arguments.is_on,
-                "publish robots as ROS 2 topics, and take commands\n"
+                "publish robots as ROS 2 topics, and accept commands\n"
                 "ROS_DOMAIN_ID and the other variables of ROS 2 apply.")
       ->group(kRos2Group);
   AddRange(command, arguments);
