@@ -53,7 +53,7 @@ base::Result<SavedJson> AskForWorld(const SaveArguments& arguments) {
   return base::Fail(
       response->status == 404 ? base::ErrorCode::kNotFound : base::ErrorCode::kUnavailable,
       sentence.empty() ? fmt::format("the server answered with the status {}; its version of GSV "
-                                     "may not save worlds",
+                                     "may be too old to save worlds",
                                      response->status)
                        : sentence);
 }

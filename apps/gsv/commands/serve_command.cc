@@ -85,10 +85,11 @@ void AddServeCommand(const CommandLine& line) {
       ->group(kServiceGroup);
   AddSensorPluginOption(*command, arguments->sensor_plugins)->group(kServiceGroup);
   command
-      ->add_option("--scenarios", arguments->scenarios,
-                   "number of campaign scenarios to run in parallel\n"
-                   "`gsv campaign run --broker` sends them. They run with the behaviours that are "
-                   "installed here.")
+      ->add_option(
+          "--scenarios", arguments->scenarios,
+          "number of campaign scenarios to run in parallel\n"
+          "`gsv campaign run --broker` sends the scenarios. They use the behaviours that are "
+          "installed on this machine.")
       ->check(Between(0, 256))
       ->capture_default_str()
       ->type_name("N")

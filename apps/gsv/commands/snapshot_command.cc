@@ -68,7 +68,7 @@ base::Error RefusalOf(const gateway::Response& response) {
   return {code,
           has_sentence ? sentence->get<std::string>()
                        : fmt::format("the server answered with the status {}; its version of GSV "
-                                     "may not draw images",
+                                     "may be too old to draw images",
                                      response.status),
           {}};
 }

@@ -126,7 +126,8 @@ std::string Sentence(const LostSimulation& lost) {
   std::string recording = "it was not recorded";
   if (!lost.recording.empty()) {
     recording = "recording " + lost.recording;
-    if (lost.whole_until_s) recording += fmt::format(", whole until {:.1f} s", *lost.whole_until_s);
+    if (lost.whole_until_s)
+      recording += fmt::format(", complete until {:.1f} s", *lost.whole_until_s);
   }
   return fmt::format("{} on {} was lost at about {:.1f} s ({}), when its server was killed; {}",
                      lost.name, lost.server, lost.time_s, lost.phase, recording);

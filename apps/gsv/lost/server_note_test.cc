@@ -121,7 +121,7 @@ TEST(CrashReportSentence, NamesTheRecordingAndItsEndTime) {
       "arena on gsv (process 123) was lost at about 12.3 s (running), when its server was killed; ";
   EXPECT_EQ(Sentence(lost), begin + "recording /r/x.mcap");
   lost.whole_until_s = 11.94;
-  EXPECT_EQ(Sentence(lost), begin + "recording /r/x.mcap, whole until 11.9 s");
+  EXPECT_EQ(Sentence(lost), begin + "recording /r/x.mcap, complete until 11.9 s");
   EXPECT_EQ(Describe(lost)["whole_until_s"], 11.94);
   lost.recording.clear();
   EXPECT_EQ(Sentence(lost), begin + "it was not recorded");

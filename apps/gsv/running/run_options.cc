@@ -366,7 +366,7 @@ base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& sce
   warn(a.headless && !a.web.names.empty(), "--allow-host",
        "has no effect with --headless: there is no viewer");
   warn(!a.failure_image.empty() && scenario.expect.empty(), "--failure-picture",
-       "has no effect: only a scenario with expectations can fail one");
+       "has no effect, because there are no expectations; use a scenario that has some");
   return problems;
 }
 
