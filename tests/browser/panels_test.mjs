@@ -103,7 +103,7 @@ test("the panel Physics says why a run is slower than its target", async () => {
   const { page: other } = await openPage(browser, fast.url);
   await waitUntilDrawn(other);
   await other.getByRole("button", { name: "Physics", exact: true }).click();
-  const sentence = other.getByRole("region", { name: "Physics", exact: true }).getByText(/^The simulation runs at [\d.]+× of real time, not at 100000×\. /);
+  const sentence = other.getByRole("region", { name: "Physics", exact: true }).getByText(/^The simulation runs at [\d.]+× real time, not at the target 100000×\. /);
   await sentence.waitFor();
   await until(async () => / \d+ % of the time/.test(await sentence.textContent()), "the part that takes most of the time");
   await other.close();

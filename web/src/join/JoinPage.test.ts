@@ -42,7 +42,7 @@ test("only web addresses become links, and markup in names is text", async () =>
   expect(links(host)).toEqual([]);
   expect(host.querySelector("b")).toBeNull();
   expect(host.textContent).toContain("<b>x</b>");
-  expect(host.textContent).toContain("It runs without a viewer. Start it without --headless.");
+  expect(host.textContent).toContain("This instance runs without a viewer. Start it without --headless.");
 });
 
 test("an instance that does not respond, or a silent broker, is shown with the reason", async () => {

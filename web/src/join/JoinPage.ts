@@ -59,7 +59,7 @@ function instanceItem(instance: Instance): HTMLElement {
     problem !== "" && element("p", { class: "field-error" }, problem),
     element("ul", {}, ...simulations.map(simulationItem)),
     problem === "" && simulations.length === 0 && element("p", { class: "dim" }, "No simulation is running."),
-    url === null && element("p", { class: "dim" }, "It runs without a viewer. Start it without --headless."),
+    url === null && element("p", { class: "dim" }, "This instance runs without a viewer. Start it without --headless."),
     isHere && simulations.length === 0 && element("a", { class: "button", href: "./" }, "Create simulation"),
   );
 }

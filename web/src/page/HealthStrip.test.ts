@@ -41,7 +41,7 @@ test("it counts the robots in each state, and omits empty states", () => {
   expect(strip({ health: health({ b: "stuck", c: "dead" }) }).chips()).toEqual(["2 moving", "1 dead", "1 stuck"]);
   expect(strip({ health: health({}) }).chips()).toEqual(["4 moving"]);
   const told = strip({ health: health({ a: "standing" }, 0.3) });
-  expect(told.chips()).toEqual(["3 moving", "1 told to move, but standing"]);
+  expect(told.chips()).toEqual(["3 moving", "1 commanded to move, but standing"]);
 });
 
 test("a click on a state shows only its robots, and a second click shows all", () => {

@@ -52,7 +52,7 @@ function stepsPart(app: App): HTMLElement {
   let count = FIRST_STEPS;
   const take = element(
     "button",
-    { class: "button", type: "button", title: "Take these steps, then pause again", onclick: () => void app.act("step", count) },
+    { class: "button", type: "button", title: "Take this number of steps, then pause again", onclick: () => void app.act("step", count) },
     "Take steps",
   );
   const field = numberField(

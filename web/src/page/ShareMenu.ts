@@ -6,7 +6,7 @@ export function createShareMenu(app: App): HTMLElement {
   const film = menuItem(
     "Record video",
     "M",
-    "Record a video of the view (WebM) until you press it again",
+    "Record a video of the view (WebM); press again to stop",
     () => app.film(),
     "film",
   );

@@ -63,7 +63,7 @@ export const PANELS: readonly Panel[] = [
     picture: "gauge",
     group: "Control",
     isAvailable: ({ replay }) => replay === null,
-    absence: "A recording takes no commands. Open a running simulation.",
+    absence: "A recording accepts no commands. Open a running simulation.",
     load: () => import("./commands/CommandsPanel"),
   },
   {
@@ -79,7 +79,7 @@ export const PANELS: readonly Panel[] = [
   {
     id: "topics",
     title: "Topics",
-    hint: "Topics with their rates, and the newest message of any",
+    hint: "Topics with their rates, and the newest message of a topic",
     picture: "topics",
     group: "Data",
     key: "K",

@@ -43,7 +43,7 @@ export class RobotRow {
       { value: "planar", label: "Planar: 2D kinematics on level ground" },
       { value: "rigid", label: "Rigid: rigid-body dynamics" },
     ]);
-    this.drive = textField("Drive", "as its model says, else guessed: diff, skid,radius=0.16, …", (drive) =>
+    this.drive = textField("Drive", "drive of the model, else guessed: diff, skid,radius=0.16, …", (drive) =>
       this.change({ drive }),
     );
     this.namespace = textField("ROS 2 namespace", "/NAME of the robot; / for none", (namespace) => this.change({ namespace }));
@@ -107,7 +107,7 @@ export class RobotRow {
       {
         class: "button plain small",
         type: "button",
-        title: "Place it by a click on the floor",
+        title: "Place the robot by a click on the floor",
         onclick: () => {
           this.select();
           this.app.pointing.setPlacing(true);

@@ -15,7 +15,7 @@ export const STATE_WORDS: Record<ShownState, string> = {
   stuck: "stuck",
   contact: "in contact",
   late: "late",
-  told: "told to move, but standing",
+  told: "commanded to move, but standing",
   standing: "standing",
   unknown: "unknown",
   moving: "moving",

@@ -40,7 +40,7 @@ export function readLayout(text: string, known: ReadonlySet<string>): ReadLayout
     const panels = panelsOf(root);
     const unknown = panels.filter((id) => !known.has(id));
     const twice = panels.find((id, i) => panels.indexOf(id) !== i);
-    if (twice !== undefined) return { problem: `the panel ${twice} is in it twice` };
+    if (twice !== undefined) return { problem: `the panel ${twice} occurs twice` };
     return { layout: withView(pruned(root, known)), unknown };
   } catch (error) {
     return { problem: (error as Error).message };
@@ -92,7 +92,7 @@ class Reader {
     const parts: Split["parts"] = [];
     do {
       const part = this.part(depth + 1);
-      if ("split" in part && part.split === split) throw new Error(`a ${split} stands in a ${split}`);
+      if ("split" in part && part.split === split) throw new Error(`a ${split} is nested directly in a ${split}`);
       if (!this.take("~")) this.fail("~ and a share");
       parts.push({ part, share: this.share() });
     } while (this.take(","));

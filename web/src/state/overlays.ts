@@ -34,7 +34,7 @@ export const OVERLAYS: readonly OverlayKind[] = [
   { name: "trails", label: "Trails", key: "5", hint: "Paths of the robots" },
   { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
   { name: "labels", label: "Names", key: "7", hint: "Names of the robots" },
-  { name: "states", label: "States", key: ";", hint: "Marks of robots in trouble, and of robots too far from the camera to see" },
+  { name: "states", label: "States", key: ";", hint: "Marks on robots with problems, and on robots that are too far away to see" },
   { name: "grid", label: "Grid", key: "8", hint: "Grid with 1 m cells" },
   { name: "collisions", label: "Collision shapes", key: "9", hint: "Collision shapes used by the physics" },
   { name: "joints", label: "Joints", key: "0", hint: "Axes of the joints" },

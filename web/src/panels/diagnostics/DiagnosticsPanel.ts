@@ -69,7 +69,7 @@ function robotFacts({ robots }: Diagnostics): Fact[] {
   const good = robots.length - bad.length;
   const rest: Fact[] = good > 0 ? [["", bad.length === 0 ? `${count(good, "robot")} OK.` : good === 1 ? "The other robot is OK." : `The other ${good} robots are OK.`]] : [];
   const rows = bad.slice(0, MAX_ROWS).map(({ name, message, health }): Fact => [name, message, health]);
-  const cut: Fact[] = bad.length > MAX_ROWS ? [["", `${bad.length - MAX_ROWS} more failed.`]] : [];
+  const cut: Fact[] = bad.length > MAX_ROWS ? [["", `${count(bad.length - MAX_ROWS, "more robot")} failed.`]] : [];
   return [...rows, ...cut, ...rest];
 }
 

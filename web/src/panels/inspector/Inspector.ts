@@ -153,7 +153,7 @@ function copyButtons({ state, notices }: Ports): HTMLElement {
     "div",
     { class: "inspector-actions" },
     button("Copy pose", "x y z roll pitch yaw, in metres and radians, as in a <pose>", poseText),
-    button("Copy as --robot", "x,y,yaw, as gsv run --robot MODEL@x,y,yaw takes it", startText),
+    button("Copy as --robot", "x,y,yaw, in the form of gsv run --robot MODEL@x,y,yaw", startText),
   );
 }
 

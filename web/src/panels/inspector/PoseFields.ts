@@ -62,7 +62,7 @@ export function createPoseFields({ state, edits }: Ports): HTMLElement {
       const isRobot = body !== undefined && (body.isRobot || body.isAvatar);
       for (const [name, field] of fields) field.element.hidden = isRobot && !OF_ROBOTS.includes(name);
       setText(title, pose.body);
-      setText(kind, isRobot ? "It stands upright on the floor." : body?.isStatic ? "Static object" : "Object");
+      setText(kind, isRobot ? "Robots and avatars stand upright on the floor." : body?.isStatic ? "Static object" : "Object");
     },
   );
   state.watch(

@@ -49,7 +49,7 @@ export function mount({ state, control }: Ports): MountedPanel {
     if (told.time < time) for (const row of rows) row.forget(); // the simulation was reset
     time = told.time;
     rows.forEach((row, i) => row.show(told.joints[i]!, { isRefused, isPaused, inDegrees: degrees.checked }));
-    setText(note, told.refusal || (told.joints.length === 0 ? "This body has no joint that takes commands." : ""));
+    setText(note, told.refusal || (told.joints.length === 0 ? "This body has no joint that accepts commands." : ""));
   };
   const forget = (sentence: string) => {
     names = "";

@@ -22,17 +22,17 @@ test("the reason for a slow run is the part that takes most of its computing tim
   expect(paceSentence(RUNNING, costs)).toBe("No step yet.");
   costs.add(message(10, { bodies_s: 0.9, observers_s: 0.1 }));
   expect(paceSentence(RUNNING, costs)).toBe(
-    "The simulation runs at 0.50× of real time, not at 1.00×. Motion and contacts take 90 % of the time. A larger step, fewer bodies or planar kinematics would be faster.",
+    "The simulation runs at 0.50× real time, not at the target 1.00×. Motion and contacts take 90 % of the time. A larger step, fewer bodies or planar kinematics would be faster.",
   );
   const hold_ups = [{ robot: "a", steps: 4n, total_s: 9, longest_s: 5 }];
   costs.add(message(10, { behaviours_s: 9 }, { hold_ups }));
   expect(paceSentence({ ...RUNNING, mode: "lockstep" }, costs)).toBe(
-    "Lockstep: the simulation runs as fast as its steps allow, at 0.50× of real time. Behaviours take 90 % of the time, most of all the behaviour of a.",
+    "Lockstep: the simulation runs as fast as its steps allow, at 0.50× real time. Behaviours take 90 % of the time, most of all the behaviour of a.",
   );
   expect(paceSentence({ ...RUNNING, realTimeFactor: 1 }, costs)).toBe("The simulation runs at its target speed.");
   const idle = new StepCosts();
   idle.add(message(10, { idle_s: 1, bodies_s: 0.1, observers_s: 0.15, devices_s: 0.1 }));
-  expect(paceSentence(RUNNING, idle)).toContain("other programs on this machine delay them");
+  expect(paceSentence(RUNNING, idle)).toContain("Other programs on this machine delay the steps");
 });
 
 test("delays are summed over the last seconds, and the longest steps are sorted", () => {

@@ -3,11 +3,11 @@ import type { SimulationStatus } from "../../api/status";
 import { formatFactor } from "../../ui/format";
 
 export const PARTS = [
-  { key: "behaviours_s", label: "Behaviours", hint: "turns of behaviours, and in lockstep waits for them" },
+  { key: "behaviours_s", label: "Behaviours", hint: "turns of behaviours; in lockstep, also the waits for behaviours" },
   { key: "devices_s", label: "Devices", hint: "actuators, radios and other devices" },
   { key: "bodies_s", label: "Bodies", hint: "motion and contacts" },
   { key: "observers_s", label: "Observers", hint: "recording and viewers" },
-  { key: "idle_s", label: "Idle", hint: "until the next step was due, in real time" },
+  { key: "idle_s", label: "Idle", hint: "waits for the next step, in real-time mode" },
 ] as const;
 export type Part = (typeof PARTS)[number]["key"];
 
@@ -94,8 +94,8 @@ export function paceSentence({ mode, phase, targetFactor, realTimeFactor }: Pace
   const isSlow = mode === "real_time" && realTimeFactor < SLOW * targetFactor;
   if (mode === "real_time" && !isSlow) return "The simulation runs at its target speed.";
   const pace = isSlow
-    ? `The simulation runs at ${formatFactor(realTimeFactor)} of real time, not at ${formatFactor(targetFactor)}.`
-    : `Lockstep: the simulation runs as fast as its steps allow, at ${formatFactor(realTimeFactor)} of real time.`;
+    ? `The simulation runs at ${formatFactor(realTimeFactor)} real time, not at the target ${formatFactor(targetFactor)}.`
+    : `Lockstep: the simulation runs as fast as its steps allow, at ${formatFactor(realTimeFactor)} real time.`;
   return `${pace} ${reason(costs)}`;
 }
 
@@ -104,7 +104,7 @@ function reason(costs: StepCosts): string {
   const share = (part: Part) => costs.of(part) / Math.max(busy, 1e-12);
   const percent = (part: Part) => `${Math.round(100 * share(part))} % of the time`;
   const [first] = costs.holdUps;
-  if (costs.of("idle_s") > busy) return "The steps themselves are fast: other programs on this machine delay them.";
+  if (costs.of("idle_s") > busy) return "The steps themselves are fast. Other programs on this machine delay the steps.";
   if (share("behaviours_s") >= LARGE) {
     const name = first ? `the behaviour of ${first.robot}` : "the behaviours";
     return `Behaviours take ${percent("behaviours_s")}, most of all ${name}.`;
