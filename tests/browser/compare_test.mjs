@@ -26,7 +26,7 @@ let browser;
 let page;
 let faults;
 let yesterday;
-let sceneUrl; // of the replay whose scene the page requested last
+let sceneUrl; // address of the scene that the page requested last
 
 before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-compare-"));
@@ -71,7 +71,7 @@ function shownScene() {
   return page.evaluate(async (url) => (await fetch(url)).json(), sceneUrl);
 }
 
-// The position of the robot in the other recording, at the instant that the page shows.
+// Returns the position of the robot in the second recording, at the instant that the page shows.
 async function ghostIsRight() {
   const { bodies, poses: list } = await shownScene();
   const entry = list.findIndex(({ body, link }) => bodies[body].name === MOVER && link === null);
@@ -145,7 +145,7 @@ test("the curves of the second recording are dashed beside those of the first", 
   const coloured = () =>
     plot.evaluate((plotted) => {
       const canvas = plotted.matches("canvas") ? plotted : plotted.querySelector("canvas");
-      if (!canvas) return 0; // it is made when the first values arrive
+      if (!canvas) return 0; // the page makes the canvas when the first values arrive
       const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
       let count = 0;
       for (let i = 0; i < data.length; i += 4) {

@@ -63,7 +63,7 @@ test("only the holder of control can act; a request is shown to the holder and g
 });
 
 test("control passes to the requesting viewer when the holder leaves", async () => {
-  await ada.page.getByRole("button", { name: "Viewers" }).click(); // the answer closed it
+  await ada.page.getByRole("button", { name: "Viewers" }).click(); // the menu was closed by the answer
   await ada.page.getByRole("button", { name: "Ask for control" }).click();
   await bob.page.getByRole("alert").filter({ hasText: "Ada asks for control" }).waitFor();
   await bob.page.close();

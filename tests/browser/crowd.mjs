@@ -21,8 +21,8 @@ const FLOOR = `<?xml version="1.0"?>
 </sdf>
 `;
 
-// Returns the arguments of `gsv run` for this many wandering robots on a square. The world's file
-// is in `folder`.
+// Returns the arguments of `gsv run` for this number of wandering robots on a square. Writes the
+// world file to `folder`.
 export function crowd(folder, robots) {
   const world = path.join(folder, "floor.sdf");
   fs.writeFileSync(world, FLOOR);
@@ -32,10 +32,10 @@ export function crowd(folder, robots) {
   return [world, ...all.flatMap((robot) => ["--robot", robot]), "--behaviour", "wander", "--in-process"];
 }
 
-// Makes the page record, for each press, the time until a robot was shown as selected in the list
-// and the inspector, and until that picture was drawn. It also records how many rows of the list
-// were rewritten for it. `robot` is null if a press missed all robots, so that none is selected any
-// more.
+// Makes the page store a record of each press. `took` is the time in ms until the list and the
+// inspector showed the selected robot, and the browser had drawn this state. `rows` is the number of
+// rows of the list that were rewritten. `robot` is null if the press missed all robots, so that no
+// robot is selected any more.
 export async function noteClicks(page) {
   // Keeps the order of rows fixed. Otherwise the worst robots come first, and a row moves when a
   // state changes.
@@ -129,8 +129,8 @@ async function clickInList(page, share) {
   return (await clickNoted(page, () => row.click())).took;
 }
 
-// Returns the robot at this fraction of the list, or the next one if it is selected already: a
-// click on the selected robot changes nothing.
+// Returns the robot at this fraction of the list. If this robot is selected, returns the next robot,
+// because a click on the selected robot changes nothing.
 export async function unselectedAt(page, share) {
   const names = await page.evaluate(() => window.gsv.robots);
   const selected = await page.evaluate(() => document.querySelector('[data-robot][aria-pressed="true"]')?.dataset.robot);

@@ -114,7 +114,7 @@ test("a search shows only matching robots in the list and in the view", async ()
   const labels = () => page.locator(".labels .label").allTextContents();
   await until(async () => (await labels()).every((label) => label === last), "only its label");
   await field.fill("");
-  await field.blur(); // keys are the page's again
+  await field.blur(); // the page receives key presses again
   await until(async () => (await page.locator("[data-robot]").count()) > 5, "all rows");
 });
 

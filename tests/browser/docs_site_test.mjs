@@ -41,7 +41,7 @@ testOfSite("the help sheet opens the site beside the viewer", async () => {
 
 testOfSite("the search finds a page, which opens", async () => {
   const { page, faults } = await openPage(browser, `${server.url}docs/`);
-  await page.bringToFront(); // a page behind the one that the first test closed draws no frames
+  await page.bringToFront(); // a page in the background draws no frames
   await page.getByPlaceholder("Search").fill("sonar");
   const results = page.locator(".md-search-result__item a");
   await results.first().waitFor();

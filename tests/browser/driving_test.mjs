@@ -104,7 +104,8 @@ test("the pad is dragged by a finger, and lifting it stops the robot", async () 
   const { x, y, width, height } = await pad().boundingBox();
   const [middle, then] = [{ x: x + width / 2, y: y + height / 2 }, await placeOf("pebble")];
   await touch("touchStart", middle);
-  // The finger leaves the pad, and still drives: the page neither scrolls nor takes the gesture.
+  // The finger leaves the pad and must still drive: the page must not scroll, and must not use the
+  // gesture for anything else.
   for (const share of [0.3, 0.1, -0.2]) await touch("touchMove", { ...middle, y: y + share * height });
   await panel("Teleoperation").getByText("pebble: 0.50 m/s, 0.00 rad/s").waitFor();
   await movesOn("pebble", 0.1);

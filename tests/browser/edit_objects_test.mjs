@@ -138,7 +138,7 @@ test("removal is undone, and all edits can be undone and redone", async () => {
   assert.equal(await pressAsOftenAsItGoes("Redo"), 6);
   assert.ok(distance(await place("crate"), crate) < 1e-6);
   assert.ok(Math.abs(yawOf(await place("crate")) - yawOf(crate)) < 1e-6);
-  assert.equal(await body("can"), undefined); // its removal was redone, too
+  assert.equal(await body("can"), undefined); // Redo removed the can again
   await press("Undo");
   await shown("can");
 });

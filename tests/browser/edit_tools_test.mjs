@@ -149,7 +149,7 @@ test("a click on a handle is no edit, and no handle takes a click that places", 
   const at = await handle("x");
   await page.mouse.click(at.x, at.y);
   await settled(page);
-  await redo.waitFor(); // an edit would have cleared the list
+  await redo.waitFor(); // an edit would have cleared the list of undone edits
   await chosenAre("box");
   await press("Place");
   await page.getByText("Click the floor to place box there.").waitFor();
@@ -197,7 +197,7 @@ test("a ring turns the body about one axis, in steps if snapping is on", async (
     const at = (name) => middle[name] + c * (x[name] - middle[name]) + s * (y[name] - middle[name]);
     return { x: at("x"), y: at("y") };
   };
-  // Only the half that faces the camera is drawn: that is lower in the image.
+  // Only the half of the ring that faces the camera is drawn. It is lower in the image.
   const start = [45, 135, 225, 315].sort((a, b) => onRing(b).y - onRing(a).y)[0];
   const [from, to] = [onRing(start), onRing(start + 40)];
   await page.mouse.move(from.x, from.y);

@@ -1,5 +1,5 @@
-// Tests that a browser shows what `gsv film` and `gsv snapshot` write: every frame of a film, in its
-// order, each of them exactly as the snapshot of that instant.
+// Tests that a browser can show the files of `gsv film` and `gsv snapshot`. A film must have all
+// frames in their order, and each frame must equal the snapshot of its instant.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";

@@ -1,7 +1,8 @@
 // Looks for controls whose keyboard focus cannot be seen (WCAG 2.4.7).
 
-// Focuses each visible control as the keyboard does. Returns the names of those that have neither an
-// outline of 1 px or more then, nor another shadow, border or background than before.
+// Focuses each visible control as the keyboard does. Returns the names of controls whose focus
+// cannot be seen: they have no outline of at least 1 px, and the focus does not change their shadow,
+// border or background.
 export async function controlsWithoutVisibleFocus(page) {
   return page.evaluate(() => {
     const lookOf = (control) => {

@@ -72,7 +72,7 @@ after(async () => {
 const inspector = () => page.getByRole("region", { name: "Selected object", exact: true });
 const inList = (name) => page.locator(`[data-object="${name}"]`);
 
-// The lines of the inspector, by name.
+// Returns the lines of the inspector, by name.
 async function facts(region) {
   const names = await region.locator("dt").allTextContents();
   const values = await region.locator("dd").allTextContents();
@@ -164,7 +164,7 @@ test("arrows show the forces of the ground on the crate: their direction and len
     return changedPixels(without, shown, isPink) > 40;
   }, "the contacts of the crate with the ground");
   assert.ok((await page.evaluate(() => window.gsv.topics)).includes("/gsv/current_contacts"));
-  // The number of pink pixels within 5 pixels of a place above the corner that is nearest to the camera.
+  // Returns the number of pink pixels within 5 pixels of a place above the corner that is nearest to the camera.
   const pinkAt = (height) => {
     const { x, y } = project([-0.2, -0.2, height], EYE, TARGET, shown);
     const square = { x: Math.round(x) - 5, y: Math.round(y) - 5, width: 11, height: 11 };
@@ -186,7 +186,7 @@ test("points are coloured by range or by intensity, from dark to bright", async 
   await page.keyboard.press("2");
   const isDark = (r, g, b) => g < 60 && r > 50 && b > 50;
   const isBright = (r, g, b) => r > 200 && g > 100 && b < 100;
-  // The numbers of dark and of bright pixels that points draw on a board.
+  // Returns the numbers of dark and of bright pixels of the points on a board.
   const look = async () => {
     await settled(page);
     const shown = await picture(page, clip);

@@ -27,7 +27,7 @@ const TILTED = { level: [128, 128, 255], left: [38, 128, 218], up: [128, 218, 21
 const ROUGHNESS = 0.6;
 const BALL = "<sphere><radius>0.5</radius></sphere>";
 const ball = (y) => `-10 ${y} 0.5`;
-// The roughness of metal: a value, or a factor of a map.
+// Materials of metal: the roughness is a value, or a factor for a map.
 const metal = (inside) => `<pbr><metal><metalness>1</metalness>${inside}</metal></pbr>`;
 const BALLS = { smooth: -6, rough: -7.2, mapped: -8.4 }; // y of the centres
 // The sun shines towards negative x, so the sides of the block at x = 0.5 and y = -0.5 have no
@@ -142,7 +142,8 @@ test("normal maps tilt a surface towards the sun or away from it, and roughness 
   const front = Object.keys(TILTED).map((_, i) => at([-9.5, -1.2 * (i + 1), 0.5]));
   const top = Object.keys(TILTED).map((_, i) => at([-10, -1.2 * (i + 1), 1]));
   const [level, , up, down] = front;
-  // The cosines of the angle to the sun are 0.45 without a tilt, 0.95 up, and below 0 down.
+  // The cosine of the angle to the sun is 0.45 without a tilt, 0.95 for a tilt upwards, and below 0
+  // for a tilt downwards.
   assert.ok(up > 1.25 * level, `tilted up: ${front}`);
   assert.ok(down < 0.75 * level, `tilted down: ${front}`);
   // On the top, left is towards negative x: 0.89 without a tilt, and 0.32.

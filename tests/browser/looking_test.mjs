@@ -80,7 +80,7 @@ test("a chase follows the selected robot, and a pause stops all motion", async (
   await settled(page);
 });
 
-// From the purple to the yellow end of the colour scale of points.
+// Colours from the purple end to the yellow end of the colour scale of points.
 const isOfScale = (r, g, b) => (g < 60 && r > 60 && b > 50) || (r > 130 && r > 1.3 * b);
 
 // Switches on one overlay at a time in a paused picture: the view is from behind the robot, or from

@@ -1,4 +1,4 @@
-// The panels Physics and World, as they show a run in lockstep.
+// Tests the panels Physics and World with a run in lockstep.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import process from "node:process";
@@ -39,7 +39,7 @@ function processOf(behaviour) {
       const stat = fs.readFileSync(`/proc/${pid}/stat`, "latin1");
       return command.includes(behaviour) && stat.slice(stat.lastIndexOf(")") + 2).split(" ")[1] === String(server.child.pid);
     } catch {
-      return false; // it has ended
+      return false; // the process has ended
     }
   });
   assert.ok(found, `the process of ${behaviour}`);
@@ -62,7 +62,7 @@ test("the panel Physics shows gravity, the step, the time of steps, and the beha
   assert.ok((await page.evaluate(() => window.gsv.topics)).includes("/gsv/step_costs"));
 });
 
-// The numbers of milliseconds in the cells of a table.
+// Returns the numbers of milliseconds in the cells of a table.
 const msOf = async (cells) => (await cells.allTextContents()).map((text) => Number(/^([\d.,]+) ms$/.exec(text)?.[1].replaceAll(",", "") ?? NaN));
 
 test("the panel Physics shows the speed and the mean cost of each part of a step, as numbers and as bars", async () => {
@@ -78,7 +78,8 @@ test("the panel Physics shows the speed and the mean cost of each part of a step
   const [cost, width] = [costs, widths].map((values) => values.reduce((sum, value) => sum + value, 0));
   assert.ok(cost > 0, `${costs}`);
   costs.forEach((ms, i) => assert.ok(Math.abs(ms / cost - widths[i] / width) < 0.03, `bars of ${widths} pixels for ${costs} ms`));
-  // A run in lockstep takes its steps one after another. The factor and the costs are of different seconds.
+  // A run in lockstep takes its steps one after another. The page measures the real-time factor and the
+  // costs over different seconds.
   const [step, factor] = [parseFloat(await fact("step")), parseFloat(await fact("real-time factor"))];
   assert.ok(factor * cost > 0.1 * step && factor * cost < 3 * step, `steps of ${step} ms in ${cost} ms, at ${factor}x`);
 });

@@ -54,7 +54,7 @@ async function openPalette(text) {
   await palette().getByRole("combobox").fill(text);
 }
 
-// The names of all commands of this group.
+// Returns the names of all commands of this group.
 async function commandsOf(group) {
   await openPalette(group);
   const found = await page.locator(".palette-item").evaluateAll((items) => items.map((item) => [...item.children].map((child) => child.textContent)));
@@ -214,7 +214,7 @@ test("overlays are switched from the palette, and the menu of overlays closes af
   await sheet.waitFor({ state: "hidden" });
 });
 
-// What a command of the group View shows.
+// Returns what a command of the group View must show.
 const VIEW = {
   Map: () => pressedIs("Map", "true"),
   "Leave the map": () => pressedIs("Map", "false"),

@@ -1,5 +1,5 @@
-// Tests robots that communicate by radio, as in the tutorial on swarms: the page draws who receives
-// messages from whom.
+// Tests robots that communicate by radio, as in the tutorial on swarms. The page draws a line
+// between the sender and each receiver of a message.
 import assert from "node:assert/strict";
 import path from "node:path";
 import process from "node:process";

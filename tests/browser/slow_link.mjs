@@ -1,11 +1,13 @@
-// A proxy before a server whose answers can be slowed down, as by a slow network. Like routers and
-// proxies, it buffers what it cannot pass on yet: the buffers of its sockets hold megabytes.
+// A proxy in front of a server. It can slow down the server's answers like a slow network. Like
+// routers and proxies, it buffers data that it cannot forward yet. The buffers of its sockets contain
+// megabytes.
 import net from "node:net";
 import { setTimeout } from "node:timers/promises";
 
 const CHUNKS_PER_SECOND = 20;
 
-// The server must allow this host. The proxy has the server's port on it, as browsers name the port.
+// The server must allow this host. The proxy uses the port number of the server on this host,
+// because browsers send the port in the Host header.
 export const SLOW_HOST = "127.0.0.2";
 
 // Opens the proxy. At first there is no limit; `limit(bytesPerSecond)` sets one for each connection,

@@ -1,4 +1,4 @@
-// A viewer over a slow network shows the newest state, and says that the connection is slow.
+// Tests that a viewer over a slow network shows the newest state and reports the slow connection.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -14,7 +14,7 @@ const SLOW = 25_000; // bytes per second
 const MAX_AGE_S = 1;
 const SENTENCE = "The connection is slow: the server leaves out older updates";
 
-const ROBOTS = 50; // whose poses, status and readings need 90 kB/s or more
+const ROBOTS = 50; // their poses, status and readings need at least 90 kB/s
 
 let folder;
 let link;
@@ -69,8 +69,8 @@ test("over a slow network the state is new, and the page says that the connectio
   await page.close();
 });
 
-// At first, the server only sees that confirmations come late. So the page may blame the connection
-// for some seconds, until it has measured itself.
+// At first, the server only detects late confirmations. So the page may report a slow connection for
+// some seconds, until it has measured its own speed.
 test("if only the page is slow, it says so", async () => {
   const { page, faults } = await openPage(browser, link.url);
   await waitUntilDrawn(page);
@@ -85,7 +85,7 @@ test("if only the page is slow, it says so", async () => {
   await page.getByTestId("connection-problem").getByText("This page is slow: the browser is busy").waitFor({ timeout: 120_000 });
   await page.evaluate(() => clearTimeout(window.testWork));
   await page.getByTestId("connection-problem").getByText(/./).waitFor({ state: "hidden", timeout: 120_000 });
-  // A page that is busy when it connects may ask for itself too late.
+  // A page that is busy when it connects may send its request to /api/viewers/me too late.
   assert.deepEqual(faults.filter((fault) => !fault.includes("/api/viewers/me")), []);
   await page.close();
 });
@@ -125,7 +125,7 @@ test("over a slow network the server's images become smaller, and large again af
     const former = await canvasWidth();
     link.limit(SLOW / 2);
     await page.waitForFunction((first) => window.testImages.at(-1) < first, width, { timeout: 120_000 });
-    assert.equal(await canvasWidth(), former); // names stay at their robots
+    assert.equal(await canvasWidth(), former); // so labels stay at their robots
     link.limit(Infinity);
     await page.waitForFunction((first) => window.testImages.at(-1) === first, width, { timeout: 120_000 });
     assert.deepEqual(faults, []);

@@ -15,10 +15,10 @@ import { until } from "./viewing.mjs";
 const { WebSocket } = requireFromWeb("ws");
 
 const STALL_S = Number(process.env.GSV_STALL_S ?? 5);
-const LONGEST_WAIT_S = 60; // of a server for a viewer that answers no ping
+const LONGEST_WAIT_S = 60; // the server disconnects a viewer that answers no ping for this time
 const OTHERS = 20;
 const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander", "--in-process"];
-const POSES = 1; // the subscription
+const POSES = 1; // id of the subscription
 
 let server;
 let browsers = [];
@@ -70,7 +70,7 @@ function renderersOf({ profile }) {
       const stat = fs.readFileSync(`/proc/${pid}/stat`, "latin1");
       return [{ pid: Number(pid), parent: Number(stat.slice(stat.lastIndexOf(")") + 2).split(" ")[1]), command }];
     } catch {
-      return []; // it has ended
+      return []; // the process has ended
     }
   });
   const main = processes.find(({ command }) => command.includes(`--user-data-dir=${profile}`) && !command.includes("--type="));
@@ -94,7 +94,7 @@ const simulated = (page) => page.evaluate(() => window.gsv.time);
 
 test(`a tab stands still for ${STALL_S} s: others receive updates as before, and it catches up`, { timeout: 1000 * (STALL_S + 300) }, async () => {
   const again = stalled.page.getByText("Connected again.").waitFor({ timeout: 1000 * (STALL_S + 120) });
-  again.catch(() => {}); // the test awaits it only where it must arrive
+  again.catch(() => {}); // below, the test waits for this notice only if it must appear
   const pids = renderersOf(browsers[0]);
   const began = await timeNow();
   const counts = watchers.map(({ times }) => times.length);
@@ -116,7 +116,7 @@ test(`a tab stands still for ${STALL_S} s: others receive updates as before, and
     socket.send(JSON.stringify({ op: "getParameters", parameterNames: ["/gsv/dropped_updates"], id: "d" }));
   }
   await until(() => watchers.every(({ dropped }) => dropped !== null) || later(), "what was dropped");
-  // On an idle machine they lose nothing. If this process gets too little processor time, the server
+  // On an idle machine, the other viewers lose nothing. If this process gets too little processor time, the server
   // may replace some states with newer ones.
   for (const [i, { dropped, times }] of watchers.entries()) {
     assert.ok(dropped < times.length - counts[i], `${dropped} updates were dropped, ${times.length - counts[i]} came`);

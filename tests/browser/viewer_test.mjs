@@ -9,7 +9,7 @@ import * as viewing from "./viewing.mjs";
 import { until } from "./viewing.mjs";
 
 const MIDDLE_PX = 4; // lies within the smallest robot, seen from above
-const ROBOT_PX = 28; // no robot is wider
+const ROBOT_PX = 28; // maximum width of a robot in the view
 const SIMULATION = [
   "office",
   ...["b21r@-5,-1.5,0", "b21r@5,1.6,180deg", "rover4@0,0", "pebble@-2,0", "pebble@2,0,180deg"].flatMap(

@@ -142,7 +142,7 @@ test("a layout is saved by name, and there again after the page was loaded anew"
   await page.keyboard.press("Escape");
   await page.reload();
   await waitUntilDrawn(page);
-  await part("Plots").waitFor(); // as it was left
+  await part("Plots").waitFor(); // the layout is as it was left
   await chooseLayout("Standard");
   await part("Inspector").waitFor();
   await part("Plots").waitFor({ state: "detached" });

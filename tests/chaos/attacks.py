@@ -1,8 +1,9 @@
 """The disturbances that chaos.py causes, one class each.
 
 An attack has `refusal`, the reason why it is not possible on this machine (None: it is possible),
-strike(), which takes at most two seconds, and end(), which removes all of its effects. A request
-that the server refuses with a sentence is no broken promise; a request without a response is one.
+strike(), which takes at most two seconds, and end(), which removes all of its effects. If the server
+refuses a request with a sentence, it keeps its promise. A request without a response is a broken
+promise.
 """
 
 import base64
@@ -206,7 +207,7 @@ class BadDisk(Attack):
         image = laboratory.folder / "disk"
         with open(image, "wb") as file:
             file.truncate(self.SIZE)
-        # A separate disk can be frozen. If it cannot be mounted, the recordings are in a file
+        # A separate disk can be frozen. If no disk can be mounted, the recordings are in a file
         # system in memory, which can also be full or read-only.
         self.may_freeze = (run(["mkfs.ext4", "-q", str(image)]) is None
                            and run(["mount", "-o", "loop", str(image), self.folder]) is None)
@@ -257,7 +258,8 @@ class CutNetwork(Attack):
 class BadNetwork(Attack):
     """The laboratory's own network is slow and loses packets for a while.
 
-    By netem where the kernel has it; else by a narrow line whose queue holds 30 ms and drops the rest.
+    If the kernel has netem, uses netem. Otherwise limits the rate of the device; its queue then delays
+    packets by up to 30 ms and drops further packets.
     """
 
     def __init__(self, laboratory, chance):

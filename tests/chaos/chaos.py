@@ -76,7 +76,7 @@ def check_new_work(laboratory):
 
 
 def lose_recording(laboratory):
-    """After SIGKILL the recording is there: what is wrong with it, and how many seconds it lacks."""
+    """Kills the server while it records. Returns problems of the recording, and how many seconds it lacks."""
     laboratory.create({"name": "lost", "world": "playground", "mode": "real_time", "seed": 1,
                        "robots": [{"name": "r", "model": "pebble", "x": 0, "y": -1.5, "behaviour": "witness"}]})
     laboratory.press("lost", "start")
@@ -90,7 +90,7 @@ def lose_recording(laboratory):
         return "a server that was started anew has simulations", 0
     lost = [entry.get("replay") for entry in laboratory.get("/api/lost")["lost"] if entry["name"] == "lost"]
     if lost != [file]:
-        return f"what ran when the server died is not told with its recording {file}: {lost}", 0
+        return f"the crash report of the killed server does not name the recording {file}: {lost}", 0
     listed = [entry["name"] for entry in laboratory.get("/api/recordings")["recordings"]]
     if file not in listed:
         return f"the recording {file} is not listed after the server's death: {listed}", 0

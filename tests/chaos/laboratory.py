@@ -11,7 +11,7 @@ import sys
 import time
 from pathlib import Path
 
-TIMEOUT_S = 60  # time limit of each operation; an operation that takes longer hangs
+TIMEOUT_S = 60  # time limit of each operation; an operation that takes longer counts as hung
 MEMORY_SLACK_MIB = 64  # arenas of malloc and copies in the renderer remain
 SLACK = 4  # threads and descriptors that omniORB keeps for some time for the next caller
 

@@ -51,7 +51,7 @@ class Witness:
 
 
 def differences(name, before, now, may_grow=False):
-    """Returns sentences about resources of which a process has more than before. With `may_grow`, memory is ignored."""
+    """Returns sentences about resources that a process did not release. With `may_grow`, memory is ignored."""
     over = [f"{name}: {now[kind]} {kind} instead of {before[kind]}" for kind in ("threads", "descriptors")
             if now[kind] > before[kind] + SLACK]
     if not may_grow and now["memory_mib"] > before["memory_mib"] + MEMORY_SLACK_MIB:

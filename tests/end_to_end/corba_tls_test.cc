@@ -171,7 +171,7 @@ TEST_F(CorbaTls, ClientWithoutACertificateIsRejected) {
   const Outcome told = broker.Offers();
   EXPECT_EQ(told.ending, "exit code 5");
   EXPECT_THAT(told.err, HasSubstr("it requires TLS and a certificate"));
-  // A client that uses plain TCP nevertheless gets no answer.
+  // A client that uses plain TCP although the server requires TLS gets no answer.
   const std::string plain = "corbaloc::1.2@127.0.0.1:" + std::to_string(broker.port());
   const Outcome cut = RunProgram("gsv", {"offers", "--broker", plain + "/TradingService"});
   EXPECT_EQ(cut.ending, "exit code 5");

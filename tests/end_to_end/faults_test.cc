@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 // One server for all tests, and one fleet for each test.
 class Faults : public Served {
  protected:
-  // Creates the simulation of FleetRun(), and replaces the programs of earlier ones.
+  // Creates the simulation of FleetRun(), and replaces the programs of earlier simulations.
   sba::Simulation_ptr Create(const char* option = "on_failure", const char* value = "go_on") {
     fleet_.reset();
     fleet_.emplace(broker_.reference());
@@ -31,7 +31,7 @@ class Faults : public Served {
     AddFleet(simulation);
     return simulation._retn();
   }
-  // Returns the robot whose behaviour is in that phase.
+  // Returns the robot whose behaviour is in this phase.
   static const sba::RobotState& RobotIn(sba::AgentPhase phase, const sba::SimulationState& state) {
     for (CORBA::ULong i = 0; i < state.robots.length(); ++i) {
       if (state.robots[i].phase == phase) return state.robots[i];
@@ -146,7 +146,7 @@ TEST_F(Faults, KilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
                  [](const auto& state) { return CountOf(state, sba::AGENT_DEAD) == 1; });
       const std::chrono::duration<double> after = std::chrono::steady_clock::now() - killed;
       std::cout << "reported after " << after.count() << " s\n";  // the limit is 2 s
-      // Nothing else has changed: the clock has stopped.
+      // Everything else is unchanged, because the clock has stopped.
       EXPECT_EQ(sba::SimulationState_var(simulation->state())->time_ns, kHalfway * 1e9);
     }
     RunTo(simulation, kFleetSeconds);

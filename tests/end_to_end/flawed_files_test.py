@@ -1,6 +1,6 @@
-"""Files and behaviours of other people, as the programs treat them: read from the command line, drawn, and ended.
+"""Tests how the programs read, draw and end files and behaviours of other people that have faults.
 
-usage: flawed_files_test.py GSV [PYTHON_FOLDER]    PYTHON_FOLDER: that of the Python package gsv
+usage: flawed_files_test.py GSV [PYTHON_FOLDER]    PYTHON_FOLDER is the folder of the Python package gsv
 """
 
 import os

@@ -70,7 +70,7 @@ class Isolation : public Served {
   std::unique_ptr<Running> bad_;
 };
 
-// A simulation whose hash is known from a run without other simulations.
+// A simulation whose hash is compared with the hash of a run without other simulations.
 class HashBesideAnotherSimulation : public Isolation {
  protected:
   HashBesideAnotherSimulation() {

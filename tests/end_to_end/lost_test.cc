@@ -151,7 +151,7 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   Serve();
   ASSERT_EQ(LostReports().size(), 1u);
   EXPECT_EQ(LostReports()[0]["name"], "maze");
-  // The regular end of the server leaves the report.
+  // The log of the server contains the report. The regular end of the server removes the report.
   EXPECT_NE(End().find("maze on lab (process " + pid + ") was lost at about"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(notes()));
   Serve();

@@ -302,7 +302,7 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
   EXPECT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
 }
 
-// The following tests use the SDK's side of the same services.
+// The following tests call the same services through the SDK.
 TEST_F(Services, ApplicationNeedsNoCorbaCode) {
   // A process has one ORB, so the SDK uses the ORB of this test.
   EXPECT_EQ(RunProgram("example-test-wandering",

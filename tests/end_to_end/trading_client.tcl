@@ -3,8 +3,8 @@
 #
 #   trading_client.tcl BROKER OTHER_BROKER
 #
-# Exports offers and a proxy, queries with every policy, iterates, links, follows the link, and
-# withdraws; says what it has done, a line each, and ends with 1 at the first answer that is not right.
+# Exports offers and a proxy, queries with every policy, iterates, adds a link, follows the link, and
+# withdraws. Prints a line for each successful check. Exits with 1 at the first wrong answer.
 package require combat
 
 set id IDL:omg.org/CosTrading
@@ -31,13 +31,13 @@ proc check {what found expected} {
     puts $what
 }
 
-# The exceptions that are waited for, with their members.
+# The exceptions that this client can decode, with their members.
 set raises [list \
     [list exception $id/IllegalConstraint:1.0 {constr string}] \
     [list exception $id/Lookup/PolicyTypeMismatch:1.0 [list the_policy $policy]] \
     [list exception $id/Link/UnknownLinkName:1.0 {name string}]]
 
-# The id of the exception that `script` raises.
+# Returns the id of the exception that `script` raises, or "nothing".
 proc raised {script} {
     if {![catch {uplevel 1 $script} problem]} { return "nothing" }
     return [lindex $problem 0]
@@ -45,7 +45,8 @@ proc raised {script} {
 
 proc attribute {object name} { corba::dii $object [list Object _get_$name {}] }
 
-# What is found: the numbers n, as the iterator hands them out too, and the limits applied.
+# Queries, and returns the numbers n of all found offers, including those from the iterator, and the
+# limits that the broker applied.
 proc query {lookup constraint preference {policies {}} {how_many 100}} {
     global offer policy desired raises
     corba::dii -timeout 20000 $lookup [list void query [list {in string} {in string} {in string} \
@@ -95,7 +96,8 @@ proc withdraw {lookup id} {
     corba::dii [attribute $lookup register_if] {void withdraw {{in string}}} $id
 }
 
-# The target's offers stand for the proxy's; all that an importer asks for is asked of it.
+# Exports a proxy. The broker passes all queries of importers that match it on to the target, whose
+# offers replace the proxy in the results.
 proc export_proxy {lookup target} {
     global property policy
     corba::dii [attribute $lookup proxy_if] [list string export_proxy \
@@ -139,7 +141,7 @@ foreach {name type value constraint expected} [list \
     check "policy $name" [query $near $constraint "" [policies $name $type $value]] $expected
 }
 
-# What a policy leaves out.
+# Policies that exclude offers.
 check "answers a request once" [query $near "n < 2" "" [policies request_id {sequence octet} tcl]] \
     {{} {}}
 check "without what can be modified" \

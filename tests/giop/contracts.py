@@ -16,7 +16,7 @@ OF_ALL = {"_is_a": (("in", "id", "string"),), "_non_existent": ()}  # operations
 @dataclass(frozen=True)
 class Operation:
     interface: str  # the interface of the operation: "sba::Sonar"
-    name: str       # as it stands in messages
+    name: str       # the name of the operation in messages
     parameters: tuple
     result: object
 

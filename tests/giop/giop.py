@@ -6,7 +6,7 @@ import struct
 from cdr import Reader, Reference, Writer
 
 REQUEST, REPLY, CANCEL, LOCATE, LOCATE_REPLY, CLOSE, ERROR, FRAGMENT = range(8)
-TIMEOUT_S = 60  # time limit of a valid call; a program that takes longer hangs
+TIMEOUT_S = 60  # time limit of a valid call; a program that takes longer counts as hung
 STATUS = ["result", "user exception", "system exception", "forward"]
 
 

@@ -41,9 +41,9 @@ from mutations import mutant  # noqa: E402
 from seeds import World, missing, prove  # noqa: E402
 
 WORKERS = 6
-OF_A_ROUND = 40  # messages of each worker
-ANSWER_S = 0.3   # how long one is waited for; a right call is given a minute
-END_S = 60       # how long a program may take to end
+OF_A_ROUND = 40  # messages that each worker sends in a round
+ANSWER_S = 0.3   # time limit for the answer to a mutated request; a valid call has a minute
+END_S = 60       # time limit for the end of a program
 
 
 class Attack:

@@ -1,6 +1,6 @@
 """Mutates valid requests: their values before they are written, and their bytes afterwards.
 
-The random.Random that each function receives determines everything.
+The random.Random that each function receives determines the result.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""A behaviour, as an object without an ORB, that only stores the hardware reference that it
+"""A behaviour that is implemented without an ORB. It only stores the hardware reference that it
 receives.
 """
 

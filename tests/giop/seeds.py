@@ -1,4 +1,4 @@
-"""Finds each of GSV's servants, and has the arguments of a valid call for each of their operations."""
+"""Finds all servants of GSV, and provides arguments of a valid call for each operation."""
 
 import itertools
 import shutil
@@ -59,7 +59,7 @@ REFUSED = {
 
 
 class World:
-    """References to one object of each interface, and values for what they are asked."""
+    """References to one object of each interface, and values for the arguments of calls."""
 
     def __init__(self, laboratory):
         self.laboratory = laboratory
@@ -273,7 +273,7 @@ class World:
 
 
 def missing(world):
-    """Returns sentences about interfaces without an object, of the interface itself or of a derived one."""
+    """Returns a sentence for each interface that no object has, neither directly nor by a derived interface."""
     for interface, names in contracts.standard_trading_operations().items():
         found = [each.name for each in world.contracts.operations(interface)]
         for name in names:

@@ -5,7 +5,7 @@
     {REPOSITORY ID: {"name": "sba::Sonar", "bases": [REPOSITORY ID …],
                      "operations": [{"name", "parameters": [["in", NAME, TYPE] …], "result": TYPE}]}}
 
-An attribute is listed as its operations `_get_…` and `_set_…`. A TYPE is the name of a simple one, or a list:
+An attribute is listed as its operations `_get_…` and `_set_…`. A TYPE is the name of a simple type, or a list:
 ["sequence", TYPE], ["struct", ID, [[NAME, TYPE] …]], ["enum", ID, [NAME …]], ["objref", ID],
 ["union", ID, TYPE, {VALUE: [NAME, TYPE]}]. The output contains the content of included files.
 """

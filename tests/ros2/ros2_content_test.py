@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds what a robot's sensors publish, as another DDS decodes it, to values in closed form.
+"""Compares messages of a robot's sensors, which another DDS decodes, with values in closed form.
 
   ros2_content_test.py GSV ROS2_PEER
 

@@ -4,7 +4,8 @@
 //   ros2_fast_client PLUGIN_FOLDER ENTITY COUNT WINDOW [SECONDS]
 //
 // Sends COUNT calls, with at most WINDOW calls in progress at a time, and prints the number of
-// replies that match their requests. Exits with 0 if all came within SECONDS (default: 60).
+// replies that match their requests. Exits with 0 if all replies came within SECONDS (default:
+// 60).
 // ROS_DOMAIN_ID selects the domain.
 #include <chrono>
 #include <cstdio>

@@ -56,7 +56,7 @@ float FloatAt(const std::uint8_t* bytes, std::size_t at) {
   return value;
 }
 
-// The value in the middle of an image of 32FC1; null for another encoding.
+// Returns the value in the middle of an image of 32FC1, or null for another encoding.
 Json Centre(const sensor_msgs_msg_dds__Image_& image) {
   if (std::string(image.encoding) != "32FC1") return {};
   const std::size_t at = image.height / 2 * image.step + image.width / 2 * sizeof(float);
@@ -64,7 +64,7 @@ Json Centre(const sensor_msgs_msg_dds__Image_& image) {
   return Number(FloatAt(image.data._buffer, at));
 }
 
-// The first three bytes.
+// Returns the first three bytes.
 template <typename Sequence>
 Json First(const Sequence& data) {
   if (data._length < 3) return {};

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Checks what a build with -DGSV_ROS2=OFF is, without compiling one.
+"""Checks the contents of a build with -DGSV_ROS2=OFF, without compiling it.
 
   ros2_off_test.py SOURCE BUILD GSV
 
-A build without ROS 2 has the same programs, but not the plug-in, and needs no Fast DDS. So the test configures one, on
-a machine that seems to have no Fast DDS, and compares its commands with those of BUILD. Then it runs GSV without the
-plug-in. Only builds by Ninja list their commands; others skip the comparison.
+A build without ROS 2 has the same programs, but not the plug-in, and needs no Fast DDS. So the test configures such
+a build, and hides Fast DDS from it. Then it compares the commands with those of BUILD. Then it runs GSV without the
+plug-in. The comparison needs a build by Ninja, because only Ninja lists its commands; otherwise it is skipped.
 """
 import json
 import os

@@ -8,7 +8,7 @@
 //       seconds. The readers are reliable with --reliable. BYTES is the buffer of each socket.
 //   ros2_peer latency [--count N] ROBOT
 //       Sends N commands to turn left and right. Prints after how many milliseconds ROBOT/imu showed
-//       each of them, and how late the sleeps before the commands ended.
+//       each command, and how late the sleeps before the commands ended.
 //   ros2_peer drive --distance M [--stamped] ROBOT
 //       Sends cmd_vel until ROBOT/odom shows M metres.
 //   ros2_peer step --seconds S [--speed V] ROBOT
@@ -34,7 +34,7 @@
 // All commands take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves
 // Cyclone DDS its default settings; without this option, Cyclone DDS stays on loopback and uses no
 // multicast. TYPE is "sensor_msgs/msg/LaserScan", TOPIC is "/pebble/scan". Exits with 0 if all
-// came, 1 after the time limit, 2 for a usage error.
+// expected samples came, 1 after the time limit, 2 for a usage error.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

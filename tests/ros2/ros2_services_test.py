@@ -17,15 +17,15 @@ import unittest
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
 DOMAIN = str(100 + os.getpid() % 40)  # a domain that no other test on this machine uses
-EARLY_CALLS = 5  # starts of gsv with a call as soon as its services are found
-CALLS = "3400"  # of each client: 10,200 in all
+EARLY_CALLS = 5  # number of starts of gsv, each with a call as soon as its services are found
+CALLS = "3400"  # number of calls of each client; 10,200 in all
 UNSUPPORTED, OK, NOT_FOUND, INCORRECT_STATE, FAILED = range(5)
 STOPPED, PLAYING, PAUSED, QUITTING = range(4)
-SUCCEEDED, CANCELED, ABORTED = 4, 5, 6  # of action_msgs/msg/GoalStatus
+SUCCEEDED, CANCELED, ABORTED = 4, 5, 6  # values of action_msgs/msg/GoalStatus
 
 
 class Client:
-    """The peer, which answers each line."""
+    """The peer process, which answers each input line."""
 
     def __init__(self):
         self.peer = subprocess.Popen([PEER, "call", "--domain", DOMAIN, "--timeout", "60"],

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs `gsv run --ros2` and holds what it does to a peer on another DDS.
+"""Runs `gsv run --ros2` and checks with a peer on another DDS what it publishes and accepts.
 
   ros2_test.py GSV ROS2_PEER
 
 Every field that the peer prints was decoded by Cyclone DDS with types generated from IDL. Traffic is
-captured and dissected by tshark where that is installed and may capture; else that test is skipped.
+captured and dissected by tshark. If tshark is not installed or may not capture, that test is skipped.
 """
 import contextlib
 import json
@@ -65,7 +65,7 @@ def listening(topic):
 
 @contextlib.contextmanager
 def captured(*fields):
-    """A list, which at the end of the block has these fields of each RTPS packet on the ports of this domain."""
+    """Yields a list. At the end of the block, it has these fields of each RTPS packet on this domain's ports."""
     first = 7400 + 250 * DOMAIN
     last = first + 249
     tshark = subprocess.Popen(
@@ -157,7 +157,7 @@ class ForeignPeer(unittest.TestCase):
         self.assertEqual(by_topic["/pebble/sonar_00"][0]["header"]["frame_id"], "pebble/sonar_00")
 
     def step(self, speed):
-        """A run in lockstep whose robot a node steps: its report, and the node's."""
+        """Runs a robot in lockstep that a node steps. Returns the report of the run."""
         gsv = subprocess.Popen(
             [GSV, "run", "office", "--robot", "pebble@0,0", "--behaviour", "ros2", "--ros2", "--ros2-cmd-vel",
              "twist_stamped", "--lockstep", "--duration", "1", "--headless", "--json"],

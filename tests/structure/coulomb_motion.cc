@@ -190,7 +190,7 @@ void ShareWeight(std::vector<Support>& supports, const Vector3& centre) {
 // Returns the links whose contact points differ in y, such as wide wheels, which touch the ground
 // along a line across the robot.
 std::vector<int> WideLinks(const std::vector<Support>& supports) {
-  constexpr double kSame = 1e-4;  // m
+  constexpr double kSame = 1e-4;  // maximum difference in y that counts as equal, m
   std::vector<int> wide;
   for (const Support& a : supports) {
     for (const Support& b : supports) {

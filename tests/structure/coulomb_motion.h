@@ -6,10 +6,10 @@
 //         lost to friction is minimal. This power is the sum of friction × load × slip (Peshkin and
 //         Sanderson, "Minimization of energy in quasi-static manipulation", IEEE Trans. Robotics
 //         and Automation 5 (1989)).
-// Loads   a linear function of the contact point's position, such that the loads carry the weight
-//         at the centre of mass. Equal springs would have the same loads. If all points are on one
-//         line, as with a robot that rocks on its two wheels, the function is linear along this
-//         line.
+// Loads   the load of a contact point is a linear function of its position, such that the loads carry
+//         the weight at the centre of mass. Equal springs under the points would have these loads.
+//         If all points are on one line, as with a robot that rocks on its two wheels, the function
+//         is linear along this line.
 // Wheels  a stiff wheel of width w stands on its two edges, which may share its load in any
 //         way. The edge with more load rolls, the other slips. Two wheels at a distance B thus turn
 //         a robot at B / (B + w) to B / (B - w) of the rate of thin wheels: outer or inner edges

@@ -100,7 +100,7 @@ class PlainRobotsTest : public testing::TestWithParam<model::Movement> {
     return model ? *model : nullptr;
   }
 
-  // Returns the pose of the robot after two seconds of that command.
+  // Returns the pose of the robot after two seconds of this command.
   geometry::Pose After2s(const std::string& urdf, const world::DriveCommand& command,
                          const std::string& drive = {}) {
     Specification specification = Lockstep(2s);

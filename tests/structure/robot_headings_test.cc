@@ -46,7 +46,7 @@ struct Outcome {
   double way() const { return std::hypot(forward, left); }
 };
 
-// A run, the motion that the drive commanded during it, and the motion that follows from the
+// A run, the motion that the drive commanded during the run, and the motion that follows from the
 // wheels' speeds by Coulomb's law.
 struct Run {
   Outcome is, commanded;

@@ -18,7 +18,7 @@ COMPILERS = {
     "option_typeE",
     "_ZNSt7__cxx1111basic_regexIcNS_12regex_traitsIcEEE10_M_compileEPKcS5_NSt15regex_constants18syntax_option_typeE",
 }
-# sdf::Element::Clone() and sdf::initFile(), which gsv/formats/sdf/shared_descriptions.cc defines.
+# The functions sdf::Element::Clone() and sdf::initFile(), which gsv/formats/sdf/shared_descriptions.cc defines.
 OWN_SDF = (
     "_ZNK3sdf3v127Element5CloneEv",
     "_ZN3sdf3v128initFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEESt10shared_ptrINS0_7ElementEE",

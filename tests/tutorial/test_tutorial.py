@@ -12,8 +12,8 @@ SOURCE = Path(os.environ["GSV_SOURCE_DIR"])
 BUILD = Path(os.environ["GSV_BUILD_DIR"])
 TUTORIAL = SOURCE / "docs" / "tutorial"
 PAGES = sorted(TUTORIAL.glob("*.md"))
-# ```language [what]: `what` is the file of a listing, or "setup" of commands that a test does not
-# need.
+# The first line of a block is ```language [what]. `what` is the file of a listing, or "setup" for
+# commands that the test does not need.
 BLOCK = re.compile(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
