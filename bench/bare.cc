@@ -1,13 +1,13 @@
 // Measures operations without GSV, for comparison with the rows of bench/all.
 //
-//   bare rays       million rays a second of Embree: fans of 360 rays in packets of 16, from 50
+//   bare rays       million rays per second of Embree: fans of 360 rays in packets of 16, from 50
 //                   places in a static scene of 400 boxes, by two threads
 //   bare columns    milliseconds to find the smallest value among 100,000 rows that satisfy three
 //                   terms, over columns of doubles
-//   bare fill       images of 320×240 a second, of 4 bytes of colour and 4 of depth, that two
-//                   threads fill
+//   bare fill       images of 320×240 pixels per second that two threads fill; a pixel has 4 bytes of
+//                   colour and 4 bytes of depth
 //
-// Prints one number: the best of several repetitions.
+// Prints one number: the best value of several repetitions.
 #include <embree3/rtcore.h>
 
 #include <algorithm>

@@ -34,8 +34,8 @@ class Row:
     wanted: float
     is_more_better: bool
     run: Callable[[], Measured]
-    beside: str = ""  # the operation that is measured beside this one
-    why_not: str = ""  # why it runs only if --rows names it; empty for a row that always runs
+    beside: str = ""  # the operation that is measured for comparison; empty: none
+    why_not: str = ""  # reason why the row runs only if --rows names it; empty for a row that always runs
 
 
 def timed(command, cwd=None):
@@ -90,14 +90,14 @@ class Benches:
         return float(subprocess.run([program, operation], check=True, stdout=subprocess.PIPE, text=True).stdout)
 
     def lockstep(self, index, calls):
-        """Returns the real-time factor, and beside it that of a bare futex per call (5 robots, 20 Hz)."""
+        """Returns the real-time factor, and for comparison that of a bare futex per call (5 robots, 20 Hz)."""
         row = self.bench("lockstep", "--robots", "5", "--duration", self.seconds(60))[-1]["rows"][index]
         handover = self.compiled("handover")
         bare = float(subprocess.run([handover], check=True, stdout=subprocess.PIPE, text=True).stdout)
         return Measured(row["real_time_factor"], 1e9 / (bare * 20 * 5 * calls), row["state_hash"])
 
     def typical(self, robots):
-        """Returns the real-time factor after the start, or the fraction of control cycles that take place, if smaller.
+        """Returns the real-time factor after the start, or the fraction of executed control cycles if it is smaller.
 
         A cycle takes 0.05 s. Robots whose behaviours are late miss cycles, and do not slow down the steps.
         """
@@ -106,7 +106,7 @@ class Benches:
         return Measured(min(row["real_time_factor_after_start"], row["cycles_per_robot_s"] / 20))
 
     def images(self, size, pixels):
-        """Measures beside it: two threads fill images of that size with one colour and one depth."""
+        """Also measures a comparison: two threads fill images of this size with one colour and one depth."""
         images = self.bench("camera", "--cameras", "64", "--size", size, "--duration", self.seconds(10))
         return Measured(images[-1]["pictures_per_s"], self.bare("fill") * 320 * 240 / pixels)
 
@@ -133,7 +133,7 @@ class Benches:
         return Measured(median_of(9, [self.gsv, *arguments], 0), median_of(9, ["/bin/true"], 0))
 
     def broker(self, figure):
-        """Measures each value over TCP once per run, which takes a minute."""
+        """Measures each value over TCP once per run. A run takes a minute."""
         if figure not in self.broker_figures:
             offers = "5000" if self.is_quick else "100000"
             self.broker_figures = self.bench("broker", "--offers", offers)[-1]
@@ -153,7 +153,7 @@ class Benches:
         return Measured(1 / (1 + result["median_extra_percent"] / 100))
 
     def load(self, world):
-        """Returns the processor time in addition to that of an empty world."""
+        """Returns the processor time of a run, minus the processor time of an empty world."""
         command = [self.gsv, "run", "--headless", "--lockstep", "--duration", "0.01"]
         return Measured(median_of(3, [*command, world], 0), median_of(3, [*command, self.folder / "empty.sdf"], 0))
 

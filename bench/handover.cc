@@ -1,5 +1,5 @@
 // Measures the shortest time that a call to another process on the same machine can take: two
-// processes wake each other by a futex. Prints the duration of one handover there and back, in ns.
+// processes wake each other by a futex. Prints the duration of one round trip in ns.
 //
 // usage: handover [REPETITIONS]
 #include <linux/futex.h>

@@ -4,8 +4,8 @@
 //
 //   bench/seek.mjs PACKAGE_JSON URL [SEEKS]
 //
-// PACKAGE_JSON is beside the node_modules with `ws` (web/package.json). URL is that of `gsv replay
-// --paused`. SEEKS is the number of jumps. Prints one JSON object; times in ms.
+// PACKAGE_JSON is beside the node_modules with `ws` (web/package.json). URL is the address that
+// `gsv replay --paused` prints. SEEKS is the number of jumps. Prints one JSON object; times in ms.
 import { createRequire } from "node:module";
 import path from "node:path";
 

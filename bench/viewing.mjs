@@ -7,8 +7,8 @@
 //   bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing|pushed|growth]]
 //
 // BUILD is a release build (build/release). WORLD is a world for the first image; the default is
-// the TurtleBot3 house in GSV_REAL_DIR. The third word selects a single measurement. The machine
-// should be idle: load_average shows whether it was. Prints one JSON object; times in ms.
+// the TurtleBot3 house in GSV_REAL_DIR. The third argument selects a single measurement. The
+// machine should be idle; load_average in the output reports the load. Prints one JSON object; times in ms.
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
@@ -142,8 +142,8 @@ const pushed = (name, args) =>
     }
   });
 
-// Counts the calls and triangles of each frame that a graphics card would get, and the time of the
-// page's script for it. The page omits nothing here, although there is no graphics card.
+// Counts the drawing calls and triangles that a graphics card would get for each frame, and measures the
+// time that the page's script takes for the frame. The page omits nothing here, although there is no graphics card.
 function countDrawing() {
   const drawn = (window.testDrawn = { calls: 0, triangles: 0, script_ms: 0 });
   const count = (mode, vertices) => {

@@ -4,8 +4,8 @@
 //
 //   bench/watch.mjs PACKAGE_JSON URL PID [VIEWERS] [STALLED] [SECONDS]
 //
-// PACKAGE_JSON is beside the node_modules with `ws` (web/package.json). URL and PID are those of
-// `gsv run`, `gsv serve` or gateway_dev_server. Prints one JSON object.
+// PACKAGE_JSON is beside the node_modules with `ws` (web/package.json). URL and PID are the address
+// and the process of `gsv run`, `gsv serve` or gateway_dev_server. Prints one JSON object.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";

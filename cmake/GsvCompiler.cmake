@@ -1,4 +1,4 @@
-# Compiler settings that hold for every target.
+# Compiler settings for every target.
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
@@ -34,7 +34,7 @@ option(GSV_COVERAGE "Count which lines run: the preset coverage, and `make cover
 if(GSV_COVERAGE)
   # Several threads count at the same time, and several processes add to one file.
   add_compile_options(--coverage -fprofile-update=prefer-atomic)
-  add_compile_definitions(GSV_COVERAGE)  # programs end as they should, and write what they counted
+  add_compile_definitions(GSV_COVERAGE)  # programs then end normally and write their counts
   add_link_options(--coverage)
 endif()
 
@@ -43,7 +43,7 @@ if(GSV_CCACHE)
   find_program(CCACHE_PROGRAM ccache REQUIRED)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)  # ccache cannot tell whether one has changed
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)  # ccache cannot detect changes of a precompiled header
 endif()
 
 find_program(LLD_PROGRAM ld.lld)

@@ -1,12 +1,16 @@
-# What `cmake --install` puts where, and the Debian packages that `make deb` makes of it. Programs
-# find their worlds, models, plug-ins and pages from where they lie, so a prefix may be moved as a
-# whole:
+# Installs files with `cmake --install`, and defines the Debian packages that `make deb` makes of
+# them. Programs find their worlds, models, plug-ins and pages relative to their own path, so a prefix
+# may be moved as a whole. The installed folders and files are:
 #
-#   bin/                programs                     lib/gsv/       plug-ins
-#   share/gsv/          worlds, models, the viewer, the documentation   share/idl/gsv  the contracts
-#   lib/libgsv.so       the SDK                      lib/libgsv-behaviour.a  what plug-ins need of
-#   it include/gsv/        headers, by the paths they have here
-#   lib/cmake/gsv/, lib/pkgconfig/gsv.pc             for find_package and pkg-config
+#   bin/                      programs
+#   lib/gsv/                  plug-ins
+#   lib/libgsv.so             the SDK
+#   lib/libgsv-behaviour.a    the part of the SDK that plug-ins need
+#   lib/cmake/gsv/            for find_package
+#   lib/pkgconfig/gsv.pc      for pkg-config
+#   include/gsv/              headers, with their paths in the source tree
+#   share/gsv/                worlds, models, the viewer, the documentation
+#   share/idl/gsv/            the IDL
 include(CMakePackageConfigHelpers)
 set(GSV_LIBRARY_VERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
@@ -49,7 +53,8 @@ install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY
   COMMAND \"${CMAKE_SOURCE_DIR}/tools/make_man_pages\" \"${CMAKE_BINARY_DIR}/bin/gsv\"
     \"${CMAKE_SOURCE_DIR}/docs/gsv.1.in\" \"${GSV_MAN}\")" COMPONENT gsv)
 install(DIRECTORY ${GSV_MAN} DESTINATION share/man COMPONENT gsv)
-# The completion scripts, made in the same way, in the folders below /usr in which shells search.
+# The completion scripts, which the installed program prints, in the folders below /usr in which
+# shells search.
 set(GSV_COMPLETION ${CMAKE_BINARY_DIR}/share/completion)
 foreach(COMPLETION bash:bash-completion/completions/gsv zsh:zsh/vendor-completions/_gsv
     fish:fish/vendor_completions.d/gsv.fish)

@@ -2,8 +2,8 @@
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4 omniDynamic4)
 pkg_check_modules(OMNIORB_COS REQUIRED omniCOS4 omniCOSDynamic4)
-# Only the COS stubs of the Trading Service are used. libCOS4.so has those of all services, and
-# linking it at the start takes 10 ms. So programs take the stubs that they need from the archives.
+# Only the COS stubs of the Trading Service are used. libCOS4.so has the stubs of all services, and
+# loading it at the start of a program takes 10 ms. So programs link the stubs from the archives.
 # The archives are not position-independent code, which shared libraries require.
 find_library(OMNIORB_COS_ARCHIVE libCOS4.a)
 find_library(OMNIORB_COS_DYNAMIC_ARCHIVE libCOSDynamic4.a)

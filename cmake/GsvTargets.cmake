@@ -1,6 +1,8 @@
-# gsv_precompile(TARGET KIND) gives a target the headers that nearly every file of its kind includes
-# (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", or "test" for programs made of tests. The
-# target links to gsv::base. Programs have no such header: what it holds of CLI11 would be compiled again in each.
+# gsv_precompile(TARGET KIND) gives a target a precompiled header (cmake/precompiled_KIND.h), which
+# is compiled once for all targets of this kind. It contains the headers that nearly every file of the
+# kind includes. KIND is "library", or "test" for test programs. The target links to gsv::base. Other
+# programs have no precompiled header, because each program would compile the code of CLI11 in the
+# header again.
 function(gsv_precompile TARGET KIND)
   set(OWNER gsv_precompiled_${KIND})
   if(NOT TARGET ${OWNER})
@@ -28,15 +30,15 @@ function(gsv_precompile TARGET KIND)
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Werror=invalid-pch>)
 endfunction()
 
-# All builds but dev compile the sources of a target a few at a time, as one file each: most of the
-# time that a file takes is that of the headers and templates it shares with its neighbours. The
-# unnamed namespaces of neighbours are then one, so their names must differ. dev compiles file by
-# file, which shows a missing include and rebuilds sooner.
+# Most of the compile time of a file is spent on headers and templates that other files of the target
+# also include. So all builds except dev compile the sources of a target in groups, each group as one
+# file. The files of a group share one unnamed namespace, so the names in it must differ. The build dev
+# compiles each file alone, which detects a missing include and rebuilds faster.
 #
-# gsv_compile_in_groups(TARGET FILE[@GROUP] …) has the target's sources go together in the order in
-# which they are listed, but for those with a group: @json and the like make a group of those that
-# share what takes longest (libsdformat, Boost.Beast, nlohmann::json, CLI11). gsv_library and
-# gsv_test call it with their SOURCES.
+# gsv_compile_in_groups(TARGET FILE[@GROUP] …) groups the target's sources in the order in which they
+# are listed. A file with @GROUP (such as @json) is in the group of this name. Such groups contain files
+# that share the slowest headers (libsdformat, Boost.Beast, nlohmann::json, CLI11). gsv_library and
+# gsv_test call this function with their SOURCES.
 function(gsv_compile_in_groups TARGET)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug")
     return()
@@ -58,7 +60,7 @@ function(gsv_compile_in_groups TARGET)
     set_source_files_properties(${SOURCE} PROPERTIES UNITY_GROUP ${GROUP})
   endforeach()
 endfunction()
-# The files alone.
+# Sets the variable OUT to the files without their groups.
 function(gsv_without_groups OUT)
   list(TRANSFORM ARGN REPLACE "@.*$" "" OUTPUT_VARIABLE FILES)
   set(${OUT} ${FILES} PARENT_SCOPE)
@@ -112,9 +114,9 @@ function(gsv_library NAME)
 endfunction()
 
 # gsv_late_library(TARGET INSTEAD_OF IMPORTED LIBRARIES FILE … [WITHOUT FUNCTION …]) makes the
-# library TARGET, to link to in place of the target IMPORTED, whose functions are in the shared
-# libraries FILE. These are then loaded at the first call of one of their functions; see
-# tools/make_late_library. On processors that it cannot write for, TARGET links to IMPORTED.
+# library TARGET. Targets link to it instead of the target IMPORTED, whose functions are in the shared
+# libraries FILE. A program then loads these libraries at the first call of one of their functions; see
+# tools/make_late_library. On processors that this tool does not support, TARGET links to IMPORTED.
 function(gsv_late_library TARGET)
   cmake_parse_arguments(ARG "" "INSTEAD_OF" "LIBRARIES;WITHOUT" ${ARGN})
   if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
@@ -150,16 +152,16 @@ endfunction()
 #
 # Adds the GoogleTest program NAME; each of its tests becomes one ctest test, whose report
 # GoogleTest leaves in test-reports of the build folder. GSV_REAL_DIR (other people's worlds and
-# robots, may be absent), GSV_SOURCE_DIR and GSV_BUILD_DIR reach every test as environment. EARLY:
-# they wait for most of their time, and are begun before others, so that nothing waits for them in
-# the end.
+# robots, may be absent), GSV_SOURCE_DIR and GSV_BUILD_DIR are environment variables of every test.
+# EARLY: ctest starts these tests before others. They spend most of their time waiting, so that they
+# would otherwise delay the end of all tests.
 function(gsv_test NAME)
   cmake_parse_arguments(ARG "EARLY" "TIMEOUT;LABEL" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
   if(GSV_SANITIZE)
-    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # all takes two to ten times as long
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # all tests take two to ten times as long
   endif()
   gsv_without_groups(FILES ${ARG_SOURCES})
   add_executable(${NAME} ${FILES})
@@ -185,7 +187,7 @@ endfunction()
 #
 # With GSV_FUZZ (the preset fuzz, which needs clang): the libFuzzer program fuzz/NAME, which `make
 # fuzz` runs from the corpus on. Without: the test Fuzz.NAME, which runs the target on each file of
-# the corpus. The sources define LLVMFuzzerTestOneInput. An input that once failed joins the corpus.
+# the corpus. The sources define LLVMFuzzerTestOneInput. Add an input that has failed to the corpus.
 option(GSV_FUZZ "Build fuzz targets with libFuzzer, and no tests" OFF)
 if(GSV_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
