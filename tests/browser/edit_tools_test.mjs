@@ -9,7 +9,7 @@ import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { picture } from "./pixels.mjs";
 import { program, startServer } from "./server.mjs";
-import { ask, settled, until, viewClip } from "./viewing.mjs";
+import { ask, phaseIs, settled, until, viewClip } from "./viewing.mjs";
 
 const NAME = `tools_${process.pid}`;
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-tools-"));
@@ -116,6 +116,35 @@ test("a handle moves the body along one axis, in steps if snapping is on", async
   assert.equal(Number(await pose().getByLabel("x (m)").inputValue()), Number(now[0].toFixed(4)));
 });
 
+// Drags a handle away from the body, by this part of its distance on the screen.
+async function dragHandle(axis, part) {
+  await settled(page);
+  const [from, middle] = [await handle(axis), await onScreen((await chosen())[0])];
+  const to = { x: from.x + part * (from.x - middle.x), y: from.y + part * (from.y - middle.y) };
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 3 });
+  await page.mouse.move(to.x, to.y, { steps: 3 });
+  await page.mouse.up();
+}
+
+for (const [index, axis] of [[1, "y"], [2, "z"]]) {
+  test(`the handle along ${axis} moves the body along ${axis} only, and undo reverts it`, async () => {
+    await ready();
+    const before = await place("box");
+    await dragHandle(axis, 0.6);
+    await until(async () => Math.abs((await place("box"))[index] - before[index]) > 0.05, "the moved box");
+    const now = await place("box");
+    assert.ok(now[index] > before[index], "in the direction of the drag");
+    now.forEach((value, i) => assert.ok(i === index || Math.abs(value - before[i]) < 1e-6, `${now} along ${axis} only`));
+    await settled(page);
+    await ready();
+    await press("Undo");
+    await until(async () => Math.abs((await place("box"))[index] - before[index]) < 1e-6, "the box at its old place");
+    await settled(page);
+  });
+}
+
 test("a drag of the selected body itself moves it over the floor", async () => {
   await edit().getByLabel("Snap").uncheck();
   await settled(page);
@@ -183,42 +212,63 @@ test("typed numbers place the body exactly, and undo reverts each of them", asyn
   await settled(page);
 });
 
-test("a ring turns the body about one axis, in steps if snapping is on", async () => {
-  await edit().getByLabel("Snap").check();
-  await edit().getByLabel("Angle").selectOption("15");
-  await press("Turn");
-  await settled(page);
+const AXES = ["x", "y", "z"];
+
+test("a body is raised, to have room for turns", async () => {
   await ready();
-  const before = await place("box");
-  const [middle, x, y] = [await onScreen("box"), await handle("x"), await handle("y")];
-  // Points of the horizontal ring, between the axes, where it crosses no other ring.
-  const onRing = (degrees) => {
-    const [c, s] = [Math.cos((Math.PI * degrees) / 180), Math.sin((Math.PI * degrees) / 180)];
-    const at = (name) => middle[name] + c * (x[name] - middle[name]) + s * (y[name] - middle[name]);
-    return { x: at("x"), y: at("y") };
-  };
-  // Only the half of the ring that faces the camera is drawn. It is lower in the image.
-  const start = [45, 135, 225, 315].sort((a, b) => onRing(b).y - onRing(a).y)[0];
-  const [from, to] = [onRing(start), onRing(start + 40)];
-  await page.mouse.move(from.x, from.y);
-  await page.mouse.down();
-  await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 4 });
-  await page.mouse.move(to.x, to.y, { steps: 4 });
-  await page.mouse.up();
-  const yawDegrees = ([, , , , , qz, qw]) => (360 / Math.PI) * Math.atan2(qz, qw);
-  await until(async () => Math.abs(yawDegrees(await place("box"))) > 10, "the turned box");
-  const now = await place("box");
-  const yaw = yawDegrees(now);
-  assert.ok(Math.abs(yaw / 15 - Math.round(yaw / 15)) < 1e-3, `${yaw} degrees are a multiple of 15`);
-  for (const i of [0, 1, 2, 3, 4]) assert.ok(Math.abs(now[i] - before[i]) < 1e-6, `${now}: about z only`);
-  await settled(page);
-  await ready();
-  await press("Undo");
-  await until(async () => Math.abs(yawDegrees(await place("box"))) < 1e-6, "the box as it was");
-  await edit().getByLabel("Snap").uncheck();
-  await press("Move");
+  await type("z (m)", 1);
+  await until(async () => Math.abs((await place("box"))[2] - 1) < 1e-9, "the raised box");
   await settled(page);
 });
+
+for (const axis of AXES) {
+  test(`the ring about ${axis} turns the body about ${axis} only, in steps if snapping is on`, async () => {
+    await edit().getByLabel("Snap").check();
+    await edit().getByLabel("Angle").selectOption("15");
+    await press("Turn");
+    await settled(page);
+    await ready();
+    const before = await place("box");
+    const index = AXES.indexOf(axis);
+    const others = [(index + 1) % 3, (index + 2) % 3];
+    const [middle, ...ends] = [await onScreen("box"), await handle(AXES[others[0]]), await handle(AXES[others[1]])];
+    const view = await page.evaluate(() => window.gsv.view);
+    const toEye = AXES.map((_, i) => view[i] - view[3 + i]);
+    // Points of the ring, between the axes, where it crosses no other ring.
+    const onRing = (degrees) => {
+      const [c, s] = [Math.cos((Math.PI * degrees) / 180), Math.sin((Math.PI * degrees) / 180)];
+      const at = (name) => middle[name] + c * (ends[0][name] - middle[name]) + s * (ends[1][name] - middle[name]);
+      return { x: at("x"), y: at("y"), nearness: c * toEye[others[0]] + s * toEye[others[1]] };
+    };
+    // Only the half that faces the camera is drawn.
+    const start = [45, 135, 225, 315].sort((a, b) => onRing(b).nearness - onRing(a).nearness)[0];
+    const [from, to] = [onRing(start), onRing(start + 40)];
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 4 });
+    await page.mouse.move(to.x, to.y, { steps: 4 });
+    await page.mouse.up();
+    const degrees = (pose) => (360 / Math.PI) * Math.atan2(pose[3 + index], pose[6]);
+    await until(async () => Math.abs(degrees(await place("box"))) > 10, "the turned box");
+    const now = await place("box");
+    const angle = degrees(now);
+    assert.ok(angle > 0, `${angle} degrees counter-clockwise about ${axis}`);
+    assert.ok(Math.abs(angle / 15 - Math.round(angle / 15)) < 1e-3, `${angle} degrees are a multiple of 15`);
+    for (const i of [0, 1, 2, ...others.map((other) => 3 + other)]) assert.ok(Math.abs(now[i] - before[i]) < 1e-6, `${now}: about ${axis} only`);
+    await settled(page);
+    await ready();
+    await press("Undo");
+    await until(async () => Math.abs(degrees(await place("box"))) < 1e-6, "the box as it was");
+    await edit().getByLabel("Snap").uncheck();
+    await press("Move");
+    await settled(page);
+    if (axis !== "z") return;
+    await ready();
+    await press("Undo");
+    await until(async () => Math.abs((await place("box"))[2] - 0.2) < 1e-6, "the box on the floor");
+    await settled(page);
+  });
+}
 
 for (const [kind, sizes, geometry, z] of [
   ["cylinder", { "Radius (m)": "0.15", "Height z (m)": "0.5" }, "cylinder, radius 0.15 m, length 0.5 m", 0.25],
@@ -242,24 +292,48 @@ for (const [kind, sizes, geometry, z] of [
   });
 }
 
-test("a wall is drawn by two clicks", async () => {
-  await page.keyboard.press("r");
+// The scale of the map, by its bar.
+async function metresPerPixel() {
+  const label = await page.locator(".scale-bar").getAttribute("aria-label");
+  const [, length, unit] = label.match(/bar stands for ([\d.]+) (m|cm)/);
+  return (Number(length) * (unit === "cm" ? 0.01 : 1)) / (await page.locator(".scale-line").evaluate((bar) => bar.clientWidth + 2));
+}
+
+// Shows the map, or the former view, and waits until it is in place.
+async function pressMap() {
   await press("Map");
-  await settled(page);
+  const view = async () => JSON.stringify(await page.evaluate(() => window.gsv.view));
+  await until(async () => {
+    const then = await view();
+    await settled(page);
+    return then === (await view());
+  }, "a view at rest");
+}
+
+test("a wall of a given thickness and height is drawn by two clicks", async () => {
+  await page.keyboard.press("r");
+  await pressMap();
   await press("Shape");
   await shape().getByLabel("Shape", { exact: true }).selectOption("wall");
+  await shape().getByLabel("Width y (m)").fill("0.2");
+  await shape().getByLabel("Height z (m)").fill("1.5");
   await press("Draw wall");
   const at = await onScreen("pebble");
   await page.mouse.click(at.x - 60, at.y - 50);
   await page.getByText("where the wall ends").waitFor();
-  await page.mouse.click(at.x + 60, at.y - 50);
+  await page.mouse.click(at.x + 60, at.y - 90);
   await page.waitForFunction(() => window.gsv.chosen[0] === "wall");
   await settled(page);
   const wall = await body("wall");
   assert.equal(wall.is_static, true);
   assert.equal(wall.is_fixed, false);
   const onMap = await onScreen("wall");
-  assert.ok(Math.hypot(onMap.x - at.x, onMap.y - at.y + 50) < 15, "it stands between the clicks");
+  assert.ok(Math.hypot(onMap.x - at.x, onMap.y - at.y + 70) < 15, "it stands between the clicks");
+  assert.ok(Math.abs(wall.pose[2] - 0.75) < 1e-6, "it stands on the floor");
+  const geometry = page.getByRole("region", { name: "Selected object", exact: true }).getByText(/^box, [\d.]+ × 0.2 × 1.5 m$/).first();
+  const length = parseFloat((await geometry.textContent()).slice("box, ".length));
+  const wanted = Math.hypot(120, 40) * (await metresPerPixel());
+  assert.ok(Math.abs(length - wanted) < 0.03 * wanted, `${length} m between clicks ${wanted} m apart`);
 });
 
 test("the map has a scale, and its ruler agrees with it", async () => {
@@ -267,10 +341,7 @@ test("the map has a scale, and its ruler agrees with it", async () => {
   const { data, width } = await picture(page, await viewClip(page));
   const dark = [4, width - 4].map((x) => data.slice(4 * (40 * width + x), 4 * (40 * width + x) + 3)).filter((colour) => Math.max(...colour) < 20);
   assert.deepEqual(dark, []);
-  const label = await page.locator(".scale-bar").getAttribute("aria-label");
-  const [, length, unit] = label.match(/bar stands for ([\d.]+) (m|cm)/);
-  const metres = Number(length) * (unit === "cm" ? 0.01 : 1);
-  const pixels = await page.locator(".scale-line").evaluate((bar) => bar.clientWidth + 2);
+  const scale = await metresPerPixel();
   await press("Measure");
   const at = await onScreen("pebble");
   await page.mouse.click(at.x + 40, at.y + 30);
@@ -281,15 +352,14 @@ test("the map has a scale, and its ruler agrees with it", async () => {
   const values = await ruler.locator("dd").allTextContents();
   const [distance, dx, dy, dz, angle] = values.map((text) => parseFloat(text.replace("−", "-")));
   // 100 pixels to the east and 75 to the north, on the floor.
-  const wanted = { dx: (100 * metres) / pixels, dy: (75 * metres) / pixels };
-  assert.ok(Math.abs(dx - wanted.dx) < 0.05 * dx && Math.abs(dy - wanted.dy) < 0.05 * dy, `${values} of ${metres} m in ${pixels} px`);
+  const wanted = { dx: 100 * scale, dy: 75 * scale };
+  assert.ok(Math.abs(dx - wanted.dx) < 0.05 * dx && Math.abs(dy - wanted.dy) < 0.05 * dy, `${values} at ${scale} m for a pixel`);
   assert.ok(Math.abs(distance - Math.hypot(dx, dy, dz)) < 0.002 && Math.abs(dz) < 0.001, `${values}`);
   assert.ok(Math.abs(angle - (180 / Math.PI) * Math.atan2(75, 100)) < 3, "counter-clockwise from east");
   await page.keyboard.press("Escape");
   await ruler.waitFor({ state: "hidden" });
   assert.deepEqual(await chosen(), ["wall"]); // Escape ended the ruler only
-  await press("Map");
-  await settled(page);
+  await pressMap();
 });
 
 test("several bodies are selected, moved, copied and removed together", async () => {
@@ -299,6 +369,20 @@ test("several bodies are selected, moved, copied and removed together", async ()
   await chosenAre("box", "wall");
   assert.equal(await page.locator('[data-object="wall"]').getAttribute("aria-pressed"), "true");
   await page.getByText("2 bodies are selected").waitFor();
+  await ready();
+  const [boxThen, wallThen] = [await place("box"), await place("wall")];
+  await dragHandle("z", 0.6);
+  await until(async () => (await place("wall"))[2] - wallThen[2] > 0.1, "the raised wall");
+  const rise = (await place("wall"))[2] - wallThen[2];
+  for (const [name, then] of [["box", boxThen], ["wall", wallThen]]) {
+    (await place(name)).forEach((value, i) => assert.ok(Math.abs(value - then[i] - (i === 2 ? rise : 0)) < 1e-6, `${name} has risen by ${rise} m`));
+  }
+  await settled(page);
+  await ready();
+  await press("Undo");
+  await until(async () => Math.abs((await place("box"))[2] - boxThen[2]) < 1e-6 && Math.abs((await place("wall"))[2] - wallThen[2]) < 1e-6, "both on the floor");
+  await settled(page);
+  await ready();
   await press("Duplicate");
   await page.waitForFunction(() => window.gsv.chosen.length === 2 && !window.gsv.chosen.includes("box"));
   await settled(page);
@@ -317,9 +401,31 @@ test("several bodies are selected, moved, copied and removed together", async ()
   await settled(page);
 });
 
-test("a rectangle selects the bodies inside it", async () => {
-  await press("Map");
+test("Ctrl C and Ctrl V copy the selected bodies", async () => {
+  await page.locator('[data-object="box"]').click();
+  await page.locator('[data-object="wall"]').click({ modifiers: ["Shift"] });
+  await chosenAre("box", "wall");
+  await ready();
+  await page.keyboard.press("Control+c");
+  await page.getByText("2 bodies copied.").waitFor();
+  assert.deepEqual(await chosen(), ["box", "wall"]);
+  await page.keyboard.press("Control+v");
+  await page.waitForFunction(() => window.gsv.chosen.length === 2 && !window.gsv.chosen.includes("box"));
+  const copies = await chosen();
+  for (const [i, name] of ["box", "wall"].entries()) {
+    const [copy, original] = [await body(copies[i]), await body(name)];
+    assert.equal(copy.is_static, original.is_static);
+    assert.ok([0, 1].every((k) => Math.abs(copy.pose[k] - original.pose[k] - 0.5) < 1e-6), `${copies[i]} is beside ${name}`);
+  }
   await settled(page);
+  await ready();
+  await press("Undo");
+  await until(async () => (await body(copies[0])) === undefined && (await body(copies[1])) === undefined, "the end of the copies");
+  await settled(page);
+});
+
+test("a rectangle selects the bodies inside it", async () => {
+  await pressMap();
   // On a slow machine the map may still be moving into place, so the rectangle is drawn again.
   await until(async () => {
     await page.keyboard.press("Escape");
@@ -398,4 +504,34 @@ test("after editing, the robot for which a shape was added is selected again", a
   await page.getByTitle("Resume (Space)").click();
   await offer.waitFor({ state: "detached" });
   assert.deepEqual(faults, []);
+});
+
+test("an edited world has the same hash after it was saved and loaded, at its start and after 200 steps", async () => {
+  await ask(page, "/pause", {});
+  await ask(page, "/reset", {});
+  await phaseIs(page, "created");
+  await press("Edit");
+  await press("Save");
+  const [download] = await Promise.all([page.waitForEvent("download"), press("Save world")]);
+  const file = path.join(folder, "start.sdf");
+  await download.saveAs(file);
+  const again = await startServer([file, "--name", `${NAME}_again`]);
+  try {
+    const { page: other } = await openPage(browser, again.url);
+    await other.waitForFunction(() => window.gsv?.phase === "running");
+    await ask(other, "/pause", {});
+    await ask(other, "/reset", {});
+    await phaseIs(other, "created");
+    const hashOf = (name) => {
+      const { status, stdout, stderr } = spawnSync(program(), ["ps", name, "--json"], { encoding: "utf8" });
+      assert.equal(status, 0, stderr);
+      return JSON.parse(stdout).state_hash;
+    };
+    assert.equal(hashOf(`${NAME}_again`), hashOf(NAME));
+    for (const each of [page, other]) await ask(each, "/step", { count: 200 });
+    for (const each of [page, other]) await until(async () => (await ask(each, "")).step === 200, "200 steps");
+    assert.equal(hashOf(`${NAME}_again`), hashOf(NAME));
+  } finally {
+    await again.stop();
+  }
 });

@@ -238,7 +238,11 @@ test("topics are listed with types and rates, and a field of any message is read
   await tree.getByText('"real_time"').waitFor();
   await tree.getByText("robots", { exact: true }).click();
   await tree.locator("summary", { hasText: "[0]" }).getByText("pebble").waitFor();
-  await until(async () => Number(await row.locator("td").nth(2).textContent()) > 0, "a rate");
+  const [rate, bandwidth] = [2, 3].map((column) => async () => Number(await row.locator("td").nth(column).textContent()));
+  await until(async () => (await rate()) > 0 && (await bandwidth()) > 0, "a rate and a bandwidth");
+  // A status has a few hundred bytes.
+  const bytes = (1000 * (await bandwidth())) / (await rate());
+  assert.ok(bytes > 50 && bytes < 5000, `${bytes} bytes for each message`);
   const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
   await press("Hold this message");
   await press("Copy mode");

@@ -68,4 +68,11 @@ export class ShownPoses {
     if (!latest || entry === null) return null;
     return { pose: matrixOf(latest.poses, 7 * entry), stamp: latest.stamp };
   }
+
+  // Like latestOf(), also for bodies whose pose is only in the scene. A drag does not change it.
+  reportedOf(body: string): Matrix4 | null {
+    const index = this.bodies?.indexOf(body) ?? -1;
+    const inScene = this.bodies?.scene.bodies[index]?.pose;
+    return this.latestOf(body)?.pose ?? (inScene ? matrixOf(inScene) : null);
+  }
 }

@@ -325,8 +325,7 @@ export class World3D {
 
   // Returns the last reported pose of any body: world_from_body; null while unknown.
   bodyPose(body: string): Matrix4 | null {
-    const index = this.bodies?.indexOf(body) ?? -1;
-    return this.poses.latestOf(body)?.pose ?? this.bodies?.poseOf(index) ?? null;
+    return this.poses.reportedOf(body);
   }
 
   // The place on the page where a robot's centre is drawn; null if it is outside the view.
