@@ -5,6 +5,7 @@ import fs from "node:fs";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { picture } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
 import { ask, until } from "./viewing.mjs";
 
@@ -81,6 +82,48 @@ test("buttons have words in a window of 1,200 px, and tooltips at any width", as
   await page.setViewportSize({ width: 1366, height: 768 });
 });
 
+test("the buttons of panels and of the run are in groups", async () => {
+  const bar = page.getByRole("navigation", { name: "Panels" });
+  const groups = await bar.getByRole("group").evaluateAll((all) =>
+    all.map((group) => ({
+      name: group.getAttribute("aria-label"),
+      boxes: [...group.querySelectorAll("button")].filter((button) => button.checkVisibility()).map((button) => button.getBoundingClientRect()),
+    })),
+  );
+  assert.deepEqual(groups.map(({ name }) => name), ["Look", "Control", "Data", "Health"]);
+  assert.equal(groups.reduce((sum, { boxes }) => sum + boxes.length, 0), await bar.getByRole("button").count());
+  // The gap between two groups is larger than the gaps inside a group.
+  const gaps = (boxes) => boxes.slice(1).map((box, i) => Math.max(box.left - boxes[i].right, box.top - boxes[i].bottom));
+  const inside = Math.max(...groups.flatMap(({ boxes }) => gaps(boxes)));
+  const between = Math.min(...groups.slice(1).map(({ boxes }, i) => gaps([groups[i].boxes.at(-1), boxes[0]])[0]));
+  assert.ok(between > inside + 3, `${between} pixels between groups, ${inside} inside`);
+  const run = page.getByRole("group", { name: "Run", exact: true }).getByRole("button");
+  const names = (await run.evaluateAll((all) => all.filter((each) => each.checkVisibility()).map((each) => each.textContent.trim() || each.getAttribute("aria-label"))));
+  for (const name of ["Pause", "Step", "Stop", "Reset", "Edit"]) assert.ok(names.includes(name), `${names}`);
+});
+
+test("the page is dark if the system is", async () => {
+  await chooseLayout("Watch a crowd");
+  await press("Plots");
+  await part("Plots").waitFor();
+  const brightness = async (clip) => {
+    const { data } = await picture(page, clip);
+    return data.reduce((sum, value, i) => (i % 4 === 3 ? sum : sum + value), 0) / (0.75 * data.length);
+  };
+  for (const [colorScheme, isRight] of [["dark", (value) => value < 70], ["light", (value) => value > 185]]) {
+    await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+    for (const name of ["Plots", "Log"]) {
+      await page.getByRole("tab", { name, exact: true }).click();
+      const clip = await boxOf(name);
+      await until(async () => isRight(await brightness(clip)), `${name} in ${colorScheme} colours`);
+    }
+    for (const place of [".toolbar", ".panel-bar"]) {
+      const value = await brightness(await page.locator(place).boundingBox());
+      assert.ok(isRight(value), `${place} has the brightness ${value} in ${colorScheme} colours`);
+    }
+  }
+});
+
 test("the layout Drive shows a camera and the pad beside the view", async () => {
   await chooseLayout("Drive");
   const view = await page.locator(".view").boundingBox();
@@ -91,7 +134,47 @@ test("the layout Drive shows a camera and the pad beside the view", async () => 
   await page.getByText("No robot can be driven").waitFor(); // the only robot has a behaviour
 });
 
-test("a tab is dragged to another part, and beside the view", async () => {
+// The names of the tabs of each part, in the order of the page.
+const tabsOfParts = (of = page) =>
+  of.locator(".dv-groupview").evaluateAll((parts) =>
+    parts.map((each) => [...each.querySelectorAll('[role="tab"]')].map((tab) => tab.getAttribute("aria-label")).join()).filter((names) => names !== ""),
+  );
+
+test("a tab is dropped on the tabs of another part", async () => {
+  await chooseLayout("Debug a behaviour");
+  await part("Plots").waitFor();
+  const former = await boxOf("Plots");
+  assert.deepEqual((await tabsOfParts()).sort(), ["Images", "Inspector", "Log", "Plots", "View"]);
+  await page.getByRole("tab", { name: "Log", exact: true }).dragTo(page.getByRole("tab", { name: "Plots", exact: true }));
+  await until(async () => (await tabsOfParts()).some((names) => names === "Log,Plots" || names === "Plots,Log"), "the log beside the plots");
+  // The log is in front, in the place of the plots and in its own former place.
+  const log = await boxOf("Log");
+  assert.ok(Math.abs(log.x - former.x) < 3 && log.width > 1.5 * former.width, JSON.stringify({ log, former }));
+  await page.getByRole("tab", { name: "Plots", exact: true }).click();
+  await part("Plots").waitFor();
+  assert.equal(await part("Log").isVisible(), false);
+});
+
+test("a link that is copied after a rearrangement opens the same arrangement", async () => {
+  await press("Arrange plots");
+  await press("Move to the left of the view");
+  await until(async () => ((await boxOf("Plots"))?.x ?? 1e9) < (await page.locator(".view").boundingBox()).x, "the plots at the left");
+  await press("Share");
+  await press("Copy link");
+  await page.getByText("Link copied.").waitFor();
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  const [tabs, plots] = [await tabsOfParts(), await boxOf("Plots")];
+  await chooseLayout("Standard"); // and the browser stores this layout
+  const { page: linked } = await openPage(browser, link);
+  await waitUntilDrawn(linked);
+  await part("Plots", linked).waitFor();
+  assert.deepEqual(await tabsOfParts(linked), tabs);
+  const again = await boxOf("Plots", linked);
+  for (const key of ["x", "y", "width", "height"]) assert.ok(Math.abs(again[key] - plots[key]) < 8, JSON.stringify({ again, plots }));
+  await linked.close();
+});
+
+test("a tab is dragged beside the view", async () => {
   await chooseLayout("Watch a crowd");
   const tab = page.getByRole("tab", { name: "Log", exact: true });
   const view = await page.locator(".view").boundingBox();
