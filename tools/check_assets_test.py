@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of assets/: our worlds and robots are whole, and the default robots start in the clear.
+"""Tests assets/: the worlds and robots of GSV have no errors, and the default robots start without contacts.
 
 Reads the SDFormat files by itself, so that a mistake in the simulator's reader does not hide one
 in the files. Collisions are boxes, cylinders and spheres that stand upright, seen from above.
@@ -25,7 +25,7 @@ CLEARANCE = 0.6  # minimum distance between a robot's outline and any obstacle, 
 
 
 class Obstacle:
-    """A rectangle (or, with a radius, a disc) seen from above, between two heights."""
+    """An outline seen from above, between two heights: a rectangle, or a disc if it has a radius."""
 
     def __init__(self, owner, x, y, yaw, half_x, half_y, radius, low, high):
         self.owner, self.x, self.y, self.yaw = owner, x, y, yaw
@@ -54,7 +54,7 @@ class Obstacle:
 
 
 def pose_of(element):
-    """x, y, z, yaw of an element's <pose>; roll and pitch must be zero."""
+    """Returns x, y, z and yaw of an element's <pose>. Roll and pitch must be zero."""
     pose = element.find("pose")
     if pose is None:
         return 0.0, 0.0, 0.0, 0.0

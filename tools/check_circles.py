@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Refuses circles among the includes of our C++ sources and among the imports of web/src.
+"""Finds cycles among the includes of the C++ sources and among the imports of web/src.
 
-usage: check_circles.py [ROOT]    ROOT: the repository (default: the one this script lies in)
+usage: check_circles.py [ROOT]    ROOT: the repository (default: the repository of this script)
 
-C++         no file may reach itself by #include "…". docs/layers.txt keeps folders free of circles.
-TypeScript  no file may reach itself by import, export … from or import(…), types included, and no folder
-            of web/src may reach itself by what its files import (tests apart).
+C++         no file may include itself, directly or by other files. docs/layers.txt prevents cycles of folders.
+TypeScript  no file may import itself, directly or by other files. Counts import, export … from and import(…),
+            also of types. No folder of web/src may import itself by the imports of its files; tests do not count.
 
-Prints each circle as FILE:LINE: SENTENCE, the place being one of its edges, and exits 1 if there is any.
+Prints each cycle as FILE:LINE: SENTENCE, where FILE:LINE is one of its includes or imports. Exits with 1 if there
+is a cycle.
 """
 
 import posixpath
@@ -84,7 +85,7 @@ def folder_edges(edges):
 
 
 def circles(edges):
-    """Returns circles: for each node that is in no earlier circle, a shortest circle through it."""
+    """Returns cycles: a shortest cycle through each node that no earlier cycle contains."""
     found, passed = [], set()
     for start in sorted(edges):
         if start in passed:

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Holds every #include in our C++ sources to docs/layers.txt.
+"""Checks every #include in the C++ sources by the rules of docs/layers.txt.
 
-usage: check_layers.py [ROOT]    ROOT: the repository, by default the one this script lies in
+usage: check_layers.py [ROOT]    ROOT: the repository (default: the repository of this script)
 
-Prints each violation as FILE:LINE: SENTENCE and exits 1 when there is any.
+Prints each violation as FILE:LINE: SENTENCE. Exits with 1 if there is a violation.
 """
 
 import re
@@ -40,7 +40,7 @@ UNCHECKED_CODE = re.compile(r"\bstd::((timed_|shared_|recursive_)?mutex|conditio
 
 
 class Table:
-    """The content of docs/layers.txt: the folders in order, what each may include, and the limits of the core."""
+    """The content of docs/layers.txt: the ordered folders, their allowed includes, and the limits of the core."""
 
     def __init__(self, text):
         self.folders = []

@@ -1,8 +1,8 @@
 """Collects the pages of the documentation site from the source tree, for tools/make_docs.
 
-The text of a page is unchanged. Links are changed if their target has another place in the site:
-pages of the root folder are beside those of docs/. A linked file of the source tree that is no page
-(an example, a script, a folder) becomes a page that shows it.
+The text of a page is unchanged. Links are changed if their target has another place in the site: pages
+of the root folder are in the same folder as pages of docs/. If a link leads to a file or folder of the
+source tree that is no page, such as an example, the site gets a page that shows this file or folder.
 """
 
 import posixpath
@@ -43,7 +43,7 @@ LINK = re.compile(r"(\]\(|\b(?:src|href)=\")([^)\s\"#]*)(#[^)\s\"]*)?(?=[)\s\"])
 
 
 class Site:
-    """The pages of the site, by their path in it."""
+    """The pages of the site, by their paths in the site."""
 
     def __init__(self, root):
         self.root = Path(root)

@@ -1,8 +1,8 @@
 """Prepares the public headers, the IDL and the Python module for doxygen, for tools/make_docs.
 
-The comments of this tree are plain ("//"); doxygen reads "///". A comment above a declaration
-documents it, a comment behind one documents what stands before it, and the first comment of a file is
-the file's.
+The comments of this tree begin with "//", but doxygen reads "///". A comment above a declaration
+documents the declaration. A comment behind a declaration documents the declaration before the comment.
+The first comment of a file documents the file.
 """
 
 import re

@@ -22,8 +22,8 @@ const COLOURS = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf
 const WIDTH = 880;
 const MARGIN = 24;
 const LEGEND = 26;
-const MOST_POINTS = 6000; // of each kind
-const CELL = 0.03; // m: of several points in one cell, one is drawn
+const MOST_POINTS = 6000; // maximum number of points of each kind
+const CELL = 0.03; // m; only one point of a cell is drawn
 
 // Composes poses in the plane: [x, y, yaw].
 const compose = ([x, y, yaw], [u, v, turn]) =>

@@ -15,13 +15,13 @@ CODE = "CODE"
 
 @dataclass(frozen=True)
 class Text:
-    line: int  # of its first character, from 1
+    line: int  # line of the first character, from 1
     kind: str  # "docs", "heading", "cell", "help", "ui", "comment", "name", "test"
     words: str
 
 
 def without_code(text):
-    """Replaces code spans by CODE, and Markdown links and images by what a reader sees of them."""
+    """Replaces code spans by CODE, and Markdown links and images by their visible texts."""
     text = re.sub(r"(`+)(.+?)\1", CODE, text)
     text = re.sub(r"<!--.*?-->", "", text)
     text = re.sub(r"!\[([^\]]*)\]\([^)]*\)", r"\1", text)
@@ -137,7 +137,7 @@ UI_STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"|`((?:[^`\\]|\\.)*)`')
 
 
 def texts_of_typescript(source):
-    """String literals of two words or more; those in comments, imports and classes are no texts."""
+    """Returns string literals of at least two words, except those in comments, imports and classes."""
     source = re.sub(r"/\*.*?\*/", lambda found: "\n" * found.group().count("\n"), source, flags=re.S)
     for number, line in enumerate(source.splitlines(), start=1):
         line = re.sub(r"(^|\s)//.*", "", line)
@@ -164,7 +164,7 @@ def looks_like_code(comment):
 
 
 def texts_of_comments(source):
-    """Paragraphs of // comments. A comment behind code is a text of its own, with the lines below it."""
+    """Returns paragraphs of // comments. A comment behind code and its continuation lines are a separate text."""
     paragraph, start, column = [], 0, None
 
     def ended():
@@ -193,13 +193,13 @@ def texts_of_comments(source):
 
 
 def texts_of_web(source):
-    """The strings and the comments of the viewer's sources."""
+    """Returns the strings and the comments of the viewer's sources."""
     yield from texts_of_typescript(source)
     yield from texts_of_comments(source)
 
 
 def texts_of_script(source):
-    """Paragraphs of the comments and docstrings of Python, and of the comments of shell scripts.
+    """Returns paragraphs of the comments and docstrings of Python, and of the comments of shell scripts.
     Usage lines and indented lines are no texts."""
     first = source.partition("\n")[0]
     if first.startswith("#!") and "python" not in first and not first.endswith("sh"):
@@ -336,6 +336,6 @@ def texts_below(root):
             source = file.read_text(encoding="utf-8")
             if extract is texts_of_script and not (file.suffix == ".py" or source.startswith("#!")):
                 continue
-            is_test = file.name.endswith(".test.ts")  # its strings are names of tests and data
+            is_test = file.name.endswith(".test.ts")  # the strings of such a file are names of tests and data
             texts[str(path)] = list((texts_of_comments if is_test else extract)(source))
     return dict(sorted(texts.items()))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of make_docs: of the pages it collects, the comments it converts and the links it checks."""
+"""Tests make_docs: the collection of pages, the conversion of comments and the check of links."""
 
 import sys
 import tempfile

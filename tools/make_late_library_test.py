@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of make_late_library: with the compiler, a program that calls a library through its stand-in."""
+"""Tests make_late_library: compiles a program that calls a library through the generated source."""
 
 import shutil
 import subprocess

@@ -3,7 +3,8 @@
 
 usage: make_man_pages_test.py [GSV]
 
-With the program, its pages are made as well: each command has one, which groff reads without a warning.
+With GSV, the pages of this program are also made: each command must have a page that groff reads without
+a warning.
 """
 
 import importlib.machinery

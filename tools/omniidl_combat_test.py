@@ -52,7 +52,7 @@ TOLD = """combat::ir add {
 }
 """
 
-# Prints what a script tells Combat, with every list written in the same way.
+# Prints the commands of a script to Combat, with every list written in the same way.
 CANONICAL = """
 proc canonical {list depth} {
     if {$depth == 0} { return $list }

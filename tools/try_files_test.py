@@ -1,7 +1,7 @@
-"""How tools/try_files sorts worlds and models that are whole, flawed, incomplete and broken.
+"""Tests how tools/try_files sorts worlds and models that are correct, faulty, incomplete and broken.
 
-usage: try_files_test.py GSV [REAL_FOLDER]    REAL_FOLDER: other people's worlds and robots, none of which may crash
-                                              or be refused; left out where it is not there
+usage: try_files_test.py GSV [REAL_FOLDER]    REAL_FOLDER has worlds and robots of other people. None of them may
+                                              crash or be refused. If the folder does not exist, it is not tested.
 """
 
 import json

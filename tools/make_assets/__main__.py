@@ -1,9 +1,9 @@
 """Makes the meshes, textures, the building, the warehouse, the yard and the car of assets/:
 python3 tools/make_assets
 
-Its results are committed; run it again after changing it. Textures need ImageMagick's `convert`,
-all else only Python. The same scripts give the same meshes; JPEGs may differ between versions of
-ImageMagick, so `python3 tools/make_assets textures` makes them only when asked for.
+The results are committed: after a change of these scripts, run them again. Textures need ImageMagick's
+`convert`; all other assets only need Python. The meshes are always the same. JPEG files may differ
+between versions of ImageMagick, so only `python3 tools/make_assets textures` makes the textures.
 """
 
 import sys

@@ -1,6 +1,6 @@
-"""The office floor: from a plan of walls with openings to meshes and collision boxes.
+"""Makes the meshes and collision boxes of the office floor from a plan of walls with openings.
 
-The floor is 16 by 12 m inside, its middle the origin, x along the corridor.
+The floor is 16 by 12 m inside. The origin is in its middle, and x points along the corridor.
 """
 
 from dataclasses import dataclass
@@ -48,11 +48,11 @@ PLAN = [
     Wall("y", -8.1, -6, 6, OUTER, (window(-0.7, 0.7), window(-4.8, -2.6), window(2.6, 4.8))),
     Wall("y", 8.1, -6, 6, OUTER,
          (Opening(-0.6, 0.6, 0, DOOR, "leaf"), window(-4.8, -2.6), window(2.6, 4.8))),
-    # Along the corridor, 2.38 m wide.
+    # The walls along the corridor, which is 2.38 m wide.
     Wall("x", 1.25, -8, 8, INNER, (door(-4.2), door(0), door(5.1))),
     Wall("x", -1.25, -8, -3, INNER, (door(-5.5),)),
     Wall("x", -1.25, 3, 8, INNER, (door(5.5),)),
-    # Between the rooms.
+    # The walls between the rooms.
     Wall("y", -2.5, 1.31, 6, INNER),
     Wall("y", 2.5, 1.31, 6, INNER, (door(3.9),)),
     Wall("y", -3, -6, -1.31 + INNER, INNER),

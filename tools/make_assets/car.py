@@ -9,7 +9,8 @@ from sdf import box, collision, cylinder, inertial, link, material, mesh, pose, 
 BASE, TRACK, RADIUS, WIDTH = 0.46, 0.36, 0.085, 0.06  # m
 LIMIT = 0.55  # maximum steering angle, rad
 PAINT = (0.05, 0.28, 0.5)
-# The body from the side, (x, z) from the rear axle's middle on the ground; bonnet to the right.
+# The outline of the body from the side, as (x, z). The origin is on the ground below the middle of
+# the rear axle; the bonnet is to the right.
 BODY = [(-0.13, 0.09), (0.59, 0.09), (0.61, 0.13), (0.59, 0.17), (0.44, 0.2), (-0.1, 0.21), (-0.13, 0.17)]
 CABIN = [(-0.06, 0.205), (0.4, 0.2), (0.3, 0.3), (-0.01, 0.305)]
 # The positions of the eight sonars, counter-clockwise from the front.

@@ -1,7 +1,7 @@
 """Triangle meshes built from simple parts and written as Wavefront OBJ.
 
-Metres; z up. Texture coordinates are in metres as well (one repeat a metre) unless said otherwise;
-write() scales them.
+Lengths are in metres, with z up. Texture coordinates are in metres, with one repetition per metre,
+unless a comment says otherwise; write() scales them.
 """
 
 import math

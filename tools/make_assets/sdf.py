@@ -1,4 +1,4 @@
-"""Pieces of SDFormat, as text."""
+"""Returns elements of SDFormat as text."""
 
 TEXTURE = "<pbr><metal>{map}<roughness>{roughness}</roughness><metalness>{metalness}</metalness></metal></pbr>"
 

@@ -43,7 +43,7 @@ def edge(distance, width):
 
 
 def planks(light, dark, rows, seed):
-    """Boards along u, `rows` of them above each other, each with its own grain and joint."""
+    """Boards along u, in `rows` rows above each other, each with its own grain and joint."""
     source = random.Random(seed)
     offsets = [source.random() for _ in range(rows)]
     tones = [[source.random() for _ in range(2)] for _ in range(rows)]

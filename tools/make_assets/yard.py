@@ -1,6 +1,6 @@
 """An outdoor yard: level ground, ramps up to a platform, a hump, a kerb, a hut, trees and a fence.
 
-A wheeled robot that is to climb needs rigid movement (`--movement ROBOT=rigid`); others stop at a ramp.
+A wheeled robot climbs ramps only with `--movement ROBOT=rigid`. Other robots stop at a ramp.
 """
 
 import math
@@ -48,7 +48,7 @@ def square(surface, x0, y0, x1, y1, z):
 
 
 def make_ramps(folder):
-    """A platform about the origin, the gentle ramp to its west, the steep one to its east."""
+    """A platform about the origin, with the gentle ramp to its west and the steep ramp to its east."""
     x, y, top = PLATFORM[0] / 2, PLATFORM[1] / 2, PLATFORM[2]
     platform = Mesh()
     platform.add_box((-x, -y, 0), (x, y, top))

@@ -2,8 +2,8 @@
 
     omniidl -ptools/omniidl -bcombat FILE.idl > FILE.tcl
 
-prints a script that fills Combat's interface repository with `combat::ir add`, like Combat's own
-idl2tcl, which needs a running interface repository. The script includes the content of included
+prints a script that fills Combat's interface repository with `combat::ir add`. Combat's own idl2tcl
+prints such a script too, but it needs a running interface repository. The script includes the content of included
 files, so it needs no other script. Value types and local interfaces are refused.
 """
 

@@ -1,12 +1,12 @@
-"""A back end of omniidl that prints what gsv/orb/giop/message_check.h takes: the types of operations
+"""A back end of omniidl that prints the input of gsv/orb/giop/message_check.h: the types of operations
 and exceptions that pass an `any` or a TypeCode.
 
     omniidl -ptools/omniidl -bmessage_signatures -Wbfunction=NAMESPACE::NAME -Wbheader=PATH FILE.idl
 
 prints a C++ source that includes the header PATH and defines the function NAME, which that header
-declares and which returns `const orb::Signatures&`. The other operations are left out, as their
-messages need no check. A message names its operation only, not the interface: two operations of one
-name that both need a check must have the same types.
+declares and which returns `const orb::Signatures&`. The other operations are left out, because
+their messages need no check. A message contains the name of its operation, but not of its interface.
+Therefore two operations with the same name that both need a check must have the same types.
 """
 
 import sys
@@ -42,7 +42,7 @@ def types_of(kind):
 
 
 def members_of(node):
-    """The signature of a struct's or an exception's members."""
+    """Returns the signature of the members of a struct or an exception."""
     types = ""
     for member in node.members():
         for declarator in member.declarators():
