@@ -79,9 +79,11 @@ class GoTo final : public Behaviour {
 
 BehaviourFactory Configure(CLI::App& app) {
   const auto goal = std::make_shared<Goal>();
-  app.add_option("--goal-x", goal->x, "metres, in the world")->capture_default_str();
-  app.add_option("--goal-y", goal->y, "metres, in the world")->capture_default_str();
-  app.add_option("--tolerance", goal->tolerance, "metres")->capture_default_str();
+  app.add_option("--goal-x", goal->x, "x of the goal in the world, m")->capture_default_str();
+  app.add_option("--goal-y", goal->y, "y of the goal in the world, m")->capture_default_str();
+  app.add_option("--tolerance", goal->tolerance,
+                 "distance from the goal at which the robot stops, m")
+      ->capture_default_str();
   return [goal] { return std::make_unique<GoTo>(*goal); };
 }
 

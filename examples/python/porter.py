@@ -102,7 +102,7 @@ class Porter(gsv.Behaviour):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=Porter.__doc__)
-    parser.add_argument("--goal-x", type=float, default=0.0, help="metres, in the world")
-    parser.add_argument("--goal-y", type=float, default=0.0, help="metres, in the world")
-    parser.add_argument("--tolerance", type=float, default=0.05, help="metres")
+    parser.add_argument("--goal-x", type=float, default=0.0, help="x of the goal in the world, m")
+    parser.add_argument("--goal-y", type=float, default=0.0, help="y of the goal in the world, m")
+    parser.add_argument("--tolerance", type=float, default=0.05, help="distance from the goal at which the robot stops, m")
     gsv.serve("porter", Porter, parser)

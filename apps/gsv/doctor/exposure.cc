@@ -195,28 +195,31 @@ std::string ExposureWarning(const Listener& listener, const Exposure& exposure) 
   if (listener.IsLocal()) return {};
   switch (exposure.speaks) {
     case Speaks::kHttps:
-      return exposure.acting_takes_token
-                 ? ""
-                 : "everyone who can reach it can control it; start it with --control-token";
+      return exposure.acting_takes_token ? ""
+                                         : "everyone who can reach this address can control the "
+                                           "program; start it with --control-token";
     case Speaks::kHttp:
-      return exposure.acting_takes_token
-                 ? "others can read the traffic and the tokens; use --tls-certificate and "
-                   "--tls-key (`gsv certificates make` makes them)"
-                 : "everyone who can reach it can control it; start it with --control-token and "
-                   "--tls-certificate";
+      return exposure.acting_takes_token ? "others in the network can read the traffic and the "
+                                           "tokens; use --tls-certificate and --tls-key (`gsv "
+                                           "certificates make` makes them)"
+                                         : "everyone who can reach this address can control the "
+                                           "program; start it with --control-token and "
+                                           "--tls-certificate";
     case Speaks::kCorba:
-      return "--insecure-corba lets everyone who can reach it control it; use a certificate "
-             "(GSV_CORBA_CERTIFICATE), listen on 127.0.0.1, or use a firewall";
+      return "--insecure-corba lets everyone who can reach this address control the program; use a "
+             "certificate (GSV_CORBA_CERTIFICATE), listen on 127.0.0.1, or use a firewall";
     case Speaks::kCorbaTls:
-      return exposure.takes_certificate ? "" : "everyone who can reach it can call it";
+      return exposure.takes_certificate
+                 ? ""
+                 : "everyone who can reach this address can call the program";
     case Speaks::kRos2:
       return exposure.takes_keys
                  ? ""
-                 : "everyone who can reach it can read all topics, command robots without a "
-                   "behaviour, and control the simulation; start it with --ros2-range localhost, "
-                   "with keys (SROS2), or use a firewall";
+                 : "everyone who can reach this address can read all topics, command robots "
+                   "without a behaviour, and control the simulation; start the program with "
+                   "--ros2-range localhost, with keys (SROS2), or use a firewall";
     case Speaks::kUnknown:
-      return "it does not respond, so the addresses it listens on are unknown; check whether it is "
+      return "the program does not respond, so its addresses are unknown; check whether it is "
              "suspended";
   }
   return {};

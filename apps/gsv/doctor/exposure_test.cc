@@ -20,7 +20,7 @@ TEST(Exposure, GivesNoWarningForASocketOfThisMachineOnly) {
 TEST(Exposure, ViewerBeyondThisMachineNeedsTokensAndTls) {
   Exposure exposure{Speaks::kHttp};
   EXPECT_THAT(ExposureWarning(kOpen, exposure),
-              HasSubstr("everyone who can reach it can control it"));
+              HasSubstr("everyone who can reach this address can control the program"));
   exposure.acting_takes_token = true;
   EXPECT_THAT(ExposureWarning(kOpen, exposure), HasSubstr("can read the traffic"));
   exposure.speaks = Speaks::kHttps;
@@ -32,7 +32,8 @@ TEST(Exposure, ViewerBeyondThisMachineNeedsTokensAndTls) {
 TEST(Exposure, CorbaBeyondThisMachineNeedsCertificates) {
   EXPECT_THAT(ExposureWarning(kOpen, {Speaks::kCorba}), HasSubstr("--insecure-corba"));
   Exposure exposure{Speaks::kCorbaTls};
-  EXPECT_EQ(ExposureWarning(kOpen, exposure), "everyone who can reach it can call it");
+  EXPECT_EQ(ExposureWarning(kOpen, exposure),
+            "everyone who can reach this address can call the program");
   exposure.takes_certificate = true;
   EXPECT_EQ(ExposureWarning(kOpen, exposure), "");
 }
@@ -46,7 +47,8 @@ TEST(Exposure, Ros2BeyondThisMachineNeedsKeys) {
 }
 
 TEST(Exposure, WarnsAboutASocketThatDoesNotAnswer) {
-  EXPECT_THAT(ExposureWarning(kOpen, {Speaks::kUnknown}), HasSubstr("it does not respond"));
+  EXPECT_THAT(ExposureWarning(kOpen, {Speaks::kUnknown}),
+              HasSubstr("the program does not respond"));
 }
 
 }  // namespace
