@@ -46,6 +46,13 @@ class WorldEngine final : public Engine {
     MovePlanarJoints(*layout_, base::ToSeconds(step), state);
   }
 
+  bool StepMany(base::SimTime step, int count, world::State& state,
+                std::vector<world::Contact>& contacts, MotionFollower& follower) override {
+    UseAttachments();
+    if (rigid_->has_bodies() || has_people_ || !state.joint_commands.empty()) return false;
+    return planar_->StepMany(step, count, state, contacts, follower);
+  }
+
   std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override {
     UseAttachments();
     return planar_->Overlaps(state, tolerance);
@@ -65,6 +72,9 @@ class WorldEngine final : public Engine {
   base::Status UseLayout(std::shared_ptr<const world::Layout> layout) {
     if (auto ok = planar_->SetLayout(layout); !ok) return ok;
     layout_ = layout;
+    has_people_ = std::any_of(layout->bodies.begin(), layout->bodies.end(), [](const auto& body) {
+      return body.is_actor() || body.is_pedestrian();
+    });
     actors_.SetLayout(layout);
     crowd_.SetLayout(layout);
     if (auto ok = pushes_.SetLayout(layout); !ok) return ok;
@@ -132,6 +142,7 @@ class WorldEngine final : public Engine {
 
   AttachedLayout attached_;
   std::shared_ptr<const world::Layout> layout_;  // the layout with the attached bodies
+  bool has_people_ = false;                      // whether there are actors or pedestrians
   ActorMover actors_;
   Crowd crowd_;
   std::unique_ptr<PlanarMover> planar_;

@@ -34,6 +34,10 @@ class WheelOdometry {
   // Advances the bodies from `begin` to before `end`. Calls for different bodies may run
   // concurrently.
   void Advance(double step_seconds, std::size_t begin, std::size_t end, State& state) const;
+  // As Advance() and then KeepWheels(), for one body. `steps` is above 1 after several steps in which
+  // its velocity did not change and its wheels did not turn. Calls for different bodies may run
+  // concurrently.
+  void AdvanceBody(double step_seconds, int body, int steps, State& state);
 
  private:
   struct Wheel {
@@ -48,9 +52,11 @@ class WheelOdometry {
     double separation = 1;
   };
 
+  void AdvanceBase(double step_seconds, const Base& base, int steps, State& state) const;
   double Travel(std::uint32_t begin, std::uint32_t end, const State& state) const;
 
-  std::vector<Base> bases_;  // ordered by body
+  std::vector<Base> bases_;   // ordered by body
+  std::vector<int> base_of_;  // index in bases_ of each body; -1 if it has no base
   std::vector<Wheel> wheels_;
   std::vector<double> before_;
 };

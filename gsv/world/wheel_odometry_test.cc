@@ -89,6 +89,42 @@ TEST(WheelOdometry, FollowsTheActualVelocityOfOtherDrives) {
   EXPECT_NEAR(state.bodies[0].odometry.place.y, 0, 1e-12);
 }
 
+TEST(WheelOdometry, AdvancesOneBodyAsAllBodies) {
+  for (const auto kind : {model::DriveKind::kDifferential, model::DriveKind::kMecanum}) {
+    const auto layout = Robot(kind);
+    WheelOdometry all, one;
+    all.SetLayout(*layout);
+    one.SetLayout(*layout);
+    State expected = InitialState(*layout);
+    expected.bodies[0].drive.actual = {0.3, 0.1, 0.5};
+    State state = expected;
+    one.KeepWheels(state);
+    for (int i = 0; i < 5; ++i) {
+      all.KeepWheels(expected);
+      for (State* each : {&expected, &state}) {
+        each->joint_positions[0] += 0.1 * i;
+        each->joint_positions[1] -= 0.2;
+      }
+      all.Advance(kStep, expected);
+      one.AdvanceBody(kStep, 0, 1, state);
+    }
+    EXPECT_EQ(state.bodies[0].odometry.place, expected.bodies[0].odometry.place);
+    EXPECT_EQ(state.bodies[0].odometry.angular, expected.bodies[0].odometry.angular);
+  }
+}
+
+TEST(WheelOdometry, AdvancesByEqualStepsAtOnce) {
+  const auto layout = Robot(model::DriveKind::kMecanum);
+  WheelOdometry wheels;
+  wheels.SetLayout(*layout);
+  State single = InitialState(*layout);
+  single.bodies[0].drive.actual = {0.3, 0.1, 0};
+  State at_once = single;
+  for (int i = 0; i < 4; ++i) wheels.AdvanceBody(kStep, 0, 1, single);
+  wheels.AdvanceBody(kStep, 0, 4, at_once);
+  EXPECT_EQ(at_once.bodies[0].odometry.place, single.bodies[0].odometry.place);
+}
+
 TEST(WheelOdometry, KeepsTheHeadingAUnitVectorOverAMillionSteps) {
   const Odometry odometry = AfterRolling(-0.01, 0.01, 1'000'000);
   EXPECT_NEAR(std::hypot(odometry.place.cosine, odometry.place.sine), 1, 1e-15);

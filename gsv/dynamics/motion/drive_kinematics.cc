@@ -1,6 +1,7 @@
 #include "gsv/dynamics/motion/drive_kinematics.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@ using geometry::Vector3;
 using model::DriveKind;
 
 constexpr double kStandardGravity = 9.80665;  // m/s²
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 base::Status CheckRange(const model::Range& range, const char* what, double must_contain) {
   if (!(range.min <= range.max)) {
@@ -203,6 +205,46 @@ world::DriveCommand DriveKinematics::TrueMotion(const world::DriveCommand& motio
                                                                               // weight
   moves.lateral -= drive_.slip.lateral * side_force * std::abs(moves.linear);
   return moves;
+}
+
+DriveKinematics::Speeds DriveKinematics::MaxSpeeds(const world::DriveState& state,
+                                                   int steps) const {
+  if (drive_.kind == DriveKind::kNone) return {};
+  // FollowSpeed() returns a speed between the present speed and the target. The target is zero if
+  // the command is too old.
+  const auto target = [](double wanted, const model::Range& speed, double max_speed) {
+    if (!std::isfinite(wanted)) return 0.0;
+    return std::abs(Limited(Limited(wanted, speed.min, speed.max), -max_speed, max_speed));
+  };
+  const double linear = target(state.command.linear, drive_.linear_velocity, kMaxLinearSpeed);
+  Speeds most;
+  most.angular = std::max(std::abs(state.actual.angular),
+                          target(state.command.angular, drive_.angular_velocity, kMaxAngularSpeed));
+  if (can_move_sideways()) {
+    // A slide changes the direction of the velocity. Then each of its two components may increase
+    // to that of the target, once in each step.
+    const double lateral = target(state.command.lateral, drive_.linear_velocity, kMaxLinearSpeed);
+    const double square = linear * linear + lateral * lateral;
+    const world::DriveCommand& now = state.actual;
+    const bool follows_at_once = drive_.linear_acceleration.min == -kUnlimited &&
+                                 drive_.linear_acceleration.max == kUnlimited;
+    const double before = now.linear * now.linear + now.lateral * now.lateral;
+    most.linear = std::sqrt(follows_at_once ? std::max(before, square) : before + steps * square);
+  } else {
+    most.linear = std::max(std::abs(state.actual.linear), linear);
+  }
+  if (!wheels_are_as_believed_) {
+    const double scale = std::max(drive_.left_wheel_scale, drive_.right_wheel_scale);
+    const double wheel = scale * (most.linear + most.angular * drive_.wheel_separation / 2);
+    most = {wheel, 2 * wheel / drive_.wheel_separation};
+  }
+  if (slips_) {
+    most.linear +=
+        drive_.slip.lateral * most.linear * most.linear * most.angular / kStandardGravity;
+  }
+  most.linear += most.angular * std::abs(reference_x_);
+  constexpr double kRounding = 1 + 1e-9;
+  return {most.linear * kRounding, most.angular * kRounding};
 }
 
 world::DriveCommand DriveKinematics::RolledMotion(const world::DriveCommand& motion) const {

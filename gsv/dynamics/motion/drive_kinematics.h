@@ -52,6 +52,11 @@ class DriveKinematics {
   world::DriveCommand Next(const world::DriveState& state, base::SimTime now,
                            double step_seconds) const;
 
+  // Whether Next() follows the command in `state` at `now`, and ignores it at `later`.
+  bool BecomesStale(const world::DriveState& state, base::SimTime now, base::SimTime later) const {
+    return IsStale(state, now) != IsStale(state, later);
+  }
+
   // The motion of the reference point when the drive rotates the wheels for `motion`. It equals
   // `motion` unless the wheels slip or their true radii differ from the radii that the drive
   // assumes.
@@ -63,6 +68,14 @@ class DriveKinematics {
     const world::DriveCommand moves = is_true ? motion : TrueMotion(motion);
     return {moves.linear, moves.lateral - moves.angular * reference_x_, moves.angular};
   }
+
+  // Upper bounds of the linear speed (m/s) of the model's origin and of the angular speed (rad/s).
+  struct Speeds {
+    double linear = 0, angular = 0;
+  };
+  // Returns bounds for the next `steps` steps, if the base follows the command in `state`. They
+  // also apply if obstacles stop the base or if it slides along them.
+  Speeds MaxSpeeds(const world::DriveState& state, int steps) const;
 
   // Whether the base can rotate without moving forwards.
   bool can_turn_on_the_spot() const {
@@ -96,6 +109,11 @@ class DriveKinematics {
     double lateral = 0;  // distance to the left, m
   };
 
+  // Whether the command is older than the drive's timeout.
+  bool IsStale(const world::DriveState& state, base::SimTime now) const {
+    return drive_.command_timeout > base::SimTime(0) &&
+           now - state.command_time >= drive_.command_timeout;
+  }
   // Adds the wheels of one side. `side` is 1 for the left and -1 for the right.
   void AddWheels(const model::Model& model, const std::vector<int>& joints, double side);
   // Computes from the slip of the drive and its wheels how much less the base turns than commanded.
@@ -137,8 +155,7 @@ inline double Limited(double value, double low, double high) {
 
 [[gnu::always_inline]] inline world::DriveCommand DriveKinematics::Next(
     const world::DriveState& state, base::SimTime now, double step_seconds) const {
-  const bool stale = drive_.command_timeout > base::SimTime(0) &&
-                     now - state.command_time >= drive_.command_timeout;
+  const bool stale = IsStale(state, now);
   if (drive_.kind == model::DriveKind::kNone) return {};
   const world::DriveCommand target = stale ? world::DriveCommand{} : state.command;
   world::DriveCommand next;

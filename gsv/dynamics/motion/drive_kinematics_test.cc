@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/random.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -72,6 +74,52 @@ TEST(DriveKinematics, AcceleratesAndBrakesWithinItsLimits) {
   EXPECT_NEAR(state.actual.linear, 0.96, 1e-12);
   for (int i = 0; i < 100; ++i) state.actual = drive.Next(state, {}, 0.01);
   EXPECT_NEAR(state.actual.linear, -0.5, 1e-12);
+}
+
+// Drives with random commands. At random instants, an obstacle stops the base or makes it slide.
+TEST(DriveKinematics, MaxSpeedsAreNotExceededWithinSomeSteps) {
+  base::Noise noise(1, 2, 3);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * noise.Uniform();
+  };
+  for (const DriveKind kind : {DriveKind::kDifferential, DriveKind::kMecanum, DriveKind::kAckermann,
+                               DriveKind::kSynchro, DriveKind::kVelocity}) {
+    model::Model model = FourWheels(kind);
+    model.drive->linear_velocity = {-0.5, 1};
+    model.drive->linear_acceleration = {-4, 2};
+    model.drive->angular_acceleration = {-5, 3};
+    model.drive->command_timeout = FromSeconds(0.05);
+    if (kind == DriveKind::kDifferential) {
+      model.drive->left_wheel_scale = 1.1;
+      model.drive->slip = {0.05, 0.1};
+    }
+    const DriveKinematics kinematics = Make(model);
+    double nearest = 0;
+    for (int round = 0; round < 2000; ++round) {
+      world::DriveState state = Commanded({uniform(-2, 2), uniform(-1, 1), uniform(-2, 2)});
+      state.actual = {uniform(-0.5, 1), uniform(-0.5, 1), uniform(-1, 1)};
+      if (!kinematics.can_move_sideways()) state.actual.lateral = 0;
+      const int steps = 2 + round % 7;
+      const DriveKinematics::Speeds most = kinematics.MaxSpeeds(state, steps);
+      for (int i = 0; i < steps; ++i) {
+        state.actual = kinematics.Next(state, FromSeconds(0.01 * i), 0.01);
+        const geometry::Twist twist = kinematics.OriginTwist(state.actual);
+        ASSERT_LE(std::hypot(twist.x, twist.y), most.linear) << round;
+        ASSERT_LE(std::abs(twist.angular), most.angular) << round;
+        nearest = std::max(nearest, std::hypot(twist.x, twist.y) / most.linear);
+        if (uniform(0, 1) < 0.7) continue;
+        if (!kinematics.can_move_sideways()) {
+          state.actual.linear = 0;
+          continue;
+        }
+        const double angle = uniform(0, 6), x = std::cos(angle), y = std::sin(angle);
+        const double into = x * state.actual.linear + y * state.actual.lateral;
+        state.actual.linear -= into * x;
+        state.actual.lateral -= into * y;
+      }
+    }
+    EXPECT_GT(nearest, 0.8);
+  }
 }
 
 TEST(DriveKinematics, BrakesAfterTheCommandTimeout) {

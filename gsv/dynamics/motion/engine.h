@@ -23,6 +23,17 @@ struct Attachment {
   geometry::Pose link_from_held;  // pose of the held model's frame
 };
 
+// Is notified of the motion of bodies in Engine::StepMany().
+class MotionFollower {
+ public:
+  virtual ~MotionFollower() = default;
+  // A body has moved by `steps` steps, and `steps_left` further steps follow. If `steps` is above 1,
+  // its joints did not move, and its velocity was constant: equal in these steps and in the step
+  // before. `may_touch` is true if the body may have contacts. Threads: calls for different bodies
+  // may run concurrently if `may_touch` is false.
+  virtual void OnMoved(int body, int steps, int steps_left, bool may_touch) = 0;
+};
+
 // The interface of a physics engine.
 class Engine {
  public:
@@ -53,6 +64,16 @@ class Engine {
   // contacts of the previous step. Pass the same vector in each step to avoid memory allocations.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
+
+  // Advances `state` by `count` >= 2 steps at once, with the same result as `count` calls of
+  // Step(). `contacts` are those at the end of the last step. `follower` is notified of each planar
+  // body after its steps; other bodies do not move. The order of bodies is undefined, so
+  // the state of other bodies must not be read. state.time stays at the start of the first step.
+  // Returns false and changes nothing if the engine cannot, or if single steps are faster.
+  virtual bool StepMany(base::SimTime /*step*/, int /*count*/, world::State& /*state*/,
+                        std::vector<world::Contact>& /*contacts*/, MotionFollower& /*follower*/) {
+    return false;
+  }
 
   // Returns the pairs of bodies that overlap in `state` by more than `tolerance` metres, if at
   // least one of the two is a robot. Examples are two robots at one position, and a robot inside a

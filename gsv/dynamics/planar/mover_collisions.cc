@@ -31,6 +31,7 @@ Interval SharedHeights(const Footprint::Piece& a, double height_a, const Footpri
 void MoverCollisions::Reset() {
   rooms_.assign(scene_.movers().size(), {});
   candidates_.clear();
+  marked_.clear();
   Clear();
 }
 
@@ -55,10 +56,41 @@ void MoverCollisions::FindCandidates(std::span<const geometry::PlanarPosition> s
 
 void MoverCollisions::Find(std::span<const geometry::PlanarPosition> starts,
                            std::span<const double> travels) {
+  FindAmong(candidates_, starts, travels);
+}
+
+void MoverCollisions::FindMarked(std::span<const geometry::PlanarPosition> starts,
+                                 std::span<const double> travels) {
+  FindAmong(marked_, starts, travels);
+}
+
+void MoverCollisions::FindAmong(std::span<const BroadPhase::Pair> pairs,
+                                std::span<const geometry::PlanarPosition> starts,
+                                std::span<const double> travels) {
   Clear();
-  for (const auto& [first, second] : candidates_) {
+  for (const auto& [first, second] : pairs) {
     AddIfNear(first, second, starts, travels[first] + travels[second] + kTouchGap);
   }
+}
+
+void MoverCollisions::MarkNear(std::span<const geometry::PlanarPosition> starts,
+                               std::span<const double> travels, std::span<std::uint8_t> is_near) {
+  marked_.clear();
+  for (const BroadPhase::Pair& pair : candidates_) {
+    const double within = travels[pair.first] + travels[pair.second] + kTouchGap;
+    if (!AreNear(pair.first, pair.second, starts, within)) continue;
+    is_near[pair.first] = is_near[pair.second] = 1;
+    marked_.push_back(pair);
+  }
+}
+
+bool MoverCollisions::AreNear(std::uint32_t first, std::uint32_t second,
+                              std::span<const geometry::PlanarPosition> starts,
+                              double within) const {
+  const Vector2 apart{starts[second].x - starts[first].x, starts[second].y - starts[first].y};
+  const double furthest =
+      scene_.footprint(first).radius + scene_.footprint(second).radius + within + kPairRounding;
+  return Dot(apart, apart) <= furthest * furthest;
 }
 
 void MoverCollisions::FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
@@ -73,9 +105,7 @@ void MoverCollisions::AddIfNear(std::uint32_t first, std::uint32_t second,
                                 std::span<const geometry::PlanarPosition> starts, double within) {
   const geometry::PlanarPosition &start_a = starts[first], &start_b = starts[second];
   const Footprint &a = scene_.footprint(first), &b = scene_.footprint(second);
-  const Vector2 apart{start_b.x - start_a.x, start_b.y - start_a.y};
-  const double furthest = a.radius + b.radius + within + kPairRounding;
-  if (Dot(apart, apart) > furthest * furthest) return;
+  if (!AreNear(first, second, starts, within)) return;
   const auto begin = static_cast<std::uint32_t>(pieces_.size());
   bool touches = false;
   ConvexPiece placed_p, placed_q;

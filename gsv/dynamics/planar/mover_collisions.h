@@ -50,6 +50,13 @@ class MoverCollisions {
   // Lists the pairs that may touch if no part of mover m moves further than travels[m]. HasRoom()
   // must be true for all movers.
   void Find(std::span<const geometry::PlanarPosition> starts, std::span<const double> travels);
+  // Sets is_near[m] of both movers of each pair that may touch if no part of mover m moves further
+  // than travels[m]. HasRoom() must be true for all movers. FindMarked() lists such pairs only.
+  void MarkNear(std::span<const geometry::PlanarPosition> starts, std::span<const double> travels,
+                std::span<std::uint8_t> is_near);
+  // As Find(), but only for the pairs that the last MarkNear() has found.
+  void FindMarked(std::span<const geometry::PlanarPosition> starts,
+                  std::span<const double> travels);
   // Lists the pairs of one mover with `others`, in ascending order, at their positions. HasRoom()
   // is not required.
   void FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
@@ -97,6 +104,12 @@ class MoverCollisions {
 
   // Removes the pairs of the last step.
   void Clear();
+  // Lists those of `pairs` that may touch.
+  void FindAmong(std::span<const BroadPhase::Pair> pairs,
+                 std::span<const geometry::PlanarPosition> starts, std::span<const double> travels);
+  // Whether the footprints' bounding circles are closer than `within`.
+  bool AreNear(std::uint32_t first, std::uint32_t second,
+               std::span<const geometry::PlanarPosition> starts, double within) const;
   // Adds the pair if two of its pieces are closer than `within`.
   void AddIfNear(std::uint32_t first, std::uint32_t second,
                  std::span<const geometry::PlanarPosition> starts, double within);
@@ -119,6 +132,7 @@ class MoverCollisions {
   std::vector<Vector2> centres_;
   std::vector<double> radii_;
   std::vector<BroadPhase::Pair> candidates_;
+  std::vector<BroadPhase::Pair> marked_;  // pairs that the last MarkNear() has found
 
   std::vector<MoverPair> pairs_;
   std::vector<PiecePair> pieces_;

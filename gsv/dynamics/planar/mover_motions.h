@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "gsv/dynamics/planar/planar_scene.h"
@@ -47,13 +48,22 @@ class MoverMotions {
 
   // Sets a mover's position from `state`.
   void Load(std::uint32_t mover, const world::State& state);
-  // Starts the first leg, which takes `seconds`. The mover follows its command. With 0 s, it does
-  // not move.
-  void FollowCommand(std::uint32_t mover, const world::State& state, double seconds);
+  // Starts the first leg of a step, which takes `seconds` from the time `now`. The mover follows its
+  // command. With 0 s, it does not move.
+  void FollowCommand(std::uint32_t mover, const world::State& state, base::SimTime now,
+                     double seconds);
+  // Sets reaches[mover] to an upper bound for all of the next `steps` steps of `seconds`.
+  void SetReach(std::uint32_t mover, const world::State& state, double seconds, int steps);
   // Starts a leg with this twist.
   void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);
   // Moves the mover to the end of its leg.
   void RunLeg(std::uint32_t mover, Journey& journey);
+  // Whether the next step of a mover equals its last step: Store() has been called, the drive's
+  // velocity was `before` in the step before, and the base neither rotates nor moves joints. This
+  // assumes that its command remains in effect.
+  bool IsStraightAndSteady(std::uint32_t mover, const world::DriveCommand& before) const;
+  // Moves a mover by further steps which equal its last step. `journey` is that of the last step.
+  void Repeat(std::uint32_t mover, const Journey& journey, int steps, world::State& state);
   // Writes the mover's pose, velocity and wheel angles to `state`.
   void Store(std::uint32_t mover, const Journey& journey, double seconds,
              world::State& state) const;
@@ -83,14 +93,22 @@ class MoverMotions {
 
 [[gnu::always_inline]] inline void MoverMotions::FollowCommand(std::uint32_t m,
                                                                const world::State& state,
-                                                               double seconds) {
+                                                               base::SimTime now, double seconds) {
   const Mover& mover = scene_.movers()[m];
   const MoverKind& kind = scene_.kind(mover);
-  drives[m] = seconds > 0
-                  ? kind.kinematics.Next(state.bodies[mover.body].drive, state.time, seconds)
-                  : world::DriveCommand{};
+  drives[m] = seconds > 0 ? kind.kinematics.Next(state.bodies[mover.body].drive, now, seconds)
+                          : world::DriveCommand{};
   SetLeg(m, kind.kinematics.OriginTwist(drives[m]), seconds);
   reaches[m] = (SpeedOf(twists[m]) + std::abs(twists[m].angular) * kind.spin_radius) * seconds;
+}
+
+inline void MoverMotions::SetReach(std::uint32_t m, const world::State& state, double seconds,
+                                   int steps) {
+  const Mover& mover = scene_.movers()[m];
+  const MoverKind& kind = scene_.kind(mover);
+  const DriveKinematics::Speeds bound =
+      kind.kinematics.MaxSpeeds(state.bodies[mover.body].drive, steps);
+  reaches[m] = (bound.linear + bound.angular * kind.spin_radius) * seconds * steps;
 }
 
 [[gnu::always_inline]] inline void MoverMotions::SetLeg(std::uint32_t m,
@@ -109,6 +127,27 @@ class MoverMotions {
   journey.travel.forward += twist.x * time;
   journey.travel.left += (twist.y + twist.angular * kinematics(m).reference_x()) * time;
   journey.travel.angle += twist.angular * time;
+}
+
+[[gnu::always_inline]] inline bool MoverMotions::IsStraightAndSteady(
+    std::uint32_t m, const world::DriveCommand& before) const {
+  // The bits are compared, because then the next velocity is the same function of the same values.
+  return twists[m].angular == 0 && std::memcmp(&before, &drives[m], sizeof before) == 0 &&
+         !kinematics(m).turns_joints();
+}
+
+// The same operations as in RunLeg() and Store(). All other values that they write do not change.
+[[gnu::always_inline]] inline void MoverMotions::Repeat(std::uint32_t m, const Journey& journey,
+                                                        int steps, world::State& state) {
+  if (times[m] <= 0) return;
+  geometry::PlanarPosition& at = positions[m];
+  world::BodyState& body = state.bodies[scene_.movers()[m].body];
+  for (int i = 0; i < steps; ++i) {
+    at = Advance(at, twists[m], times[m]);
+    body.distance += journey.distance;
+  }
+  body.world_from_model.position.x = at.x;
+  body.world_from_model.position.y = at.y;
 }
 
 }  // namespace gsv::dynamics

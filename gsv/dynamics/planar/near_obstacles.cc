@@ -30,13 +30,11 @@ void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const geometry:
   if (scene_.has_dynamic()) {
     Search(chunks_[chunk], mover, at, within, radius + within + kRounding, true);
   }
-  Clearance& clearance = clearances_[mover];
-  const Vector2 origin{at.x, at.y}, moved = origin - clearance.centre;
-  const double room = clearance.radius - within;
-  if (room > 0 && Dot(moved, moved) < room * room) return;
-  const double nearest =
-      Search(chunks_[chunk], mover, at, within, radius + std::max(within, kLookAround), false);
-  clearance = {origin, nearest - radius - kRounding};
+  if (IsClear(mover, at, travel)) return;
+  // IsClear() is then true if nothing is found within this distance.
+  const double look = radius + std::max(within + 2 * kRounding, kLookAround);
+  const double nearest = Search(chunks_[chunk], mover, at, within, look, false);
+  clearances_[mover] = {{at.x, at.y}, nearest - radius - kRounding};
 }
 
 double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const geometry::PlanarPosition& at,

@@ -14,6 +14,7 @@
 
 #include "gsv/dynamics/planar/planar_scene.h"
 #include "gsv/dynamics/shapes/contact_collector.h"
+#include "gsv/dynamics/shapes/time_of_impact.h"
 #include "gsv/geometry/planar_motion.h"
 
 namespace gsv::dynamics {
@@ -31,6 +32,15 @@ class NearObstacles {
   // Adds the obstacles that a mover at `at` may touch if no part of it moves further than `travel`.
   void Find(std::size_t chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
             double travel);
+
+  // Returns true if the last search shows that a mover at `at` touches no static obstacle while no
+  // part of it moves further than `travel`.
+  bool IsClear(std::uint32_t mover, const geometry::PlanarPosition& at, double travel) const {
+    const Clearance& clearance = clearances_[mover];
+    const double room = clearance.radius - (travel + kTouchGap);
+    const Vector2 moved = Vector2{at.x, at.y} - clearance.centre;
+    return room > 0 && Dot(moved, moved) < room * room;
+  }
 
   // Stops the chunk's movers at the first obstacle in their way. Mover m starts at starts[m] and
   // moves for times[m]. If it is stopped, times[m] becomes the time of the contact and normals[m]

@@ -19,6 +19,15 @@ constexpr std::size_t kChunk = 32;
 // thread saves time.
 constexpr std::size_t kChunksAtOnce = 2, kMinChunks = 8;
 
+// If more than 1 / kMaxNearShare of the movers may touch something in StepMany(), single steps are
+// taken, because they divide these movers among the threads. StepMany() then tries again after
+// kPatience calls.
+constexpr std::size_t kMaxNearShare = 4;
+constexpr int kPatience = 16;
+
+// The number of movers that a thread moves by several steps at a time.
+constexpr std::size_t kMoversAtOnce = 8;
+
 // A step has up to three legs: the commanded arc; after a contact, a slide along the obstacle; then
 // a rotation in place.
 class TeamMover final : public PlanarMover {
@@ -29,6 +38,8 @@ class TeamMover final : public PlanarMover {
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override;
   void Step(base::SimTime step, world::State& state,
             std::vector<world::Contact>& contacts) override;
+  bool StepMany(base::SimTime step, int count, world::State& state,
+                std::vector<world::Contact>& contacts, MotionFollower& follower) override;
   std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override;
   std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                          double tolerance) override;
@@ -56,6 +67,23 @@ class TeamMover final : public PlanarMover {
   void Begin(const world::State& state, double seconds);
   void BeginChunk(std::size_t index, const world::State& state, double seconds);
   void EndChunk(std::size_t index, double seconds, world::State& state);
+  // Adds a mover to a chunk at the start of a step, and moves it in the step's first leg.
+  void BeginMover(std::size_t chunk, std::uint32_t mover, const world::State& state,
+                  base::SimTime now, double seconds);
+  void EndMover(std::size_t chunk, std::uint32_t mover, double seconds, world::State& state);
+  void ClearChunk(std::size_t index);
+  // Moves the stopped movers in the rest of the step, and computes the contacts.
+  void Finish(double seconds, world::State& state, std::vector<world::Contact>& contacts);
+  // Lists in near_ the movers that may touch something in the next `count` steps. Returns false if
+  // StepMany() should not be used.
+  bool FindNear(const world::State& state, double seconds, int count);
+  void FindNearChunk(std::size_t index, const world::State& state, double seconds, int count);
+  // Moves a mover that touches nothing.
+  void MoveFreely(std::uint32_t mover, base::SimTime step, int count, world::State& state,
+                  MotionFollower& follower);
+  // Moves the movers of near_ by one step from the time `now`.
+  void StepNear(base::SimTime now, double seconds, world::State& state,
+                std::vector<world::Contact>& contacts);
   void ListTouching();
   void RunStopped();
   void SlideAlong(double seconds);
@@ -77,12 +105,19 @@ class TeamMover final : public PlanarMover {
   std::vector<Stopped> stopped_;           // movers that were stopped in this step, in ascending
                                            // order
   std::vector<std::uint32_t> neighbours_;  // used by OverlapsOf()
+
+  // Used by StepMany().
+  std::vector<std::uint8_t> is_near_;  // for each mover, whether it may touch something
+  std::vector<std::uint32_t> near_;    // these movers, in ascending order
+  int patience_ = 0;                   // the number of calls that return false at once
 };
 
 base::Status TeamMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
   if (auto ok = scene_.SetLayout(std::move(layout)); !ok) return ok;
   chunks_.resize((count() + kChunk - 1) / kChunk);
   motions_.Resize();
+  is_near_.assign(count(), 0);
+  patience_ = 0;
   return {};
 }
 
@@ -111,7 +146,7 @@ void TeamMover::SliceVisibleObstacles(const world::State& state, double seconds)
   sights_.clear();
   for (std::uint32_t m = 0; m < count(); ++m) {
     motions_.Load(m, state);
-    motions_.FollowCommand(m, state, seconds);
+    motions_.FollowCommand(m, state, state.time, seconds);
     AddSight(m);
   }
   scene_.SliceDynamicObstacles(state, sights_);
@@ -138,22 +173,33 @@ void TeamMover::Begin(const world::State& state, double seconds) {
 }
 
 void TeamMover::BeginChunk(std::size_t index, const world::State& state, double seconds) {
+  ClearChunk(index);
+  const std::size_t end = std::min(count(), (index + 1) * kChunk);
+  for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
+    BeginMover(index, m, state, state.time, seconds);
+  }
+  obstacles_.Stop(index, motions_.positions, motions_.twists, motions_.times, motions_.normals);
+}
+
+void TeamMover::ClearChunk(std::size_t index) {
   Chunk& chunk = chunks_[index];
   chunk.is_as_sliced = chunk.has_room = true;
   chunk.in_contact.clear();
   chunk.stopped.clear();
   obstacles_.Clear(index);
-  const std::size_t end = std::min(count(), (index + 1) * kChunk);
-  for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
-    const world::BodyState& body = state.bodies[scene_.movers()[m].body];
-    motions_.Load(m, state);
-    motions_.FollowCommand(m, state, seconds);
-    if (body.in_contact) chunk.in_contact.push_back(m);
-    if (!scene_.IsSlicedAtHeight(m, body.world_from_model.position.z)) chunk.is_as_sliced = false;
-    if (!pairs_.HasRoom(m, motions_.positions[m], motions_.reaches[m])) chunk.has_room = false;
-    obstacles_.Find(index, m, motions_.positions[m], motions_.reaches[m]);
-  }
-  obstacles_.Stop(index, motions_.positions, motions_.twists, motions_.times, motions_.normals);
+}
+
+[[gnu::always_inline]] inline void TeamMover::BeginMover(std::size_t index, std::uint32_t m,
+                                                         const world::State& state,
+                                                         base::SimTime now, double seconds) {
+  Chunk& chunk = chunks_[index];
+  const world::BodyState& body = state.bodies[scene_.movers()[m].body];
+  motions_.Load(m, state);
+  motions_.FollowCommand(m, state, now, seconds);
+  if (body.in_contact) chunk.in_contact.push_back(m);
+  if (!scene_.IsSlicedAtHeight(m, body.world_from_model.position.z)) chunk.is_as_sliced = false;
+  if (!pairs_.HasRoom(m, motions_.positions[m], motions_.reaches[m])) chunk.has_room = false;
+  obstacles_.Find(index, m, motions_.positions[m], motions_.reaches[m]);
 }
 
 void TeamMover::ListTouching() {
@@ -166,15 +212,20 @@ void TeamMover::ListTouching() {
 void TeamMover::EndChunk(std::size_t index, double seconds, world::State& state) {
   const std::size_t end = std::min(count(), (index + 1) * kChunk);
   for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
-    Journey journey;
-    motions_.RunLeg(m, journey);
-    if (motions_.times[m] < seconds && Moves(motions_.twists[m])) {
-      chunks_[index].stopped.push_back({m, seconds - motions_.times[m], journey});
-    } else {
-      motions_.Store(m, journey, seconds, state);
-    }
-    motions_.SetLeg(m, geometry::Twist{}, 0);
+    EndMover(index, m, seconds, state);
   }
+}
+
+[[gnu::always_inline]] inline void TeamMover::EndMover(std::size_t chunk, std::uint32_t m,
+                                                       double seconds, world::State& state) {
+  Journey journey;
+  motions_.RunLeg(m, journey);
+  if (motions_.times[m] < seconds && Moves(motions_.twists[m])) {
+    chunks_[chunk].stopped.push_back({m, seconds - motions_.times[m], journey});
+  } else {
+    motions_.Store(m, journey, seconds, state);
+  }
+  motions_.SetLeg(m, geometry::Twist{}, 0);
 }
 
 void TeamMover::RunStopped() {
@@ -270,6 +321,10 @@ void TeamMover::Step(base::SimTime step, world::State& state,
   Begin(state, seconds);
   pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
   ForEachChunk([&](std::size_t i) { EndChunk(i, seconds, state); });
+  Finish(seconds, state, contacts);
+}
+
+void TeamMover::Finish(double seconds, world::State& state, std::vector<world::Contact>& contacts) {
   stopped_.clear();
   for (const Chunk& chunk : chunks_) {
     stopped_.insert(stopped_.end(), chunk.stopped.begin(), chunk.stopped.end());
@@ -282,6 +337,116 @@ void TeamMover::Step(base::SimTime step, world::State& state,
   }
   CollectContacts(kTouchGap, contacts);
   CountContacts(contacts, state);
+}
+
+// Most movers are far from everything that they could touch in a few steps. Each of these movers
+// takes all its steps at once, while its data are in the cache. The result is the same as with
+// single steps: in each single step, no obstacle and no other mover would be near such a mover.
+bool TeamMover::StepMany(base::SimTime step, int steps, world::State& state,
+                         std::vector<world::Contact>& contacts, MotionFollower& follower) {
+  GSV_CHECK(step > base::SimTime(0) && steps >= 2);
+  const double seconds = base::ToSeconds(step);
+  if (patience_ > 0) {
+    --patience_;
+    return false;
+  }
+  if (scene_.has_dynamic() || !scene_.HasValidSlices(state)) return false;
+  if (!FindNear(state, seconds, steps)) return false;
+  team_->ParallelFor(count(), kMoversAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (auto m = static_cast<std::uint32_t>(begin); m < end; ++m) {
+      if (is_near_[m] == 0) MoveFreely(m, step, steps, state, follower);
+    }
+  });
+  for (int i = 0; i < steps; ++i) {
+    StepNear(state.time + i * step, seconds, state, contacts);
+    for (const std::uint32_t m : near_) {
+      follower.OnMoved(scene_.movers()[m].body, 1, steps - 1 - i, true);
+    }
+  }
+  return true;
+}
+
+bool TeamMover::FindNear(const world::State& state, double seconds, int steps) {
+  ForEachChunk([&](std::size_t i) { FindNearChunk(i, state, seconds, steps); });
+  bool has_room = true;
+  for (const Chunk& chunk : chunks_) {
+    if (!chunk.is_as_sliced) return false;
+    has_room = has_room && chunk.has_room;
+  }
+  if (!has_room) pairs_.FindCandidates(motions_.positions, motions_.reaches);
+  pairs_.MarkNear(motions_.positions, motions_.reaches, is_near_);
+  near_.clear();
+  for (std::uint32_t m = 0; m < count(); ++m) {
+    if (is_near_[m] != 0) near_.push_back(m);
+  }
+  if (near_.size() * kMaxNearShare <= count()) return true;
+  patience_ = kPatience;
+  return false;
+}
+
+void TeamMover::FindNearChunk(std::size_t index, const world::State& state, double seconds,
+                              int steps) {
+  ClearChunk(index);
+  Chunk& chunk = chunks_[index];
+  const std::size_t end = std::min(count(), (index + 1) * kChunk);
+  for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
+    const world::BodyState& body = state.bodies[scene_.movers()[m].body];
+    const geometry::Vector3& origin = body.world_from_model.position;
+    motions_.SetReach(m, state, seconds, steps);
+    const double reach = motions_.reaches[m];
+    geometry::PlanarPosition& at = motions_.positions[m];
+    at.x = origin.x, at.y = origin.y;  // the heading is needed only for a search
+    if (!scene_.IsSlicedAtHeight(m, origin.z)) chunk.is_as_sliced = false;
+    if (!pairs_.HasRoom(m, at, reach)) chunk.has_room = false;
+    if (!obstacles_.IsClear(m, at, reach)) {
+      motions_.Load(m, state);
+      obstacles_.Find(index, m, at, reach);
+    }
+    is_near_[m] = body.in_contact || !obstacles_.IsClear(m, at, reach) ? 1 : 0;
+  }
+  obstacles_.Clear(index);  // StepNear() lists the obstacles again, for each of its steps
+}
+
+[[gnu::flatten]] void TeamMover::MoveFreely(std::uint32_t m, base::SimTime step, int steps,
+                                            world::State& state, MotionFollower& follower) {
+  const double seconds = base::ToSeconds(step);
+  const int index = scene_.movers()[m].body;
+  const world::DriveState& drive = state.bodies[index].drive;
+  base::SimTime now = state.time;
+  for (int left = steps - 1; left >= 0; --left, now += step) {
+    const world::DriveCommand before = drive.actual;
+    // Without a rotation, the heading is that of the step before.
+    if (left == steps - 1 || motions_.twists[m].angular != 0) motions_.Load(m, state);
+    motions_.FollowCommand(m, state, now, seconds);
+    Journey journey;
+    motions_.RunLeg(m, journey);
+    motions_.Store(m, journey, seconds, state);
+    follower.OnMoved(index, 1, left, false);
+    const bool is_steady = left > 0 && motions_.IsStraightAndSteady(m, before) &&
+                           !motions_.kinematics(m).BecomesStale(drive, now, now + left * step);
+    if (!is_steady) continue;
+    motions_.Repeat(m, journey, left, state);
+    follower.OnMoved(index, left, 0, false);
+    break;
+  }
+  motions_.SetLeg(m, geometry::Twist{}, 0);
+}
+
+// All movers of near_ are in the first chunk. The other chunks are empty.
+void TeamMover::StepNear(base::SimTime now, double seconds, world::State& state,
+                         std::vector<world::Contact>& contacts) {
+  if (near_.empty()) {
+    contacts.clear();
+    return;
+  }
+  ClearChunk(0);
+  for (const std::uint32_t m : near_) BeginMover(0, m, state, now, seconds);
+  obstacles_.Stop(0, motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  pairs_.FindMarked(motions_.positions, motions_.reaches);
+  ListTouching();
+  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  for (const std::uint32_t m : near_) EndMover(0, m, seconds, state);
+  Finish(seconds, state, contacts);
 }
 
 std::vector<world::Contact> TeamMover::Overlaps(const world::State& state, double tolerance) {
@@ -329,7 +494,7 @@ std::vector<world::Contact> TeamMover::OverlapsOf(const world::State& state, int
   }
   for (std::size_t i = 0; i < chunks_.size(); ++i) obstacles_.Clear(i);
   motions_.Load(mover, state);
-  motions_.FollowCommand(mover, state, 0);
+  motions_.FollowCommand(mover, state, state.time, 0);
   sights_.clear();
   AddSight(mover);
   scene_.SliceDynamicObstacles(state, sights_);

@@ -16,6 +16,8 @@
 //             Bases that can move sideways slide along the obstacle. Bases do not push each other.
 //             The result does not depend on the order of bodies.
 //             A base that starts inside an obstacle can leave it, but cannot move deeper.
+// Many steps  StepMany() moves each base by all steps, one base after the other, if no other body
+//             is near enough to touch it. Then it moves all other bases step by step.
 // Mesh        A mesh is a surface: a robot completely inside a closed mesh touches nothing.
 //
 // Errors      SetLayout() refuses invalid drives (kBadModel) and poses that are not finite.
@@ -29,6 +31,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/base/thread_team.h"
+#include "gsv/dynamics/motion/engine.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::dynamics {
@@ -42,6 +45,9 @@ class PlanarMover {
   // As Engine::Step(), for bodies with planar kinematics.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
+  // As Engine::StepMany().
+  virtual bool StepMany(base::SimTime step, int count, world::State& state,
+                        std::vector<world::Contact>& contacts, MotionFollower& follower) = 0;
   // As Engine::Overlaps().
   virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
   // As Engine::OverlapsOf().

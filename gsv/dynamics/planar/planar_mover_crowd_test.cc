@@ -2,6 +2,7 @@
 // result.
 
 #include <algorithm>
+#include <atomic>
 
 #include <gtest/gtest.h>
 
@@ -94,6 +95,129 @@ TEST(PlanarMoverCrowd, CachesDoNotChangeTheResult) {
     AddContacts(contacts, actual);
     ASSERT_EQ(actual.Digest(), expected.Digest()) << i;
   }
+}
+
+// Records the calls of Engine::StepMany(). Each planar body must move by each step once, in order.
+class StepCounter final : public MotionFollower {
+ public:
+  explicit StepCounter(std::size_t bodies, int steps) : left_(bodies, steps) {}
+  void OnMoved(int body, int steps, int steps_left, bool may_touch) override {
+    int& left = left_[static_cast<std::size_t>(body)];
+    is_in_order_ = is_in_order_ && steps_left == left - steps;
+    left = steps_left;
+    if (may_touch && steps_left == 0) ++near_;
+  }
+  bool HasMovedAll(const std::vector<std::size_t>& bodies) const {
+    return is_in_order_ && std::all_of(bodies.begin(), bodies.end(),
+                                       [&](std::size_t body) { return left_[body] == 0; });
+  }
+  int near() const { return near_; }
+
+ private:
+  std::vector<int> left_;
+  std::atomic<bool> is_in_order_ = true;
+  int near_ = 0;
+};
+
+// A robot with wheels of different sizes that slip.
+std::shared_ptr<model::Model> SlippingRobot() {
+  auto robot = testing::BoxRobot(0.3, 0.3);
+  for (const double y : {0.15, -0.15}) {
+    model::Joint wheel;
+    wheel.kind = model::JointKind::kContinuous;
+    wheel.model_from_joint.position = {0.05, y, 0.05};
+    wheel.axis = {0, 1, 0};
+    (y > 0 ? robot->drive->left_wheels : robot->drive->right_wheels)
+        .push_back(static_cast<int>(robot->joints.size()));
+    wheel.child = 0;
+    robot->joints.push_back(wheel);
+  }
+  robot->drive->wheel_radius = 0.05;
+  robot->drive->right_wheel_scale = 1.05;
+  robot->drive->slip = {0.1, 0.2};
+  return robot;
+}
+
+// A robot that can slide and needs some time to change its speed. It stops 0.3 s after a command.
+std::shared_ptr<model::Model> SlowlySlidingRobot() {
+  auto robot = testing::RobotOf(geometry::Box{{0.3, 0.2, 0.4}}, 0.4, model::DriveKind::kVelocity);
+  robot->drive->linear_acceleration = {-1, 2};
+  robot->drive->angular_acceleration = {-3, 3};
+  robot->drive->command_timeout = std::chrono::milliseconds(300);
+  return robot;
+}
+
+// Compares StepMany() with single steps of another engine, over and over.
+void ExpectManyStepsToEqualSingleSteps(const std::shared_ptr<const model::Model>& robot,
+                                       int threads) {
+  Crowd single(200, robot, MakeWorldEngine());
+  Crowd many(200, robot, MakeWorldEngine(std::make_shared<base::ThreadTeam>(threads)));
+  ASSERT_TRUE(single.Start() && many.Start());
+  const base::SimTime step = base::FromSeconds(Crowd::kStep);
+  std::size_t at_once = 0, near = 0, contacts_in_many = 0;
+  for (int round = 0; round < 500; ++round) {
+    const int steps = 2 + round % 7;
+    for (Crowd* crowd : {&single, &many}) {
+      world::State& state = crowd->world().state();
+      for (int i = 0; i < steps; ++i, ++state.step) crowd->Decide();
+      state.step -= steps;
+    }
+    std::vector<world::Contact> contacts, expected_contacts;
+    for (int i = 0; i < steps; ++i) single.world().Step(step, expected_contacts);
+    world::State& state = many.world().state();
+    StepCounter counter(state.bodies.size(), steps);
+    if (many.world().engine().StepMany(step, steps, state, contacts, counter)) {
+      ASSERT_TRUE(counter.HasMovedAll(many.robots())) << round;
+      state.step += steps;
+      state.time += steps * step;
+      ++at_once;
+      near += static_cast<std::size_t>(counter.near());
+      contacts_in_many += contacts.size();
+    } else {
+      for (int i = 0; i < steps; ++i) many.world().Step(step, contacts);
+    }
+    base::Hash expected, actual;
+    world::AddToHash(single.world().layout(), single.world().state(), expected);
+    world::AddToHash(many.world().layout(), state, actual);
+    AddContacts(expected_contacts, expected);
+    AddContacts(contacts, actual);
+    ASSERT_EQ(actual.Digest(), expected.Digest()) << round;
+  }
+  EXPECT_GT(at_once, 100u);
+  EXPECT_GT(near, 1000u);
+  EXPECT_GT(contacts_in_many, 100u);
+}
+
+TEST(PlanarMoverCrowd, ManyStepsAtOnceEqualSingleSteps) {
+  for (const int threads : {1, 2}) {
+    ExpectManyStepsToEqualSingleSteps(testing::DiscRobot(0.175), threads);
+    ExpectManyStepsToEqualSingleSteps(SlowlySlidingRobot(), threads);
+    ExpectManyStepsToEqualSingleSteps(SlippingRobot(), threads);
+  }
+}
+
+// Two robots are too far apart to touch in one step, and meet in the middle of several steps.
+TEST(PlanarMoverCrowd, RobotsMeetWithinManySteps) {
+  testing::TestWorld world(MakeWorldEngine());
+  for (int i = 0; i < 12; ++i) {
+    world.AddRobot("robot" + std::to_string(i), testing::DiscRobot(0.2),
+                   geometry::PlanarPose(i * 3, 0, 0, 0));
+  }
+  world.AddRobot("s", testing::DiscRobot(0.2), geometry::PlanarPose(0.45, 0, 0, 3.14159));
+  ASSERT_TRUE(world.Start());
+  std::vector<world::Contact> contacts;
+  world.Step(base::FromSeconds(0.01), contacts);
+  world::State& state = world.state();
+  for (const std::string name : {"robot0", "s"}) {
+    state.bodies[world.layout().Find(name)].drive.command = {1, 0, 0};
+  }
+  StepCounter counter(state.bodies.size(), 8);
+  ASSERT_TRUE(world.engine().StepMany(base::FromSeconds(0.01), 8, state, contacts, counter));
+  // Each of the two robots moves by 25 mm, and then half of the time of a step is left.
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(state.bodies[world.layout().Find("robot0")].collisions, 1u);
+  EXPECT_NEAR(state.bodies[world.layout().Find("robot0")].world_from_model.position.x, 0.025, 1e-5);
+  EXPECT_NEAR(state.bodies[world.layout().Find("s")].world_from_model.position.x, 0.425, 1e-5);
 }
 
 TEST(PlanarMoverCrowd, OverlapsOfABodyAreASubsetOfAllOverlaps) {

@@ -28,6 +28,10 @@ class FaultSchedule {
   bool IsDue(base::SimTime now) const {
     return done_ < faults_.size() && base::FromSeconds(faults_[done_].at) <= now;
   }
+  // Returns the instant of the next fault; `limit` if there is none before it.
+  base::SimTime Next(base::SimTime limit) const {
+    return done_ < faults_.size() ? std::min(limit, base::FromSeconds(faults_[done_].at)) : limit;
+  }
   // Returns the next fault, which must be due, and advances to the following one.
   const scenario::Fault& TakeDue() { return faults_[done_++]; }
   // Starts again with the first fault.

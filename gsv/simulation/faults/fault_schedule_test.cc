@@ -37,6 +37,14 @@ TEST(FaultSchedule, FaultIsDueAtItsTime) {
   EXPECT_TRUE(schedule.IsDue(501ms));
 }
 
+TEST(FaultSchedule, ReturnsTheNextInstantUpToALimit) {
+  FaultSchedule schedule({At(2, "b"), At(1, "a")});
+  EXPECT_EQ(schedule.Next(3s), 1s);
+  EXPECT_EQ(schedule.Next(500ms), 500ms);
+  TakeAllDue(schedule, 3s);
+  EXPECT_EQ(schedule.Next(3s), 3s);
+}
+
 TEST(FaultSchedule, RewindRestartsTheFaults) {
   FaultSchedule schedule({At(2, "b"), At(1, "a")});
   const auto once = TakeAllDue(schedule, 3s);

@@ -51,16 +51,17 @@ std::uint64_t EventLog::output_count() const {
 void EventLog::AddObserver(std::shared_ptr<Observer> observer) {
   const base::MutexLock lock(mutex_);
   observers_.push_back(std::move(observer));
-  UpdateWantsTimes();
+  UpdateFlags();
 }
 
 void EventLog::RemoveObserver(const std::shared_ptr<Observer>& observer) {
   const base::MutexLock lock(mutex_);
   std::erase(observers_, observer);
-  UpdateWantsTimes();
+  UpdateFlags();
 }
 
-void EventLog::UpdateWantsTimes() {
+void EventLog::UpdateFlags() {
+  has_observers_ = !observers_.empty();
   wants_times_ = std::any_of(observers_.begin(), observers_.end(),
                              [](const auto& observer) { return observer->wants_times(); });
 }

@@ -43,6 +43,7 @@ class EventLog {
   void RemoveObserver(const std::shared_ptr<Observer>& observer);
   // Calls OnSnapshot() of every observer. No lock is held during these calls.
   void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
+  bool has_observers() const { return has_observers_.load(std::memory_order_relaxed); }
   // Whether an observer requests the times of steps.
   bool wants_times() const { return wants_times_.load(std::memory_order_relaxed); }
   // Calls OnTimes() of the observers that request the times of steps. No lock is held during these
@@ -62,11 +63,11 @@ class EventLog {
   };
 
   std::vector<std::shared_ptr<Observer>> Observers() const;
-  // Updates wants_times_ after the observers have changed.
-  void UpdateWantsTimes() GSV_REQUIRES(mutex_);
+  // Updates has_observers_ and wants_times_ after the observers have changed.
+  void UpdateFlags() GSV_REQUIRES(mutex_);
 
   const SnapshotHistory& history_;
-  std::atomic<bool> wants_times_ = false;
+  std::atomic<bool> has_observers_ = false, wants_times_ = false;
 
   mutable base::Mutex mutex_;
   BoundedLog events_ GSV_GUARDED_BY(mutex_);

@@ -56,6 +56,10 @@ void MotionHistory::FollowLayout(const world::Snapshot& snapshot) {
   tracks_ = std::move(tracks);
 }
 
+SimTime MotionHistory::NextSampling(SimTime now) {
+  return (now / kSamplePeriod + 1) * kSamplePeriod;
+}
+
 void MotionHistory::Follow(const world::Snapshot& snapshot) {
   const SimTime now = snapshot.state.time;
   if (now < sampled_) layout_ = nullptr;

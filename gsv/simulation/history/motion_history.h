@@ -27,6 +27,8 @@ class MotionHistory {
   // Samples the first snapshot at or after each multiple of 0.1 s. A snapshot of an earlier time
   // than the last one begins a new history.
   void Follow(const world::Snapshot& snapshot);
+  // Returns the first instant after `now` that is sampled.
+  static SimTime NextSampling(SimTime now);
 
   // Returns the motion of a robot, without its contact and `is_stuck`. `body` is its index in
   // `snapshot`, which may be newer than the last sample.

@@ -1,5 +1,7 @@
 #include "gsv/simulation/history/snapshot_history.h"
 
+#include <algorithm>
+
 namespace gsv::simulation {
 
 SnapshotHistory::SnapshotPtr SnapshotHistory::latest() const {
@@ -18,6 +20,14 @@ void SnapshotHistory::MakeFrame(Frame& frame) const {
   frame.latest_ = latest_;
   frame.at_instant_.clear();
   for (const auto& [cadence, kept] : kept_) frame.at_instant_.emplace_back(cadence, kept.arrived);
+}
+
+base::SimTime SnapshotHistory::NextSampling(base::SimTime limit) const {
+  const base::MutexLock lock(mutex_);
+  for (const auto& [cadence, kept] : kept_) {
+    limit = std::min(limit, (latest_->state.time / cadence.period + 1) * cadence.period);
+  }
+  return limit;
 }
 
 void SnapshotHistory::Publish(SnapshotPtr snapshot) {

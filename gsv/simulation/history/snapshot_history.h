@@ -65,7 +65,11 @@ class SnapshotHistory {
   // Fills `frame` with the snapshots that sensors read now.
   void MakeFrame(Frame& frame) const;
 
-  // Adds the snapshot of the newest step.
+  // Returns the first instant after the latest snapshot that is a sampling instant of a cadence;
+  // `limit` if there is none before it.
+  base::SimTime NextSampling(base::SimTime limit) const;
+
+  // Adds the snapshot of the newest step. No step at a sampling instant may be left out.
   void Publish(SnapshotPtr snapshot);
   // Restarts the history after a change between two steps, such as an added robot. Older snapshots
   // are dropped.

@@ -52,6 +52,20 @@ TEST(SnapshotHistory, SensorWithALatencyReadsOlderSamples) {
   EXPECT_EQ(history.At(late)->state.step, 10);
 }
 
+TEST(SnapshotHistory, ReturnsTheNextSamplingInstantUpToALimit) {
+  SnapshotHistory history(At(0, 10ms));
+  EXPECT_EQ(history.NextSampling(1s), 1s);
+  history.Use({25ms, 100ms});
+  history.Use({40ms});
+  history.Use({});
+  EXPECT_EQ(history.NextSampling(1s), 25ms);
+  EXPECT_EQ(history.NextSampling(20ms), 20ms);
+  history.Publish(At(3, 10ms));
+  EXPECT_EQ(history.NextSampling(1s), 40ms);
+  history.Publish(At(4, 10ms));
+  EXPECT_EQ(history.NextSampling(1s), 50ms);
+}
+
 TEST(SnapshotHistory, RestartRemovesOlderSnapshots) {
   SnapshotHistory history(At(0, 10ms));
   history.At({1s});

@@ -34,8 +34,8 @@ class RunPace {
   // The time at which the next step is due.
   WallTime due() const { return pacer_.due(); }
   void StepStarts(WallTime start) { (void)pacer_.StepStarts(start); }
-  void StepEnds(WallTime start, WallTime end, base::SimTime now) {
-    statistics_.Stepped(end, now, end - start);
+  void StepEnds(WallTime start, WallTime end, base::SimTime now, int steps = 1) {
+    statistics_.Stepped(end, now, end - start, steps);
   }
 
   // Sets those members of `status` that concern wall-clock time.

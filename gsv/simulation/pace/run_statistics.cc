@@ -20,9 +20,9 @@ void RunStatistics::Started(WallTime wall, base::SimTime time) {
   recent_.assign(1, start_);
 }
 
-void RunStatistics::Stepped(WallTime wall, base::SimTime time, WallDuration duration) {
+void RunStatistics::Stepped(WallTime wall, base::SimTime time, WallDuration duration, int steps) {
   in_steps_ += duration;
-  ++steps_;
+  steps_ += steps;
   latest_ = {wall, time};
   if (wall - recent_.back().wall < kSampleEvery) return;
   recent_.push_back(latest_);

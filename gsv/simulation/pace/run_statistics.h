@@ -14,9 +14,9 @@ class RunStatistics {
   // Record that the simulation starts or stops running.
   void Started(WallTime wall, base::SimTime time);
   void Stopped(WallTime wall, base::SimTime time);
-  // Records a step, which took `duration`. Call it after each step. About ten samples per second
-  // are stored.
-  void Stepped(WallTime wall, base::SimTime time, WallDuration duration);
+  // Records a step, or several steps that were taken at once, which took `duration`. Call it after
+  // each step. About ten samples per second are stored.
+  void Stepped(WallTime wall, base::SimTime time, WallDuration duration, int steps = 1);
 
   // While the simulation runs: the actual real-time factor over the last second. Otherwise: the
   // real-time factor over the whole time for which the simulation ran.

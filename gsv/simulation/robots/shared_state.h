@@ -52,6 +52,18 @@ struct SharedState {
   SimTime now GSV_GUARDED_BY(simulation_mutex){0};
   MotionHistory motions GSV_GUARDED_BY(simulation_mutex);
 
+  // Whether the stepping thread takes several steps at once. Requests to the run wait for their end,
+  // so that their results are those of single steps.
+  bool takes_many GSV_GUARDED_BY(simulation_mutex) = false;
+  int waiting_requests GSV_GUARDED_BY(simulation_mutex) = 0;
+  base::ConditionVariable many_taken;
+  void AwaitManySteps(base::MutexLock& lock) GSV_NO_THREAD_SAFETY_ANALYSIS {
+    if (!takes_many) return;
+    ++waiting_requests;
+    many_taken.wait(lock, [this]() GSV_NO_THREAD_SAFETY_ANALYSIS { return !takes_many; });
+    --waiting_requests;
+  }
+
   // Agents add themselves to the following lists. A function that removes an agent from the world
   // must remove its entries.
   //

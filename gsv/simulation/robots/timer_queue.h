@@ -31,6 +31,11 @@ class TimerQueue {
     return !entries_.empty() && entries_.begin()->first <= now;
   }
 
+  // Returns the first instant at which a sleeper wakes; `limit` if there is none before it.
+  base::SimTime Next(base::SimTime limit) const {
+    return entries_.empty() ? limit : std::min(limit, entries_.begin()->first);
+  }
+
   // Removes the sleepers whose instant is reached, and calls `wake` for each in the order of the
   // instants. Sleepers with equal instants wake in the order in which they were added.
   template <typename Wake>

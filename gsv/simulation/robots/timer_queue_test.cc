@@ -52,6 +52,16 @@ TEST(TimerQueue, AppendsDueAgentsInTheSameOrder) {
   EXPECT_EQ(Due(calendar, 30ms), std::vector{3});
 }
 
+TEST(TimerQueue, ReturnsTheNextInstantUpToALimit) {
+  int one = 1;
+  TimerQueue<int> calendar;
+  EXPECT_EQ(calendar.Next(15ms), 15ms);
+  calendar.Add(20ms, &one);
+  calendar.Add(10ms, &one);
+  EXPECT_EQ(calendar.Next(15ms), 10ms);
+  EXPECT_EQ(calendar.Next(5ms), 5ms);
+}
+
 TEST(TimerQueue, RemovesAllEntriesOfAnAgent) {
   int one = 1, two = 2;
   TimerQueue<int> calendar;

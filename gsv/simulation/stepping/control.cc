@@ -9,7 +9,8 @@ namespace gsv::simulation {
 template <typename Request>
 base::Status SteppingSimulation::Perform(Request request) {
   const base::MutexLock control(control_mutex_);
-  const SimulationLock lock(*shared_);
+  SimulationLock lock(*shared_);
+  shared_->AwaitManySteps(lock.inner());
   if (run_.phase() == Phase::kCreated) {
     if (auto ok = faults_.Check(); !ok) return ok;
   }
@@ -59,7 +60,8 @@ base::Status SteppingSimulation::RunThrough(SimTime until) {
 
 base::Status SteppingSimulation::Stop() {
   const base::MutexLock control(control_mutex_);
-  const SimulationLock lock(*shared_);
+  SimulationLock lock(*shared_);
+  shared_->AwaitManySteps(lock.inner());
   life_cycle_.Apply(run_.Stop());
   return {};
 }
@@ -83,7 +85,8 @@ base::Status SteppingSimulation::Reset() {
   if (world_.lock().is_stuck()) return RefuseStuck();
   std::vector<std::pair<AgentPopulation::AgentPtr, std::shared_ptr<BehaviourPort>>> behaviours;
   {
-    const SimulationLock lock(*shared_);
+    SimulationLock lock(*shared_);
+    shared_->AwaitManySteps(lock.inner());
     if (!life_cycle_.BeginReset()) return {};
     for (const auto& agent : agents_.WithBehaviour())
       behaviours.emplace_back(agent, agent->behaviour());

@@ -125,11 +125,23 @@ RunControl::Change RunControl::EndTurns(SimTime now) {
   return Enter(Phase::kPaused, Change::kPaused);
 }
 
-RunControl::Change RunControl::EndStep(SimTime now) {
+int RunControl::StepsAtOnce(SimTime now, SimTime step, int limit) const {
+  SimTime end = now + limit * step;
+  if (duration_ > SimTime(0)) end = std::min(end, duration_);
+  if (run_until_) end = std::min(end, *run_until_);
+  if (run_through_) end = std::min(end, *run_through_);
+  std::int64_t steps = StepsUntil(now, end, step);
+  if (steps_left_ > 0) steps = std::min(steps, steps_left_);
+  return static_cast<int>(std::max<std::int64_t>(steps, 1));
+}
+
+RunControl::Change RunControl::EndStep(SimTime now, int steps) {
   turns_have_begun_ = false;
   // If a pause was requested during a step, that step does not count among the steps that are
   // requested after the pause.
-  if (steps_left_ > 0 && run_of_step_ == run_) --steps_left_;
+  if (steps_left_ > 0 && run_of_step_ == run_) {
+    steps_left_ -= std::min<std::int64_t>(steps, steps_left_);
+  }
   // A run that was paused during its last step also finishes here. If it did not finish here, it
   // would take one step too many after a resume.
   if (duration_ > SimTime(0) && now >= duration_) {

@@ -17,6 +17,12 @@
 
 namespace gsv::simulation {
 
+// Returns the number of steps of length `step` from `now` to the first instant at or after `end`.
+// `end` must not be before `now`.
+inline std::int64_t StepsUntil(SimTime now, SimTime end, SimTime step) {
+  return (end - now + step - SimTime(1)) / step;
+}
+
 // The state machine of a run: its phase, and the requests that each phase allows.
 class RunControl {
  public:
@@ -72,8 +78,12 @@ class RunControl {
   Change EndTurns(SimTime now);
   // Call this when a step begins.
   void BeginStep() { run_of_step_ = run_; }
-  // Call this when the step that ended at `now` is complete.
-  Change EndStep(SimTime now);
+  // Returns the number of steps of length `step` that may be taken at once at `now`, at most
+  // `limit`: the run neither ends nor pauses before the last of them ends.
+  int StepsAtOnce(SimTime now, SimTime step, int limit) const;
+  // Call this when the step that ended at `now` is complete, or several steps that were taken at
+  // once.
+  Change EndStep(SimTime now, int steps = 1);
 
   // Ends the run in the phase "failed".
   Change Fail(std::string reason);

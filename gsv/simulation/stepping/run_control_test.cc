@@ -262,6 +262,36 @@ TEST(RunControl, RunThroughPausesAfterTheTurnsWithoutAStep) {
   EXPECT_FALSE(run.control().RunThrough(SimTime(0), SimTime(1)));
 }
 
+TEST(RunControl, StepsAtOnceEndWhereTheRunPausesOrEnds) {
+  const auto started = [](SimTime duration) {
+    RunControl run("run", duration);
+    EXPECT_TRUE(run.Start());
+    EXPECT_EQ(run.RunIfStarted(), Change::kRunning);
+    run.BeginStep();
+    return run;
+  };
+  RunControl run = started(SimTime(0));
+  EXPECT_EQ(run.StepsAtOnce(SimTime(0), SimTime(10), 8), 8);
+  ASSERT_TRUE(run.RunUntil(SimTime(31), SimTime(0)));
+  EXPECT_EQ(run.StepsAtOnce(SimTime(0), SimTime(10), 8), 4);  // the fourth step ends at 40
+  EXPECT_EQ(run.EndStep(SimTime(40), 4), Change::kPaused);
+  ASSERT_TRUE(run.RunThrough(SimTime(60), SimTime(40)));
+  EXPECT_EQ(run.StepsAtOnce(SimTime(40), SimTime(10), 8), 2);
+  EXPECT_EQ(started(SimTime(20)).StepsAtOnce(SimTime(0), SimTime(10), 8), 2);
+}
+
+TEST(RunControl, CountsStepsAtOnceAsManySteps) {
+  RunControl run("run", SimTime(0));
+  ASSERT_TRUE(run.Step(5));
+  ASSERT_EQ(run.RunIfStarted(), Change::kRunning);
+  run.BeginStep();
+  EXPECT_EQ(run.StepsAtOnce(SimTime(0), SimTime(10), 3), 3);
+  EXPECT_EQ(run.EndStep(SimTime(30), 3), Change::kNone);
+  run.BeginStep();
+  EXPECT_EQ(run.StepsAtOnce(SimTime(30), SimTime(10), 3), 2);
+  EXPECT_EQ(run.EndStep(SimTime(50), 2), Change::kPaused);
+}
+
 TEST(RunControl, RunsWhenTheLastBehaviourHasStarted) {
   BareRun run(0, 2);
   ASSERT_TRUE(run.Perform({Action::kStart}));

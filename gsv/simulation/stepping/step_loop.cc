@@ -19,6 +19,10 @@ namespace {
 // about the same time.
 constexpr std::size_t kMinTurnsAPiece = 4, kMaxTurnsAPiece = 16, kPiecesOfAThread = 8;
 
+// The maximum number of steps that are taken at once. A request of a client, such as Pause(), waits
+// for their end.
+constexpr int kMaxSteps = 8;
+
 // The number of agents whose commands a thread applies at a time.
 constexpr std::size_t kAgentsAtOnce = 128;
 
@@ -369,6 +373,7 @@ bool StepLoop::IsDue(SimulationLock& lock) {
 //       then each device takes its part in the step             it sees the snapshot at t
 //     attach and detach the bodies that devices grasp and release
 //     move bodies and joints by h                               dynamics::Engine
+//       or by several steps, if nobody needs the states between  MaxSteps()
 //     devices move attached bodies; odometry, contacts and accelerations follow
 //     publish the snapshot at t + h, and with it the phase
 //       that the run enters at its end                          RunControl
@@ -381,7 +386,8 @@ void StepLoop::TakeStep() {
   {
     const SteppingWorldGuard world_guard(world.lock());
     const WallTime start = WallNow();
-    if (!BeginStep(start)) return;
+    const int max_steps = BeginStep(start);
+    if (max_steps == 0) return;
     std::vector<world::Transmission> transmissions;
     if (world.state().devices != nullptr || !device_actions_.empty()) {
       transmissions =
@@ -391,9 +397,9 @@ void StepLoop::TakeStep() {
     }
     if (is_timed_) timer_.Mark(&StepTimes::devices);
     snapshot = snapshots_.Take();
-    world.Step(length, *snapshot);
+    const int steps = world.Step(length, max_steps, *snapshot);
     snapshot->transmissions = std::move(transmissions);
-    EndStep(snapshot, start);
+    EndStep(snapshot, start, steps);
     if (is_timed_) timer_.Mark(&StepTimes::bodies);
   }
   parts_.events.Publish(snapshot);
@@ -402,14 +408,14 @@ void StepLoop::TakeStep() {
   parts_.events.Publish(timer_.End(snapshot->state.step, snapshot->state.time));
 }
 
-bool StepLoop::BeginStep(WallTime start) {
+int StepLoop::BeginStep(WallTime start) {
   SharedState& shared = *parts_.shared;
   const SimulationLock lock(shared);
-  if (!run_.is_running()) return false;
+  if (!run_.is_running()) return 0;
   // Check again: before the locks were taken, a robot may have been added, a clock may have been
   // opened, or the last running agent may have ended.
   if (shared.mode == Mode::kLockstep && (shared.running > 0 || shared.has_reported_deaths))
-    return false;
+    return 0;
   is_timed_ = shared.is_timed = parts_.events.wants_times();
   if (is_timed_) {
     timer_.Begin(start, std::exchange(shared.held_up_by, {}));
@@ -419,7 +425,30 @@ bool StepLoop::BeginStep(WallTime start) {
   ApplyCommands();
   run_.BeginStep();
   if (shared.mode == Mode::kRealTime) parts_.life_cycle.pace().StepStarts(start);
-  return true;
+  const int max_steps = MaxSteps();
+  shared.takes_many = max_steps > 1;
+  return max_steps;
+}
+
+// Several steps at once end at the first step at which an agent wakes, a fault is due, a sensor or
+// the history of motions samples the world, or the run may pause. So the result is the same as with
+// single steps.
+int StepLoop::MaxSteps() const {
+  const SharedState& shared = *parts_.shared;
+  const bool needs_each_step = shared.mode != Mode::kLockstep || is_timed_ ||
+                               parts_.events.has_observers() || !shared.channels.empty() ||
+                               shared.waiting_requests > 0 || !device_actions_.empty() ||
+                               parts_.world.state().devices != nullptr;
+  if (needs_each_step) return 1;
+  const SimTime length = parts_.specification.step;
+  const int steps = run_.StepsAtOnce(shared.now, length, kMaxSteps);
+  SimTime end = shared.now + steps * length;
+  end = shared.sleepers.Next(end);
+  end = shared.turn_sleepers.Next(end);
+  end = parts_.faults.schedule().Next(end);
+  end = std::min(end, MotionHistory::NextSampling(shared.now));
+  end = shared.history.NextSampling(end);
+  return static_cast<int>(std::max<std::int64_t>(StepsUntil(shared.now, end, length), 1));
 }
 
 void StepLoop::ApplyCommands() {
@@ -462,17 +491,21 @@ void StepLoop::ApplyCommands() {
   commanded.clear();
 }
 
-void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start) {
-  ++ProcessTotals().steps;
+void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start,
+                       int steps) {
+  ProcessTotals().steps += static_cast<std::uint64_t>(steps);
   SharedState& shared = *parts_.shared;
   const WallTime end = WallNow();
   const SimulationLock lock(shared);
+  if (std::exchange(shared.takes_many, false) && shared.waiting_requests > 0) {
+    shared.many_taken.notify_all();
+  }
   // The snapshot and its phase become visible at the same time, see Simulation::status().
   shared.history.Publish(snapshot);
   shared.now = snapshot->state.time;
   shared.motions.Follow(*snapshot);
-  parts_.life_cycle.pace().StepEnds(start, end, shared.now);
-  const RunControl::Change change = run_.EndStep(shared.now);
+  parts_.life_cycle.pace().StepEnds(start, end, shared.now, steps);
+  const RunControl::Change change = run_.EndStep(shared.now, steps);
   if (change == RunControl::Change::kNone) return;
   const bool has_finished = change == RunControl::Change::kFinished;
   if (has_finished) run_.SetFinalHash(HashNow());

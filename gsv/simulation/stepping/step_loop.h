@@ -90,14 +90,16 @@ class StepLoop {
   // Returns true if the next step is due. Otherwise waits until it is due or something changes, and
   // returns false.
   bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
-  // Takes one step.
+  // Takes one step, or several steps at once.
   void TakeStep();
-  // Begins a step. Returns false if the step must not be taken.
-  bool BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
+  // Begins a step. Returns the maximum number of steps to take at once; 0 if no step may be taken.
+  int BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
+  // Returns how many steps may be taken at once: nobody needs the states between these steps.
+  int MaxSteps() const GSV_REQUIRES(world_mutex, simulation_mutex);
   // Applies the agents' commands to the world.
   void ApplyCommands() GSV_REQUIRES(world_mutex, simulation_mutex);
   // Ends a step: publishes its snapshot and its times.
-  void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start)
+  void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start, int steps)
       GSV_REQUIRES(world_mutex);
 
   const Parts parts_;

@@ -25,6 +25,65 @@ std::span<T> Part(std::vector<T>& of, std::size_t begin, std::size_t end) {
   return std::span(of).subspan(begin, end - begin);
 }
 
+// Completes the steps of the bodies that the engine moves by several steps, as FinishStep() does for
+// single steps.
+class StepFinisher final : public dynamics::MotionFollower {
+ public:
+  StepFinisher(double step_seconds, const world::Layout& layout, world::WheelOdometry& odometry,
+               world::State& state, world::Snapshot& snapshot)
+      : step_seconds_(step_seconds),
+        layout_(layout),
+        odometry_(odometry),
+        state_(state),
+        snapshot_(snapshot) {}
+
+  void OnMoved(int body, int steps, int steps_left, bool may_touch) override {
+    odometry_.AdvanceBody(step_seconds_, body, steps, state_);
+    // The velocities before the last step. If `steps` is above 1, they are the present ones.
+    if (steps_left == 1 || (steps_left == 0 && steps > 1)) KeepVelocities(body);
+    if (steps_left == 0 && may_touch) {
+      may_touch_.push_back(body);  // the closing speed of a contact needs the velocities of before
+    } else if (steps_left == 0) {
+      Finish(body);
+    }
+  }
+
+  // Completes the bodies that OnMoved() has not completed.
+  void FinishAll() {
+    for (std::size_t i = 0; i < layout_.bodies.size(); ++i) {
+      if (layout_.bodies[i].is_planar()) continue;
+      KeepVelocities(static_cast<int>(i));
+      may_touch_.push_back(static_cast<int>(i));
+    }
+    world::FinishContacts(state_, snapshot_.accelerations, snapshot_.contacts);
+    for (const int body : may_touch_) Finish(body);
+  }
+
+ private:
+  void KeepVelocities(int body) {
+    const auto i = static_cast<std::size_t>(body);
+    world::KeepBodyVelocities(Part(state_.bodies, i, i + 1),
+                              Part(snapshot_.accelerations, i, i + 1));
+    const auto first = static_cast<std::ptrdiff_t>(layout_.bodies[i].first_joint);
+    const auto joints = static_cast<std::ptrdiff_t>(layout_.bodies[i].model->joints.size());
+    std::copy_n(state_.joint_velocities.begin() + first, joints,
+                snapshot_.joint_accelerations.begin() + first);
+  }
+  void Finish(int body) {
+    const auto i = static_cast<std::size_t>(body);
+    world::FinishBodyAccelerations(Part(state_.bodies, i, i + 1), step_seconds_,
+                                   Part(snapshot_.accelerations, i, i + 1));
+    snapshot_.state.bodies[i] = state_.bodies[i];
+  }
+
+  const double step_seconds_;
+  const world::Layout& layout_;
+  world::WheelOdometry& odometry_;
+  world::State& state_;
+  world::Snapshot& snapshot_;
+  std::vector<int> may_touch_;  // bodies that are not yet completed
+};
+
 }  // namespace
 
 SimulatedWorld::SimulatedWorld(std::unique_ptr<dynamics::Engine> engine,
@@ -50,7 +109,28 @@ void SimulatedWorld::Reset() {
   FollowAttachments();
 }
 
-void SimulatedWorld::Step(base::SimTime step, world::Snapshot& snapshot) {
+bool SimulatedWorld::StepMany(base::SimTime step, int steps, world::Snapshot& snapshot) {
+  if (state_.devices != nullptr) return false;
+  const double step_seconds = base::ToSeconds(step);
+  snapshot.accelerations.resize(state_.bodies.size());
+  snapshot.joint_accelerations.resize(state_.joint_velocities.size());
+  snapshot.state.bodies.resize(state_.bodies.size());
+  wheel_odometry_.KeepWheels(state_);
+  StepFinisher finisher(step_seconds, *layout_, wheel_odometry_, state_, snapshot);
+  if (!engine_->StepMany(step, steps, state_, snapshot.contacts, finisher)) return false;
+  state_.step += steps;
+  state_.time = state_.step * step;
+  finisher.FinishAll();
+  world::FinishJointAccelerations(state_.joint_velocities, step_seconds,
+                                  snapshot.joint_accelerations);
+  CopyAllButBodies(snapshot.state);
+  return true;
+}
+
+int SimulatedWorld::Step(base::SimTime step, int max_steps, world::Snapshot& snapshot) {
+  snapshot.step_length = step;
+  snapshot.layout = layout_;
+  if (max_steps > 1 && StepMany(step, max_steps, snapshot)) return max_steps;
   snapshot.joint_accelerations = state_.joint_velocities;
   snapshot.accelerations.resize(state_.bodies.size());
   team_->ParallelFor(state_.bodies.size(), kVelocitiesAtOnce,
@@ -61,11 +141,18 @@ void SimulatedWorld::Step(base::SimTime step, world::Snapshot& snapshot) {
   wheel_odometry_.KeepWheels(state_);
   engine_->Step(step, state_, snapshot.contacts);
   MoveDevices(*layout_, state_.time + step, state_);
-  snapshot.step_length = step;
   ++state_.step;
   state_.time = state_.step * step;
-  snapshot.layout = layout_;
   FinishStep(base::ToSeconds(step), snapshot);
+  return 1;
+}
+
+void SimulatedWorld::CopyAllButBodies(world::State& to) {
+  std::vector<world::BodyState> bodies = std::move(state_.bodies);
+  std::vector<world::BodyState> copies = std::move(to.bodies);
+  to = state_;
+  state_.bodies = std::move(bodies);
+  to.bodies = std::move(copies);
 }
 
 // Completes the step in one pass over the bodies, so that the state of each body is loaded into the
@@ -74,14 +161,8 @@ void SimulatedWorld::FinishStep(double step_seconds, world::Snapshot& snapshot) 
   world::FinishContacts(state_, snapshot.accelerations, snapshot.contacts);
   world::FinishJointAccelerations(state_.joint_velocities, step_seconds,
                                   snapshot.joint_accelerations);
-  // The bodies are moved out of both states, so that the assignment copies everything except the
-  // bodies.
-  std::vector<world::BodyState> bodies = std::move(state_.bodies);
-  std::vector<world::BodyState> copies = std::move(snapshot.state.bodies);
-  snapshot.state = state_;
-  state_.bodies = std::move(bodies);
-  copies.resize(state_.bodies.size());
-  snapshot.state.bodies = std::move(copies);
+  CopyAllButBodies(snapshot.state);
+  snapshot.state.bodies.resize(state_.bodies.size());
   team_->ParallelFor(state_.bodies.size(), BodiesAtOnce(state_.bodies.size()),
                      [&](std::size_t begin, std::size_t end) GSV_REQUIRES(world_mutex) {
                        wheel_odometry_.Advance(step_seconds, begin, end, state_);

@@ -54,13 +54,18 @@ class SimulatedWorld {
   void FollowAttachments() GSV_REQUIRES(world_mutex) {
     attachments_.Follow(*layout_, state_, *engine_);
   }
-  // Moves the world by one step and writes the new state to `snapshot`, whose memory is reused.
-  void Step(base::SimTime step, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
+  // Moves the world by one step, or by `max_steps` steps at once if the engine can do this. Writes
+  // the new state to `snapshot`, whose memory is reused. Returns the number of steps.
+  int Step(base::SimTime step, int max_steps, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
   world::Snapshot InitialSnapshot() const GSV_REQUIRES(world_mutex) {
     return {layout_, state_, {}, {}, {}};
   }
 
  private:
+  // Moves the world by several steps at once. Returns false if the engine cannot do this.
+  bool StepMany(base::SimTime step, int steps, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
+  // Copies everything except the bodies.
+  void CopyAllButBodies(world::State& to) GSV_REQUIRES(world_mutex);
   // Completes the step that the engine has computed, and copies the state to `snapshot`.
   void FinishStep(double step_seconds, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
 
