@@ -115,6 +115,30 @@ TEST_F(IMAGE_SUITE, NearObjectHidesTheObjectBehindIt) {
   EXPECT_GT(FindBlob(*image, 1).pixels, 1000);
 }
 
+TEST_F(IMAGE_SUITE, DepthsAreThoseAlongTheAxisOfTheOpaqueSurfaces) {
+  scene_.Add("wall", Box{{1, 100, 3}}, {{5.5, 0, 1.5}, {}},
+             Matt(1, 0, 0));  // 5 m ahead, from z = 0
+  model::Material glass = Matt(0, 0, 1);
+  glass.base_colour.a = 0.5;
+  scene_.Add("glass", Box{{0.1, 100, 100}}, {{2, 0, 0}, {}}, glass);
+  const CameraView view{{}, {65, 49, 1, 0.1, 100}};
+  const auto drawn =
+      renderer_->DrawWithDepth(scene_.Snapshot(), view, 16, std::chrono::seconds(30));
+  ASSERT_TRUE(drawn) << drawn.error().Sentence();
+  if (drawn->depth == nullptr) GTEST_SKIP() << "this processor has no AVX2";
+  const DepthGrid& depth = *drawn->depth;
+  EXPECT_EQ(depth.columns, 5);
+  EXPECT_EQ(depth.rows, 4);
+  for (int column = 0; column < depth.columns; ++column) {
+    const auto at = [&](int row) {
+      return depth.inverse_depth[static_cast<std::size_t>(row * depth.columns + column)];
+    };
+    EXPECT_NEAR(at(1), 1 / 5.0, 1e-5);  // also at the sides, where the ray is longer
+    EXPECT_EQ(at(3), 0) << "below the wall";
+  }
+  EXPECT_EQ(drawn->image->pixels, Take(view)->pixels);
+}
+
 TEST_F(IMAGE_SUITE, ObjectsOutsideTheClippingDistancesAreNotDrawn) {
   scene_.Add("box", Box{{0.2, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
   EXPECT_EQ(FindBlob(*Take({{}, {160, 120, 1, 2.5, 100}}), 0).pixels, 0);

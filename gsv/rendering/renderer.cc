@@ -34,12 +34,16 @@ struct Request {
   std::vector<CameraView> views;
   bool is_survey = false;  // whether depth and label images (`truths`) are requested, instead of
                            // `images`
+  int depth_spacing = 0;   // not 0: an image with its depths is requested, with this spacing
   std::promise<Result<Images>> images;
   std::promise<Result<Truths>> truths;
+  std::promise<Result<ImageWithDepth>> with_depth;
   bool abandoned = false;  // the caller no longer waits
 
   void Fail(const base::Error& error) {
-    if (is_survey) {
+    if (depth_spacing > 0) {
+      with_depth.set_value(base::Fail(error));
+    } else if (is_survey) {
       truths.set_value(base::Fail(error));
     } else {
       images.set_value(base::Fail(error));
@@ -76,6 +80,16 @@ class Renderer::RenderThread {
     request->snapshot = std::move(snapshot);
     request->views = std::move(views);
     return Await(request, request->images.get_future(), timeout);
+  }
+
+  Result<ImageWithDepth> DrawWithDepth(std::shared_ptr<const world::Snapshot> snapshot,
+                                       const CameraView& view, int spacing,
+                                       std::chrono::milliseconds timeout) {
+    auto request = std::make_shared<Request>();
+    request->snapshot = std::move(snapshot);
+    request->views = {view};
+    request->depth_spacing = spacing;
+    return Await(request, request->with_depth.get_future(), timeout);
   }
 
   Result<Truths> DrawGroundTruth(std::shared_ptr<const world::Snapshot> snapshot,
@@ -193,16 +207,28 @@ class Renderer::RenderThread {
   }
 
   static void Serve(BatchRenderer& renderer, Batch batch) {
+    const auto with_depth = std::stable_partition(
+        batch.begin(), batch.end(), [](const auto& each) { return each->depth_spacing == 0; });
     const auto surveys = std::stable_partition(
-        batch.begin(), batch.end(), [](const auto& request) { return !request->is_survey; });
+        batch.begin(), with_depth, [](const auto& request) { return !request->is_survey; });
     const world::Snapshot& snapshot = *batch.front()->snapshot;
-    const std::span images(batch.begin(), surveys), truths(surveys, batch.end());
+    const std::span images(batch.begin(), surveys), truths(surveys, with_depth),
+        depths(with_depth, batch.end());
     Result<Images> drawn;
     Result<Truths> surveyed;
     if (!images.empty()) drawn = renderer.Draw(snapshot, ViewsOf(images));
     if (!truths.empty()) surveyed = renderer.DrawGroundTruth(snapshot, ViewsOf(truths));
+    std::vector<Result<ImageWithDepth>> drawn_with_depth;
+    for (const auto& request : depths) {
+      drawn_with_depth.push_back(
+          renderer.DrawWithDepth(snapshot, request->views[0], request->depth_spacing));
+    }
     Serve(images, std::move(drawn), &Request::images);
     Serve(truths, std::move(surveyed), &Request::truths);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      depths[i]->snapshot.reset();
+      depths[i]->with_depth.set_value(std::move(drawn_with_depth[i]));
+    }
   }
 
   static std::vector<CameraView> ViewsOf(std::span<const std::shared_ptr<Request>> requests) {
@@ -281,6 +307,14 @@ Result<Images> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
     if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
   }
   return thread_->Draw(std::move(snapshot), views, timeout);
+}
+
+Result<ImageWithDepth> Renderer::DrawWithDepth(std::shared_ptr<const world::Snapshot> snapshot,
+                                               const CameraView& view, int spacing,
+                                               std::chrono::milliseconds timeout) {
+  GSV_CHECK(snapshot != nullptr && spacing > 0);
+  if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
+  return thread_->DrawWithDepth(std::move(snapshot), view, spacing, timeout);
 }
 
 Result<Truths> Renderer::DrawGroundTruth(std::shared_ptr<const world::Snapshot> snapshot,

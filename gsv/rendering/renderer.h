@@ -21,6 +21,7 @@
 #include "gsv/base/error.h"
 #include "gsv/model/image.h"
 #include "gsv/rendering/lenses/camera_view.h"
+#include "gsv/rendering/lenses/depth_grid.h"
 #include "gsv/rendering/lenses/ground_truth.h"
 #include "gsv/rendering/opengl/egl_context.h"
 #include "gsv/rendering/scene/draw_copies.h"
@@ -66,6 +67,11 @@ class Renderer {
   // Renders several cameras in one batch. Image i is the image of views[i].
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
+      std::chrono::milliseconds timeout = kTimeout);
+
+  // Renders an RGB image, and its depths at every `spacing`-th pixel (at least 1).
+  [[nodiscard]] base::Result<ImageWithDepth> DrawWithDepth(
+      std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view, int spacing,
       std::chrono::milliseconds timeout = kTimeout);
 
   // Renders depth and label images. Element i is the image of views[i]. This function always uses

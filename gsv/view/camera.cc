@@ -19,6 +19,9 @@ using geometry::Vector3;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kDefaultFieldOfView = 45;  // degrees
 constexpr double kNear = 0.05, kFar = 5000;
+// Cameras with a field of view (degrees) below kTelephoto see as far as the renderer can. The map of
+// the viewer has a field of view of 1 degree, and is 53 times as far from the world as other views.
+constexpr double kTelephoto = 10, kTelephotoFar = 1e6;
 constexpr double kMaxCoordinate = 1e6;
 // The default eye and target for a followed robot, in its level frame, m: the camera is behind the
 // robot and above it.
@@ -47,10 +50,10 @@ rendering::CameraParameters ParametersOf(const Camera& camera) {
   rendering::CameraParameters parameters;
   parameters.width = camera.width;
   parameters.height = camera.height;
-  parameters.horizontal_fov = HorizontalOf(
-      camera.field_of_view.value_or(kDefaultFieldOfView) * kDegree, camera.width, camera.height);
+  const double vertical = camera.field_of_view.value_or(kDefaultFieldOfView);
+  parameters.horizontal_fov = HorizontalOf(vertical * kDegree, camera.width, camera.height);
   parameters.near = kNear;
-  parameters.far = kFar;
+  parameters.far = vertical < kTelephoto ? kTelephotoFar : kFar;
   return parameters;
 }
 

@@ -71,6 +71,16 @@ TEST(ViewCamera, TheFieldOfViewIsVertical) {
   EXPECT_NEAR(std::tan(Placed(camera).parameters.horizontal_fov / 2), 3, 1e-12);
 }
 
+TEST(ViewCamera, OfANarrowFieldOfViewSeesFar) {
+  Camera camera;
+  camera.eye = geometry::Vector3{0, 0, 100'000};
+  camera.target = geometry::Vector3{0, 1, 0};
+  camera.field_of_view = 1;
+  EXPECT_GT(Placed(camera).parameters.far, 200'000);
+  camera.field_of_view = 50;
+  EXPECT_LT(Placed(camera).parameters.far, 10'000);
+}
+
 TEST(ViewCamera, FollowsARobotInItsLevelFrame) {
   Camera camera;
   camera.follow = "pebble";

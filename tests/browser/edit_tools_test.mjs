@@ -341,14 +341,18 @@ test("the map has a scale, and its ruler agrees with it", async () => {
   const { data, width } = await picture(page, await viewClip(page));
   const dark = [4, width - 4].map((x) => data.slice(4 * (40 * width + x), 4 * (40 * width + x) + 3)).filter((colour) => Math.max(...colour) < 20);
   assert.deepEqual(dark, []);
-  const scale = await metresPerPixel();
   await press("Measure");
+  const ruler = page.getByRole("region", { name: "Ruler" });
+  await ruler.waitFor();
+  await settled(page);
+  const scale = await metresPerPixel();
   const at = await onScreen("pebble");
   await page.mouse.click(at.x + 40, at.y + 30);
   await page.getByText("Click the second point").waitFor();
   await page.mouse.click(at.x + 140, at.y - 45);
-  const ruler = page.getByRole("region", { name: "Ruler" });
   await ruler.getByText("Distance").waitFor();
+  const [box, view] = [await ruler.boundingBox(), await viewClip(page)];
+  assert.ok(box.y >= view.y + view.height - 1, "the ruler covers nothing of the view");
   const values = await ruler.locator("dd").allTextContents();
   const [distance, dx, dy, dz, angle] = values.map((text) => parseFloat(text.replace("−", "-")));
   // 100 pixels to the east and 75 to the north, on the floor.

@@ -46,7 +46,7 @@ import { element } from "./ui/element";
 import { Workspace } from "./workspace/Workspace";
 import { STANDARD } from "./workspace/presets";
 import { linkedView } from "./state/link";
-import { createMeasureCard, createScaleBar } from "./page/MeasureCard";
+import { createMeasureBar, createScaleBar } from "./page/MeasureCard";
 import { createDrawerSwitch } from "./page/DrawerSwitch";
 import { connectTools, showChosenPose } from "./app/connectTools";
 import { chosenDrawer, keepDrawer, startDrawing } from "./app/startDrawing";
@@ -100,7 +100,10 @@ function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
           drawing?.frameRate(framesPerSecond);
         },
         onScale: (metresPerPixel) => scaleBar.show(metresPerPixel),
-        onGraphics: (isThere) => store.set({ view: isThere ? "open" : "interrupted" }),
+        onGraphics: (isThere) => {
+          if (store.get().drawnBy !== "server") store.set({ view: isThere ? "open" : "interrupted" });
+          drawing?.graphics(isThere);
+        },
       },
     );
   } catch (error) {
@@ -276,12 +279,16 @@ async function drive(avatar: string, wish: Parameters<SimulationApi["drive"]>[2]
 
 const page = document.getElementById("app")!;
 const statusBar = createStatusBar(app);
-statusBar.append(createDrawerSwitch(store, () => drawing, () => world?.canDraw ?? false, (drawer) => keepDrawer(storage, drawer)));
+app.drawBy = (drawer) => {
+  drawing?.choose(drawer);
+  keepDrawer(storage, drawer);
+};
+statusBar.append(createDrawerSwitch(store, app));
 const toggleSidebar = () => page.classList.toggle("sidebar-open");
 const scaleBar = createScaleBar(app);
-view.append(createMeasureCard(app), scaleBar.element, createOverlay(app), createControlQuestion(app), createNotices(app));
+view.append(scaleBar.element, createOverlay(app), createControlQuestion(app), createNotices(app));
 const workspace = new Workspace(
-  { body: view, tools: createViewTools(app) },
+  { body: element("div", { class: "view-part" }, view, createMeasureBar(app)), tools: createViewTools(app) },
   { panels: [...PANELS, editPanel(app)], ports, setOpen: (openPanels) => store.set({ openPanels }) },
   (space) => STANDARD.layout(space),
 );

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/rendering/images/depth_segment.h"
 #include "gsv/rendering/images/jpeg.h"
 #include "gsv/rendering/images/png.h"
 
@@ -220,8 +221,7 @@ void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<
         if (!renderer) answer = Fail(renderer.error());
       }
       if (renderer_ != nullptr) {
-        const auto image = renderer_->Draw(instant.snapshot, *placed);
-        const auto bytes = image ? Encode(**image, request) : Fail(image.error());
+        const auto bytes = DrawEncoded(*renderer_, instant, *placed, request);
         answer =
             bytes ? base::Result<DrawnImage>(DrawnImage{*bytes, seen.number, instant.time, seen.at})
                   : Fail(bytes.error());
@@ -240,11 +240,25 @@ void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<
   }
 }
 
-base::Result<SharedBytes> ViewDrawer::Encode(const model::Image& image,
-                                             const ViewRequest& request) const {
-  auto bytes = request.format == ImageFormat::kPng ? rendering::EncodePng(image)
-                                                   : rendering::EncodeJpeg(image, request.quality);
+base::Result<SharedBytes> ViewDrawer::DrawEncoded(rendering::Renderer& renderer,
+                                                  const ViewInstant& instant,
+                                                  const rendering::CameraView& view,
+                                                  const ViewRequest& request) {
+  const bool is_png = request.format == ImageFormat::kPng;
+  rendering::ImageWithDepth drawn;
+  if (request.depth_spacing > 0 && !is_png) {
+    auto image = renderer.DrawWithDepth(instant.snapshot, view, request.depth_spacing);
+    if (!image) return Fail(image.error());
+    drawn = *std::move(image);
+  } else {
+    auto image = renderer.Draw(instant.snapshot, view);
+    if (!image) return Fail(image.error());
+    drawn.image = *std::move(image);
+  }
+  auto bytes = is_png ? rendering::EncodePng(*drawn.image)
+                      : rendering::EncodeJpeg(*drawn.image, request.quality);
   if (!bytes) return Fail(bytes.error());
+  if (drawn.depth != nullptr) rendering::InsertDepth(*drawn.depth, *bytes);
   return SharedBytes(*std::move(bytes));
 }
 

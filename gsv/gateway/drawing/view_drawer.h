@@ -41,6 +41,8 @@ struct ViewRequest {
   view::Camera camera;
   ImageFormat format = ImageFormat::kJpeg;
   int quality = 80;  // quality of the JPEG, 1 to 100
+  // Distance in pixels between the depths that the JPEG contains (depth_segment.h); 0: no depths.
+  int depth_spacing = 0;
   friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
 };
 
@@ -120,8 +122,11 @@ class ViewDrawer {
   };
   // Draws the images of these requests and answers them.
   void Draw(const ViewInstant& instant, const Seen& seen, std::vector<Pending> due);
-  // Encodes an image in the requested format.
-  base::Result<SharedBytes> Encode(const model::Image& image, const ViewRequest& request) const;
+  // Draws the image of a request and encodes it in the requested format.
+  static base::Result<SharedBytes> DrawEncoded(rendering::Renderer& renderer,
+                                               const ViewInstant& instant,
+                                               const rendering::CameraView& view,
+                                               const ViewRequest& request);
 
   const DrawingLimits limits_;
   std::shared_ptr<rendering::Renderer>

@@ -87,6 +87,18 @@ TEST_F(ViewDrawerTest, RequestsWithTheSameCameraShareAnImage) {
   EXPECT_NE(other->bytes.data(), first->bytes.data());
 }
 
+TEST_F(ViewDrawerTest, AnImageHasItsDepthsOnlyOnRequest) {
+  const auto plain = Get(Ask(Request()));
+  if (!plain) GTEST_SKIP() << plain.error().Sentence();
+  EXPECT_EQ(plain->bytes.view().find("GSV-depth"), std::string_view::npos);
+  ViewRequest request = Request();
+  request.depth_spacing = 8;
+  const auto with_depth = Get(Ask(request));
+  ASSERT_TRUE(with_depth) << with_depth.error().Sentence();
+  EXPECT_EQ(with_depth->bytes.view().substr(0, 2), "\xff\xd8");
+  EXPECT_NE(with_depth->bytes.view().find("GSV-depth"), std::string_view::npos);
+}
+
 TEST_F(ViewDrawerTest, LimitsTheNumberOfViewsAndViewers) {
   const auto one = drawer_.Take(Request(32));
   const auto two = drawer_.Take(Request(33));
@@ -148,6 +160,8 @@ TEST(ViewQuery, ReadsTheCamera) {
   EXPECT_EQ(query->view.camera.field_of_view, 60);
   EXPECT_EQ(query->view.quality, 50);
   EXPECT_EQ(query->after, 7u);
+  EXPECT_EQ(query->view.depth_spacing, 0);
+  EXPECT_EQ(Parsed("size=1366x768&depth=8")->view.depth_spacing, 8);
   EXPECT_DOUBLE_EQ(Parsed("fps=5", true)->frames_a_second, 5);
 }
 
@@ -155,7 +169,7 @@ TEST(ViewQuery, RefusesInvalidParameters) {
   for (const char* query :
        {"size=0x0", "size=100000x100000", "size=big", "eye=1,2,3", "eye=1&target=2", "fov=0",
         "quality=0", "quality=x", "after=-1", "pixel_ratio=9", "size=4000x4000&pixel_ratio=4",
-        "fps=5", "eys=1,2,3", "camera=pebble"}) {
+        "fps=5", "eys=1,2,3", "camera=pebble", "depth=3", "depth=65", "depth=8.5", "depth=4"}) {
     const auto parsed = Parsed(query);
     ASSERT_FALSE(parsed) << query;
     EXPECT_EQ(parsed.error().code, base::ErrorCode::kInvalidArgument) << query;

@@ -9,6 +9,7 @@
 
 #include "gsv/gateway/drawing/image_parts.h"
 #include "gsv/gateway/http/body_stream.h"
+#include "gsv/rendering/images/depth_segment.h"
 
 namespace gsv::gateway::drawing {
 namespace {
@@ -19,6 +20,7 @@ using Clock = ViewDrawer::Clock;
 
 // The time after which a client gets an answer even if nothing has changed.
 constexpr std::chrono::milliseconds kTimeout{1000}, kStreamTimeout{5000};
+constexpr int kMinDepthSpacing = 4, kMaxDepthSpacing = 64;  // pixels
 
 template <typename Number>
 std::optional<Number> WholeText(const std::string& text) {
@@ -75,6 +77,17 @@ base::Status SetParameter(const std::string& name, const std::string& value, dou
     if (auto ok = set(quality, 1, 100); !ok) return ok;
     query.view.quality = static_cast<int>(quality);
     return {};
+  }
+  if (name == "depth") {
+    const auto spacing = WholeText<int>(value);
+    if (spacing && *spacing >= kMinDepthSpacing && *spacing <= kMaxDepthSpacing) {
+      query.view.depth_spacing = *spacing;
+      return {};
+    }
+    return Fail(ErrorCode::kInvalidArgument,
+                fmt::format("the parameter depth must be a whole number from {} to {}, but it is "
+                            "'{}'",
+                            kMinDepthSpacing, kMaxDepthSpacing, value.substr(0, 64)));
   }
   if (name == "after") {
     query.after = WholeText<std::uint64_t>(value);
@@ -148,6 +161,12 @@ class ViewHandler {
     if (!world) return respond(ErrorResponse(world.error()));
     query->view.world = world->name;
     query->view.format = format_;
+    if (format_ == ImageFormat::kPng && query->view.depth_spacing > 0) {
+      return respond(ErrorResponse({ErrorCode::kInvalidArgument,
+                                    "a PNG contains no depths; leave out the parameter depth, or "
+                                    "request /view.jpg",
+                                    {}}));
+    }
     auto seat = drawer_.Take(query->view);
     if (!seat) return respond(ErrorResponse(seat.error()));
     drawer_.SetSource(world->name, world->identity, world->make);
@@ -188,8 +207,8 @@ class ViewHandler {
 
 base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream) {
   static const std::set<std::string> kOfAll{
-      "simulation", "size", "pixel_ratio", "eye",   "target",  "follow",    "camera",
-      "fov",        "zoom", "quality",     "token", "azimuth", "elevation", "_"};
+      "simulation", "size",    "pixel_ratio", "eye",     "target",    "follow", "camera", "fov",
+      "zoom",       "quality", "token",       "azimuth", "elevation", "depth",  "_"};
   ViewQuery query;
   double pixel_ratio = 1;
   for (const auto& [name, value] : target.query) {
@@ -197,7 +216,7 @@ base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream) {
       return Fail(ErrorCode::kInvalidArgument,
                   "there is no parameter '" + name.substr(0, 64) +
                       "'; use simulation, size, pixel_ratio, eye, target, follow, camera, fov, "
-                      "azimuth, elevation, zoom, quality or " +
+                      "azimuth, elevation, zoom, quality, depth or " +
                       (is_stream ? "fps" : "after"));
     }
     if (auto set = SetParameter(name, value, pixel_ratio, query); !set) return Fail(set.error());
@@ -206,6 +225,15 @@ base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream) {
   camera.width = static_cast<int>(std::lround(camera.width * pixel_ratio));
   camera.height = static_cast<int>(std::lround(camera.height * pixel_ratio));
   if (auto ok = view::Check(camera); !ok) return Fail(ok.error());
+  if (const int spacing = query.view.depth_spacing; spacing > 0) {
+    const int samples = rendering::DepthSamples(camera.width, spacing) *
+                        rendering::DepthSamples(camera.height, spacing);
+    if (samples > rendering::kMaxDepthSamples) {
+      return Fail(ErrorCode::kInvalidArgument,
+                  fmt::format("depth={} gives {} depths, but the limit is {}; use a larger number",
+                              spacing, samples, rendering::kMaxDepthSamples));
+    }
+  }
   return query;
 }
 

@@ -96,6 +96,8 @@ TEST_F(ViewRoutesTest, DrawsTheSimulation) {
   EXPECT_EQ(image.headers.at("gsv-time"), "0.000000");
   EXPECT_EQ(SizeOf(image.body), std::pair(128, 96));
   EXPECT_EQ(Get("/view.png?size=64x48&simulation=arena").body.substr(1, 3), "PNG");
+  EXPECT_NE(Get("/view.jpg?size=64x48&depth=8").body.find("GSV-depth"), std::string::npos);
+  EXPECT_EQ(Get("/view.png?size=64x48&depth=8").status, 400);
   // The simulation is paused, so a request for a newer image gets status 204, without an image.
   const std::string number =
       image.headers.at("etag").substr(1, image.headers.at("etag").size() - 2);

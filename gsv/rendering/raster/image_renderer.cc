@@ -58,6 +58,15 @@ model::Image ImageRenderer::Draw(const CameraView& view, const RenderList& rende
   return Smooth();
 }
 
+DepthGrid ImageRenderer::SampleDepth(int spacing) const {
+  return MakeDepthGrid(width_, height_, spacing, [this](int x, int y) {
+    const std::uint32_t triangle = nearest_[At(x, y)];
+    if (triangle == 0) return 0.0f;
+    const bool is_ground = drawn_[triangles_[triangle - 1].drawn].group->ground;
+    return inverse_w_[At(x, y)] / (is_ground ? kGroundBack : 1.0f);
+  });
+}
+
 GroundTruth ImageRenderer::DrawGroundTruth(const CameraView& view, const RenderList& render_list,
                                            const FrameBlock& block) {
   Begin(view, block);

@@ -14,6 +14,7 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/model/image.h"
+#include "gsv/rendering/lenses/depth_grid.h"
 #include "gsv/rendering/lenses/ground_truth.h"
 #include "gsv/rendering/raster/lighting.h"
 
@@ -28,6 +29,8 @@ class ImageRenderer {
   model::Image Draw(const CameraView& view, const RenderList& render_list,
                     std::uint64_t render_list_id, const FrameBlock& block, const SunShadow* shadow,
                     base::ThreadTeam* team = nullptr);
+  // Returns the depths of the last image. Transparent surfaces are left out.
+  DepthGrid SampleDepth(int spacing) const;
   // Renders the depth and label image of a view.
   GroundTruth DrawGroundTruth(const CameraView& view, const RenderList& render_list,
                               const FrameBlock& block);

@@ -23,6 +23,21 @@ RasterBatchRenderer::~RasterBatchRenderer() = default;
 
 base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchRenderer::Draw(
     const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
+  return DrawImages(snapshot, views, 1, nullptr);
+}
+
+base::Result<ImageWithDepth> RasterBatchRenderer::DrawWithDepth(const world::Snapshot& snapshot,
+                                                                const CameraView& view,
+                                                                int spacing) {
+  DepthGrid depth;
+  auto images = DrawImages(snapshot, {view}, spacing, &depth);
+  return ImageWithDepth{std::move(images.front()),
+                        std::make_shared<const DepthGrid>(std::move(depth))};
+}
+
+std::vector<std::shared_ptr<const model::Image>> RasterBatchRenderer::DrawImages(
+    const world::Snapshot& snapshot, const std::vector<CameraView>& views, int spacing,
+    DepthGrid* depth) {
   PlannedLayout& planned = RenderListFor(snapshot.layout);
   const RenderList& render_list = *planned.render_list;
   const Lighting& lighting = *planned.lighting;
@@ -41,6 +56,7 @@ base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchRender
   if (views.size() == 1) {
     std::unique_ptr<ImageRenderer> renderer = TakeRenderer(views[0]);
     draw(*renderer, 0, &team_);
+    if (depth != nullptr) *depth = renderer->SampleDepth(spacing);
     GiveBack(std::move(renderer));
     return images;
   }

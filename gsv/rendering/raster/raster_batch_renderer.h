@@ -32,8 +32,15 @@ class RasterBatchRenderer final : public BatchRenderer {
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
   base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+  // The depths are those of the rendered image, so they cost almost nothing.
+  base::Result<ImageWithDepth> DrawWithDepth(const world::Snapshot& snapshot,
+                                             const CameraView& view, int spacing) override;
 
  private:
+  // Renders the images. If `depth` is not null, also stores the depths of the only view.
+  std::vector<std::shared_ptr<const model::Image>> DrawImages(const world::Snapshot& snapshot,
+                                                              const std::vector<CameraView>& views,
+                                                              int spacing, DepthGrid* depth);
   // Returns an idle renderer, preferably the one whose last image had this view.
   std::unique_ptr<ImageRenderer> TakeRenderer(const CameraView& view);
   // Makes a renderer idle again.

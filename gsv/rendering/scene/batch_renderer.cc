@@ -2,6 +2,22 @@
 
 namespace gsv::rendering {
 
+base::Result<ImageWithDepth> BatchRenderer::DrawWithDepth(const world::Snapshot& snapshot,
+                                                          const CameraView& view, int spacing) {
+  auto images = Draw(snapshot, {view});
+  if (!images) return base::Fail(images.error());
+  ImageWithDepth drawn{std::move(images->front()), nullptr};
+  const auto truths = DrawGroundTruth(snapshot, {view});
+  if (!truths) return drawn;
+  const GroundTruth& truth = *truths->front();
+  drawn.depth = std::make_shared<const DepthGrid>(
+      MakeDepthGrid(truth.width, truth.height, spacing, [&](int x, int y) {
+        return 1 / truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(truth.width) +
+                               static_cast<std::size_t>(x)];
+      }));
+  return drawn;
+}
+
 BatchRenderer::PlannedLayout& BatchRenderer::RenderListFor(
     const std::shared_ptr<const world::Layout>& layout) {
   PlannedLayout& planned = layouts_[layout.get()];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/rendering/lenses/depth_grid.h"
 #include "gsv/rendering/lenses/ground_truth.h"
 #include "gsv/rendering/scene/draw_copies.h"
 #include "gsv/rendering/scene/frame_block.h"
@@ -30,6 +31,11 @@ class BatchRenderer {
   // available.
   virtual base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
+
+  // Renders an image and its depths at every `spacing`-th pixel (at least 1). By default, it renders
+  // a depth and label image for this. Fails as Draw() does.
+  virtual base::Result<ImageWithDepth> DrawWithDepth(const world::Snapshot& snapshot,
+                                                     const CameraView& view, int spacing);
 
   // Removes data of destroyed layouts, meshes and images.
   virtual void Sweep();

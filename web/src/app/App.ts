@@ -14,7 +14,7 @@ import type { OverlayColours, OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
 import type { RobotFilter } from "../state/robotList";
 import { allChosen, chosenOf } from "../state/editing";
-import type { State, ViewMode } from "../state/State";
+import type { Drawer, State, ViewMode } from "../state/State";
 import { withChangedKey } from "../state/shortcuts";
 import type { Store } from "../state/Store";
 import { EDIT_PANEL } from "../state/editing";
@@ -43,6 +43,9 @@ const IMAGES_PANEL = "images";
 const TOPICS_PANEL = "topics";
 const INSPECTOR_PANEL = "inspector";
 
+// The menus that commands of the palette open.
+export type MenuName = "pace" | "layout" | "viewers" | "notes" | "compare" | "time" | "shape" | "model";
+
 export class App {
   readonly replay: ReplayControl;
   readonly past: PastControl;
@@ -57,6 +60,9 @@ export class App {
   readonly people: PeopleControl;
   readonly panels: PanelControl;
   readonly layouts: LayoutControl;
+  // Functions that open the menus of the page and focus their first field.
+  readonly menus = new Map<MenuName, () => void>();
+  drawBy: (drawer: Drawer) => void = () => {}; // chooses what draws the view
   private readonly filming: Filming;
 
   constructor(
@@ -285,6 +291,11 @@ export class App {
     const link = this.link.linkTo(location.href);
     history.replaceState(null, "", link);
     void this.copy(link, "Link copied.");
+  }
+
+  // Opens a menu, as if the user had pressed its button.
+  openMenu(name: MenuName): void {
+    this.menus.get(name)?.();
   }
 
   openPalette(paletteOpen: boolean): void {

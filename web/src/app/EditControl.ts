@@ -188,6 +188,11 @@ export class EditControl {
     return this.do(removals.length === 1 ? removals[0]! : inOrder(`remove ${removals.length} bodies`, removals));
   }
 
+  // Whether paste() has something to add.
+  get hasCopies(): boolean {
+    return this.copied.length > 0;
+  }
+
   // Stores copies of the bodies for paste(). Returns their number.
   copy(bodies: readonly string[]): number {
     this.copied = bodies.flatMap((body) => {

@@ -13,7 +13,7 @@ function started(options: Partial<ChoiceOptions> = {}) {
     sentences.push(sentence),
   );
   choice.start();
-  return { choice, drawer: () => store.get().drawnBy, use, sentences };
+  return { choice, store, drawer: () => store.get().drawnBy, use, sentences };
 }
 
 function tell(choice: ViewChoice, framesPerSecond: number, seconds: number): void {
@@ -21,10 +21,10 @@ function tell(choice: ViewChoice, framesPerSecond: number, seconds: number): voi
 }
 
 test("without WebGL the server draws, and there is no choice", () => {
-  const { choice, drawer, use, sentences } = started({ canDraw: false });
+  const { choice, store, drawer, use, sentences } = started({ canDraw: false });
   expect(drawer()).toBe("server");
   expect(use).toHaveBeenCalledWith("server");
-  expect(choice.other).toBeNull();
+  expect(store.get().whyNotBrowser).toContain("no WebGL");
   expect(choice.serverFailed()).toBe(false);
   expect(sentences).toEqual([expect.stringContaining("no WebGL")]);
 });
@@ -61,6 +61,45 @@ test("a choice by the user is kept", () => {
   const kept = started({ chosen: "browser" });
   tell(kept.choice, 2, 20);
   expect(kept.drawer()).toBe("browser");
+});
+
+test("if the browser loses WebGL and does not get it back, the server draws until WebGL is there again", () => {
+  vi.useFakeTimers();
+  const { choice, drawer, store, sentences } = started({ inSoftware: false, chosen: "browser" });
+  choice.graphics(false);
+  vi.advanceTimersByTime(2500);
+  choice.graphics(true); // a short loss changes nothing
+  vi.advanceTimersByTime(10_000);
+  expect(drawer()).toBe("browser");
+  expect(sentences).toEqual([]);
+  choice.graphics(false);
+  vi.advanceTimersByTime(3000);
+  expect(drawer()).toBe("server");
+  expect(store.get().whyNotBrowser).toContain("lost the graphics card");
+  expect(sentences).toEqual([expect.stringContaining("so the server draws the view now")]);
+  choice.graphics(true);
+  expect(drawer()).toBe("browser");
+  expect(store.get().whyNotBrowser).toBe("");
+  expect(sentences[1]).toContain("the browser draws the view again");
+  // The user's own choice of the server stays.
+  choice.choose("server");
+  choice.graphics(false);
+  vi.advanceTimersByTime(10_000);
+  choice.graphics(true);
+  expect(drawer()).toBe("server");
+  expect(sentences).toHaveLength(2);
+  vi.useRealTimers();
+});
+
+test("if the server cannot draw either, a lost view stays lost", () => {
+  vi.useFakeTimers();
+  const { choice, drawer } = started();
+  choice.graphics(false);
+  vi.advanceTimersByTime(3000);
+  expect(choice.serverFailed()).toBe(true);
+  vi.advanceTimersByTime(10_000);
+  expect(drawer()).toBe("browser");
+  vi.useRealTimers();
 });
 
 test("the browser draws again, and continues to, if the server cannot draw", () => {

@@ -1,5 +1,6 @@
 // Chooses whether the browser or the server draws the view. By default, the server draws it if the
-// browser has no WebGL or is slow. The user's choice has priority, and is stored.
+// browser has no WebGL or is slow. The user's choice has priority, and is stored. While the browser
+// has lost WebGL, the server draws in any case.
 import type { Store } from "../state/Store";
 import type { Drawer, State } from "../state/State";
 
@@ -12,11 +13,19 @@ export interface ChoiceOptions {
 const SLOW_FPS = 10;
 const SLOW_SECONDS = 5; // number of consecutive slow seconds after which the server draws
 
+const LOST_MS = 3000; // the browser usually restores WebGL within this time
+
 const NO_WEBGL = "This browser has no WebGL, so the server draws the view. Everything else works as usual.";
 const SLOW = `This browser draws fewer than ${SLOW_FPS} images per second, so the server draws the view now. To change this, click “drawn by the server” in the status bar.`;
+const LOST =
+  "The browser has lost the graphics card, so the server draws the view now. The browser draws it again when the graphics card is back; if it does not come back, reload the page.";
+const RESTORED = "The graphics card is back, so the browser draws the view again.";
 
 export class ViewChoice {
   private slowSeconds = 0;
+  private hasGraphics = true; // false while the browser has lost WebGL
+  private lossTimer: ReturnType<typeof setTimeout> | undefined;
+  private isForLoss = false; // whether the server draws because the browser has lost WebGL
   private isByHand: boolean;
   private serverFails = false;
 
@@ -44,14 +53,20 @@ export class ViewChoice {
     this.explain(SLOW);
   }
 
-  // The drawer to which the user can change; null if there is no choice.
-  get other(): Drawer | null {
-    if (this.store.get().drawnBy === "browser") return "server";
-    return this.options.canDraw ? "browser" : null;
+  // Called when the browser has lost WebGL, and when WebGL is back.
+  graphics(isThere: boolean): void {
+    this.hasGraphics = isThere;
+    this.store.set({ whyNotBrowser: this.whyNotBrowser });
+    this.followGraphics();
+    if (!isThere || !this.isForLoss) return;
+    this.isForLoss = false;
+    this.set("browser");
+    this.explain(RESTORED);
   }
 
   choose(drawer: Drawer): void {
     this.isByHand = true;
+    this.isForLoss = false;
     this.serverFails = false;
     this.set(drawer);
   }
@@ -59,6 +74,7 @@ export class ViewChoice {
   // Called if the server draws no images. Returns false if the browser cannot draw either.
   serverFailed(): boolean {
     this.serverFails = true;
+    this.isForLoss = false;
     if (!this.options.canDraw) return false;
     this.set("browser");
     return true;
@@ -66,7 +82,26 @@ export class ViewChoice {
 
   private set(drawer: Drawer): void {
     this.slowSeconds = 0;
-    this.store.set({ drawnBy: drawer });
+    this.store.set({ drawnBy: drawer, whyNotBrowser: this.whyNotBrowser });
     this.use(drawer);
+    this.followGraphics();
+  }
+
+  private get whyNotBrowser(): string {
+    if (!this.options.canDraw) return "This browser has no WebGL, so the server draws the view";
+    return this.hasGraphics ? "" : "The browser has lost the graphics card, so the server draws the view";
+  }
+
+  // If the browser draws without WebGL, the server takes over after some time.
+  private followGraphics(): void {
+    clearTimeout(this.lossTimer);
+    const isLost = () => !this.hasGraphics && this.store.get().drawnBy === "browser" && !this.serverFails;
+    if (!isLost()) return;
+    this.lossTimer = setTimeout(() => {
+      if (!isLost()) return;
+      this.isForLoss = true;
+      this.set("server");
+      this.explain(LOST);
+    }, LOST_MS);
   }
 }

@@ -43,11 +43,10 @@ export function startDrawing(
     const isOnServer = drawer === "server" && store.get().setUp === null;
     if (!isOnServer) {
       world.drawBy(null);
-      store.set({ view: world.canDraw ? "open" : "none" });
+      store.set({ view: !world.canDraw ? "none" : world.hasGraphics ? "open" : "interrupted" });
       return;
     }
-    if (world.canDraw) store.set({ view: "open" });
-    else store.set({ view: "starting" });
+    store.set({ view: world.canDraw && world.hasGraphics ? "open" : "starting" });
     const events = {
       onImage: () => store.get().view !== "open" && store.set({ view: "open" }),
       onProblem: fail,

@@ -21,6 +21,10 @@ export function createCompareMenu(app: App): HTMLElement {
     void app.past.lookAt(time);
   });
   menu.button.addEventListener("click", () => void fill(app, list, menu.close));
+  app.menus.set("compare", () => {
+    menu.open();
+    void fill(app, list, menu.close);
+  });
   app.store.watch(
     ({ replay, abilities }) => replay !== null && (abilities.recordings || abilities.recording !== ""),
     (isPossible) => (menu.element.hidden = !isPossible),

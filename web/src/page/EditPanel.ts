@@ -63,6 +63,8 @@ function createEditPanel(app: App): HTMLElement {
     ({ editing }) => editing !== null,
     (isOn) => isOn || [shape, model].forEach((menu) => menu.close()),
   );
+  app.menus.set("shape", shape.open);
+  app.menus.set("model", model.open);
   const panel = element(
     "div",
     { class: "edit-body" },

@@ -67,6 +67,7 @@ export function createLayoutMenu(app: App): HTMLElement {
       );
     },
   );
+  app.menus.set("layout", menu.open);
   return menu.element;
 }
 

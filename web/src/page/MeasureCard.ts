@@ -1,4 +1,4 @@
-// The result of the ruler, and the scale bar of the map. Both are drawn over the view.
+// The result of the ruler, in a bar below the view, and the scale bar of the map, over the view.
 import type { App } from "../app/App";
 import type { Point } from "../state/State";
 import { element, setText } from "../ui/element";
@@ -21,38 +21,35 @@ export function measure(from: Point, to: Point): Measured {
   return { distance: Math.hypot(dx, dy, dz), dx, dy, dz, angleDeg: Math.atan2(dy, dx) * DEGREES };
 }
 
-export function createMeasureCard(app: App): HTMLElement {
-  const text = element("p", { class: "hint" });
-  const values = element("dl", { class: "inspector-rows" });
+// The bar has the same height during the whole measurement, so that the view does not move between
+// the clicks.
+export function createMeasureBar(app: App): HTMLElement {
+  const text = element("p", { class: "dim" });
+  const values = element("dl", { class: "number" });
   const close = element(
     "button",
     { class: "button plain small", type: "button", "aria-label": "End measuring", title: "End measuring (Esc)", onclick: () => app.pointing.setMeasuring(false) },
     icon("close"),
   );
-  const card = element(
-    "section",
-    { class: "card measure-card", "aria-label": "Ruler", "aria-live": "polite" },
-    element("div", { class: "card-head" }, element("h2", {}, "Ruler"), close),
-    text,
-    values,
-  );
+  const bar = element("section", { class: "measure-bar", "aria-label": "Ruler", "aria-live": "polite" }, element("h2", {}, "Ruler"), text, values, close);
   app.store.watch(
     ({ ruler }) => ruler,
     (ruler) => {
-      card.hidden = ruler === null;
+      bar.hidden = ruler === null;
       const [from, to] = ruler ?? [];
       setText(text, !from ? "Click the first point." : !to ? "Click the second point." : "");
       text.hidden = to !== undefined;
+      values.hidden = to === undefined;
       values.replaceChildren(...(from && to ? rowsOf(measure(from, to)) : []));
     },
   );
-  return card;
+  return bar;
 }
 
 function rowsOf({ distance, dx, dy, dz, angleDeg }: Measured): HTMLElement[] {
   const metres = (value: number) => `${formatNumber(value, 3)} m`;
   const rows = { Distance: metres(distance), dx: metres(dx), dy: metres(dy), dz: metres(dz), Angle: `${formatNumber(angleDeg, 1)}°` };
-  return Object.entries(rows).flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
+  return Object.entries(rows).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value)));
 }
 
 // Returns the length in metres that the scale bar shows: 1, 2 or 5 times a power of ten. It is the

@@ -32,6 +32,7 @@ export function createNotesMenu(app: App): HTMLElement {
     },
     shallowEqual,
   );
+  app.menus.set("notes", menu.open);
   return menu.element;
 }
 

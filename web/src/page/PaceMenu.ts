@@ -7,7 +7,7 @@ import { element } from "../ui/element";
 import { numberField } from "../ui/fields";
 import { createMenu } from "../ui/menu";
 
-const FACTORS = [0.1, 0.5, 1, 2, 5, 10];
+export const FACTORS = [0.1, 0.5, 1, 2, 5, 10];
 const FIRST_STEPS = 10;
 
 export function createPaceMenu(app: App): HTMLElement {
@@ -16,6 +16,7 @@ export function createPaceMenu(app: App): HTMLElement {
     ({ status, connection, people }) => status !== null && connection.phase === "open" && mayAct(people),
     (enabled) => (menu.button.disabled = !enabled),
   );
+  app.menus.set("pace", menu.open);
   return menu.element;
 }
 

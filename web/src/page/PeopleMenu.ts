@@ -24,6 +24,7 @@ export function createPeopleMenu(app: App): HTMLElement {
     },
     (a, b) => JSON.stringify(a) === JSON.stringify(b),
   );
+  app.menus.set("viewers", menu.open);
   return menu.element;
 }
 
@@ -67,21 +68,27 @@ function controlButton(app: App): HTMLElement {
   const button = element("button", { class: "button", type: "button" });
   let wants = true;
   app.store.watch(
-    ({ people }) => ({
-      holds: youOf(people)?.holds ?? false,
-      isFree: holderOf(people) === null,
-      asks: (youOf(people)?.asks ?? 0) > 0,
-      isHere: together(people).length > 0,
-    }),
-    ({ holds, isFree, asks, isHere }) => {
-      button.hidden = !isHere;
-      wants = !holds && !asks;
-      setText(button, labelOf(holds, isFree, asks));
+    ({ people }) => controlWish(people),
+    (wish) => {
+      button.hidden = wish === null;
+      if (!wish) return;
+      wants = wish.wants;
+      setText(button, wish.label);
     },
     shallowEqual,
   );
   button.addEventListener("click", () => void app.people.want(wants));
   return button;
+}
+
+// Returns the label of the button for control, and whether a press requests control. Null if no
+// viewer is listed for this simulation.
+export function controlWish(people: People): { label: string; wants: boolean } | null {
+  if (together(people).length === 0) return null;
+  const you = youOf(people);
+  const holds = you?.holds ?? false;
+  const asks = (you?.asks ?? 0) > 0;
+  return { label: labelOf(holds, holderOf(people) === null, asks), wants: !holds && !asks };
 }
 
 function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {

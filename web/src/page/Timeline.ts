@@ -139,6 +139,7 @@ function typedTime(app: App): HTMLElement {
     autocomplete: "off",
     spellcheck: "false",
   });
+  app.menus.set("time", () => field.focus());
   field.addEventListener("input", () => field.removeAttribute("aria-invalid"));
   field.addEventListener("keydown", ({ key }) => {
     if (key === "Escape") field.blur();

@@ -4,23 +4,18 @@ import type { App } from "../app/App";
 import { PANELS } from "../panels/registry";
 import { hasAgent, imagesOf } from "../api/scene";
 import { bodyPart } from "../state/parts";
-import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
 import { OVERLAYS } from "../state/overlays";
 import { PRESETS } from "../workspace/presets";
+import type { Command } from "./controlCommands";
+import { controlCommands } from "./controlCommands";
 
-// An entry of the command palette.
-export interface Command {
-  group: string; // "Panel", "Robot"
-  label: string;
-  key?: string; // the single key of the command
-  run(): void;
-}
+export type { Command } from "./controlCommands";
 
 const MAX_FOUND = 50;
 
 // Returns the commands that are possible at present.
 export function commandsOf(app: App): Command[] {
-  return [...runCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...objectCommands(app), ...topicCommands(app)];
+  return [...controlCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...objectCommands(app), ...topicCommands(app)];
 }
 
 // Returns the entries that contain each word of the text. Entries that begin with the text come
@@ -35,35 +30,12 @@ export function findCommands(commands: readonly Command[], text: string): Comman
   return [...fitting.filter(begins), ...fitting.filter((each) => !begins(each))].slice(0, MAX_FOUND);
 }
 
-function runCommands(app: App): Command[] {
-  const state = app.store.get();
-  const phase = state.status?.phase;
-  const commands: Command[] = [];
-  const add = (isPossible: boolean, label: string, run: () => void, key?: string) => {
-    if (isPossible) commands.push({ group: "Run", label, run, ...(key && { key }) });
-  };
-  const may = canAct(state);
-  const main = mainAction(phase);
-  if (state.replay) {
-    add(true, "Play or pause the recording", () => app.startPauseOrResume(), "Space");
-  } else {
-    add(may && isAllowed(phase, main), `${main.charAt(0).toUpperCase()}${main.slice(1)}`, () => app.startPauseOrResume(), "Space");
-    add(may && isAllowed(phase, "step"), "Take one step", () => app.stepOnce(), "N");
-    add(may && isAllowed(phase, "stop"), "Stop", () => void app.act("stop"));
-    add(may && isAllowed(phase, "reset"), "Reset", () => void app.act("reset"));
-    add(state.replay === null && state.abilities.creates && state.simulation !== null, "Save world", () => void app.editActions.saveWorld(false));
-    add(canEdit(state), state.editing ? "End editing" : "Edit", () => void app.edits.toggle());
-  }
-  add(state.abilities.creates && state.setUp === null, "New simulation", () => void app.setUp.open());
-  return commands;
-}
-
 function viewCommands(app: App): Command[] {
-  const { shown, mapMode, scene } = app.store.get();
+  const { shown, mapMode, scene, ruler, filming } = app.store.get();
   const view = (label: string, key: string, run: () => void): Command => ({ group: "View", label, key, run });
   return [
     { group: "View", label: mapMode ? "Leave the map" : "Map", run: () => app.setMap(!mapMode) },
-    { group: "View", label: "Measure", run: () => app.pointing.setMeasuring(true) },
+    { group: "View", label: ruler ? "End measuring" : "Measure", run: () => app.pointing.setMeasuring(!ruler) },
     ...(imagesOf(scene).length > 1 ? [{ group: "View", label: "Show all cameras", run: () => app.showAllCameras(true) }] : []),
     view("Reset view", "R", () => app.resetView()),
     view("Top view", "T", () => app.topView()),
@@ -73,7 +45,7 @@ function viewCommands(app: App): Command[] {
     view("Free view", "O", () => app.orbit()),
     view("Copy link", "L", () => app.copyLink()),
     view("Save image", "X", () => void app.savePicture()),
-    view("Record video", "M", () => app.film()),
+    view(filming ? "End the video" : "Record video", "M", () => app.film()),
     ...OVERLAYS.map(({ name, label, key }) => ({
       group: "Overlay",
       label: `${shown[name] ? "Hide" : "Show"} ${label.toLowerCase()}`,
@@ -90,7 +62,6 @@ function placeCommands(app: App): Command[] {
     ...panels.map(({ id, title, key }) => ({ group: "Panel", label: title, ...(key && { key }), run: () => app.panels.open(id) })),
     ...PRESETS.map((preset) => ({ group: "Layout", label: preset.title, run: () => app.layouts.showPreset(preset) })),
     ...state.layouts.map((saved) => ({ group: "Layout", label: saved.name, run: () => app.layouts.showSaved(saved) })),
-    { group: "Help", label: "Keys and gestures", key: "?", run: () => app.openHelp(true) },
   ];
 }
 

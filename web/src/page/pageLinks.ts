@@ -24,6 +24,11 @@ function isLive({ replay }: State): boolean {
   return replay === null;
 }
 
+// The pages that have content at present.
+export function offeredPages(state: State): { label: string; href: string }[] {
+  return LINKS.filter(({ isOffered }) => isOffered(state));
+}
+
 // The links as icons in the toolbar.
 export function pageLinks(app: App): HTMLElement[] {
   return LINKS.map(({ picture, href, name, label, isOffered }) => {

@@ -11,7 +11,7 @@ export interface PushedImage {
   number: number;
   stamp: number; // s, simulated
   seenMs: number; // when the server first saw this state, in ms since 1970
-  jpeg: Blob;
+  jpeg: Uint8Array<ArrayBuffer>;
 }
 
 // The callbacks for a view.
@@ -81,7 +81,7 @@ export class ConnectedViews implements LiveViewSource {
       number: Number(payload.getBigUint64(4, true)),
       stamp: Number(nanoseconds) * 1e-9,
       seenMs: Number(payload.getBigUint64(12, true)) / 1000,
-      jpeg: new Blob([new Uint8Array(payload.buffer as ArrayBuffer, payload.byteOffset + HEADER_BYTES)], { type: "image/jpeg" }),
+      jpeg: new Uint8Array(payload.buffer as ArrayBuffer, payload.byteOffset + HEADER_BYTES, payload.byteLength - HEADER_BYTES),
     });
     return true;
   }

@@ -16,6 +16,7 @@ const FIELD_OF_VIEW_DEG = 50;
 // The field of view of a map. It is so narrow that the map deviates from an orthographic map by
 // less than 1%. The server supports no narrower field of view.
 const MAP_FIELD_OF_VIEW_DEG = 1;
+const FARTHEST_MAP = 900_000; // m: largest distance of the camera; the server allows 1,000,000 m
 // m: a map shows everything that is at most this far below or above the camera's target
 const MAP_DEPTH = 200;
 const FLIGHT_MS = 450;
@@ -156,8 +157,8 @@ export class CameraRig {
     this.flight = null;
     if (isOn) {
       const scale = Math.tan(radians(FIELD_OF_VIEW_DEG) / 2) / Math.tan(radians(MAP_FIELD_OF_VIEW_DEG) / 2);
-      const distance = position.distanceTo(target) * scale;
-      controls.maxDistance *= scale;
+      const distance = Math.min(position.distanceTo(target) * scale, FARTHEST_MAP);
+      controls.maxDistance = Math.min(controls.maxDistance * scale, FARTHEST_MAP);
       this.beforeMap = { position, target };
       this.setGestures();
       this.widen();
@@ -328,7 +329,7 @@ export class CameraRig {
     const target = box.getCenter(new Vector3());
     const distance = MARGIN * fittingDistance(this.camera, box, direction);
     const position = target.clone().addScaledVector(direction, -distance);
-    this.controls.maxDistance = Math.max(50, 6 * distance);
+    this.controls.maxDistance = Math.min(Math.max(50, 6 * distance), FARTHEST_MAP);
     if (!this.beforeMap) {
       this.orbitDepth = { near: Math.min(0.1, distance / 100), far: 3 * this.controls.maxDistance };
       this.setDepth(this.orbitDepth.near, this.orbitDepth.far);

@@ -1,6 +1,7 @@
 // Draws one frame of the view. Updates the objects that have moved, and draws the shadows again if
 // they are due. Draws the scene, or draws overlays on an image of the server.
-import type { Object3D, PerspectiveCamera, Scene } from "three";
+import type { Object3D, Scene } from "three";
+import { PerspectiveCamera } from "three";
 import type { Shown } from "../state/overlays";
 import type { Arranger } from "./Arranger";
 import type { CameraRig } from "./CameraRig";
@@ -37,13 +38,22 @@ export interface DrawnLayers {
 export class FrameDrawer {
   hasGraphics = true; // whether the browser can draw at present
   private readonly shadows = new ShadowPace();
+  private readonly fitted = new PerspectiveCamera();
 
   constructor(private readonly layers: DrawnLayers) {}
 
   // The camera of the image on the screen. If the server has drawn this image, its camera is an
-  // earlier one.
+  // earlier one. If the view's size has changed since then, the image is as high as the view, and
+  // its sides are cut off or empty.
   get shownCamera(): PerspectiveCamera {
-    return this.layers.surface.drawnImage?.camera ?? this.layers.rig.camera;
+    const { surface, rig } = this.layers;
+    const camera = surface.drawnImage?.camera;
+    const aspect = surface.width / surface.height;
+    if (!camera || Math.abs(camera.aspect - aspect) < 1e-3) return camera ?? rig.camera;
+    this.fitted.copy(camera);
+    this.fitted.aspect = aspect;
+    this.fitted.updateProjectionMatrix();
+    return this.fitted;
   }
 
   // Returns whether another frame must follow. `now` is a time in ms, as from performance.now().

@@ -137,6 +137,11 @@ export class World3D {
     this.resize();
   }
 
+  // Whether the browser can draw at present. It may have lost WebGL.
+  get hasGraphics(): boolean {
+    return this.drawer.hasGraphics;
+  }
+
   get frames(): number {
     return this.loop.frames;
   }

@@ -108,6 +108,7 @@ export interface State {
   wishedTime: number | null;
   view: View;
   drawnBy: Drawer | null; // null before the view has started
+  whyNotBrowser: string; // why the browser cannot draw at present; empty if it can
   scene: SceneDescription | null;
   modelsMissing: number; // number of shapes that are being fetched
   health: Health | null; // null if the server does not report it
@@ -168,6 +169,7 @@ export const initialState: State = {
   wishedTime: null,
   view: "starting",
   drawnBy: null,
+  whyNotBrowser: "",
   scene: null,
   modelsMissing: 0,
   health: null,

@@ -12,6 +12,7 @@ export interface Menu {
   element: HTMLElement;
   button: HTMLButtonElement;
   sheet: HTMLElement;
+  open(): void; // also focuses the first control of the sheet
   close(): void;
 }
 
@@ -70,7 +71,11 @@ export function createWordedMenu({ label, picture, word, title = label }: MenuLo
   sheet.addEventListener("click", ({ target }) => {
     if (isNarrow() && target instanceof Element && target.closest("button")) close();
   });
-  return { element: place, button, sheet, close };
+  const openForKeys = () => {
+    open(true);
+    sheet.querySelector<HTMLElement>("input, select, button")?.focus();
+  };
+  return { element: place, button, sheet, open: openForKeys, close };
 }
 
 // Returns "Speed" for "Speed and steps".

@@ -5,6 +5,8 @@ import type { Object3D, PerspectiveCamera } from "three";
 import { Vector3 } from "three";
 import type { LiveViewSource } from "../protocol/LiveViews";
 import type { ArrivedImage, Feed, FetchImage, ServerCamera } from "./ImageFeed";
+import type { ImageDepths } from "./ImageDepths";
+import { depthsOf, depthSpacing } from "./ImageDepths";
 import { ImageFeed, queryOf } from "./ImageFeed";
 import { OverlayPainter } from "./OverlayPainter";
 import { PushedFeed } from "./PushedFeed";
@@ -26,11 +28,15 @@ const MOST_PX = 3840 * 2160; // the server's limit
 const SMALLEST_SIDE_PX = 16;
 const MAX_CAMERAS = 200; // maximum number of stored cameras while no image arrives
 const KEPT_DELAYS = 1000;
+// m: distance from the eye to the target in a request. Requests have 0.1 mm, so a near target would
+// turn a map, whose direction is almost vertical.
+const AHEAD = 1000;
 
 interface DecodedImage {
   bitmap: ImageBitmap;
   camera: PerspectiveCamera;
   arrived: ArrivedImage;
+  depths: ImageDepths | null;
 }
 
 export class DrawnView {
@@ -103,14 +109,14 @@ export class DrawnView {
   paint(overlays: readonly Object3D[]): void {
     const context = this.present && this.canvas.getContext("2d", { alpha: false });
     if (!this.present || !context) return;
-    const { bitmap, camera } = this.present;
+    const { bitmap, camera, depths } = this.present;
     const { width, height } = this.present.arrived.camera;
     if (this.canvas.width !== width || this.canvas.height !== height) {
       this.canvas.width = width;
       this.canvas.height = height;
     }
     context.drawImage(bitmap, 0, 0, width, height);
-    new OverlayPainter(context, width, height, camera).paint(overlays);
+    new OverlayPainter(context, width, height, camera, depths).paint(overlays);
   }
 
   dispose(): void {
@@ -133,7 +139,7 @@ export class DrawnView {
     while (this.waiting) {
       const arrived = this.waiting;
       this.waiting = null;
-      const bitmap = await createImageBitmap(arrived.jpeg).catch(() => null);
+      const bitmap = await createImageBitmap(new Blob([arrived.jpeg], { type: "image/jpeg" })).catch(() => null);
       if (this.isDisposed) return bitmap?.close();
       const camera = this.cameraOf(arrived.camera);
       if (!bitmap || !camera) {
@@ -145,7 +151,7 @@ export class DrawnView {
         this.next.bitmap.close(); // the previous image is skipped
         this.next.arrived.shown();
       }
-      this.next = { bitmap, camera, arrived };
+      this.next = { bitmap, camera, arrived, depths: depthsOf(arrived.jpeg) };
       this.images += 1;
       this.onNewImage();
       this.events.onImage();
@@ -180,12 +186,14 @@ export function serverCameraOf(camera: PerspectiveCamera, width: number, height:
   );
   const side = (pixels: number) => Math.max(SMALLEST_SIDE_PX, Math.floor(pixels * ratio));
   const eye = camera.getWorldPosition(new Vector3());
-  const target = camera.getWorldDirection(new Vector3()).add(eye);
+  const target = camera.getWorldDirection(new Vector3()).multiplyScalar(AHEAD).add(eye);
+  const [imageWidth, imageHeight] = [side(width), side(height)];
   return {
     eye: eye.toArray(),
     target: target.toArray(),
     fieldOfViewDeg: camera.fov,
-    width: side(width),
-    height: side(height),
+    width: imageWidth,
+    height: imageHeight,
+    depthSpacing: depthSpacing(imageWidth, imageHeight),
   };
 }

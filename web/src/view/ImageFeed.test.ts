@@ -2,8 +2,8 @@ import { expect, test, vi } from "vitest";
 import type { ServerCamera } from "./ImageFeed";
 import { ImageFeed } from "./ImageFeed";
 
-const CAMERA: ServerCamera = { eye: [1, 2, 3], target: [4, 5, 6], fieldOfViewDeg: 50, width: 640, height: 480 };
-const QUERY = "size=640x480&eye=1.0000,2.0000,3.0000&target=4.0000,5.0000,6.0000&fov=50.000";
+const CAMERA: ServerCamera = { eye: [1, 2, 3], target: [4, 5, 6], fieldOfViewDeg: 50, width: 640, height: 480, depthSpacing: 8 };
+const QUERY = "size=640x480&eye=1.0000,2.0000,3.0000&target=4.0000,5.0000,6.0000&fov=50.000&depth=8";
 
 // A server that answers when the test requests it.
 function fakeServer() {
@@ -71,4 +71,18 @@ test("reports the server's sentence after three failures, and ends", async () =>
   await vi.advanceTimersByTimeAsync(5000);
   expect(fetchImage).toHaveBeenCalledTimes(3);
   vi.useRealTimers();
+});
+
+test("a server that knows no depths is asked again without them", async () => {
+  const { asked, fetchImage } = fakeServer();
+  const onImage = vi.fn();
+  const feed = new ImageFeed(fetchImage, { onImage, onProblem: vi.fn() });
+  feed.show(CAMERA);
+  await vi.waitFor(() => expect(asked).toHaveLength(1));
+  asked[0]!.answer(refusal(400, "there is no parameter 'depth'"));
+  await vi.waitFor(() => expect(asked).toHaveLength(2));
+  expect(asked[1]!.query).toBe(QUERY.replace("&depth=8", ""));
+  asked[1]!.answer(image(1));
+  await vi.waitFor(() => expect(onImage).toHaveBeenCalled());
+  feed.end();
 });

@@ -9,11 +9,12 @@ export interface ServerCamera {
   fieldOfViewDeg: number; // vertical
   width: number;
   height: number;
+  depthSpacing: number; // distance between the image's depths, in pixels; 0: the image has no depths
 }
 
 // An image that the server has sent.
 export interface ArrivedImage {
-  jpeg: Blob;
+  jpeg: Uint8Array<ArrayBuffer>;
   camera: ServerCamera; // the camera with which the image was drawn
   stamp: number | null; // s, simulated; null: unknown
   seenMs: number | null; // when the server first saw this state, in ms since 1970; null: unknown
@@ -48,6 +49,8 @@ export class ImageFeed implements Feed {
   private failures = 0;
   private isEnded = false;
   private asked = ""; // the camera of the pending request, as a query
+  // Older servers, of which a relay shows the simulations, know no depths.
+  private hasDepths = true;
 
   constructor(
     private readonly fetchImage: FetchImage,
@@ -93,10 +96,14 @@ export class ImageFeed implements Feed {
   // Returns the sentence of a problem; null if there is none.
   private async take(camera: ServerCamera, query: string, signal: AbortSignal): Promise<string | null> {
     try {
-      const response = await this.fetchImage(query, signal);
+      const response = await this.fetchImage(this.hasDepths ? query : query.replace(/&depth=\d+/, ""), signal);
       if (response.status === 204) return null;
+      if (response.status === 400 && this.hasDepths) {
+        this.hasDepths = false; // the next request is without them
+        return null;
+      }
       if (!response.ok) return await sentenceOf(response);
-      const jpeg = await response.blob();
+      const jpeg = new Uint8Array(await response.arrayBuffer());
       if (this.isEnded) return null;
       this.shown = queryOf(camera);
       this.number = (response.headers.get("etag") ?? "").replaceAll('"', "");
@@ -109,9 +116,10 @@ export class ImageFeed implements Feed {
   }
 }
 
-export function queryOf({ eye, target, fieldOfViewDeg, width, height }: ServerCamera): string {
+export function queryOf({ eye, target, fieldOfViewDeg, width, height, depthSpacing }: ServerCamera): string {
   const point = (place: readonly number[]) => place.map((value) => value.toFixed(4)).join(",");
-  return `size=${width}x${height}&eye=${point(eye)}&target=${point(target)}&fov=${fieldOfViewDeg.toFixed(3)}`;
+  const depth = depthSpacing > 0 ? `&depth=${depthSpacing}` : "";
+  return `size=${width}x${height}&eye=${point(eye)}&target=${point(target)}&fov=${fieldOfViewDeg.toFixed(3)}${depth}`;
 }
 
 function stampOf(response: Response): number | null {

@@ -13,6 +13,7 @@ import {
   PointsMaterial,
 } from "three";
 import { expect, test } from "vitest";
+import { ImageDepths } from "./ImageDepths";
 import { OverlayPainter } from "./OverlayPainter";
 
 // Records what was painted: the ends of lines, and the corners of squares.
@@ -108,4 +109,50 @@ test("only the faces of a body that the camera sees are painted, also of a mirro
   box.scale.set(1, -1, 1);
   new OverlayPainter(context, 200, 100, camera()).paint([box]);
   expect(lines.length).toBe(2 * cornersOfThreeFaces);
+});
+
+// A surface 4 m ahead in the left half of an image of 200 × 100 pixels, and the sky in the right half.
+function wallAtTheLeft(): ImageDepths {
+  const columns = 26;
+  const numbers = Uint16Array.from({ length: columns * 14 }, (_, i) => (i % columns < 13 ? 60_000 : 0));
+  return new ImageDepths(200, 100, 8, 240_000, numbers);
+}
+
+test("surfaces of the image hide the parts of lines behind them, and points and faces", () => {
+  const { lines, squares, context } = fakeContext();
+  const painter = new OverlayPainter(context, 200, 100, camera(), wallAtTheLeft());
+  const behind = new LineSegments(geometry([8, 8, 0, 8, -8, 0]), new LineBasicMaterial()); // at 8 m, from x = 50 to 150
+  behind.geometry.setDrawRange(0, 2);
+  painter.paint([behind]);
+  expect(lines).toHaveLength(1);
+  expect(Math.abs(lines[0]![0]! - 100)).toBeLessThan(5);
+  expect(lines[0]![2]).toBeCloseTo(150);
+  lines.length = 0;
+  const before = new LineSegments(geometry([3, 3, 0, 3, -3, 0]), new LineBasicMaterial());
+  before.geometry.setDrawRange(0, 2);
+  const onTop = new LineSegments(behind.geometry, new LineBasicMaterial({ depthTest: false }));
+  painter.paint([before, onTop]);
+  expect(lines.map((line) => line.map(Math.round))).toEqual([
+    [50, 50, 150, 50],
+    [50, 50, 150, 50],
+  ]);
+  lines.length = 0;
+  const points = new Points(geometry([8, 4, 0, 8, -4, 0, 4, 2, 0]), new PointsMaterial());
+  painter.paint([points]);
+  expect(squares.map(([x]) => Math.round(x!))).toEqual([125, 75]); // the last one lies on the surface
+  const box = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial());
+  box.position.set(8, 4, 0);
+  painter.paint([box]);
+  expect(lines).toEqual([]);
+  box.position.set(3, 1.5, 0);
+  painter.paint([box]);
+  expect(lines.length).toBeGreaterThan(0);
+});
+
+test("a line that leaves the image is painted inside it", () => {
+  const { lines, context } = fakeContext();
+  const long = new LineSegments(geometry([3, 3000, 0, 3, -3000, 0]), new LineBasicMaterial());
+  long.geometry.setDrawRange(0, 2);
+  new OverlayPainter(context, 200, 100, camera(), wallAtTheLeft()).paint([long]);
+  expect(lines.map((line) => line.map(Math.round))).toEqual([[0, 50, 200, 50]]);
 });

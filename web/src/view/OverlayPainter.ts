@@ -1,28 +1,40 @@
 // Paints the lines, points and plain surfaces of overlays on an image, projected with the image's
-// camera. They are on top of the image, because it has no depths that could hide them.
+// camera. The depths of the image hide the parts behind surfaces, except those of materials without
+// a depth test. If the image has no depths, everything is on top.
 import type { BufferAttribute, BufferGeometry, Camera, InterleavedBufferAttribute, Object3D, Side } from "three";
 import { Color, FrontSide, InstancedMesh, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import type { ImageDepths } from "./ImageDepths";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 type Corner = readonly [x: number, y: number, w: number];
+type LineEnds = readonly [ax: number, ay: number, bx: number, by: number]; // in pixels
 
 const NEAR_W = 1e-3;
 const MOST = 20_000; // maximum number of segments, points or triangles of one object
 const MOST_INSTANCES = 200;
 const LINE_PX = 1.5;
 const POINT_PX = 3;
+// A line is tested against the depths once in this fraction of the distance between them.
+const TESTS_PER_SAMPLE = 3;
+// Maximum number of tests in an image. After them, lines are tested in their middle only.
+const MAX_TESTS = 200_000;
 
 export class OverlayPainter {
   private readonly clipFromWorld = new Matrix4();
   private readonly clipFromObject = new Matrix4();
+  private readonly testPx: number; // distance between the tests of a line
+  private testsLeft = MAX_TESTS;
+  private hiding: ImageDepths | null = null; // the depths that may hide the present object
 
   constructor(
     private readonly context: CanvasRenderingContext2D,
     private readonly width: number,
     private readonly height: number,
     camera: Camera,
+    private readonly depths: ImageDepths | null = null,
   ) {
+    this.testPx = depths ? (depths.spacing * width) / depths.width / TESTS_PER_SAMPLE : Infinity;
     this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
   }
 
@@ -37,6 +49,7 @@ export class OverlayPainter {
   private paintObject(object: Object3D): void {
     if ((object as Partial<Mesh>).material && isInvisible((object as Mesh).material)) return;
     this.clipFromObject.multiplyMatrices(this.clipFromWorld, object.matrixWorld);
+    this.hiding = hasDepthTest((object as Partial<Mesh>).material) ? this.depths : null;
     // Wide lines are also meshes in three.js.
     if (object instanceof LineSegments2) this.paintWideLines(object);
     else if (object instanceof LineSegments) this.paintLines(object);
@@ -83,7 +96,7 @@ export class OverlayPainter {
     const plain = plainColour(material);
     for (let i = 0; i < Math.min(geometry.drawRange.count, position.count, MOST); i++) {
       const [x, y, w] = this.corner(position, i);
-      if (w < NEAR_W) continue;
+      if (w < NEAR_W || this.isHidden(x / w, y / w, w)) continue;
       this.context.fillStyle = color ? colourAt(color, i) : plain;
       this.context.fillRect(x / w - POINT_PX / 2, y / w - POINT_PX / 2, POINT_PX, POINT_PX);
     }
@@ -104,6 +117,7 @@ export class OverlayPainter {
       }
       if (corners.some(([, , w]) => w < NEAR_W)) continue;
       if (isOneSided(material) && showsItsBack(corners) !== isMirrored) continue;
+      if (this.hiding && [...corners, middleOf(corners)].every(([x, y, w]) => this.isHidden(x / w, y / w, w))) continue;
       this.context.beginPath();
       for (const [x, y, w] of corners) this.context.lineTo(x / w, y / w);
       this.context.fill();
@@ -122,13 +136,71 @@ export class OverlayPainter {
   private paintLine(from: Corner, to: Corner, colour: string): void {
     if (from[2] < NEAR_W && to[2] < NEAR_W) return;
     const [a, b] = from[2] < NEAR_W ? [cut(from, to), to] : to[2] < NEAR_W ? [from, cut(to, from)] : [from, to];
+    const ends = [a[0] / a[2], a[1] / a[2], b[0] / b[2], b[1] / b[2]] as const;
+    const inImage = this.hiding ? shareInside(ends, this.width, this.height) : ([0, 1] as const);
+    if (!inImage) return;
     this.context.strokeStyle = colour;
     this.context.lineWidth = LINE_PX;
     this.context.beginPath();
-    this.context.moveTo(a[0] / a[2], a[1] / a[2]);
-    this.context.lineTo(b[0] / b[2], b[1] / b[2]);
+    for (const [start, end] of this.visibleParts(ends, 1 / a[2], 1 / b[2], inImage)) {
+      this.context.moveTo(ends[0] + start * (ends[2] - ends[0]), ends[1] + start * (ends[3] - ends[1]));
+      this.context.lineTo(ends[0] + end * (ends[2] - ends[0]), ends[1] + end * (ends[3] - ends[1]));
+    }
     this.context.stroke();
   }
+
+  // Returns the parts of a line that no surface hides, as shares of the line in the image. The
+  // inverse depth is linear along a line in the image.
+  private visibleParts(
+    [ax, ay, bx, by]: LineEnds,
+    inverseA: number,
+    inverseB: number,
+    [first, last]: readonly [number, number],
+  ): (readonly [number, number])[] {
+    if (!this.hiding) return [[first, last]];
+    const pixels = (last - first) * Math.hypot(bx - ax, by - ay);
+    const tests = this.testsLeft > 0 ? Math.max(1, Math.ceil(pixels / this.testPx)) : 1;
+    this.testsLeft -= tests;
+    const step = (last - first) / tests;
+    const parts: (readonly [number, number])[] = [];
+    let start: number | null = null;
+    for (let i = 0; i <= tests; i++) {
+      const share = first + (i + 0.5) * step;
+      const depth = 1 / (inverseA + share * (inverseB - inverseA));
+      const isVisible = i < tests && !this.isHidden(ax + share * (bx - ax), ay + share * (by - ay), depth);
+      if (isVisible) start ??= first + i * step;
+      else if (start !== null) {
+        parts.push([start, first + i * step]);
+        start = null;
+      }
+    }
+    return parts;
+  }
+
+  private isHidden(x: number, y: number, depth: number): boolean {
+    return this.hiding !== null && this.hiding.hides(x / this.width, y / this.height, depth);
+  }
+}
+
+// Returns the part of a line inside the image, as shares of the line; null if there is none.
+function shareInside([ax, ay, bx, by]: LineEnds, width: number, height: number): [number, number] | null {
+  let [first, last] = [0, 1];
+  for (const [from, to, size] of [
+    [ax, bx, width],
+    [ay, by, height],
+  ] as const) {
+    if (from === to && (from < 0 || from > size)) return null;
+    if (from === to) continue;
+    const atEdges = [-from / (to - from), (size - from) / (to - from)];
+    first = Math.max(first, Math.min(...atEdges));
+    last = Math.min(last, Math.max(...atEdges));
+  }
+  return first < last ? [first, last] : null;
+}
+
+function middleOf(corners: readonly Corner[]): Corner {
+  const mean = (of: 0 | 1 | 2) => corners.reduce((sum, corner) => sum + corner[of], 0) / corners.length;
+  return [mean(0), mean(1), mean(2)];
 }
 
 // Returns the point of the line just in front of the camera.
@@ -160,6 +232,10 @@ function plainColour(material: unknown): string {
 // invisible.
 function isInvisible(material: unknown): boolean {
   return (material as { visible?: boolean }).visible === false;
+}
+
+function hasDepthTest(material: unknown): boolean {
+  return (material as { depthTest?: boolean } | undefined)?.depthTest !== false;
 }
 
 function isWireframe(material: unknown): boolean {

@@ -3,8 +3,8 @@ import { ConnectedViews, SharedViews } from "../protocol/LiveViews";
 import type { ArrivedImage, ServerCamera } from "./ImageFeed";
 import { PushedFeed } from "./PushedFeed";
 
-const CAMERA: ServerCamera = { eye: [1, 2, 3], target: [4, 5, 6], fieldOfViewDeg: 50, width: 640, height: 480 };
-const QUERY = "size=640x480&eye=1.0000,2.0000,3.0000&target=4.0000,5.0000,6.0000&fov=50.000&fps=30";
+const CAMERA: ServerCamera = { eye: [1, 2, 3], target: [4, 5, 6], fieldOfViewDeg: 50, width: 640, height: 480, depthSpacing: 8 };
+const QUERY = "size=640x480&eye=1.0000,2.0000,3.0000&target=4.0000,5.0000,6.0000&fov=50.000&depth=8&fps=30";
 const other = (x: number): ServerCamera => ({ ...CAMERA, eye: [x, 2, 3] });
 
 // The content of an image message, as docs/formats/live.md describes it.
@@ -47,7 +47,7 @@ test("an image comes with its camera and times, and is reported when it was show
   feed.show(other(9));
   expect(take(1, 40, 1_700_000_000_123_000)).toBe(true);
   expect(images[0]).toMatchObject({ camera: CAMERA, stamp: 2.5, seenMs: 1_700_000_000_123 });
-  expect(images[0]!.jpeg.size).toBe(4);
+  expect(images[0]!.jpeg.length).toBe(4);
   expect(sent).toHaveLength(2);
   images[0]!.shown();
   await vi.waitFor(() => expect(sent.at(-1)).toEqual({ op: "gsvViewShown", id: 7, image: 40 }));
