@@ -26,6 +26,7 @@ enum class DriveOrigin {
   kChosen,   // chosen by the user, see drive_choice.h
 };
 
+// An interval of allowed values. An infinite bound means no limit.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -52,8 +53,10 @@ struct Drive {
   // kDifferential: the true radius of the left and of the right wheels, divided by wheel_radius.
   // The drive computes wheel speeds with wheel_radius.
   double left_wheel_scale = 1, right_wheel_scale = 1;
-  double wheel_base = 0;        // kAckermann, kMecanum: distance from front to rear axle
+  double wheel_base = 0;  // kAckermann, kMecanum: distance from front to rear axle
+  // The largest angle to which the front wheels can be steered, to the left and to the right.
   double steering_limit = 0.5;  // kAckermann
+  // Limits of the base's commanded motion.
   Range linear_velocity, angular_velocity;
   Range linear_acceleration, angular_acceleration;
   Slip slip;  // used for wheels whose own slip is not set

@@ -26,6 +26,8 @@ namespace gsv::model {
 struct DriveChoice {
   DriveKind kind = DriveKind::kNone;
   std::vector<std::string> left, right, steer;  // names of the joints
+  // The values of the keys with these names, in m and rad; nullopt if the choice does not set the
+  // key.
   std::optional<double> radius, separation, wheel_base, steering_limit;
 };
 

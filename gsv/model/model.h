@@ -89,6 +89,7 @@ struct Link {
   std::optional<SlippingWheel> wheel = std::nullopt;
 };
 
+// The motion that a joint allows.
 enum class JointKind {
   kFixed,
   kRevolute,
@@ -131,9 +132,9 @@ struct Joint {
   // `axis`.
   geometry::Pose model_from_joint;
   geometry::Vector3 axis{0, 0, 1};  // unit length, in the joint's frame
-  Range position_limits;
-  double effort_limit = std::numeric_limits<double>::infinity();  // in N or N m
-  double velocity_limit = std::numeric_limits<double>::infinity();
+  Range position_limits;            // rad or m, relative to zero position
+  double effort_limit = std::numeric_limits<double>::infinity();    // in N or N m
+  double velocity_limit = std::numeric_limits<double>::infinity();  // rad/s or m/s
   double damping = 0;
   double friction = 0;
   double thread_pitch = 0;  // in m/rad, for kScrew
@@ -169,9 +170,11 @@ enum class Movement {
 
 struct Script;  // gsv/model/script.h
 
+// The data of one model. A placed model is a PlacedModel (gsv/model/world_description.h).
 struct Model {
   std::string name;    // the model's name in the file
   std::string source;  // the file of the model, for messages
+  // True if neither forces nor a drive move the model.
   bool is_static = false;
   // The pose in the file, used in a world if no other pose is given.
   geometry::Pose default_pose;

@@ -16,7 +16,7 @@ namespace gsv::model {
 // A goal: a random point in a disc, different each time.
 struct PedestrianGoal {
   double x = 0, y = 0;
-  double radius = 0;
+  double radius = 0;  // radius of the disc; 0 for exactly this point
   friend bool operator==(const PedestrianGoal&, const PedestrianGoal&) = default;
 };
 

@@ -28,9 +28,9 @@ struct Trajectory {
 
 // Joint positions of a model over time: a gait.
 struct Animation {
-  base::SimTime length{0};  // duration of one cycle, > 0; the animation repeats
-  double distance = 0;      // distance that one cycle covers, m; 0 if unknown
-  int joint_count = 0;
+  base::SimTime length{0};        // duration of one cycle, > 0; the animation repeats
+  double distance = 0;            // distance that one cycle covers, m; 0 if unknown
+  int joint_count = 0;            // number of joints of the model that the animation moves
   std::vector<double> positions;  // joint_count values for each of the evenly spaced keyframes
   int frame_count() const {
     return joint_count == 0 ? 0 : static_cast<int>(positions.size()) / joint_count;
@@ -39,8 +39,9 @@ struct Animation {
 
 // The trajectories of an actor and the animation of its joints.
 struct Script {
-  bool loops = true;
+  bool loops = true;       // whether the script starts again after its last trajectory
   base::SimTime delay{0};  // the delay before each start; not negative
+  // False: the actor stays at the start of its script (SDFormat's <auto_start>).
   bool starts_by_itself = true;
   std::vector<Trajectory> trajectories;        // executed one after the other; may be empty
   std::shared_ptr<const Animation> animation;  // null if joints do not move

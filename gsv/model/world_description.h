@@ -11,6 +11,7 @@
 
 namespace gsv::model {
 
+// A light of a world.
 struct Light {
   enum class Kind { kDirectional, kPoint, kSpot };
   std::string name;
@@ -18,9 +19,10 @@ struct Light {
   geometry::Pose world_from_light;
   geometry::Vector3 direction{0, 0, -1};  // in the light's frame, unit length
   Colour diffuse{1, 1, 1, 1};
-  double intensity = 1;
-  double range = 10;  // range of point and spot lights, m
+  double intensity = 1;  // factor that multiplies `diffuse`
+  double range = 10;     // range of point and spot lights, m
   double constant_attenuation = 1, linear_attenuation = 0, quadratic_attenuation = 0;
+  // Only for spots: the full angles of the cone with full light and of the cone with any light.
   double inner_angle = 0, outer_angle = 0;  // rad: spot
   bool cast_shadows = true;
 };
@@ -29,8 +31,8 @@ struct Light {
 struct SceneLook {
   Colour ambient{0.4, 0.4, 0.4, 1};
   Colour background{0.7, 0.75, 0.8, 1};
-  bool shadows = true;
-  bool sky = false;
+  bool shadows = true;  // false: no light of the world casts shadows
+  bool sky = false;     // true: a blue sky is drawn instead of `background`
 };
 
 // A model with its name and pose in a world.
@@ -38,7 +40,7 @@ struct PlacedModel {
   std::string name;  // unique in its world
   std::shared_ptr<const Model> model;
   geometry::Pose world_from_model;
-  bool is_static = false;
+  bool is_static = false;  // whether the file fixes this model to the world
 };
 
 // The position of the world's origin on the earth (WGS84).
@@ -50,11 +52,12 @@ struct GeodeticOrigin {
 
 struct PedestrianGroup;  // gsv/model/pedestrian_group.h
 
+// The data of one world. A simulation starts from it and does not change it.
 struct WorldDescription {
   std::string name;
-  std::string source;
+  std::string source;  // the file of the world, for messages
   base::SimTime max_step_size{std::chrono::milliseconds(1)};
-  double real_time_factor = 1;
+  double real_time_factor = 1;  // target real-time factor
   geometry::Vector3 gravity{0, 0, -9.8};
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
   // Temperature of the air at height 0, in K.

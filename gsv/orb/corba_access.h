@@ -19,10 +19,12 @@
 namespace gsv::orb {
 
 struct CorbaAccess {
+  // Certificate of this process; nullopt: no TLS, only calls on this machine.
   std::optional<CorbaCertificate> certificate;
-  bool is_insecure = false;
+  bool is_insecure = false;  // whether GSV_INSECURE_CORBA turns access control off
 };
 
+// Reads the environment variables above.
 CorbaAccess AccessFromEnvironment();
 
 // Checks whether a server may listen on `host`. If not, returns kInvalidArgument with a sentence

@@ -49,6 +49,7 @@ enum Raises : unsigned { kRefused = 1, kNotRunning = 2, kEnded = 4, kFailed = 8,
 // Throws the declared exception that fits the error best.
 [[noreturn]] void Throw(const base::Error& error, unsigned raises = kAll);
 
+// Returns the value of `result`. If it is an error, throws the exception of Throw().
 template <typename T>
 T ValueOrThrow(base::Result<T> result, unsigned raises = kAll) {
   if (!result) Throw(result.error(), raises);

@@ -18,7 +18,7 @@ struct SceneSource {
   const sensing::SensorRegistry& sensor_types;
   // Returns the sensors of a robot, avatar or station in the snapshot.
   std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
-  IdentifyModel identify;
+  IdentifyModel identify;  // returns the identifier of a body's model
   // Returns the identifier of CollisionModel(). If the function is empty, the scene has no
   // collisions.
   IdentifyModel identify_collisions;
@@ -32,6 +32,7 @@ std::string SceneJson(const simulation::Simulation& simulation, const IdentifyMo
 // Returns a model whose visuals are the collision shapes of `model`. Planes are left out, because
 // they are unbounded.
 model::Model CollisionModel(const model::Model& model);
+// Whether CollisionModel() of this model has visuals.
 bool HasCollisions(const model::Model& model);
 
 // Returns the bounding box of all visuals except planes. Without visuals, it is a box of 10 m about

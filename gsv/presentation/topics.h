@@ -35,9 +35,9 @@ enum class Replay {
 // The properties of one topic in the table.
 struct Topic {
   std::string_view name{};
-  const messages::Schema* schema = nullptr;
-  bool is_live = true;
-  bool is_recorded = true;
+  const messages::Schema* schema = nullptr;  // schema of the topic's messages
+  bool is_live = true;      // whether viewers of a running simulation get the topic
+  bool is_recorded = true;  // whether recordings contain the topic
   Replay replay = Replay::kNewest;
   // Whether the messages are equal in every run, and are therefore hashed.
   bool is_reproducible = true;
@@ -55,30 +55,45 @@ inline constexpr TopicOf<messages::rosgraph_msgs::Clock> kClock{"/clock"};
 inline constexpr TopicOf<messages::gsv_msgs::Poses> kPoses{"/gsv/poses"};
 // Rounded poses for viewers.
 inline constexpr TopicOf<messages::gsv_msgs::PackedPoses> kPackedPoses{"/gsv/packed_poses"};
+// Transforms of bodies and of their moving links.
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kTransforms{"/tf"};
+// Transforms of sensors relative to their links. They do not change.
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kSensorTransforms{"/tf_static"};
+// Lines that viewers draw for the readings of sensors.
 inline constexpr TopicOf<messages::visualization_msgs::MarkerArray> kBeams{"/gsv/beams"};
+// Phase, time and robots of the simulation, for viewers.
 inline constexpr TopicOf<messages::gsv_msgs::SimulationStatus> kStatus{"/gsv/status"};
+// The status again, for ROS tools.
 inline constexpr TopicOf<messages::diagnostic_msgs::DiagnosticArray> kDiagnostics{"/diagnostics"};
+// Events of the run, except notes and lines of output.
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kEvents{"/gsv/events"};
+// The events again, for ROS tools.
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kLog{"/rosout"};
 // Lines that behaviour programs print.
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kOutput{"/gsv/output"};
 // Notes of viewers.
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kNotes{"/gsv/notes"};
+// Robots that do not move, and the reason.
 inline constexpr TopicOf<messages::gsv_msgs::Health> kHealth{"/gsv/health"};
+// The verdicts on the scenario's expectations.
 inline constexpr TopicOf<messages::gsv_msgs::Expectations> kExpectations{"/gsv/expectations"};
+// New commands to the drives of robots.
 inline constexpr TopicOf<messages::gsv_msgs::Command> kCommands{"/gsv/commands"};
+// New commands to actuators, such as lamps and grippers.
 inline constexpr TopicOf<messages::gsv_msgs::ActuatorCommand> kActuators{"/gsv/actuators"};
+// Contacts that have begun, each once.
 inline constexpr TopicOf<messages::gsv_msgs::Contact> kContacts{"/gsv/contacts"};
 // All contacts of the last step, for viewers.
 inline constexpr TopicOf<messages::gsv_msgs::Contacts> kCurrentContacts{"/gsv/current_contacts"};
+// Radio messages that robots have sent.
 inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
+// The hash of the simulation's state, to compare runs.
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
 // This topic is in every recording of an edited simulation, even if it is not selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
 // The wall-clock time that each part of a step takes.
 inline constexpr TopicOf<messages::gsv_msgs::StepCosts> kStepCosts{"/gsv/step_costs"};
+// The connected viewers, as JSON (gsv/gateway/access/viewers_api.h).
 inline constexpr TopicOf<messages::std_msgs::String> kViewers{"/gsv/viewers"};
 
 }  // namespace topics

@@ -33,6 +33,7 @@ struct Placement {
       Value("yaw", "rad", &Placement::yaw, "orientation"));
 };
 
+// A rotation as a unit quaternion.
 struct Quaternion {
   double w = 1, x = 0, y = 0, z = 0;
   static constexpr auto kFields =
@@ -57,6 +58,7 @@ struct Sonar {
   static constexpr auto kFields = std::make_tuple(Value("range", "m", &Sonar::range));
 };
 
+// The scan of a lidar.
 struct Lidar {
   static constexpr const char* kType = "lidar";
   std::span<const double> ranges;  // one per beam; infinite if the beam hit nothing
@@ -98,8 +100,8 @@ struct Imu {
 // The robot's motion since the start, computed from the rotation of the wheels.
 struct Odometry {
   static constexpr const char* kType = "odometry";
-  double x = 0, y = 0, yaw = 0;
-  double linear = 0, angular = 0;
+  double x = 0, y = 0, yaw = 0;    // pose of the base in the frame of its start
+  double linear = 0, angular = 0;  // forward velocity, m/s; turning rate, rad/s
   double lateral = 0;  // velocity to the left, m/s; missing in readings of gsv 0.1 and earlier
   static constexpr auto kFields =
       std::make_tuple(Value("x", "m", &Odometry::x, "pose.pose.position"),
@@ -110,11 +112,12 @@ struct Odometry {
                       OptionalValue("lateral", "m/s", &Odometry::lateral, "twist.twist.linear"));
 };
 
+// The position and velocity that a satellite receiver measures. Altitudes are above the ellipsoid.
 // WGS84.
 struct Navsat {
   static constexpr const char* kType = "navsat";
   double latitude_deg = 0, longitude_deg = 0, altitude = 0;
-  double east = 0, north = 0, up = 0;
+  double east = 0, north = 0, up = 0;  // velocity of the sensor, m/s
   static constexpr auto kFields = std::make_tuple(
       Value("latitude_deg", "°", &Navsat::latitude_deg, "latitude"),
       Value("longitude_deg", "°", &Navsat::longitude_deg, "longitude"),
@@ -122,6 +125,7 @@ struct Navsat {
       Value("north", "m/s", &Navsat::north), Value("up", "m/s", &Navsat::up));
 };
 
+// The field that a magnetometer measures.
 struct Magnetometer {
   static constexpr const char* kType = "magnetometer";
   Vector field;  // magnetic field in the sensor's frame
@@ -129,6 +133,7 @@ struct Magnetometer {
       std::make_tuple(Value("field", "T", &Magnetometer::field, "magnetic_field"));
 };
 
+// The height that an altimeter measures.
 struct Altimeter {
   static constexpr const char* kType = "altimeter";
   double position = 0, velocity = 0;  // height above the reference height, and its rate
@@ -143,9 +148,9 @@ struct Altimeter {
 // body. The force acts on the robot: the mean over the last step. With planar kinematics, the force
 // is zero.
 struct Touch {
-  std::string other;
+  std::string other;  // name of the other body
   Vector point, normal;
-  double depth = 0;
+  double depth = 0;  // penetration depth, m
   // Approach speed at which the contact began; 0 if the contact began before this step.
   double closing_speed = 0;
   Vector force;
@@ -154,6 +159,7 @@ struct Touch {
       Value("normal", "", &Touch::normal), Value("depth", "m", &Touch::depth),
       Value("closing_speed", "m/s", &Touch::closing_speed), Value("force", "N", &Touch::force));
 };
+// The contacts of a bumper.
 struct Contact {
   static constexpr const char* kType = "contact";
   std::vector<Touch> touches;
@@ -178,17 +184,19 @@ struct EncodedJoint {
                                                   Value("position", "", &EncodedJoint::position),
                                                   Value("velocity", "", &EncodedJoint::velocity));
 };
+// The states of all encoded joints, in the order of the model.
 struct JointEncoders {
   static constexpr const char* kType = "joint_encoders";
   std::vector<EncodedJoint> joints;
   static constexpr auto kFields = std::make_tuple(Value("joints", "", &JointEncoders::joints, ""));
 };
 
+// The state of a battery.
 struct Battery {
   static constexpr const char* kType = "battery";
   double voltage = 0, current = 0;  // current that is drawn from the battery
-  double charge = 0, capacity = 0;
-  double fraction = 0;
+  double charge = 0, capacity = 0;  // charge now, and when the battery is full, Ah
+  double fraction = 0;              // charge / capacity, from 0 to 1
   static constexpr auto kFields = std::make_tuple(
       Value("voltage", "V", &Battery::voltage), Value("current", "A", &Battery::current),
       Value("charge", "Ah", &Battery::charge), Value("capacity", "Ah", &Battery::capacity),
@@ -198,7 +206,7 @@ struct Battery {
 // One model in the view of a logical camera.
 struct Sighting {
   std::string name;
-  Placement sensor_from_model;
+  Placement sensor_from_model;  // pose of the model's frame in the sensor's frame
   static constexpr auto kFields =
       std::make_tuple(Value("name", "", &Sighting::name),
                       Value("sensor_from_model", "", &Sighting::sensor_from_model, "bbox.center"));
@@ -213,9 +221,9 @@ struct LogicalCamera {
 
 // One message that a radio has received.
 struct HeardMessage {
-  std::uint64_t number = 0;  // number of the message, counted from 1 since the radio was opened
-  double sent = 0;
-  double strength = 0;
+  std::uint64_t number = 0;    // number of the message, counted from 1 since the radio was opened
+  double sent = 0;             // simulated time of sending
+  double strength = 0;         // strength at the receiver
   std::string sender;          // robot
   std::string content_base64;  // in Base64, because labels are text
   static constexpr auto kFields = std::make_tuple(
@@ -224,6 +232,7 @@ struct HeardMessage {
       Value("sender", "", &HeardMessage::sender),
       Value("content_base64", "", &HeardMessage::content_base64));
 };
+// The messages in a radio's inbox.
 struct Radio {
   static constexpr const char* kType = "radio";
   std::vector<HeardMessage> messages;  // ordered from the oldest to the newest
@@ -239,6 +248,7 @@ struct Ranging {
       std::make_tuple(Value("distance", "m", &Ranging::distance, "range"));
 };
 
+// The sound at a microphone.
 struct Microphone {
   static constexpr const char* kType = "microphone";
   double level = 0;  // sound level of all sounds, dB re 20 uPa
@@ -251,6 +261,7 @@ struct Microphone {
                       Value("source", "", &Microphone::source));
 };
 
+// The light that a lamp emits.
 struct Lamp {
   static constexpr const char* kType = "lamp";
   double brightness = 0;  // 0: off, 1: full
@@ -259,21 +270,23 @@ struct Lamp {
                                                   Value("colour", "", &Lamp::colour, "color"));
 };
 
+// The state of a gripper's fingers.
 struct Gripper {
   static constexpr const char* kType = "gripper";
-  double opening = 0;
-  bool told_to_open = false;
-  std::string held;  // name of the attached body; empty if there is none
+  double opening = 0;         // distance between the fingers, m
+  bool told_to_open = false;  // true if the last command was to open, false if to close
+  std::string held;           // name of the attached body; empty if there is none
   static constexpr auto kFields = std::make_tuple(
       Value("opening", "m", &Gripper::opening, "opening_m"),
       Value("told_to_open", "", &Gripper::told_to_open), Value("held", "", &Gripper::held));
 };
 
+// The sound that a speaker plays. All numbers are 0 during silence.
 struct Speaker {
   static constexpr const char* kType = "speaker";
-  std::string name;  // name of the sound; empty for silence
-  double frequency = 0, volume = 0;
-  double elapsed = 0, left = 0;
+  std::string name;                  // name of the sound; empty for silence
+  double frequency = 0, volume = 0;  // Hz; from 0 to 1
+  double elapsed = 0, left = 0;      // seconds since the sound's start, and until its end
   static constexpr auto kFields = std::make_tuple(
       Value("name", "", &Speaker::name, "sound"),
       Value("frequency", "Hz", &Speaker::frequency, "frequency_hz"),
@@ -307,7 +320,7 @@ struct DepthImage {
 struct SegmentedImage {
   static constexpr const char* kType = "segmentation_camera";
   int width = 0, height = 0;
-  std::span<const double> pixels;
+  std::span<const double> pixels;  // the label of each pixel
   std::span<const std::string> names;
   static constexpr auto kFields = std::make_tuple(
       Value("width", "px", &SegmentedImage::width), Value("height", "px", &SegmentedImage::height),
@@ -319,8 +332,8 @@ struct SegmentedImage {
 struct ThermalImage {
   static constexpr const char* kType = "thermal_camera";
   int width = 0, height = 0;
-  double resolution = 0;
-  std::span<const double> temperature;
+  double resolution = 0;                // the step of the temperatures, K
+  std::span<const double> temperature;  // one value per pixel, K
   static constexpr auto kFields = std::make_tuple(
       Value("width", "px", &ThermalImage::width), Value("height", "px", &ThermalImage::height),
       Value("resolution", "K", &ThermalImage::resolution),
@@ -333,7 +346,7 @@ struct ThermalImage {
 struct NormalImage {
   static constexpr const char* kType = "normals_camera";
   int width = 0, height = 0;
-  std::span<const double> normals;
+  std::span<const double> normals;  // three values per pixel
   static constexpr auto kFields = std::make_tuple(Value("width", "px", &NormalImage::width),
                                                   Value("height", "px", &NormalImage::height),
                                                   Value("normals", "", &NormalImage::normals));
@@ -350,6 +363,7 @@ struct BoundingBox {
       Value("right", "px", &BoundingBox::right, "bbox.size_x"),
       Value("bottom", "px", &BoundingBox::bottom, "bbox.size_y"));
 };
+// The boxes of all models with a visible pixel, ordered by name.
 struct BoundingBoxes {
   static constexpr const char* kType = "boundingbox_camera";
   std::vector<BoundingBox> boxes;

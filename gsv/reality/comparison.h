@@ -18,14 +18,15 @@ namespace gsv::reality {
 // One statistic. `confidence` is half the width of the 95 % interval of the simulated value; 0 if
 // the value does not vary.
 struct Row {
+  // Name of the device, name of the statistic, and unit of the three values.
   std::string device, what, unit;
   double real = 0, simulated = 0, confidence = 0;
 };
 
 // The real and the simulated distribution of one quantity, which are plotted together.
 struct Series {
-  std::string what, unit;
-  std::vector<double> real, simulated;
+  std::string what, unit;               // name and unit of the quantity
+  std::vector<double> real, simulated;  // all values of the real and of the simulated device
 };
 
 // The result of a comparison: a table and the distributions to plot.
@@ -36,6 +37,7 @@ struct Comparison {
   std::string warning;
 };
 
+// The world, the simulated devices and the amount of data that Compare() and Fit() use.
 struct CompareOptions {
   // The world of the log. If not set, a world is fitted to every other block of 4 s of the log.
   std::optional<model::WorldDescription> world;
@@ -66,7 +68,7 @@ struct FittedParameter {
 };
 // A simulated device whose parameters were fitted to a log.
 struct FittedDevice {
-  std::string type, name;
+  std::string type, name;  // sensor type, and name of the sensor in SDFormat
   std::vector<FittedParameter> parameters;
   std::string warning = {};  // see Comparison::warning
 };

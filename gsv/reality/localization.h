@@ -33,6 +33,7 @@ class LikelihoodField {
   const OccupancyMap& map() const { return map_; }
 
  private:
+  // Returns the distance from a point of the world to the nearest occupied cell, m.
   double DistanceAt(double x, double y) const;
 
   OccupancyMap map_;

@@ -28,8 +28,8 @@ std::vector<MotionWindow> Windows(const std::vector<TimedPose>& reckoned,
 // squares, and the standard deviations of the residuals (m, rad).
 struct MotionStatistics {
   double way_ratio = 1, turn_ratio = 1;
-  double way_scatter = 0, turn_scatter = 0;
-  std::vector<double> way_residuals, turn_residuals;
+  double way_scatter = 0, turn_scatter = 0;  // standard deviations of the residuals, m and rad
+  std::vector<double> way_residuals, turn_residuals;  // one per window, m and rad
 };
 MotionStatistics StatisticsOf(const std::vector<MotionWindow>& windows);
 

@@ -15,9 +15,9 @@ base::Result<std::vector<double>> SimulatedRanges(const Log& log, const CompareO
 
 // The error of one measured and one simulated range, relative to the reference system, m.
 struct RadioErrors {
-  int anchor = 0;
-  double distance = 0;
-  double real = 0, simulated = 0;
+  int anchor = 0;                  // number of the anchor in the log
+  double distance = 0;             // distance by the reference system
+  double real = 0, simulated = 0;  // measured range - distance, and simulated range - distance
 };
 // The errors for one anchor ("to anchor 105"), or for a range of distances ("from 1 to 2 m").
 struct RadioGroup {

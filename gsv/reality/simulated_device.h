@@ -27,8 +27,9 @@ class SimulatedDevice {
   std::vector<double> Read(const TimedPose& pose, std::int64_t step);
 
  private:
+  // the world and the robot at the start; Read() moves a copy
   std::shared_ptr<world::Snapshot> first_;
-  int body_ = -1;
+  int body_ = -1;  // index of the robot in the layout
   std::uint64_t seed_ = 0;
   std::vector<std::unique_ptr<sensing::Sensor>> sensors_;
   std::unique_ptr<sensing::RaySceneCache> rays_;

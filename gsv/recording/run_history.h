@@ -56,10 +56,14 @@ class RunHistory {
   [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
 
  private:
+  // Inbox collects the events and collisions that the stepping thread reports. Run is the recording
+  // of the current run.
   class Inbox;
   class Run;
 
+  // Returns the recording of the current run; null before the first sample.
   std::shared_ptr<Run> run() const;
+  // Appends to collisions_, and drops the oldest. A new run clears the list first.
   void KeepCollisions(const std::vector<Collision>& collisions, bool is_new_run);
 
   const std::weak_ptr<simulation::Simulation> simulation_;
@@ -67,8 +71,8 @@ class RunHistory {
   const std::shared_ptr<Inbox> inbox_;
 
   mutable base::Mutex mutex_;
-  std::shared_ptr<Run> run_ GSV_GUARDED_BY(mutex_);  // null before the first sample
-  std::deque<Collision> collisions_ GSV_GUARDED_BY(mutex_);
+  std::shared_ptr<Run> run_ GSV_GUARDED_BY(mutex_);          // null before the first sample
+  std::deque<Collision> collisions_ GSV_GUARDED_BY(mutex_);  // the newest collisions of the run
 };
 
 }  // namespace gsv::recording

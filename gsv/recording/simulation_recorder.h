@@ -25,6 +25,7 @@
 
 namespace gsv::recording {
 
+// The options of a recording.
 struct RecorderOptions {
   WriteGlb write_glb;      // required: writes a model as GLB
   double poses_rate = 50;  // in Hz of simulated time, > 0
@@ -61,16 +62,22 @@ class SimulationRecorder {
   SimulationRecorder(const std::shared_ptr<simulation::Simulation>& simulation,
                      std::unique_ptr<McapWriter> writer, RecorderOptions options);
 
+  // Records the present state, and the edits before the start.
   void RecordFirst(const simulation::Simulation& simulation);
+  // The function of thread_: records everything that the feed delivers.
   void Run();
   void Record(const Occurrence& occurrence);
   void Record(const Observation& observation);
+  // Records status, expectations and health, if the observation has a status.
   void RecordStatusOf(const Observation& observation);
+  // Records the latest state and the result, and closes the file.
   void WriteEnd();
 
   const std::weak_ptr<simulation::Simulation> simulation_;
   const std::unique_ptr<McapWriter> writer_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
+  // The parts of the recording: topics of the simulation, topics of sensors, health, and
+  // attachments.
   StateTopics states_;
   SensorRecorder sensors_;
   HealthTopic health_;

@@ -39,17 +39,20 @@ class CommandInput {
   // Counts a rejected message of `topic`. Logs only the first rejected message of the robot.
   void Refuse(const base::Error& error, const char* topic);
 
+  // Numbers of applied and of rejected messages.
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const { return refused_; }
 
  private:
+  // Commands the drive.
   void Apply(const world::DriveCommand& command);
   void CommandJoints(const std::vector<int>& joints, world::JointCommand::Kind kind,
                      const std::vector<double>& values, const char* topic);
+  // Counts a message as applied or, if `status` is an error, as rejected.
   void Note(const base::Status& status, const char* topic);
 
   const std::weak_ptr<simulation::Agent> agent_;
-  const std::shared_ptr<NodeSteps> steps_;
+  const std::shared_ptr<NodeSteps> steps_;  // null if no ROS 2 node steps robots
   const std::string robot_;
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> refused_{0};

@@ -32,6 +32,7 @@ class Feed final : public simulation::Observer {
   // Requests snapshots at multiples of these periods.
   void SetPeriods(const std::set<base::SimTime>& periods);
 
+  // The entries that Next() returns.
   struct News {
     SnapshotPointer snapshot;  // null if there is no new snapshot
     std::vector<simulation::Event> events;
@@ -39,10 +40,11 @@ class Feed final : public simulation::Observer {
   // Returns the new entries. If there are none, waits for an entry, until `timeout` (wall-clock
   // time) or until Wake() is called.
   News Next(std::chrono::milliseconds timeout);
+  // Ends the wait of Next() early.
   void Wake();
   // Closes the queue, and releases a stepping thread that waits.
   void Close();
-  std::uint64_t dropped() const;
+  std::uint64_t dropped() const;  // number of dropped snapshots
 
  private:
   static constexpr std::size_t kMaxSnapshots = 16;
@@ -50,8 +52,9 @@ class Feed final : public simulation::Observer {
 
   const bool waits_when_full_;
   mutable base::Mutex mutex_;
-  base::ConditionVariable news_;
-  base::ConditionVariable room_;
+  base::ConditionVariable news_;  // notified when Next() can return
+  base::ConditionVariable room_;  // notified when the queue has space for a snapshot
+  // The instants of each requested period, by period.
   std::map<base::SimTime, recording::Instants> instants_ GSV_GUARDED_BY(mutex_);
   std::deque<SnapshotPointer> snapshots_ GSV_GUARDED_BY(mutex_);
   std::vector<simulation::Event> events_ GSV_GUARDED_BY(mutex_);

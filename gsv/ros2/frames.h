@@ -25,7 +25,7 @@ class Frames {
   Frames(std::string prefix, const model::Model& model);
 
   std::string odom() const { return prefix_ + "odom"; }
-  const std::string& base() const { return base_; }
+  const std::string& base() const { return base_; }  // PREFIXBASE, with BASE as above
   std::string OfLink(const model::Model& model, int link) const;
   // Returns the frame of a sensor. This is the link's frame if sensor and link have equal poses.
   // Otherwise, it is the sensor's own frame.

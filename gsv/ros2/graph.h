@@ -37,7 +37,7 @@ class Graph {
   const Distro distro_;
   // Null if the participant refused to create the writer; the refusal is logged.
   std::unique_ptr<dds::Writer> writer_;
-  std::optional<std::vector<NodeInfo>> sent_;
+  std::optional<std::vector<NodeInfo>> sent_;  // the nodes of the last message
 };
 
 }  // namespace gsv::ros2

@@ -27,7 +27,7 @@ inline constexpr dds::Qos kLogQos{.is_transient_local = true, .depth = 1000};
 // One node in the message of ros_discovery_info.
 struct NodeInfo {
   std::string name_space, name;
-  std::vector<dds::Guid> readers, writers;
+  std::vector<dds::Guid> readers, writers;  // the node's endpoints
   friend bool operator==(const NodeInfo&, const NodeInfo&) = default;
 };
 
@@ -52,10 +52,11 @@ class Node {
                          std::function<void(std::span<const std::byte>)> on_message);
 
  private:
+  // Returns the DDS topic of a ROS topic.
   dds::Topic TopicFor(std::string_view topic, std::string_view type, const dds::Qos& qos) const;
 
   dds::Participant& participant_;
-  const bool has_hashes_;
+  const bool has_hashes_;  // whether endpoints contain the hashes of their types
   const std::function<void()> on_match_;
   NodeInfo info_;
   std::vector<std::unique_ptr<dds::Writer>> writers_;

@@ -44,16 +44,17 @@ class NodeSteps {
  private:
   struct Robot {
     bool is_open = false;
-    std::optional<base::SimTime> stamp{};  // time stamp of the newest command
-    world::DriveCommand command{};
-    std::optional<base::SimTime> awaited{};
-    bool has_warned = false;
+    std::optional<base::SimTime> stamp{};    // time stamp of the newest command
+    world::DriveCommand command{};           // the newest command
+    std::optional<base::SimTime> awaited{};  // the time stamp for which Await() last waited
+    bool has_warned = false;                 // whether a late command was already logged
   };
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified when a command arrives or is_open changes
   std::map<std::string, Robot> robots_ GSV_GUARDED_BY(mutex_);
   base::Mutex repeat_mutex_;
+  // the function of SetRepeat(); may be empty
   std::function<void()> repeat_ GSV_GUARDED_BY(repeat_mutex_);
 };
 

@@ -17,6 +17,7 @@ inline constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
 // The supported ROS 2 distributions. Their discovery data differ.
 enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
 
+// The options of a bridge.
 struct Options {
   std::optional<dds::Range> range{};  // if not set: the range from the environment, else localhost
   Distro distro = Distro::kJazzy;

@@ -23,10 +23,11 @@ class RobotDescriptions {
   base::Result<std::string> Of(const std::shared_ptr<const model::Model>& model);
 
  private:
+  // Converts a model to URDF, and writes its meshes to the subfolder `name` of folder_.
   base::Result<std::string> Write(const model::Model& model, const std::string& name);
 
-  std::optional<base::TemporaryFolder> folder_;  // created with the first mesh
-  std::map<std::shared_ptr<const model::Model>, std::string> texts_;
+  std::optional<base::TemporaryFolder> folder_;                       // created with the first mesh
+  std::map<std::shared_ptr<const model::Model>, std::string> texts_;  // the URDF by model
 };
 
 }  // namespace gsv::ros2

@@ -23,11 +23,13 @@ namespace gsv::ros2 {
 // The ROS 2 node of one robot or station.
 class RobotTopics {
  public:
+  // The objects of the bridge that the topics of all robots use.
   struct Context {
     dds::Participant& participant;
     const Options& options;
     simulation::Simulation& simulation;
-    sensing::SensorSet& sensors;
+    sensing::SensorSet& sensors;  // creates the sensors that are sampled for ROS 2
+    // called when a reader of one of the topics is added or removed
     std::function<void()> on_match;
   };
 
@@ -59,12 +61,16 @@ class RobotTopics {
 
  private:
   void AddSensors(const Context& context);
+  // Adds the topic of the true pose. Also adds joint states and odometry if the model has no
+  // sensors for them.
   void AddImplied(const Context& context);
+  // Adds the topics of a sensor. `is_only`: see RosSensor.
   void AddSensor(const Context& context, model::SensorDescription description, bool is_only);
+  // Subscribes to the commands of drive and joints.
   void TakeCommands(const Context& context);
   void TakeJointCommands(const Context& context, const std::shared_ptr<CommandInput>& input);
 
-  const std::string body_;
+  const std::string body_;  // name of the body in the world
   const std::shared_ptr<const model::Model> model_;
   const world::BodyKind kind_;
   const bool has_odometry_;
@@ -80,7 +86,7 @@ class RobotTopics {
   dds::Writer* description_ = nullptr;
   // Type of cmd_vel, such as "geometry_msgs/msg/Twist"; empty if there is no such topic.
   std::string drive_type_;
-  dds::Reader* drive_reader_ = nullptr;
+  dds::Reader* drive_reader_ = nullptr;  // reader of cmd_vel; null if there is none
   bool has_warned_of_many_ = false;
   bool has_warned_of_type_ = false;
 };

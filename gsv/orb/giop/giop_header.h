@@ -24,11 +24,11 @@ struct GiopHeader {
     kCancelRequest = 2,
     kFragment = 7,
   };
-  int minor = 0;
-  std::uint8_t type = 0;
+  int minor = 0;          // minor version of GIOP: 0 to 2
+  std::uint8_t type = 0;  // a value of Type, or of another message type of GIOP
   bool little_endian = false;
-  bool more_fragments = false;
-  std::size_t body_bytes = 0;
+  bool more_fragments = false;  // whether the message continues in a later fragment
+  std::size_t body_bytes = 0;   // number of bytes behind this header
 };
 
 // Returns nullopt if the bytes are not the header of a message of GIOP 1.0 to 1.2. Requires at
@@ -51,7 +51,7 @@ RequestHeader ReadRequestHeader(base::CdrReader& in);
 struct ReplyHeader {
   enum Status : std::uint32_t { kNoException = 0, kUserException = 1 };
   std::uint32_t id = 0;
-  std::uint32_t status = 0;
+  std::uint32_t status = 0;  // a value of Status, or of another reply status of GIOP
 };
 // `in` must be at the reply's header. Afterwards it is at the results.
 ReplyHeader ReadReplyHeader(base::CdrReader& in);

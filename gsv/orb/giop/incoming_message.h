@@ -10,6 +10,7 @@ class IncomingMessage {
   // `limit` is the maximum size of a message with its headers, in bytes.
   explicit IncomingMessage(std::size_t limit) : assembly_(limit) {}
 
+  // The buffer into which the caller writes received bytes.
   MessageAssembly& assembly() { return assembly_; }
   // Returns whether a message can be passed to the ORB, or was refused. CancelRequest messages are
   // dropped, as no servant supports them.
@@ -28,7 +29,7 @@ class IncomingMessage {
 
  private:
   MessageAssembly assembly_;
-  std::size_t handed_out_ = 0;
+  std::size_t handed_out_ = 0;  // number of bytes of the message that HandOut() has copied
 };
 
 }  // namespace gsv::orb

@@ -15,6 +15,7 @@ namespace gsv::orb {
 
 class MessageAssembly {
  public:
+  // kRefused: the bytes are no valid message or exceed the limit. The connection must end.
   enum class State { kIncomplete, kComplete, kRefused };
 
   // `limit` is the maximum size of a complete message with its headers, in bytes.
@@ -38,13 +39,15 @@ class MessageAssembly {
   void Reset();
 
  private:
+  // Reads the GIOP header at the start of frame_, and sets wanted_ to the size of the frame.
   void ReadHeader();
+  // Appends the complete frame_ to message_.
   void FinishFrame();
 
-  std::size_t limit_;
+  std::size_t limit_;  // maximum size of a message with its headers, in bytes
   State state_ = State::kIncomplete;
-  std::string frame_;  // the message or fragment that is being received
-  std::size_t received_ = 0;
+  std::string frame_;         // the message or fragment that is being received
+  std::size_t received_ = 0;  // number of bytes in frame_ so far
   std::size_t wanted_ =
       kGiopHeaderBytes;  // size of the frame; until its header has arrived, size of the header
   std::string message_;  // the fragments that were joined so far

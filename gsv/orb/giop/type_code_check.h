@@ -37,20 +37,25 @@ class TypeCodeCheck {
   void Any(CdrReader& in) { ReadAny(in, 0); }
 
  private:
+  // A TypeCode that was read. Other TypeCodes refer to it by its index in types_.
   struct Type {
-    std::uint32_t kind = 0;
-    std::size_t depth = 1;
-    std::size_t size = 1;  // number of types in this type, including itself
+    std::uint32_t kind = 0;  // a value of CORBA's TCKind
+    std::size_t depth = 1;   // number of nested levels of types, including this type
+    std::size_t size = 1;    // number of types in this type, including itself
     // length of an array, number of names of an enumeration, or digits of a fixed-point type
     std::uint32_t length = 0;
     // the types of the members, of the element, or of the aliased type; a union's first part is its
     // discriminator
     std::vector<std::size_t> parts;
     std::vector<std::uint64_t> labels;  // labels of a union, one for each member
-    std::int32_t default_member = -1;
+    std::int32_t default_member = -1;   // index of a union's default member; -1 if there is none
   };
 
+  // The functions below read and check one part of the message. `depth` is the nesting of this
+  // part. Functions that return an index return an index in types_; if `in` has failed, this type
+  // has no meaning.
   std::size_t ReadTypeCode(CdrReader& in, std::size_t depth);
+  // Reads a reference to a TypeCode earlier in the message.
   std::size_t Repeated(CdrReader& in);
   void ReadParameters(Type& type, CdrReader in, std::size_t depth);
   void ReadMembers(Type& type, CdrReader& in, std::size_t depth);
@@ -58,19 +63,22 @@ class TypeCodeCheck {
   void AddPart(Type& type, CdrReader& in, std::size_t depth);
 
   void ReadAny(CdrReader& in, std::size_t depth);
+  // Reads an any that contains a number or a string. Returns false, and reads nothing, for any
+  // other.
   bool ReadSimpleAny(CdrReader& in);
   void ReadValue(std::size_t type, CdrReader& in, std::size_t depth);
   void ReadUnionValue(std::size_t type, CdrReader& in, std::size_t depth);
   void ReadElements(std::size_t element, std::size_t count, CdrReader& in, std::size_t depth);
   std::uint64_t ReadDiscriminator(std::size_t type, CdrReader& in);
+  // Returns the type behind all aliases (typedefs).
   std::size_t WithoutAlias(std::size_t type) const;
 
   TypeCodeLimits limits_;
-  std::vector<Type> types_;
+  std::vector<Type> types_;  // all types of the message, in the order of reading
   // the types of the current TypeCode, by the address of their first byte
   std::map<const char*, std::size_t> read_;
-  std::size_t type_count_ = 0;
-  std::size_t value_count_ = 0;
+  std::size_t type_count_ = 0;   // number of types so far, for TypeCodeLimits::types
+  std::size_t value_count_ = 0;  // number of values so far, for TypeCodeLimits::values
 };
 
 }  // namespace gsv::orb

@@ -7,8 +7,10 @@
 
 namespace gsv::orb {
 
+// Bytes in CDR. Each function appends one value, with its padding, and returns this object.
 class RawCdr {
  public:
+  // Appends zeros up to a multiple of `alignment` bytes.
   RawCdr& Align(std::size_t alignment) {
     while (bytes_.size() % alignment != 0) bytes_.push_back('\0');
     return *this;
@@ -19,12 +21,14 @@ class RawCdr {
   }
   RawCdr& UShort(std::uint16_t value) { return Align(2).Number(value, 2); }
   RawCdr& ULong(std::uint32_t value) { return Align(4).Number(value, 4); }
+  // Appends a sequence: the number of octets, then the octets.
   RawCdr& Octets(std::string_view octets) {
     ULong(static_cast<std::uint32_t>(octets.size()));
     bytes_ += octets;
     return *this;
   }
   RawCdr& String(std::string_view text) { return Octets(std::string(text) + '\0'); }
+  // Appends the bytes alone, without a length and without padding.
   RawCdr& Raw(std::string_view bytes) {
     bytes_ += bytes;
     return *this;

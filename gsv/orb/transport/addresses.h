@@ -40,9 +40,9 @@ class TlsAddress final : public omni::tcpAddress {
                                       CORBA::Boolean& timed_out) const override;
 
  private:
-  const std::shared_ptr<const TlsContext> context_;
+  const std::shared_ptr<const TlsContext> context_;  // null if this process has no certificate
   IIOP::Address address_;
-  CORBA::String_var text_;
+  CORBA::String_var text_;  // the address as a URI
 };
 
 // The file of a Unix domain socket as an address.

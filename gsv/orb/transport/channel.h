@@ -48,6 +48,7 @@ class PlainChannel final : public Channel {
  private:
   // Polls without sleeping. Returns the same values as Receive(), and 0 after `until`.
   int PollForBytes(void* buffer, std::size_t size, std::chrono::steady_clock::time_point until);
+  // Waits in poll(). Returns the same values as Receive().
   int SleepForBytes(void* buffer, std::size_t size, const omni_time_t& deadline);
 
   const int socket_;

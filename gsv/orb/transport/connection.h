@@ -30,6 +30,7 @@ ConnectionAddresses AddressesOfTcp(int socket, const char* scheme);
 // Returns the addresses of an accepted Unix domain socket. The peer of such a socket has no name.
 // `server` is "giop:unix:FILE".
 ConnectionAddresses AddressesOfAcceptedLocal(const std::string& server);
+// Returns the addresses of a Unix domain socket that this process has connected to `server`.
 ConnectionAddresses AddressesOfMadeLocal(const std::string& server);
 
 class Connection : public omni::giopConnection,
@@ -60,19 +61,22 @@ class Connection : public omni::giopConnection,
 
  protected:
   // Makes a connection that this process has opened.
+  // The common part of the two constructors above.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              const ConnectionPolicy& policy);
 
  private:
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              omni::SocketCollection& collection, const MessageLimits& limits);
+  // Reads the next bytes into incoming_. Returns the same values as Recv().
   int ReadPiece(const omni_time_t& deadline) GSV_REQUIRES(mutex_);
 
   std::unique_ptr<Channel> channel_;
   const ConnectionAddresses addresses_;
-  const std::chrono::seconds message_time_;
+  const std::chrono::seconds message_time_;  // MessageLimits::time
+  // true if a client has opened the connection, false if this process has
   bool is_accepted_ = false;
-  std::unique_ptr<ConnectionHooks> hooks_;
+  std::unique_ptr<ConnectionHooks> hooks_;  // null if the policy has no hooks for this connection
   std::atomic<bool> is_shut_down_ = false;
   base::Mutex mutex_;
   IncomingMessage incoming_ GSV_GUARDED_BY(mutex_);

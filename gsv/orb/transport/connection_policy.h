@@ -19,6 +19,7 @@
 
 namespace gsv::orb {
 
+// Limits of incoming messages. A connection ends if a message exceeds them.
 struct MessageLimits {
   std::size_t bytes = 64u << 20;  // maximum size of a message with its header
   std::chrono::seconds time{30};  // maximum time from the first byte of a message to the last
@@ -48,6 +49,7 @@ class ConnectionHooks {
 
   // Called when the ORB wants to read and no message has begun.
   virtual void OnWait() {}
+  // Called when bytes have been received, before they make a complete message.
   virtual void OnBytes() {}
   // Called with a complete message. The hook may remove the end of the message before the ORB sees
   // it.

@@ -17,6 +17,8 @@
 
 namespace gsv::orb {
 
+// Alarm wakes the accepting thread at regular intervals, so that slow handshakes end.
+// PendingHandshake is a client whose TLS handshake is not complete.
 class Alarm;
 class PendingHandshake;
 
@@ -32,6 +34,7 @@ class Listener {
   // it calls `readable` for each connection from which the ORB must read. Returns null after
   // Poke().
   omni::giopConnection* Await(omni::giopConnection::notifyReadable_t readable, void* cookie);
+  // Ends Await().
   void Poke() { poked_ = true; }
 
   // Accepts a client. The listener becomes the owner of the socket.
@@ -40,6 +43,7 @@ class Listener {
   void Notify(omni::SocketHolder* holder);
 
  private:
+  // Makes a connection whose handshake, if any, is complete. Await() returns it.
   void AddConnection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses);
   // Continues a handshake, and makes a connection of the socket when the handshake is complete.
   void Proceed(PendingHandshake* pending);
@@ -54,9 +58,10 @@ class Listener {
   // ordered from the oldest to the newest
   std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;
   std::unique_ptr<Alarm> alarm_;  // set if there are pending handshakes
+  // The arguments of the current Await().
   omni::giopConnection::notifyReadable_t readable_ = nullptr;
   void* cookie_ = nullptr;
-  std::atomic<bool> poked_ = false;
+  std::atomic<bool> poked_ = false;  // whether Poke() was called
 };
 
 }  // namespace gsv::orb

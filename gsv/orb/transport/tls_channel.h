@@ -23,7 +23,10 @@ namespace gsv::orb {
 
 class TlsChannel final : public Channel {
  public:
+  // The role of this process in the handshake.
   enum class Side { kServer, kClient };
+  // The result of a call to OpenSSL. kWantsToRead and kWantsToWrite: the call must be repeated when
+  // the socket is readable or writable.
   enum class Step { kDone, kWantsToRead, kWantsToWrite, kFailed };
 
   // The caller keeps the ownership of the socket, which becomes non-blocking.
@@ -47,22 +50,28 @@ class TlsChannel final : public Channel {
   void Close() override;
 
  private:
+  // Converts the result of a call to OpenSSL, and sets failure_ if it has failed.
   Step StepAfter(int result) GSV_REQUIRES(mutex_);
   template <typename Call>
+  // Makes a call to OpenSSL once. Sets `moved` to the number of bytes that were read or written.
   Step Try(const Call& call, std::size_t& moved);
   template <typename Call>
+  // Repeats a call to OpenSSL until it is done. Returns the same values as Channel::Receive().
   int Await(const Call& call, const omni_time_t& deadline);
 
   const std::shared_ptr<const TlsContext> context_;
   const int socket_;
   mutable base::Mutex mutex_;
+  // Null if OpenSSL could not create a session.
   ssl_st* const session_ GSV_PT_GUARDED_BY(mutex_);
+  // the clause of failure(); empty if nothing has failed
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 
 // Returns the reason why the last TLS connection that this thread requested has failed, and deletes
 // the stored reason. Returns an empty text if that connection has not failed.
 std::string TakeTlsFailure();
+// Stores the reason of a failure for TakeTlsFailure() on this thread.
 void NoteTlsFailure(std::string why);
 
 }  // namespace gsv::orb

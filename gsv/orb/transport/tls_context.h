@@ -10,12 +10,14 @@ struct ssl_ctx_st;
 
 namespace gsv::orb {
 
+// The PEM files of a certificate, of its private key, and of the authority that is trusted.
 struct CorbaCertificate {
   std::filesystem::path certificate, key, authority;
 
   bool operator==(const CorbaCertificate&) const = default;
 };
 
+// An OpenSSL context that was made from a CorbaCertificate.
 class TlsContext {
  public:
   // Reads the files. Fails with a sentence that names the invalid file.

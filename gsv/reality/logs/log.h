@@ -23,13 +23,13 @@ struct TimedPose {
 // A velocity command.
 struct TimedTwist {
   double time = 0;
-  double linear = 0, angular = 0;
+  double linear = 0, angular = 0;  // forward velocity and turning rate
 };
 
 // The distance that each wheel has travelled since the start of the log.
 struct TimedWheels {
   double time = 0;
-  double left = 0, right = 0;
+  double left = 0, right = 0;  // m
 };
 
 // The ranges of all beams, or of all sonars of a ring, at one instant. Infinite means no echo.
@@ -42,25 +42,26 @@ struct RangeScan {
 // One measured distance to a radio anchor, and the distance by the reference system.
 struct RadioRange {
   double time = 0;
-  int anchor = 0;
-  double measured = 0, reference = 0;
-  double anchor_x = 0, anchor_y = 0;
+  int anchor = 0;                      // number of the anchor in the log
+  double measured = 0, reference = 0;  // distance by the radio, and by the reference system
+  double anchor_x = 0, anchor_y = 0;   // position of the anchor
 };
 
 // The data of one drive of a real robot. Series that the log lacks are empty.
 struct Log {
   // Poses from a reference system, such as motion capture or an overhead camera.
   std::vector<TimedPose> truth;
-  bool truth_has_yaw = true;
-  std::vector<TimedPose> odometry;  // poses from the robot's own odometry
-  std::vector<TimedTwist> commands;
-  std::vector<TimedWheels> wheels;
-  std::vector<double> beam_angles;
-  double max_range = 0;          // maximum range; a reading of this value means no echo
-  double sensor_forward = 0;     // distance from the base to the sensor along x, m
-  bool is_sonar = false;         // whether the beams are cones of sound
-  std::vector<RangeScan> scans;  // each scan has beam_angles.size() ranges
-  std::vector<RadioRange> radio;
+  bool truth_has_yaw = true;         // false if the reference system measures only positions
+  std::vector<TimedPose> odometry;   // poses from the robot's own odometry
+  std::vector<TimedTwist> commands;  // commands to the robot's drive
+  std::vector<TimedWheels> wheels;   // readings of the wheel encoders
+  std::vector<double> beam_angles;   // direction of each beam of a scan
+  double max_range = 0;              // maximum range; a reading of this value means no echo
+  double sensor_forward = 0;         // distance from the base to the sensor along x, m
+  bool is_sonar = false;             // whether the beams are cones of sound
+  std::vector<RangeScan> scans;      // each scan has beam_angles.size() ranges
+  std::vector<RadioRange> radio;     // ranges to radio anchors
+  // The time of the last entry of all series, s.
   double duration() const;
 };
 

@@ -51,7 +51,9 @@ class TextRows {
     });
   }
 
+  // Counts the current row as unusable, and reports the reason.
   void LeaveOut(const std::string& why) { LeaveOutLine(why, line_); }
+  // Reports a problem of the current row, which stays usable.
   void Warn(const std::string& what);
 
   // Call this after the last row. Fails with kCorrupt if too many rows were left out, or if no row
@@ -61,23 +63,28 @@ class TextRows {
  private:
   TextRows(std::filesystem::path path, std::string text, base::Problems& problems)
       : path_(std::move(path)), text_(std::move(text)), problems_(&problems) {}
+  // The time of a row, and the row's line in the file.
   struct TimedLine {
     double time = 0;
     int line = 0;
   };
+  // Do the same as LeaveOut() and Warn(), for any line.
   void LeaveOutLine(const std::string& why, int line);
   void WarnOf(const std::string& what, int line);
+  // Warns of gap_, and clears it.
   void ReportGap();
+  // Leaves out a row that the caller has already used, because its time is wrong.
   void LeaveOutAsMisdated(const TimedLine& row, const std::string& why);
+  // Decides whether the time of doubtful_ is wrong. `time` is the time of the row after it.
   void DecideOn(double time);
 
   std::filesystem::path path_;
   std::string text_;
   base::Problems* problems_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0;  // offset of the next line in text_
   int line_ = 0;
-  std::vector<std::string_view> words_;
-  std::size_t rows_ = 0, left_out_ = 0, warnings_ = 0;
+  std::vector<std::string_view> words_;                 // the words of the current row
+  std::size_t rows_ = 0, left_out_ = 0, warnings_ = 0;  // numbers of rows and of warnings so far
   // The newest rows in the order of time, at most kMaxMisdated + 1; the last one is the newest.
   std::vector<TimedLine> recent_;
   // A row that is earlier than a few rows before it. The next row shows which of them are
@@ -85,7 +92,7 @@ class TextRows {
   std::optional<TimedLine> doubtful_;
   // The time before a gap, and the row after it. Kept until enough rows confirm the gap.
   std::optional<std::pair<double, TimedLine>> gap_;
-  std::vector<double> misdated_;
+  std::vector<double> misdated_;  // times of the rows that were left out after their use
 };
 
 }  // namespace gsv::reality

@@ -21,6 +21,7 @@ enum class Cell : std::uint8_t { kFree, kOccupied, kUnknown };
 struct OccupancyMap {
   int width = 0, height = 0;  // cells
   double resolution = 0.05;   // side of a cell, m
+  // Pose of the lower left corner of the map in the world, m and rad.
   double origin_x = 0, origin_y = 0, origin_yaw = 0;
   std::vector<Cell> cells;  // width * height cells, rows from the bottom
 

@@ -21,6 +21,7 @@ namespace gsv::recording {
 inline constexpr std::string_view kSceneAttachment = "scene.json";
 inline std::string ModelAttachment(const std::string& id) { return "models/" + id + ".glb"; }
 
+// Writes a model as a GLB file. Returns the bytes of the file.
 using WriteGlb = std::function<base::Result<std::vector<std::uint8_t>>(const model::Model& model)>;
 
 // Attaches the scene and its models to one recording.
@@ -43,6 +44,7 @@ class SceneAttachments {
   McapWriter& writer_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const WriteGlb write_glb_;
+  // Identifiers of models, and of their collision shapes, by model.
   std::map<std::shared_ptr<const model::Model>, std::string> identities_, collisions_;
   std::set<std::string> attached_;               // identifiers of the attached models
   std::shared_ptr<const world::Layout> layout_;  // layout of the last attached scene

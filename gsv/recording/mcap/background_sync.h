@@ -24,11 +24,13 @@ class BackgroundSync {
   base::Status status() const;
 
  private:
+  // The function of thread_: flushes the sink whenever is_asked_ is set.
   void Run();
 
   ByteSink& sink_;
   mutable base::Mutex mutex_;
-  base::ConditionVariable work_;
+  base::ConditionVariable work_;  // notified when is_asked_ or is_ending_ is set
+  // whether RequestSync() was called since the last flush began
   bool is_asked_ GSV_GUARDED_BY(mutex_) = false;
   bool is_ending_ GSV_GUARDED_BY(mutex_) = false;
   base::Status status_ GSV_GUARDED_BY(mutex_);

@@ -54,6 +54,7 @@ class ByteReader {
   bool ok() const { return ok_; }
   std::size_t remaining() const { return bytes_.size(); }
 
+  // Reads the next `size` bytes.
   std::span<const std::byte> Take(std::uint64_t size) {
     if (size > bytes_.size()) {
       ok_ = false;

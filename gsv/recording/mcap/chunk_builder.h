@@ -34,10 +34,11 @@ class ChunkBuilder {
 
  private:
   ZstdCompressor compressor_;
-  Bytes records_;
+  Bytes records_;  // the collected records, not compressed
   // The message index of each channel; empty for channels without messages in the chunk.
   std::vector<MessageIndexRecord> index_;
   std::vector<std::uint16_t> channels_;  // channels with entries
+  // Times of the earliest and of the latest collected message.
   base::SimTime start_{};
   base::SimTime end_{};
   Chunk chunk_;  // the last chunk; its memory is reused

@@ -40,28 +40,35 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
 
  private:
+  // Sink is the output of MakeSink(). Source is the input of a reader that Open() makes.
   class Sink;
   class Source;
+  // Bytes that the ring and its readers share.
   using Stored = std::shared_ptr<const Bytes>;
   // The bytes of one write, which are whole records.
   struct Piece {
     std::uint64_t offset = 0;
     Stored bytes;
   };
+  // A chunk that the ring keeps, with its message index.
   struct Chunk {
     Piece piece;
     MessageBlock block;
     std::map<std::uint16_t, std::uint64_t> counts;  // number of messages by channel
   };
+  // An attachment that the ring keeps.
   struct Attached {
     Piece piece;
     AttachmentIndexRecord index;
   };
 
+  // Stores the bytes of one write of the sink.
   void Write(std::span<const std::byte> bytes);
+  // Stores what the record contains. `piece` is the write that contains the record.
   void AddRecord(const RawRecord& record, const Piece& piece) GSV_REQUIRES(mutex_);
   void AddChunk(const ChunkRecord& chunk, std::span<const std::byte> indexes, const Piece& piece)
       GSV_REQUIRES(mutex_);
+  // Drops the oldest chunks until all pieces are within the capacity.
   void Shrink() GSV_REQUIRES(mutex_);
   // Drops each attachment that was replaced before the first kept chunk, by a later attachment with
   // the same name.
@@ -71,6 +78,7 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   mutable base::Mutex mutex_;
   std::uint64_t offset_ GSV_GUARDED_BY(mutex_) = 0;  // offset of the next write
   std::size_t size_ GSV_GUARDED_BY(mutex_) = 0;      // number of bytes of all kept pieces
+  // number of written messages, including dropped ones
   std::uint64_t messages_ GSV_GUARDED_BY(mutex_) = 0;
   std::deque<Chunk> chunks_ GSV_GUARDED_BY(mutex_);
   std::vector<Attached> attachments_ GSV_GUARDED_BY(mutex_);

@@ -44,7 +44,7 @@ class FileDescriptor {
   int get() const { return fd_; }
 
  private:
-  int fd_;
+  int fd_;  // -1 after a move
 };
 
 class FileSink : public ByteSink {

@@ -18,8 +18,8 @@ namespace gsv::recording {
 
 // The properties of an MCAP file.
 struct FileOptions {
-  std::string profile = "ros2";
-  std::string library = "gsv";
+  std::string profile = "ros2";  // MCAP's name for the conventions that the file follows
+  std::string library = "gsv";   // name of the program that writes the file
   // A chunk is closed when its messages have this many bytes, uncompressed.
   std::size_t chunk_size = std::size_t{1} << 20;
   // zstd's level. Level 3 takes twice the time, for files that are 1 % smaller.
@@ -53,9 +53,11 @@ class McapFileWriter {
   std::uint64_t bytes_written() const { return position_; }
 
  private:
+  // Writes bytes to the sink, and updates position_ and crc_.
   void WriteRaw(std::span<const std::byte> bytes);
   template <typename Record>
   void WriteRecord(const Record& record);
+  // Writes everything behind the last chunk: the end of the data, the summary and the footer.
   void WriteEnd();
 
   ByteSink& sink_;
@@ -64,8 +66,8 @@ class McapFileWriter {
   bool closed_ = false;
   // Whether the last record is complete; false if truncating failed after an error.
   bool ends_in_a_record_ = true;
-  std::uint64_t position_ = 0;
-  std::uint32_t crc_ = 0;  // checksum of all bytes before position_
+  std::uint64_t position_ = 0;  // number of bytes written so far
+  std::uint32_t crc_ = 0;       // checksum of all bytes before position_
   ChunkBuilder chunk_;
   Bytes record_;  // the record that Write() encodes; its memory is reused
 

@@ -15,6 +15,7 @@
 
 namespace gsv::recording {
 
+// The first and the last eight bytes of every MCAP file.
 inline constexpr std::array<std::byte, 8> kMagic{std::byte{0x89}, std::byte{'M'}, std::byte{'C'},
                                                  std::byte{'A'},  std::byte{'P'}, std::byte{'0'},
                                                  std::byte{'\r'}, std::byte{'\n'}};
@@ -37,15 +38,17 @@ enum class Opcode : std::uint8_t {
   kDataEnd = 0x0f,
 };
 
+// bytes of opcode and length before a record's content
 inline constexpr std::size_t kRecordHeaderSize = 9;
 
 struct HeaderRecord {
-  std::string profile;
-  std::string library;
+  std::string profile;  // name of the conventions that the file follows, such as "ros2"
+  std::string library;  // name of the program that wrote the file
 };
 
 struct FooterRecord {
   std::uint64_t summary_start = 0;  // 0 if there is no summary
+  // offset of the SummaryOffset records; 0 if there are none
   std::uint64_t summary_offset_start = 0;
   std::uint32_t summary_crc = 0;  // 0 if there is no checksum
 };
@@ -54,8 +57,8 @@ inline constexpr std::size_t kFooterSize = kRecordHeaderSize + 20;
 struct SchemaRecord {
   std::uint16_t id = 0;  // must not be 0
   std::string name;
-  std::string encoding;
-  std::string data;
+  std::string encoding;  // language of `data`, such as "ros2msg"
+  std::string data;      // definition of the message type
 
   friend bool operator==(const SchemaRecord&, const SchemaRecord&) = default;
 };
@@ -64,7 +67,7 @@ struct ChannelRecord {
   std::uint16_t id = 0;
   std::uint16_t schema_id = 0;  // 0 if the channel has no schema
   std::string topic;
-  std::string message_encoding;
+  std::string message_encoding;  // encoding of the channel's messages, such as "cdr"
   StringMap metadata;
 
   friend bool operator==(const ChannelRecord&, const ChannelRecord&) = default;
@@ -72,7 +75,7 @@ struct ChannelRecord {
 
 struct MessageRecord {
   std::uint16_t channel_id = 0;
-  std::uint32_t sequence = 0;
+  std::uint32_t sequence = 0;  // number of the message within its channel
   base::SimTime log_time{};
   base::SimTime publish_time{};
   std::span<const std::byte> data;  // the struct does not own these bytes
@@ -101,7 +104,7 @@ struct ChunkIndexRecord {
   std::uint64_t chunk_length = 0;  // length of the whole record
   // Pairs of a channel and the offset of its message index in the file, ordered by channel.
   std::vector<std::pair<std::uint16_t, std::uint64_t>> message_index_offsets{};
-  std::uint64_t message_index_length = 0;
+  std::uint64_t message_index_length = 0;  // length of all message index records of the chunk
   std::string compression{};
   std::uint64_t compressed_size = 0;
   std::uint64_t uncompressed_size = 0;
@@ -116,8 +119,8 @@ struct AttachmentRecord {
 };
 
 struct AttachmentIndexRecord {
-  std::uint64_t offset = 0;
-  std::uint64_t length = 0;
+  std::uint64_t offset = 0;  // offset of the attachment's record in the file
+  std::uint64_t length = 0;  // length of the whole record
   std::chrono::nanoseconds log_time{};
   std::chrono::nanoseconds create_time{};
   std::uint64_t data_size = 0;
@@ -145,15 +148,15 @@ struct MetadataRecord {
 };
 
 struct MetadataIndexRecord {
-  std::uint64_t offset = 0;
-  std::uint64_t length = 0;
+  std::uint64_t offset = 0;  // offset of the metadata record in the file
+  std::uint64_t length = 0;  // length of the whole record
   std::string name;
 };
 
 // The place in the summary where the records of one kind are.
 struct SummaryOffsetRecord {
-  Opcode group{};
-  std::uint64_t start = 0;
+  Opcode group{};           // the kind of these records
+  std::uint64_t start = 0;  // offset of the first of these records in the file
   std::uint64_t length = 0;
 };
 
@@ -218,6 +221,7 @@ std::optional<MetadataIndexRecord> Parse(std::span<const std::byte> content);
 // Parses the start of an attachment. `content` may end after the media type.
 std::optional<AttachmentIndexRecord> ParseAttachmentHead(std::span<const std::byte> content);
 
+// A record whose content was not parsed.
 struct RawRecord {
   Opcode opcode{};
   std::span<const std::byte> content;

@@ -44,6 +44,7 @@ struct ChannelOptions {
   bool reproducible = true;
 };
 
+// Identifies a channel of one McapWriter. AddChannel() returns it.
 using ChannelId = std::uint16_t;
 
 class McapWriter {
@@ -90,11 +91,18 @@ class McapWriter {
   Progress progress() const;
 
  private:
+  // Enqueues a large record in its own buffer. Waits for space; drops the record only after an
+  // error.
   void EnqueueWhole(Bytes record);
+  // The size of the queue, in bytes.
   std::size_t queued() const GSV_REQUIRES(mutex_) { return queue_.size() + whole_size_; }
+  // Wakes the writer's thread if the queue has become long. `before` is the previous queued().
   void WakeWriter(std::size_t before) GSV_REQUIRES(mutex_);
+  // Waits until the queue has space. Returns false if the recording has ended.
   bool WaitForSpace(base::MutexLock& lock) GSV_REQUIRES(mutex_);
+  // Ends the recording early, and discards the queue.
   void EndWith(base::Error error) GSV_REQUIRES(mutex_);
+  // The function of thread_: writes the queue to the sink until Close().
   void Run();
 
   const WriterOptions options_;
@@ -104,11 +112,11 @@ class McapWriter {
   mutable base::Mutex mutex_;
   // Notified when there is work for the writer's thread.
   base::ConditionVariable work_;
-  base::ConditionVariable room_;                     // notified when the queue is empty again
-  Bytes queue_ GSV_GUARDED_BY(mutex_);               // encoded records in the form of the file
-  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);  // large records, each in its own buffer
-  std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;
-  bool flush_ GSV_GUARDED_BY(mutex_) = false;
+  base::ConditionVariable room_;                       // notified when the queue is empty again
+  Bytes queue_ GSV_GUARDED_BY(mutex_);                 // encoded records in the form of the file
+  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);    // large records, each in its own buffer
+  std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;  // number of bytes in whole_
+  bool flush_ GSV_GUARDED_BY(mutex_) = false;  // whether the thread must flush the sink next
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
   // Time of the oldest message that is not flushed; zero if there is none.
   std::chrono::steady_clock::time_point oldest_ GSV_GUARDED_BY(mutex_){};
@@ -120,7 +128,7 @@ class McapWriter {
   std::vector<std::uint32_t> sequences_ GSV_GUARDED_BY(mutex_);
 
   std::atomic<bool> failed_ = false;
-  std::once_flag joined_;
+  std::once_flag joined_;  // Close() has joined thread_
   std::thread thread_;
 };
 

@@ -20,19 +20,23 @@ class MessageCursor {
   [[nodiscard]] base::Result<std::optional<MessageRecord>> Next();
 
  private:
+  // A block that was read, of which some messages are still to be returned.
   struct OpenBlock {
     std::uint64_t offset = 0;  // offset in the file
     BlockMessages content;     // messages, ordered by time
-    std::size_t next = 0;
+    std::size_t next = 0;      // index of the next message to return
 
     const MessageRecord& front() const { return content.messages[next]; }
   };
+  // Orders next_: the block whose next message is the earliest is at the top.
   struct Later {
     bool operator()(const OpenBlock* a, const OpenBlock* b) const;
   };
 
+  // Reads each block that may contain a message before the next message of the open blocks.
   base::Status OpenBlocksThatMayBeNext();
   base::Status Open(const MessageBlock& block);
+  // Frees the block whose last message was returned.
   void DropExhausted();
 
   const ByteSource& source_;
@@ -41,10 +45,11 @@ class MessageCursor {
   const base::SimTime from_;
   // Blocks that are not open yet; the earliest is at the end.
   std::vector<const MessageBlock*> waiting_;
-  std::vector<std::unique_ptr<OpenBlock>> open_;
+  std::vector<std::unique_ptr<OpenBlock>> open_;  // owns all blocks that are open
+  // The open blocks that still have messages.
   std::priority_queue<OpenBlock*, std::vector<OpenBlock*>, Later> next_;
   OpenBlock* exhausted_ = nullptr;  // the block of the message that was returned last
-  std::uint64_t open_size_ = 0;
+  std::uint64_t open_size_ = 0;     // number of bytes of all open blocks, uncompressed
 };
 
 }  // namespace gsv::recording

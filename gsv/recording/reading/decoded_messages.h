@@ -38,6 +38,7 @@ class DecodedMessages {
   base::Result<std::optional<DecodedMessage>> Next();
 
  private:
+  // A selected topic, with the parsed schema of its messages.
   struct Topic {
     std::string name, type;
     messages::Definition definition;

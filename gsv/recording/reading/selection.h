@@ -13,6 +13,7 @@ namespace gsv::recording {
 struct Selection {
   // Empty for all topics; a trailing "/" selects all topics below it.
   std::vector<std::string> topics;
+  // The first and the last selected time, both included.
   base::SimTime from = base::SimTime::min();
   base::SimTime to = base::SimTime::max();
 

@@ -30,6 +30,7 @@ class HealthTopic {
               const simulation::SimulationStatus& status);
 
  private:
+  // Samples a sensor, for the tracker.
   base::Result<sensing::Reading> Read(const std::shared_ptr<const world::Snapshot>& snapshot,
                                       const std::string& robot, const std::string& sensor);
 
@@ -41,9 +42,10 @@ class HealthTopic {
   sensing::SensorSet made_;
   std::map<std::string, std::shared_ptr<const sensing::Sensor>> sensors_;  // by "robot/sensor"
   sensing::RaySceneCache rays_;
-  std::shared_ptr<const SensorLists> lists_;
+  std::shared_ptr<const SensorLists> lists_;  // the argument of SetSensors()
   Instants instants_;
   health::HealthTracker tracker_;
+  // The last written message, and its time.
   std::optional<messages::gsv_msgs::Health> written_;
   base::SimTime written_at_{0};
 };

@@ -59,6 +59,7 @@ class SensorRecorder {
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
+  // A sensor with its channels and the instants of its readings.
   struct Sensor;
   // A due reading of one sensor, with its encoded messages.
   struct Sample {
@@ -83,7 +84,9 @@ class SensorRecorder {
   void Encode(Sample& sample) const;
   // Takes and writes the samples of one robot. The beams of the robot are cast together.
   void TakeRobotSamples(sensing::Sampling& sampling, std::span<Sample> samples);
+  // Updates the body index of each sensor for this layout.
   void FindBodies(const std::shared_ptr<const world::Layout>& layout);
+  // Writes the messages of a sample. If the sensor has beams, keeps the reading for WriteBeams().
   void Write(Sample& sample);
   // Adds a channel. On failure, logs a warning and returns nullopt.
   std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
@@ -106,6 +109,8 @@ class SensorRecorder {
   // The layout whose body indices Sensor::body and robot_beams_ use; null after SetSensors().
   std::shared_ptr<const world::Layout> layout_;
   std::vector<RobotBeams> robot_beams_;  // by body
+  // Working memory of TakeRobotSamples(): sensors of one robot with a due beam, and the values of
+  // their beams.
   std::vector<const Sensor*> due_beams_;
   std::vector<double> beam_values_;
   Instants beams_instants_;

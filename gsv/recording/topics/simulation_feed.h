@@ -39,6 +39,7 @@ struct Observation {
   // Set whenever the status is set; empty if the scenario has no expectations.
   std::vector<simulation::ExpectationState> expectations{};
 };
+// One element of the queue.
 using Occurrence = std::variant<Observation, simulation::Event>;
 
 struct FeedOptions {
@@ -64,24 +65,26 @@ class SimulationFeed final : public simulation::Observer {
   void Close();
   // Closes the feed and appends the current state of the simulation, which must still exist.
   void CloseAtLatest();
-  bool is_over() const;  // Whether the feed is closed and the queue is empty.
-  bool was_reset() const;
+  bool is_over() const;           // Whether the feed is closed and the queue is empty.
+  bool was_reset() const;         // whether a reset of the simulation has closed the feed
   std::uint64_t dropped() const;  // The number of dropped snapshots.
 
  private:
+  // Makes the observation of a snapshot. Samples the status and the sensors if they are due.
   Observation Observe(const std::shared_ptr<const world::Snapshot>& snapshot);
 
   const simulation::Simulation& simulation_;
   const FeedOptions options_;
 
   // The following members are used by the stepping thread only.
+  // Instants at which the status and the lists of sensors are sampled.
   Instants status_instants_;
   Instants sensor_instants_;
   std::shared_ptr<const world::Layout> layout_;  // the layout of the last list of sensors
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable news_;
-  base::ConditionVariable room_;
+  base::ConditionVariable news_;  // notified when the queue gets an element or is closed
+  base::ConditionVariable room_;  // notified when the queue has space for a snapshot
   std::deque<Occurrence> queue_ GSV_GUARDED_BY(mutex_);
   std::size_t snapshots_ GSV_GUARDED_BY(mutex_) = 0;  // number of snapshots in queue_
   bool closed_ GSV_GUARDED_BY(mutex_) = false;

@@ -40,19 +40,21 @@ class StateTopics {
  private:
   void WritePoses(const world::Snapshot& snapshot);
   void WriteHash(const world::Snapshot& snapshot);
+  // Write the commands, actuator commands and contacts that are new in this snapshot.
   void WriteNewCommands(const world::Snapshot& snapshot);
   void WriteNewDeviceCommands(const world::Snapshot& snapshot);
   void WriteNewContacts(const world::Snapshot& snapshot);
   void WriteTransmissions(const world::Snapshot& snapshot);
 
+  // The instants at which messages of slow topics are due.
   Instants poses_instants_;
   Instants hash_instants_;
   Instants diagnostics_instants_;
   Instants expectations_instants_;
   // Verdicts in the last written message.
   std::vector<simulation::ExpectationState::Verdict> verdicts_;
-  std::optional<std::int64_t> poses_step_;  // number of the step of the last written poses
-  std::shared_ptr<const world::Layout> layout_;
+  std::optional<std::int64_t> poses_step_;          // number of the step of the last written poses
+  std::shared_ptr<const world::Layout> layout_;     // layout of the last snapshot
   std::vector<presentation::PoseEntry> pose_list_;  // the entries of the written poses, for layout_
   messages::tf2_msgs::TFMessage
       transforms_message_;  // the last message; it has the names in layout_

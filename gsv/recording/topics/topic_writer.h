@@ -40,8 +40,8 @@ class TopicWriter {
 
  private:
   McapWriter& writer_;
-  std::optional<ChannelId> channel_;
-  Bytes bytes_;
+  std::optional<ChannelId> channel_;  // nullopt if the topic is not recorded
+  Bytes bytes_;                       // the encoded message; its memory is reused
 };
 
 }  // namespace gsv::recording

@@ -38,9 +38,9 @@ class Exposure {
   void ApplyNoise(const sensing::Sampling& sampling, const model::SensorDescription& description,
                   model::Image& image) const;
 
-  double light_ = 1;  // factor by which light is multiplied
-  double gain_ = 1;
-  double vignetting_ = 0;
+  double light_ = 1;       // factor by which light is multiplied
+  double gain_ = 1;        // factor for light and noise
+  double vignetting_ = 0;  // fraction of the light that is missing in the corners
   sensing::NoiseModel noise_;
 };
 

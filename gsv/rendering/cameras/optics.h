@@ -52,6 +52,7 @@ class Optics {
       const geometry::Pose& world_from_camera) const;
 
  private:
+  // A lens map that several cameras share. It is made on first use.
   struct Joining {
     std::once_flag made;
     std::unique_ptr<const LensMap> map;  // made for the first image

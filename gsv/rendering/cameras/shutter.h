@@ -44,8 +44,8 @@ class Shutter {
   // Returns the range of samples [first, last] from which a row is composed.
   std::pair<int, int> SamplesOf(int row, int height) const;
 
-  double exposure_time_, readout_time_;
-  int samples_;
+  double exposure_time_, readout_time_;  // s
+  int samples_;  // number of images that are rendered for one image of the camera
 };
 
 }  // namespace gsv::rendering

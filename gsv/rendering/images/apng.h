@@ -25,10 +25,10 @@ class ApngEncoder {
   static std::vector<std::uint8_t> End();
 
  private:
-  std::uint32_t frames_;
+  std::uint32_t frames_;             // number of frames of the whole animation
   std::uint16_t delay_denominator_;  // denominator of the delay; its numerator is 100
   std::uint32_t next_ = 0;           // sequence number of the next chunk
-  int width_ = 0, height_ = 0;
+  int width_ = 0, height_ = 0;       // size of the first frame; 0 before it
 };
 
 }  // namespace gsv::rendering

@@ -18,12 +18,13 @@ struct CameraParameters {
   int width = 320;
   int height = 240;
   double horizontal_fov = 1.047;
+  // Distances along the view. Surfaces nearer than `near` or beyond `far` are not drawn.
   double near = 0.1;
   double far = 100;
   friend bool operator==(const CameraParameters&, const CameraParameters&) = default;
 };
 
-inline constexpr int kMaxImageSide = 4096;
+inline constexpr int kMaxImageSide = 4096;  // maximum width and height of an image, pixels
 
 // Fails with kInvalidArgument, and names the invalid parameter.
 base::Status Check(const CameraParameters& camera);
@@ -39,6 +40,7 @@ struct CameraView {
 // The six planes of a camera's frustum, in a frame with the world's axes and its origin at the
 // camera. Normals point inward.
 struct Frustum {
+  // The points p with Dot(normal, p) + offset = 0. `normal` has unit length.
   struct Plane {
     geometry::Vector3 normal;
     double offset = 0;

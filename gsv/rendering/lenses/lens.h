@@ -50,6 +50,7 @@ struct WideView {
   enum class Function { kIdentity, kSine, kTangent };
   Function function = Function::kTangent;
   double c1 = 1, c2 = 1, c3 = 0, f = 1;
+  // angle from the view axis beyond which the image is black
   double cutoff_angle = 1.5707963267948966;
   friend bool operator==(const WideView&, const WideView&) = default;
 };
@@ -86,7 +87,7 @@ class Lens {
   int height() const { return height_; }
   const Intrinsics& intrinsics() const { return intrinsics_; }  // only for a pinhole
   const Distortion& distortion() const { return distortion_; }
-  const std::optional<WideView>& wide_view() const { return wide_; }
+  const std::optional<WideView>& wide_view() const { return wide_; }  // nullopt for a pinhole
   // Whether RayAt() is computed in closed form, without a search.
   bool has_quick_rays() const { return wide_ || distortion_.is_none(); }
   friend bool operator==(const Lens&, const Lens&) = default;
@@ -98,12 +99,12 @@ class Lens {
   // Removes the distortion from a point; nullopt if no point has this image.
   std::optional<geometry::Vector2> Undistorted(const geometry::Vector2& p) const;
 
-  int width_ = 0, height_ = 0;
+  int width_ = 0, height_ = 0;  // size of the image, pixels
   bool is_plain_ = true;
   Intrinsics intrinsics_;
   Distortion distortion_;
-  geometry::Vector2 centre_;  // the centre of distortion, at a distance of 1
-  std::optional<WideView> wide_;
+  geometry::Vector2 centre_;      // the centre of distortion, at a distance of 1
+  std::optional<WideView> wide_;  // nullopt for a pinhole
 };
 
 }  // namespace gsv::rendering

@@ -43,6 +43,7 @@ class LensMap {
   GroundTruth Join(std::span<const std::shared_ptr<const GroundTruth>> truths) const;
 
  private:
+  // One pinhole image: the direction of its view, and its camera.
   struct Face {
     geometry::Quaternion camera_from_face;
     CameraParameters camera;

@@ -44,8 +44,8 @@ class EglContext {
   EglContext(void* display, void* context, std::string renderer_name)
       : display_(display), context_(context), renderer_name_(std::move(renderer_name)) {}
 
-  void* display_;
-  void* context_;
+  void* display_;  // EGLDisplay
+  void* context_;  // EGLContext
   std::string renderer_name_;
 };
 

@@ -14,8 +14,8 @@ namespace gsv::rendering {
 // The data of one instance in the layout of the vertex shaders: the rows of relative_from_mesh,
 // then the surface.
 struct InstanceData {
-  float rows[3][4];
-  SurfaceFactors factors;
+  float rows[3][4];        // the upper three rows of the matrix relative_from_mesh
+  SurfaceFactors factors;  // colours and roughness of the instance's material
 };
 
 // `origin` is the world position that the shader uses as its origin.
@@ -33,8 +33,8 @@ class InstanceBuffer {
   void Draw(const DrawGroup& group, std::size_t first, std::size_t count) const;
 
  private:
-  GlVertexArray arrays_;
-  GlBuffer instances_;
+  GlVertexArray arrays_;  // attributes of both buffers: the mesh's and instances_
+  GlBuffer instances_;    // the InstanceData of Upload()
 };
 
 }  // namespace gsv::rendering

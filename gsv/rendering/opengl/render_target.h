@@ -30,16 +30,17 @@ class RenderTarget {
   std::vector<std::shared_ptr<const model::Image>> Read();
 
  private:
+  // The colour buffer of one image.
   struct Layer {
     GlRenderbuffer colour;
     GlFramebuffer frame;
   };
 
   int width_, height_, capacity_;
-  std::size_t begun_ = 0;
-  GlRenderbuffer depth_;
-  std::vector<Layer> layers_;  // layers are added when they are needed
-  std::vector<std::uint8_t> rgba_;
+  std::size_t begun_ = 0;           // number of images since the last Read()
+  GlRenderbuffer depth_;            // the depth buffer, which all layers share
+  std::vector<Layer> layers_;       // layers are added when they are needed
+  std::vector<std::uint8_t> rgba_;  // working memory of Read()
 };
 
 }  // namespace gsv::rendering

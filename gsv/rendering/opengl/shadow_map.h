@@ -28,6 +28,7 @@ class ShadowMap {
   const ShadowRegion& region() const { return region_; }
 
  private:
+  // Identifies the content of a map: its render list, bodies that have moved, and region.
   struct Drawn {
     std::uint64_t render_list_id = 0;
     int moved_count = -1;
@@ -41,13 +42,14 @@ class ShadowMap {
   void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                    InstanceBuffer& instances);
 
+  // The map of static casters, and the map of all casters.
   GlTexture still_, moving_;
   GlFramebuffer still_frame_, moving_frame_;
-  GlProgram solid_, alpha_mask_;
+  GlProgram solid_, alpha_mask_;  // for opaque casters, and for casters with holes
   ShadowRegion region_;
   Drawn drawn_;                                 // the content of still_ (static casters)
   std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
-  std::vector<InstanceData> staged_;
+  std::vector<InstanceData> staged_;  // working memory: the instances of the next draw calls
 };
 
 }  // namespace gsv::rendering

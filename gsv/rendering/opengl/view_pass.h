@@ -27,15 +27,17 @@ class ViewPass {
  private:
   // The instances that one draw call draws.
   struct Call {
-    int group = 0;
+    int group = 0;  // index in RenderList::groups()
+    // Distance of the camera from the nearest item of the call, for the order of drawing.
     double distance = 0;
-    std::size_t first = 0, count = 0;
-    bool shadowed = false;  // whether some of the instances may be in shadow
+    std::size_t first = 0, count = 0;  // range of the instances in staged_
+    bool shadowed = false;             // whether some of the instances may be in shadow
   };
+  // An item that the camera may see.
   struct Seen {
-    int group = 0;
-    double distance = 0;  // distance of the camera from the centre of the item
-    std::size_t item = 0;
+    int group = 0;         // index in RenderList::groups()
+    double distance = 0;   // distance of the camera from the centre of the item
+    std::size_t item = 0;  // index in RenderList::items()
     bool shadowed = false;
   };
 
@@ -52,11 +54,11 @@ class ViewPass {
   unsigned ProgramFor(unsigned features);
 
   std::map<unsigned, GlProgram> programs_;  // programs by the features that they were compiled with
-  GlProgram sky_;
-  GlBuffer frame_;
-  std::vector<Seen> solid_, transparent_;
+  GlProgram sky_;                           // the program that draws the sky
+  GlBuffer frame_;                          // the FrameBlock of the current image
+  std::vector<Seen> solid_, transparent_;   // visible items, opaque and transparent
   std::vector<Call> solid_calls_, transparent_calls_;
-  std::vector<InstanceData> staged_;
+  std::vector<InstanceData> staged_;  // the instances of all draw calls
 };
 
 }  // namespace gsv::rendering

@@ -43,6 +43,7 @@ class BatchRenderer {
   DrawCopies Count() const;
 
  protected:
+  // The cached data of one layout.
   struct PlannedLayout {
     std::weak_ptr<const world::Layout> layout;
     std::uint64_t id = 0;  // identifies the render list
@@ -58,7 +59,7 @@ class BatchRenderer {
  private:
   MeshStore meshes_;
   TextureStore textures_;
-  std::map<const world::Layout*, PlannedLayout> layouts_;
+  std::map<const world::Layout*, PlannedLayout> layouts_;  // by address of the layout
   std::uint64_t next_render_list_id_ = 1;
 };
 

@@ -29,14 +29,16 @@ struct LightBlock {
 
 // The parameters of an image.
 struct FrameBlock {
+  // Column-major matrices from the frame of this block to clip space and to the shadow map.
   std::array<float, 16> clip_from_relative;
   std::array<float, 16> shadow_from_relative;
-  Float4 to_sun;  // w is the side of a shadow map's texel in metres, or 0 without shadows
-  Float4 sun_colour;
-  Float4 ambient_above, ambient_below;
-  Float4 zenith, horizon, nadir;
+  Float4 to_sun;      // w is the side of a shadow map's texel in metres, or 0 without shadows
+  Float4 sun_colour;  // linear light
+  Float4 ambient_above, ambient_below;  // ambient light on surfaces that face up and down
+  Float4 zenith, horizon, nadir;        // colours of the sky above, at the horizon and below
   Float4 view_forward, view_right,
       view_down;  // camera to image's centre; image's centre to right edge; to lower edge
+  // [0]: number of used elements of `lights`; the others are 0
   std::array<std::int32_t, 4> light_count;
   std::array<LightBlock, kMaxLights> lights;
 };
@@ -66,11 +68,11 @@ class Lighting {
   void AddLamp(const model::Light& light);
 
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};
-  std::array<double, 3> sun_colour_{};
+  std::array<double, 3> sun_colour_{};  // red, green and blue, linear light
   bool shadows_ = true;
   std::vector<Lamp> lamps_;         // lamps of the world, followed by the lamps of robots
   std::size_t own_lamp_count_ = 0;  // number of lamps in lamps_ that belong to the world
-  Float4 ambient_above_, ambient_below_, zenith_, horizon_, nadir_;
+  Float4 ambient_above_, ambient_below_, zenith_, horizon_, nadir_;  // see FrameBlock
 };
 
 }  // namespace gsv::rendering

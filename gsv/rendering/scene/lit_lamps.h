@@ -10,9 +10,9 @@ namespace gsv::rendering {
 
 // A lamp that is on.
 struct LitLamp {
-  int body = 0;
+  int body = 0;                               // index of the robot in the layout
   const world::DeviceMount* mount = nullptr;  // refers to the snapshot
-  world::Glow glow;
+  world::Glow glow;                           // its light
 };
 
 // Returns the lamps that are on, ordered by robot and then by lamp.

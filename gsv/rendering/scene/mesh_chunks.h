@@ -10,9 +10,9 @@ namespace gsv::rendering {
 
 // A run of `order` in MeshChunks whose triangles share one material, and the box around them.
 struct MeshChunk {
-  std::uint32_t first_triangle = 0;
+  std::uint32_t first_triangle = 0;  // index in `order`
   std::uint32_t triangle_count = 0;
-  std::uint32_t material = 0;
+  std::uint32_t material = 0;  // index of the mesh's material slot
   geometry::Bounds bounds;
 };
 

@@ -14,7 +14,7 @@
 
 namespace gsv::rendering {
 
-inline constexpr int kVertexFloats = 9;
+inline constexpr int kVertexFloats = 9;  // number of floats of one vertex, see MeshArrays
 
 // `vertices` has 9 floats for each vertex: 3 for the position, 3 for the normal, 2 for texture
 // coordinates ((0, 0) at the image's upper left corner), and the number of its surface. `indices`
@@ -41,6 +41,7 @@ struct DrawShape {
 // lifetime of a DrawShape that uses them.
 class MeshStore {
  public:
+  // Makes the back end's mesh of these arrays.
   using Make = std::function<std::shared_ptr<const DrawMesh>(MeshArrays)>;
   explicit MeshStore(Make make) : make_(std::move(make)) {}
 
@@ -52,10 +53,12 @@ class MeshStore {
   std::size_t size() const;
 
  private:
+  // A cached mesh of a file.
   struct FileMesh {
     std::weak_ptr<const geometry::TriangleMesh> triangles;
     std::shared_ptr<const DrawMesh> mesh;
   };
+  // The kind and the dimensions of a generated shape.
   using Key = std::tuple<int, double, double, double, double, double>;
 
   // FindFileMesh() returns the mesh of a file, and FindGenerated() the mesh of a shape such as a

@@ -25,12 +25,14 @@ enum class Blending { kOpaque, kAlphaMask, kTransparent };
 struct DrawGroup {
   std::shared_ptr<const DrawMesh> mesh;
   std::uint32_t chunk = 0;  // index of the chunk in the mesh
+  // Range in the mesh's list of indices.
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   // each is null if the material has no such map
   std::shared_ptr<const DrawTexture> base_colour, normal, metallic_roughness, emissive, occlusion,
       light;
   Blending blending = Blending::kOpaque;
+  // whether the scale mirrors the mesh, so that its front faces are reversed
   bool mirrored = false;
   bool double_sided = false;
   bool ground = false;  // true for a ground plane, which is drawn behind coplanar surfaces
@@ -38,7 +40,8 @@ struct DrawGroup {
 
 // Linear colours for the shader.
 struct SurfaceFactors {
-  std::array<float, 4> base_colour;
+  std::array<float, 4> base_colour;  // red, green, blue, alpha
+  // red, green and blue of the emitted light; then the metalness
   std::array<float, 4> emissive_metalness;
   float roughness;
   float surface;  // the visual's number, for antialiasing
@@ -46,15 +49,15 @@ struct SurfaceFactors {
 
 // One visual, or one chunk of it, on a link.
 struct DrawItem {
-  int group = 0;
-  int body = 0;
-  int link = 0;
+  int group = 0;   // index in RenderList::groups()
+  int body = 0;    // index in Layout::bodies
+  int link = 0;    // index in Model::links
   int visual = 0;  // index among the body's visuals, in the order of links
   geometry::Pose link_from_visual;
-  geometry::Vector3 scale;
-  geometry::Vector3 centre_in_visual;
-  double radius = 0;  // radius of the bounding sphere about the centre
-  SurfaceFactors factors;
+  geometry::Vector3 scale;             // factor from the mesh to the visual, along each axis
+  geometry::Vector3 centre_in_visual;  // centre of the bounding sphere
+  double radius = 0;                   // radius of the bounding sphere about the centre
+  SurfaceFactors factors;              // colours and roughness of the material
   bool casts_shadow = false;
   bool of_robot = false;  // whether the item belongs to a robot or an avatar
 };
@@ -65,7 +68,7 @@ struct PlacedItem {
   // and the origin of the mesh in the world.
   std::array<geometry::Vector3, 3> columns;
   geometry::Vector3 origin;
-  geometry::Vector3 centre;
+  geometry::Vector3 centre;  // centre of the item's bounding sphere in the world
 };
 
 // The meshes, materials and poses of all visuals of a layout, ready for drawing.
@@ -99,21 +102,21 @@ class RenderList {
 
   // The pose and joints of a body, to detect motion.
   struct BodyPose {
-    bool posed = false;
-    bool moved = false;
+    bool posed = false;  // whether Pose() has posed the body
+    bool moved = false;  // whether the body has moved since the first snapshot
     geometry::Pose world_from_model;
-    std::vector<double> joints;
-    std::size_t first_item = 0, item_count = 0;
+    std::vector<double> joints;                  // joint positions, in the order of the model
+    std::size_t first_item = 0, item_count = 0;  // the body's items in items_
   };
 
   MeshStore& meshes_;
   TextureStore& textures_;
   std::vector<DrawGroup> groups_;
-  std::vector<DrawItem> items_;  // items by body, then the lamps that are on
-  std::size_t body_item_count_ = 0;
+  std::vector<DrawItem> items_;      // items by body, then the lamps that are on
+  std::size_t body_item_count_ = 0;  // number of items in items_ without the lamps that are on
   // the items of a lamp with a radius of 1 m; empty until a lamp is on
   std::vector<DrawItem> glow_;
-  std::vector<PlacedItem> placed_;
+  std::vector<PlacedItem> placed_;  // in the order of items_
   std::vector<BodyPose> bodies_;
   int moved_count_ = 0;
 };

@@ -21,6 +21,7 @@ namespace gsv::ros2::dds {
 // requests. The actual size is at most net.core.rmem_max of Linux.
 inline constexpr std::uint32_t kSocketBuffer = 4 << 20;
 
+// Makes the transport. It announces itself to the ports of the first `max_peers` participants.
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> LoopbackTransport(
     std::uint32_t max_peers);
 

@@ -14,6 +14,7 @@ inline constexpr int kMaxParticipants = 120;  // maximum per machine and domain;
 // interfaces. Returns -1 if there is none.
 int FreeIndex(std::uint32_t domain, bool on_loopback, const std::set<int>& taken);
 
+// Whether this machine's loopback interface is switched on.
 bool IsLoopbackUp();
 
 }  // namespace gsv::ros2::dds

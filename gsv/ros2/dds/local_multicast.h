@@ -29,8 +29,8 @@ class LocalMulticast {
   void Send(std::span<const std::byte> datagram, std::uint16_t port) const;
 
  private:
-  int socket_ = -1;  // -1 if there is no socket
-  std::uint32_t group_ = 0;
+  int socket_ = -1;          // -1 if there is no socket
+  std::uint32_t group_ = 0;  // IPv4 address of the group, in network byte order
 };
 
 }  // namespace gsv::ros2::dds

@@ -10,12 +10,15 @@ namespace gsv::ros2::dds {
 
 // The version of the plug-in's interface. Increase it with each change of participant.h.
 inline constexpr int kModuleInterface = 4;
+// Name of the plug-in's function that returns its Module.
 inline constexpr const char* kModuleSymbol = "gsv_ros2_module";
 inline constexpr const char* kModuleFile = "gsv-ros2.so";
 
+// The interface of a loaded plug-in.
 struct Module {
   int interface_version = kModuleInterface;
   const char* library = "";  // such as "Fast DDS 2.9.1"
+  // Makes a participant.
   base::Result<std::unique_ptr<Participant>> (*make)(const ParticipantOptions& options) = nullptr;
 };
 

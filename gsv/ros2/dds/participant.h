@@ -50,6 +50,7 @@ enum class Range {
   kSubnet,     // multicast on all interfaces, and the machines in `peers`
 };
 
+// The domain of a participant, its range, and what it announces.
 struct ParticipantOptions {
   std::uint32_t domain = 0;  // 0 to 232
   Range range = Range::kLocalhost;
@@ -68,7 +69,7 @@ struct ParticipantOptions {
 // Identifies a request, in the reply to it: the client's endpoint and the number of the request.
 struct SampleIdentity {
   Guid writer{};
-  std::int64_t sequence = 0;
+  std::int64_t sequence = 0;  // number of the sample, counted by its writer
 };
 
 // The identities in a request to a service, or in a reply.
@@ -92,7 +93,7 @@ class Writer {
   // Whether a matching reader belongs to the participant of `endpoint`. If not, that participant
   // would not receive a reply.
   virtual bool HasReaderInSameParticipant(const Guid& endpoint) const = 0;
-  virtual bool has_readers() const = 0;
+  virtual bool has_readers() const = 0;  // whether a matching reader is known
   virtual Guid guid() const = 0;
 };
 
@@ -122,8 +123,10 @@ class Participant {
   // `on_match` is called when a matching reader appears or disappears; it may be empty.
   virtual base::Result<std::unique_ptr<Writer>> MakeWriter(const Topic& topic,
                                                            std::function<void()> on_match) = 0;
+  // Makes a reader of a usual topic. `on_message` gets each sample with its encapsulation header.
   virtual base::Result<std::unique_ptr<Reader>> MakeReader(
       const Topic& topic, std::function<void(std::span<const std::byte>)> on_message) = 0;
+  // Makes a reader of a service's requests. `on_request` also gets the identities for the reply.
   virtual base::Result<std::unique_ptr<Reader>> MakeRequestReader(
       const Topic& topic,
       std::function<void(std::span<const std::byte>, const Request&)> on_request) = 0;
