@@ -33,7 +33,7 @@ struct SimulationRequest {
 
 // A robot to add. Its start pose is in metres and radians, in the world frame.
 struct RobotRequest {
-  std::string model;
+  std::string model;  // file, folder or name of a model
   double x = 0, y = 0, yaw = 0;
   std::string behaviour;  // the name of an offer; empty for a robot without a behaviour
   std::string name;       // if empty, the robot gets the name of its model

@@ -14,6 +14,7 @@
 
 namespace gsv::sdk {
 
+// One behaviour, which the simulation calls for its robot.
 class BehaviourServant final : public POA_sba::AgentBehaviour {
  public:
   BehaviourServant(PortableServer::POA_ptr poa, BehaviourFactory factory);
@@ -27,19 +28,23 @@ class BehaviourServant final : public POA_sba::AgentBehaviour {
   void destroy() override;
 
  private:
+  // Ends the run on this side, and waits for the behaviour's thread.
   void EndRun() GSV_REQUIRES(mutex_);
 
   PortableServer::POA_var poa_;
   const BehaviourFactory factory_;
   base::Mutex mutex_;
+  // The robot of the last init(); null before it.
   std::shared_ptr<RemoteRobot> robot_ GSV_GUARDED_BY(mutex_);
+  // The behaviour of the last init(); null before it.
   std::unique_ptr<Behaviour> behaviour_ GSV_GUARDED_BY(mutex_);
-  std::jthread running_;
+  std::jthread running_;  // the thread that executes Behaviour::Run()
 };
 
 // Creates a behaviour that the POA owns until its destroy() is called.
 sba::AgentBehaviour_ptr NewBehaviour(PortableServer::POA_ptr poa, BehaviourFactory factory);
 
+// The object behind a program's offer. It makes a behaviour for each robot.
 class BehaviourFactoryServant final : public POA_sba::AgentBehaviourFactory {
  public:
   BehaviourFactoryServant(PortableServer::POA_ptr poa, BehaviourFactory factory);

@@ -21,14 +21,16 @@ class CycleClient {
   // simulation still exists.
   static constexpr std::chrono::milliseconds kLease{1000};
 
+  // How a cycle has ended.
   enum class Outcome {
     kAnswered,
     kRepeat,         // repeat the cycle by a call
     kRepeatApplied,  // repeat the cycle by a call; its command has been applied
   };
+  // The simulation's answer to a cycle.
   struct Answer {
-    SimTime reached{0};
-    bool holds_time = false;
+    SimTime reached{0};       // simulated time at the end of the wait
+    bool holds_time = false;  // whether simulated time stands still until the next wait
     std::vector<Reading> readings;
   };
 
@@ -47,14 +49,16 @@ class CycleClient {
 
  private:
   CycleClient(std::unique_ptr<exchange::Mapping> bell, std::unique_ptr<exchange::Mapping> slot);
+  // Writes the request to the slot. Returns false if that is not possible now.
   bool Post(exchange::CycleRequest request, const std::vector<std::string>& sensors);
   // Waits until the simulation has answered. Gives up after kLease.
   exchange::CycleState Await();
+  // Reads the answer from the slot. Returns false if it is invalid.
   bool Read(Answer& answer);
 
   const std::unique_ptr<exchange::Mapping> bell_memory_, slot_memory_;
-  exchange::Bell& bell_;
-  exchange::CycleSlot& slot_;
+  exchange::Bell& bell_;       // wakes the simulation
+  exchange::CycleSlot& slot_;  // the memory of this clock
 };
 
 }  // namespace gsv::sdk

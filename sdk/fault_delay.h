@@ -11,9 +11,10 @@
 
 namespace gsv::sdk {
 
+// The parameters of the random delays.
 struct FaultDelay {
   std::uint64_t seed = 0;
-  std::chrono::milliseconds max{0};
+  std::chrono::milliseconds max{0};  // upper limit of each delay
 };
 
 // Parses the value of GSV_FAULT_DELAY. Returns kInvalidArgument with the expected form.

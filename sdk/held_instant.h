@@ -26,6 +26,7 @@ class HeldInstant {
 
   // Begins an instant. Simulated time does not advance until End().
   void Begin(SimTime now, std::vector<Reading> readings);
+  // Ends the instant at the next wait. Returns the data that this wait sends.
   Wait End();
 
   // Returns the current instant, or nullopt after End().
@@ -35,17 +36,21 @@ class HeldInstant {
   bool Read(const std::string& sensor, Reading& reading);
   // Delays the command. Returns false if it must be sent now.
   bool Delay(const DriveCommand& command);
+  // Returns and removes the delayed command.
   std::optional<DriveCommand> TakeCommand();
 
  private:
+  // The reading of a sensor at this instant, and whether the behaviour has used the sensor.
   struct Use {
     bool is_used = false;
     std::optional<Reading> reading;  // nullopt if the wait returned no reading of the sensor
   };
 
   mutable base::Mutex mutex_;
+  // The current instant; nullopt after End().
   std::optional<SimTime> now_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, Use> uses_ GSV_GUARDED_BY(mutex_);  // by sensor
+  // The delayed command.
   std::optional<DriveCommand> command_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -13,6 +13,7 @@
 
 namespace gsv {
 
+// The properties that the offer states.
 struct BehaviourDescription {
   std::string name;         // the name of the service, such as "wander"
   std::string description;  // one line of text

@@ -79,12 +79,15 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
 
  private:
   RemoteRobot(std::string name, sba::Hardware_ptr hardware);
+  // Ends the run, and stores its first error.
   void Note(const base::Error& error);
+  // Sends a command to the base at once.
   void SendCommand(const DriveCommand& command);
   // Sends a command that was delayed.
   void Flush();
   // Opens the memory of the clock, if the simulation is on this host.
   void OpenMemory();
+  // Sleeps like SleepUntil(), and gets the readings of used sensors with the same call.
   bool SleepAndRead(SimTime instant);
   // Runs a cycle by the shared memory. Returns true if it was answered. Otherwise the caller must
   // repeat the cycle by a call. `is_applied` becomes true if the simulation has applied the
@@ -94,18 +97,19 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
 
   const std::string name_;
   sba::Hardware_var hardware_;
-  sba::SensorFactory_var factory_;
-  sba::ActuatorProxy_var base_;
+  sba::SensorFactory_var factory_;  // opens and creates sensors
+  sba::ActuatorProxy_var base_;     // takes commands to the base
   sba::Clock_var clock_;
   // Nil if the clock is no BatchClock, or if simulated time advances while the behaviour runs.
   sba::BatchClock_var batch_clock_;
   std::unique_ptr<CycleClient> cycles_;  // null: there is no shared memory
   CycleClient::Answer answer_;           // used by Exchange()
-  HeldInstant held_;
-  double footprint_radius_ = 0;
-  std::uint64_t cycle_ = 0;
+  HeldInstant held_;                     // readings and command of the current instant
+  double footprint_radius_ = 0;          // m
+  std::uint64_t cycle_ = 0;              // number of the last exchange
   std::atomic<bool> running_{true};
   mutable base::Mutex error_mutex_;
+  // The reason why the run has ended with an error; empty if there is none.
   std::string error_ GSV_GUARDED_BY(error_mutex_);
 };
 

@@ -112,7 +112,7 @@ struct Odometry {
                       OptionalValue("lateral", "m/s", &Odometry::lateral, "twist.twist.linear"));
 };
 
-// The position and velocity that a satellite receiver measures. Altitudes are above the ellipsoid.
+// The position and velocity that a GNSS receiver measures. Altitudes are above the ellipsoid.
 // WGS84.
 struct Navsat {
   static constexpr const char* kType = "navsat";

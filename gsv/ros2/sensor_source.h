@@ -38,8 +38,9 @@ struct SensorOutput {
 struct RosSensor {
   std::string body;  // name of the robot's body in the world
   model::SensorDescription description;
+  // the sensor's type; refers to the simulation's registry
   const sensing::SensorType* type = nullptr;
-  std::shared_ptr<const sensing::Sensor> sensor;
+  std::shared_ptr<const sensing::Sensor> sensor;  // samples the readings
   bool is_only =
       true;  // whether it is the robot's only sensor of its type; its topic then has the usual name
 };
@@ -63,15 +64,16 @@ class SensorSource final : public Source {
   void Publish(const Moment& moment) override;
 
  private:
+  // An output and its writer.
   struct Channel {
     SensorOutput output;
-    dds::Writer* writer = nullptr;
+    dds::Writer* writer = nullptr;  // never null
   };
 
   const RosSensor sensor_;
   std::vector<Channel> channels_;
-  EncodedMessage message_;
-  bool has_failed_ = false;
+  EncodedMessage message_;   // the message that is encoded now; its memory is reused
+  bool has_failed_ = false;  // whether a reading has failed; later ones are not published
 };
 
 }  // namespace gsv::ros2

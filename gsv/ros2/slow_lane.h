@@ -33,18 +33,20 @@ class SlowLane {
  private:
   static constexpr std::size_t kMaxWaiting = 2;
 
+  // The sources to publish for one instant.
   struct Job {
     std::vector<Source*> sources;
     Moment moment;
   };
 
   void Run();
+  // Publishes the sources of a job, several at the same time.
   void Do(const Job& job);
 
   mutable base::Mutex mutex_;
   base::ConditionVariable changed_;
-  std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);  // jobs that have not started
-  bool is_working_ GSV_GUARDED_BY(mutex_) = false;
+  std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);     // jobs that have not started
+  bool is_working_ GSV_GUARDED_BY(mutex_) = false;  // whether a job is being executed
   std::uint64_t skipped_ GSV_GUARDED_BY(mutex_) = 0;
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::unique_ptr<base::ThreadTeam> team_;  // used by the thread `thread_` only

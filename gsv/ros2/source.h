@@ -16,8 +16,8 @@ namespace gsv::ros2 {
 // The instant of the simulation for which a source makes its messages.
 struct Moment {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::uint64_t seed = 0;  // seed of the simulation, for the noise of sensors
-  sensing::RaySceneCache& rays;
+  std::uint64_t seed = 0;        // seed of the simulation, for the noise of sensors
+  sensing::RaySceneCache& rays;  // the ray scenes that all sources share
 };
 
 // A source publishes messages on one or several topics. They are made from snapshots, at a fixed

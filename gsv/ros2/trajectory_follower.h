@@ -33,23 +33,26 @@ class TrajectoryFollower final : public Source {
   void Publish(const Moment& moment) override;
 
  private:
+  // The trajectory that the joints follow now.
   struct Active {
     JointTrajectory trajectory;
-    base::SimTime start{};
+    base::SimTime start{};        // simulated time of its start
     std::vector<double> initial;  // joint positions at the start of the trajectory
   };
 
+  // Makes the trajectory the active one.
   void Begin(JointTrajectory trajectory, const world::Snapshot& snapshot, int body);
 
   const std::shared_ptr<CommandInput> input_;
-  const std::string body_;
+  const std::string body_;  // name of the robot's body
   const std::shared_ptr<const model::Model> model_;
-  const std::vector<int> joints_;
+  const std::vector<int> joints_;  // indices in the model
   const std::function<void()> on_change_;
   std::optional<Active> active_;
   mutable base::Mutex mutex_;
+  // A trajectory that Take() has received, and that Publish() has not yet begun.
   std::optional<JointTrajectory> next_ GSV_GUARDED_BY(mutex_);
-  bool is_active_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_active_ GSV_GUARDED_BY(mutex_) = false;  // whether active_ is set, for is_wanted()
 };
 
 }  // namespace gsv::ros2

@@ -20,8 +20,8 @@ namespace gsv::scenario {
 // Quantity.
 struct Quantity {
   enum class Kind {
-    kX,
-    kY,
+    kX,                // x of the origin of `first` in the world, m
+    kY,                // y of the origin of `first` in the world, m
     kZ,                // height of `first`, m
     kDistanceToPoint,  // distance of `first` from (x, y), m in the plane
     kYawOff,           // angle between the yaw of `first` and `yaw`, rad, 0 to pi
@@ -43,10 +43,10 @@ struct Quantity {
   enum class Take { kMin, kMax, kMean, kOne };
 
   Kind kind = Kind::kTime;
-  std::string first, second;
-  double x = 0, y = 0, yaw = 0;
-  Take take = Take::kMin;
-  int value = 0;  // the index of the value for kOne
+  std::string first, second;     // names as the kind says; empty if it uses none
+  double x = 0, y = 0, yaw = 0;  // for kDistanceToPoint (m) and kYawOff (rad)
+  Take take = Take::kMin;  // for kSensor: which number is taken from a reading with several values
+  int value = 0;           // the index of the value for kOne
 };
 
 // An atom, or an operator with its operands.
@@ -65,7 +65,7 @@ struct Formula {
   std::vector<Formula> parts{};
   double from = 0;             // start of the window, s after the instant of evaluation
   std::optional<double> by{};  // end of the window; nullopt for the end of the run
-  SourcePlace source{};
+  SourcePlace source{};        // place of the formula in the scenario file
 };
 
 // A formula that a run must satisfy.
@@ -73,7 +73,7 @@ struct Expectation {
   std::string name;  // the name in reports
   std::string yaml;  // the YAML of the expectation, complete and on one line
   Formula formula;
-  SourcePlace source{};
+  SourcePlace source{};  // place of the expectation in the scenario file
 
   friend bool operator==(const Expectation& a, const Expectation& b) { return a.yaml == b.yaml; }
 };

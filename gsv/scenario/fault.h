@@ -12,7 +12,7 @@ namespace gsv::scenario {
 // The place of a key in its file, such as "room.yaml:7:5", for messages about errors. operator==
 // always returns true, so that faults at different places of a file can be equal.
 struct SourcePlace {
-  std::string text;
+  std::string text;  // FILE:LINE:COLUMN; empty if the fault is not from a file
   friend bool operator==(const SourcePlace&, const SourcePlace&) { return true; }
 };
 
@@ -44,13 +44,13 @@ struct Fault {
   enum class Unit { kPosition, kVelocity, kEffort };
 
   Kind kind = Kind::kSensorSilent;
-  double at = 0;     // simulated time, s
-  std::string body;  // the name of a robot or object
-  std::string part;  // the name of a sensor or joint; empty for the body itself
-  Place place;
-  Unit unit = Unit::kPosition;
-  double target = 0;
-  SourcePlace source{};
+  double at = 0;                // simulated time, s
+  std::string body;             // the name of a robot or object
+  std::string part;             // the name of a sensor or joint; empty for the body itself
+  Place place;                  // for kBodyMoves
+  Unit unit = Unit::kPosition;  // for kJointMoves
+  double target = 0;            // for kJointMoves
+  SourcePlace source{};         // place of the fault in the scenario file
 
   friend bool operator==(const Fault&, const Fault&) = default;
 };

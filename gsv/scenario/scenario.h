@@ -18,6 +18,7 @@
 
 namespace gsv::scenario {
 
+// A robot or an avatar of a scenario.
 struct RobotEntry {
   // A file, a folder, or a name. Empty if the robot is in the world file.
   std::string model;
@@ -36,7 +37,7 @@ struct RobotEntry {
 
 // Options for publishing to ROS 2 nodes. An empty text means the default of the command line.
 struct Ros2Settings {
-  std::string range, cmd_vel, distro;
+  std::string range, cmd_vel, distro;             // the values of the keys with these names
   std::map<std::string, std::string> namespaces;  // namespace of each robot
 
   friend bool operator==(const Ros2Settings&, const Ros2Settings&) = default;
@@ -55,18 +56,19 @@ struct Scenario {
   std::optional<double> step, duration;  // simulated time, s
   std::optional<double> deadline;        // maximum wall-clock time of a behaviour's turn, s
   std::optional<double> stuck_after;     // see Specification::stuck_after, simulated time, s
+  // whether a dead or unresponsive behaviour ends the run
   std::optional<bool> fails_with_behaviour;
   // whether behaviours run as plug-ins in this process, and not as programs
   std::optional<bool> in_process;
-  std::vector<std::string> model_path;
-  std::string record;  // a file or folder; empty if the run is not recorded
-  std::vector<std::string> record_topics;
+  std::vector<std::string> model_path;     // folders that are searched for models
+  std::string record;                      // a file or folder; empty if the run is not recorded
+  std::vector<std::string> record_topics;  // see recording::Selection; empty for all topics
   // rates in Hz of simulated time, by the kind of message
   std::map<std::string, double> record_rates;
   std::optional<bool> record_png;    // true for images as PNG, false for JPEG
   std::optional<Ros2Settings> ros2;  // not set if the run is not published to ROS 2 nodes
-  std::vector<Fault> faults;
-  std::vector<Expectation> expect;
+  std::vector<Fault> faults;         // faults to apply during the run
+  std::vector<Expectation> expect;   // conditions that the run must satisfy
 
   friend bool operator==(const Scenario&, const Scenario&) = default;
 };

@@ -12,8 +12,8 @@
 namespace gsv::scenario {
 
 inline constexpr std::size_t kMaxFaults = 1000;
-inline constexpr int kMaxFormulas = 1000;
-inline constexpr int kMaxFormulaDepth = 16;
+inline constexpr int kMaxFormulas = 1000;    // maximum number in all expectations together
+inline constexpr int kMaxFormulaDepth = 16;  // maximum nesting of operators
 
 std::vector<Fault> ReadFaults(YamlMapping& scenario);
 

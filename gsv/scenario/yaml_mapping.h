@@ -23,6 +23,7 @@ inline constexpr std::size_t kMaxProblems = 100;
 // Formats the places of nodes in a file or a request, and collects the problems with them.
 class YamlPlace {
  public:
+  // How messages name a place: by line and column of a file, or by the field of a request.
   enum class Naming { kLines, kFields };
   YamlPlace(Naming naming, std::string file, base::Problems& problems)
       : naming_(naming), file_(std::move(file)), problems_(problems) {}
@@ -38,6 +39,7 @@ class YamlPlace {
   base::Problems& problems_;
 };
 
+// One mapping. The caller reads the keys that it knows; the destructor reports all other keys.
 class YamlMapping {
  public:
   // Adds problems for a node that is not a mapping, and for duplicate keys. `field` is the path of
@@ -61,7 +63,7 @@ class YamlMapping {
                                  const std::string& second);
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
-  std::optional<YAML::Node> Any(const std::string& key);
+  std::optional<YAML::Node> Any(const std::string& key);  // reads a value of any type
   // Calls `read` with each element of a list, and with the element's field for messages, such as
   // "robots[2]".
   template <typename Read>
@@ -79,9 +81,10 @@ class YamlMapping {
 
   // Whether the key was read and is present, with any value.
   bool Has(const std::string& key) const { return marks_.contains(key); }
-  bool is_mapping() const { return is_mapping_; }
+  bool is_mapping() const { return is_mapping_; }  // false if the node has another type
   const YamlPlace& place() const { return place_; }
-  std::string Source() const { return place_.Of(mark_, field_); }
+  std::string Source() const { return place_.Of(mark_, field_); }  // the place of the mapping
+  // The path of a key, such as "robots[1].x".
   std::string FieldOf(const std::string& key) const {
     return field_.empty() ? key : field_ + "." + key;
   }
@@ -98,7 +101,9 @@ class YamlMapping {
   };
   // Reads a scalar that is not in quotes, because a scalar in quotes is a text.
   std::optional<std::string> Plain(const std::string& key, const std::string& expected);
+  // Reads a scalar, in quotes or not.
   std::optional<std::string> Scalar(const std::string& key, const std::string& expected);
+  // Adds the problem that a key has a value of a wrong type.
   void Expect(const std::string& key, const std::string& expected, const std::string& found);
 
   const YamlPlace& place_;
@@ -107,7 +112,7 @@ class YamlMapping {
   const bool is_mapping_;
   std::map<std::string, Entry> unread_;      // entries that have not been read
   std::map<std::string, YAML::Mark> marks_;  // places of the values that have been read
-  std::vector<std::string> known_;
+  std::vector<std::string> known_;           // all keys that the caller has asked for
 };
 
 }  // namespace gsv::scenario

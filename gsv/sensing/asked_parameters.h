@@ -25,7 +25,7 @@ class AskedParameters {
 
  private:
   std::set<std::string> names_;
-  AskedParameters* const outer_;
+  AskedParameters* const outer_;  // the object in which this one is nested; null if there is none
 };
 
 }  // namespace gsv::sensing

@@ -37,7 +37,7 @@ class ForwardingSensor : public Sensor {
   const Device* device() const override { return sensor_->device(); }
 
  protected:
-  const Sensor& sensor() const { return *sensor_; }
+  const Sensor& sensor() const { return *sensor_; }  // the other sensor
 
  private:
   const std::unique_ptr<Sensor> sensor_;

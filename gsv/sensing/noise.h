@@ -32,8 +32,9 @@ struct NoiseModel {
   // standard deviation, and correlation time in s (0: no drift)
   double drift_stddev = 0, drift_time = 0;
   double precision = 0;  // step to which readings are rounded; 0: not rounded
+  // fraction of readings; their additional noise
   double outlier_probability = 0, outlier_stddev = 0;
-  double dropout_probability = 0;
+  double dropout_probability = 0;  // fraction of readings that are lost
 
   bool is_none() const { return *this == NoiseModel{}; }
   friend bool operator==(const NoiseModel&, const NoiseModel&) = default;
@@ -60,7 +61,7 @@ class NoisyReading {
   std::uint64_t StreamOf(std::uint64_t channel, std::uint64_t purpose) const;
 
   const std::uint64_t seed_;
-  const std::uint64_t stream_;
+  const std::uint64_t stream_;  // identifies the robot and the sensor
   const std::uint64_t step_;
   const base::SimTime time_;
 };

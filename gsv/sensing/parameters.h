@@ -49,7 +49,7 @@ class ParameterReader {
 
  private:
   const model::SensorDescription& description_;
-  base::Status status_;
+  base::Status status_;  // the first error, or success
 };
 
 }  // namespace gsv::sensing

@@ -15,8 +15,8 @@ namespace gsv::sensing {
 
 // A named set of sensor parameters.
 struct Preset {
-  std::string type, name;
-  std::string source;  // a sentence with the source of the numbers
+  std::string type, name;  // sensor type; name of the preset
+  std::string source;      // a sentence with the source of the numbers
   model::Parameters parameters;
 };
 

@@ -19,7 +19,7 @@ namespace gsv::sensing {
 struct Reading {
   using Values = boost::container::small_vector<double, 1>;  // a single value needs no allocation
 
-  std::int64_t step = 0;
+  std::int64_t step = 0;  // step of the sampled snapshot
   base::SimTime time{0};  // the sampling instant
   Values values;
   std::shared_ptr<const model::Image> image;

@@ -86,8 +86,9 @@ class Sampling {
   std::uint64_t seed_;
   RaySceneCache& rays_;
   mutable std::shared_ptr<const RayScene> scene_;  // null until the first use
-  mutable std::size_t expected_rays_ = 0;
-  mutable bool has_gathered_ = false;  // whether candidates_ belong to the present body
+  mutable std::size_t expected_rays_ = 0;          // the sum of ExpectRays()
+  mutable bool has_gathered_ = false;              // whether candidates_ belong to the present body
+  // solids near the robot; null until they are needed
   mutable std::unique_ptr<CandidateSet> candidates_;
   mutable int link_ = -1;  // index of the link whose pose is world_from_link_
   mutable geometry::Pose world_from_link_;

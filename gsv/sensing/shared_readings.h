@@ -31,7 +31,9 @@ class SharedReadings {
   std::size_t bytes() const;
 
  private:
+  // A reading that one thread takes, and for which others may wait.
   using Taken = std::shared_future<base::Result<Reading>>;
+  // A cached reading. The other members are its key.
   struct Entry {
     std::weak_ptr<const world::Snapshot> snapshot;
     int body;

@@ -20,6 +20,7 @@ class ActuatorServant : public SensorServant<Skeleton> {
   }
 
  protected:
+  // Commands the actuator. Throws the exceptions that `raises` allows.
   void CommandDevice(world::DeviceCommand command, unsigned raises = orb::kAll) {
     orb::ValueOrThrow(this->agent().CommandDevice(this->description().name, std::move(command)),
                       raises);

@@ -23,6 +23,7 @@ class BrokerBehaviours final : public BehaviourSource {
   std::shared_ptr<StopTimeout> stop_timeout() const override { return stop_timeout_; }
 
  private:
+  // Adds `change` to the number of robots that the program at `place` serves.
   void CountRobot(const std::string& place, int change);
 
   broker::BrokerClient& broker_;

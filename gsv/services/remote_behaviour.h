@@ -14,10 +14,11 @@
 
 namespace gsv::services {
 
+// The properties of a behaviour that its offer states.
 struct BehaviourIdentity {
-  std::string name;   // name of the behaviour's service, such as "wander"
-  std::string place;  // "host:pid"
-  bool time_managed = true;
+  std::string name;          // name of the behaviour's service, such as "wander"
+  std::string place;         // "host:pid"
+  bool time_managed = true;  // whether it uses only the simulation's clock
 };
 
 class RemoteBehaviour final : public simulation::BehaviourPort {
@@ -42,6 +43,7 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
   const std::string& place() const override { return identity_.place; }
 
  private:
+  // Makes a remote call. Errors name the behaviour and the operation.
   template <typename Function>
   base::Status Call(const char* operation, Function call) const;
   // Deactivates the hardware objects of the previous run, and stores the new hardware objects (or
@@ -51,9 +53,10 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
   const BehaviourIdentity identity_;
   sba::AgentBehaviour_var behaviour_;
   PortableServer::POA_var poa_;
-  const std::shared_ptr<const StopTimeout> stop_timeout_;
+  const std::shared_ptr<const StopTimeout> stop_timeout_;  // null for the normal limit
   bool has_not_stopped_ = false;  // whether the behaviour did not answer stop() in time
   base::Mutex mutex_;
+  // The robot's hardware objects; null before Init().
   std::shared_ptr<ServantGroup> hardware_ GSV_GUARDED_BY(mutex_);
 };
 

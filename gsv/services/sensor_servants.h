@@ -48,11 +48,12 @@ class SensorServant : public Skeleton {
   simulation::Agent& agent() { return *agent_; }
 
  private:
+  // The exceptions that the IDL declares for readings.
   static constexpr unsigned kReading = orb::kNotRunning | orb::kEnded | orb::kFailed;
 
   const std::shared_ptr<simulation::Agent> agent_;
   const model::SensorDescription description_;
-  const std::shared_ptr<ServantGroup> group_;
+  const std::shared_ptr<ServantGroup> group_;  // the hardware objects of the robot
 };
 
 // Makes the servant of one sensor.
@@ -73,6 +74,8 @@ PortableServer::ServantBase* MakeSensorServant(std::shared_ptr<simulation::Agent
 class SensorServants {
  public:
   static void Register(const std::string& type, SensorServantMaker maker);
+  // Returns the maker for a sensor type. For types without an own interface, `takes_commands`
+  // selects between sba::Actuator and sba::Sensor.
   static SensorServantMaker For(const std::string& type, bool takes_commands);
 };
 

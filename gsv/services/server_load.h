@@ -32,7 +32,7 @@ class ServerLoad final : public POA_CosTradingDynamic::DynamicPropEval {
   std::vector<broker::Property> Properties();
 
  private:
-  double Load() const;
+  double Load() const;  // the value of the property `load`
 
   const SimulationHost& host_;
   const std::function<int()> scenarios_;

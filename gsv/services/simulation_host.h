@@ -18,6 +18,7 @@ namespace gsv::services {
 // The default maximum of simulations per process.
 inline constexpr std::size_t kDefaultMaxSimulations = 64;
 
+// The list of simulations that this process runs.
 class SimulationHost {
  public:
   SimulationHost(std::shared_ptr<const sensing::SensorRegistry> sensors,
@@ -48,6 +49,8 @@ class SimulationHost {
   formats::ModelLibrary& library() { return *library_; }
 
  private:
+  // Returns `wanted`, or a free name if `wanted` is empty. Fails if the name is taken or invalid, or
+  // if there are too many simulations.
   base::Result<std::string> FreeName(std::string wanted) const GSV_REQUIRES(mutex_);
 
   const std::shared_ptr<const sensing::SensorRegistry> sensors_;

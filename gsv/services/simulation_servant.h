@@ -22,6 +22,7 @@ struct ServiceHooks {
   std::function<base::Result<std::string>(const std::string& world)> find_world;
   // Returns the URL of a simulation's viewer; may be empty.
   std::function<std::string(const std::string& simulation)> viewer_url;
+  // Start and stop the recording of a simulation; may be empty.
   std::function<base::Status(std::shared_ptr<simulation::Simulation>, const std::string& path)>
       start_recording;
   std::function<base::Status(const std::string& simulation)> stop_recording;
@@ -67,12 +68,15 @@ class SimulationServant final : public POA_sba::Simulation {
  private:
   // Adds a robot or an avatar, and returns its name.
   std::string Add(const sba::RobotSpecification& robot, bool is_avatar);
+  // Records that a client has called, so that the simulation does not count as abandoned.
   void NoteContact() { last_contact_ = std::chrono::steady_clock::now().time_since_epoch(); }
 
   const std::shared_ptr<simulation::Simulation> simulation_;
   SimulationServiceServant& service_;
   const sba::SimulationSpecification specification_;
+  // time without a call after which the simulation is abandoned
   std::chrono::steady_clock::duration abandoned_after_;
+  // time of the last call, since the clock's epoch
   std::atomic<std::chrono::steady_clock::duration> last_contact_;
 };
 
@@ -101,6 +105,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   PortableServer::POA_ptr poa() { return poa_; }
 
  private:
+  // Makes the CORBA object of a simulation.
   sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
                                sba::SimulationSpecification specification);
   // The function of the janitor thread, which destroys abandoned simulations and returns memory to

@@ -15,7 +15,9 @@ namespace gsv::services {
 class StopTimeout {
  public:
   using Clock = std::chrono::steady_clock;
+  // limit of each call before Shorten()
   static constexpr std::chrono::milliseconds kNormal{10'000};
+  // limit of all calls together after Shorten()
   static constexpr std::chrono::milliseconds kShortened{1'000};
   static constexpr std::chrono::milliseconds kMin{20};  // the minimum limit of a call
 
@@ -30,6 +32,7 @@ class StopTimeout {
   }
 
  private:
+  // End of the shortened limit; max() before Shorten().
   std::atomic<Clock::time_point> until_{Clock::time_point::max()};
 };
 

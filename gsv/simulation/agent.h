@@ -26,6 +26,7 @@
 
 namespace gsv::simulation {
 
+// Identifies an open clock of one agent. OpenClock() returns it.
 using ClockId = int;
 
 // The result of a wait for an instant of simulated time. A wait blocks for at most its lease, a
@@ -43,7 +44,7 @@ struct NamedReading {
 // The result of Exchange() or SleepAndRead().
 struct Exchanged {
   Wait wait = Wait::kNotYet;
-  base::SimTime now{0};
+  base::SimTime now{0};  // simulated time at the end of the wait
   // the readings of the sensors, by name, if `wait` is kReached
   std::vector<NamedReading> readings;
   // Whether simulated time stands still until this agent waits again (lockstep). Only

@@ -48,11 +48,11 @@ struct Specification {
   std::string name = "simulation";
   std::shared_ptr<const model::WorldDescription> world;  // never null
   Mode mode = Mode::kRealTime;
-  double factor = 1;  // the target real-time factor for kRealTime, > 0
-  SimTime step{0};    // 0 for the world's max_step_size
-  std::uint64_t seed = 0;
-  SimTime duration{0};  // if 0, the run ends only when it is stopped
-  FailurePolicy on_failure = FailurePolicy::kContinue;
+  double factor = 1;       // the target real-time factor for kRealTime, > 0
+  SimTime step{0};         // 0 for the world's max_step_size
+  std::uint64_t seed = 0;  // seed of all random numbers of the simulation
+  SimTime duration{0};     // if 0, the run ends only when it is stopped
+  FailurePolicy on_failure = FailurePolicy::kContinue;  // applies to every behaviour of the run
   // The wall-clock time that an agent may run before it counts as unresponsive.
   std::chrono::milliseconds deadline{10'000};
   bool keep = false;  // whether the simulation continues to exist after its creator has ended
@@ -86,7 +86,7 @@ struct Motion {
   double angular = 0;           // turning rate about the vertical, rad/s
   std::string contact;          // a body that the robot touches, except the ground; empty if there
                                 // is none
-  SimTime contact_since{0};
+  SimTime contact_since{0};     // time since which the robot touches `contact`
 };
 
 // The status of one robot, with its behaviour and its motion.
@@ -98,11 +98,12 @@ struct RobotStatus {
   bool is_avatar = false;
   bool is_station = false;  // whether this is an object with sensors (world/station.h)
   AgentPhase phase = AgentPhase::kNone;
-  std::string detail;  // why the agent is dead or unresponsive
-  std::string cause;   // the error that the behaviour reported; empty if there is none
-  SimTime detail_since{0};
+  std::string detail;       // why the agent is dead or unresponsive
+  std::string cause;        // the error that the behaviour reported; empty if there is none
+  SimTime detail_since{0};  // time since which `detail` applies
   geometry::Pose world_from_robot;
   double distance = 0;  // driven distance, m
+  // number of contacts that have begun, see BodyState
   std::uint64_t collisions = 0;
   // number of readings that the behaviour received, by sensor type
   std::map<std::string, std::uint64_t> readings;
@@ -120,12 +121,12 @@ struct SimulationStatus {
   std::int64_t step = 0;
   SimTime time{0};
   SimTime step_size{0};
-  double target_factor = 1;
+  double target_factor = 1;  // target real-time factor
   // The actual real-time factor. While the simulation runs: over about the last second. Otherwise:
   // over the whole run.
   double real_time_factor = 0;
-  std::chrono::nanoseconds wall_time{0};  // wall-clock time spent running
-  std::uint64_t late_steps = 0;
+  std::chrono::nanoseconds wall_time{0};       // wall-clock time spent running
+  std::uint64_t late_steps = 0;                // number of steps that started late, see pacer.h
   std::chrono::nanoseconds mean_step_time{0};  // wall-clock time per step
   // The agent that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s".
   // Empty if there is none.
@@ -177,14 +178,16 @@ struct ExpectationState {
   // so far. For a condition that must become true once, it is the largest margin so far. Not set if
   // the expectation has no margin.
   std::optional<double> margin;
-  std::string unit;  // unit of the margin; empty if it has none
-  SimTime margin_at{0};
+  std::string unit;                 // unit of the margin; empty if it has none
+  SimTime margin_at{0};             // time of the margin
   std::string detail;               // detail of a violation
   std::vector<std::string> bodies;  // bodies that the expectation names
+  // A circle in which a body must be, or must not be.
   struct Place {
     double x = 0, y = 0, radius = 0;  // m
   };
   std::vector<Place> places;
+  // A rectangle in which a body must be, or must not be.
   struct Box {
     double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  // m; an infinite value means no limit
   };

@@ -22,7 +22,7 @@ namespace gsv::verdict {
 // The values of one condition of an expectation during the run.
 struct MeasuredAtom {
   scenario::Formula atom;
-  bool was_measured = false;
+  bool was_measured = false;  // false if the quantity was never available
   // range of the values up to the verdict, and the value at the verdict (`last`)
   double lowest = 0, highest = 0, last = 0;
   double lowest_at = 0, highest_at = 0;  // times of the lowest and the highest value, s
@@ -32,7 +32,7 @@ struct MeasuredAtom {
 // The verdict on one expectation, and its reasons.
 struct Finding {
   std::string name, yaml, where;  // copied from the expectation
-  bool holds = false;
+  bool holds = false;             // the verdict
   // The first step at which the verdict was certain.
   std::int64_t step = 0;
   base::SimTime time{0};
@@ -66,24 +66,31 @@ class Judge final : public simulation::Observer, public simulation::ExpectationS
   std::shared_ptr<const world::Snapshot> first_violation() const;
 
  private:
+  // An expectation with its evaluation so far. Its finding is final when the monitor has a verdict.
   struct Pending {
     Finding finding;
     Monitor monitor;
     scenario::Formula formula;
-    std::optional<Margin> margin;
+    std::optional<Margin> margin;  // nullopt if the expectation has no margin
   };
   explicit Judge(simulation::Simulation& simulation)
       : simulation_(simulation), measure_(simulation) {}
+  // Evaluates the undecided expectations at a state.
   void JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot);
+  // Completes the finding, and emits its event. `is_end`: the verdict follows from the end of the
+  // run.
   void RecordVerdict(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot,
                      bool is_end = false) GSV_REQUIRES(mutex_);
+  // Emits the event of a verdict.
   void EmitVerdict(const Finding& finding);
 
   simulation::Simulation& simulation_;
   Measure measure_;
   mutable base::Mutex mutex_;
-  base::ConditionVariable judged_;
+  base::ConditionVariable judged_;  // notified when a state was evaluated
+  // All expectations, in the order of the scenario.
   std::vector<Pending> pending_ GSV_GUARDED_BY(mutex_);
+  // The last evaluated state.
   std::shared_ptr<const world::Snapshot> latest_ GSV_GUARDED_BY(mutex_);
   std::shared_ptr<const world::Snapshot> first_violation_ GSV_GUARDED_BY(mutex_);
 };

@@ -25,15 +25,16 @@ class Margin {
  private:
   friend std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
-  scenario::Formula condition_;
+  scenario::Formula condition_;  // the condition whose margin is computed
   // True for "eventually". The margin is then the largest distance. Otherwise, it is the smallest
   // distance.
   bool must_come_ = false;
+  // Start and end of the window in which the margin is computed; no `by_`: to the end of the run.
   base::SimTime from_{0};
   std::optional<base::SimTime> by_;
   std::string unit_;
-  std::optional<double> margin_;
-  base::SimTime at_{0};
+  std::optional<double> margin_;  // nullopt before the first value
+  base::SimTime at_{0};           // time of margin_
 };
 
 // Returns the margin of a formula. Returns nullopt for a formula that is not one condition over

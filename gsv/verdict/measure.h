@@ -38,17 +38,21 @@ class Measure {
   std::string stuck_longest() const;
 
  private:
+  // Returns the state of a body; null if it is not in the world.
   const world::BodyState* StateOf(const std::string& body) const;
+  // Return the value of a quantity of one kind.
   std::optional<double> OfSensor(const scenario::Quantity& quantity) const;
   std::optional<double> OfContact(const scenario::Quantity& quantity) const;
+  // Whether the robot's behaviour has finished or died.
   bool HasEnded(const std::string& robot);
+  // Returns the value of kStuck for one body, s.
   double SecondsStuck(int body) const;
   std::optional<double> OfStuck(const std::string& robot) const;
 
   simulation::Simulation& simulation_;
   std::shared_ptr<const world::Snapshot> snapshot_;
-  simulation::MotionHistory motions_;
-  std::optional<simulation::SimulationStatus> status_;
+  simulation::MotionHistory motions_;                   // the motion of all robots up to snapshot_
+  std::optional<simulation::SimulationStatus> status_;  // the last status before the end of the run
   bool is_status_new_ = false;  // whether `status_` belongs to the current snapshot
 };
 

@@ -16,6 +16,7 @@
 
 namespace gsv::verdict {
 
+// The part of a formula that the rest of the run must still satisfy.
 class Obligation;
 using ObligationPtr = std::shared_ptr<const Obligation>;
 
@@ -36,7 +37,7 @@ class Monitor {
   std::optional<bool> verdict() const;
 
  private:
-  ObligationPtr rest_;
+  ObligationPtr rest_;  // the obligation after the last evaluated step
 };
 
 }  // namespace gsv::verdict

@@ -18,12 +18,14 @@
 
 namespace gsv::view {
 
-inline constexpr int kMinSide = 16;
+inline constexpr int kMinSide = 16;  // minimum width and height of an image, pixels
 inline constexpr double kMinFieldOfView = 1, kMaxFieldOfView = 150;  // degrees
 
 // The parameters of a view, as users give them.
 struct Camera {
-  int width = 1280, height = 720;
+  int width = 1280, height = 720;  // size of the image, pixels
+  // Position of the camera, and a point at the centre of the image. Not set: the default of the
+  // view, or of the followed robot.
   std::optional<geometry::Vector3> eye, target;
   std::optional<double> field_of_view;  // vertical angle in degrees; default: 45
   std::string follow;                   // name of a robot; empty if the camera follows none

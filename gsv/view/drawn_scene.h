@@ -41,11 +41,13 @@ class DrawnScene {
   SceneLookup LookupAt(const world::Snapshot& snapshot) const;
 
  private:
+  // A sensor of the scene.
   struct Camera {
     std::string body;  // name of the body in the snapshot: the robot, or one of its links
     geometry::Pose body_from_sensor;
     double horizontal_fov = 0;  // rad; 0: the sensor is not a camera
   };
+  // Reads the JSON of a scene.
   class Reader;
   DrawnScene() = default;
 

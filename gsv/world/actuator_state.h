@@ -23,14 +23,14 @@ class ActuatorState : public DeviceState {
   // The values that a gripper adds to the hash of its command. Other actuator types add the values
   // of an empty gripper, so that recorded hashes remain valid.
   struct GraspForHash {
-    double opening_before = 0;
+    double opening_before = 0;  // see GripperState
     Grasp grasp;
-    double width = 0;
+    double width = 0;  // width of the grasped body, m
   };
   virtual GraspForHash grasp_for_hash() const { return {}; }
 
  private:
-  const FollowedCommand followed_;
+  const FollowedCommand followed_;  // the command that the actuator applies
 };
 
 }  // namespace gsv::world

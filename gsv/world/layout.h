@@ -64,8 +64,8 @@ struct Body {
 struct Layout {
   std::uint32_t version = 0;  // increases with each change of the layout
   std::vector<Body> bodies;   // ordered by name
-  int joint_count = 0;
-  int link_count = 0;
+  int joint_count = 0;        // number of joints of all bodies
+  int link_count = 0;         // number of links of all bodies
   std::shared_ptr<const model::WorldDescription> description;  // light, sky, gravity; never null
 
   // Returns the index of the body with that name, or -1.

@@ -14,8 +14,8 @@ namespace gsv::world {
 
 struct Pedestrian {
   std::shared_ptr<const model::PedestrianGroup> group;  // never null
-  std::uint64_t seed = 0, stream = 0;
-  double speed = 1.34;    // desired speed, m/s
+  std::uint64_t seed = 0, stream = 0;                   // key of the pedestrian's random numbers
+  double speed = 1.34;                                  // desired speed, m/s
   std::uint32_t leg = 0;  // index of the first leg of the group's route that this pedestrian walks
 };
 

@@ -30,15 +30,16 @@ using RadioSetupPtr = std::shared_ptr<const RadioSetup>;
 
 // A message with its sender, receiver and content.
 struct RadioMessage {
-  std::string sender;    // robot
-  std::string radio;     // name of the sending sensor
-  std::string receiver;  // name of the receiving robot; empty for all
-  base::SimTime sent{0};
+  std::string sender;        // robot
+  std::string radio;         // name of the sending sensor
+  std::string receiver;      // name of the receiving robot; empty for all
+  base::SimTime sent{0};     // simulated time of sending
   std::string content;       // bytes
   std::uint64_t digest = 0;  // hash of all members above, set by WithDigest()
 };
 using RadioMessagePtr = std::shared_ptr<const RadioMessage>;
 
+// Sets the digest of a message.
 RadioMessagePtr WithDigest(RadioMessage message);
 
 // A radio and its position.
@@ -52,7 +53,7 @@ struct Antenna {
 // A message that was sent.
 struct Transmission {
   RadioMessagePtr message;
-  Antenna from;
+  Antenna from;                       // antenna of the sender at the instant of sending
   std::vector<std::string> heard_by;  // names of the robots that received the message
 };
 

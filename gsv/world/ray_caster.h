@@ -8,12 +8,14 @@
 
 namespace gsv::world {
 
+// A straight path of limited length.
 struct Ray {
   geometry::Vector3 origin;     // world
   geometry::Vector3 direction;  // direction in the world, unit length
   double max_distance = 0;      // m
 };
 
+// A point at which a ray crosses a collision surface.
 struct Hit {
   double distance = 0;       // distance along the ray, m, in [0, max_distance]
   geometry::Vector3 normal;  // normal in the world, unit length, against the ray

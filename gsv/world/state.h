@@ -68,7 +68,7 @@ struct JointCommand {
     kEffort,    // N m or N; the effort limit applies
   };
   Kind kind = Kind::kNone;
-  double value = 0;
+  double value = 0;  // in the unit that the kind states
   friend bool operator==(const JointCommand&, const JointCommand&) = default;
 };
 

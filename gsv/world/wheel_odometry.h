@@ -47,18 +47,21 @@ class WheelOdometry {
   // A base has two rows of wheels: the left row is wheels_[left_wheel..right_wheel), and the right
   // row is wheels_[right_wheel..end_wheel). If the drive does not have two rows, both are empty.
   struct Base {
-    int body = 0;
+    int body = 0;  // index in Layout::bodies
     std::uint32_t left_wheel = 0, right_wheel = 0, end_wheel = 0;
-    double separation = 1;
+    double separation = 1;  // distance between the two rows, m
   };
 
+  // Advances the odometry of one base with two rows of wheels.
   void AdvanceBase(double step_seconds, const Base& base, int steps, State& state) const;
+  // Returns the distance that the side with the wheels from `begin` to `end` has travelled since
+  // KeepWheels(), m.
   double Travel(std::uint32_t begin, std::uint32_t end, const State& state) const;
 
-  std::vector<Base> bases_;   // ordered by body
-  std::vector<int> base_of_;  // index in bases_ of each body; -1 if it has no base
-  std::vector<Wheel> wheels_;
-  std::vector<double> before_;
+  std::vector<Base> bases_;     // ordered by body
+  std::vector<int> base_of_;    // index in bases_ of each body; -1 if it has no base
+  std::vector<Wheel> wheels_;   // the wheels of all bases
+  std::vector<double> before_;  // State::joint_positions at KeepWheels()
 };
 
 }  // namespace gsv::world

@@ -83,6 +83,7 @@ class Microphone : public Sensor {
   static constexpr const char* kType = readings::Microphone::kType;
   using Sensor::Sensor;
 
+  // The loudest sound, and the sound level.
   using Hearing = readings::Microphone;
   Hearing Listen() { return MeasureAs<Hearing>(); }
 };

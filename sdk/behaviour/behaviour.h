@@ -51,6 +51,7 @@ class Controller : public Behaviour {
   SimTime period_;
 };
 
+// Makes the behaviour of one robot.
 using BehaviourFactory = std::function<std::unique_ptr<Behaviour>()>;
 
 }  // namespace gsv

@@ -15,6 +15,7 @@ namespace gsv {
 
 // The name, the kind and the limits of a joint.
 struct JointTraits {
+  // The value of a limit that does not exist.
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   std::string name;
   std::string kind;  // "revolute", "continuous", "prismatic" or "screw"

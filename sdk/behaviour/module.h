@@ -19,8 +19,10 @@ namespace gsv {
 // The version of the interface. Increase it with every change of Robot, Behaviour or
 // BehaviourModule.
 inline constexpr int kBehaviourInterface = 5;
+// Name of the function by which a plug-in returns its BehaviourModule.
 inline constexpr const char* kBehaviourModuleSymbol = "gsv_behaviour_module";
 
+// The description of a behaviour, and how to make it.
 struct BehaviourModule {
   int interface_version = kBehaviourInterface;
   std::string name;         // the name of the offer, such as "wander"

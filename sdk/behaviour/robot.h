@@ -31,6 +31,7 @@ struct DriveCommand {
   double lateral = 0;  // m/s to the left; ignored by bases that cannot move sideways
 };
 
+// A robot, as its behaviour sees it.
 class Robot {
  public:
   virtual ~Robot() = default;
@@ -99,12 +100,14 @@ class Robot {
   virtual bool Exchange(const DriveCommand& command, SimTime instant,
                         std::vector<Reading>& readings) = 0;
 
-  virtual bool IsRunning() const = 0;
+  virtual bool IsRunning() const = 0;  // false after the end of the run
   // The reason for the end of the run. Empty during the run and after a normal end.
   virtual std::string error() const = 0;
 
  private:
+  // Opens a sensor that the robot's model already has.
   virtual base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) = 0;
+  // Adds a new sensor, which `traits` describes, to the robot, and opens it.
   virtual base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) = 0;
 };
 

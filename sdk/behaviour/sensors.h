@@ -148,6 +148,7 @@ class Lidar : public Sensor {
   static constexpr const char* kType = readings::Lidar::kType;
   using Sensor::Sensor;
 
+  // One scan. Beams are in rows, from the lowest row; within a row, from the smallest azimuth.
   struct Scan {
     std::vector<double> ranges;       // in m for each beam; infinite if the beam hit nothing
     std::vector<double> intensities;  // for each beam; empty without the parameter intensity_scale

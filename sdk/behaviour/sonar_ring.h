@@ -17,6 +17,7 @@ class SonarRing {
   // i * 2 pi / count.
   static base::Result<SonarRing> Open(Robot& robot, int count);
 
+  // The echo of one sonar.
   struct Echo {
     double bearing = 0;    // rad
     double distance = 0;   // distance from the robot's origin, m
@@ -28,6 +29,7 @@ class SonarRing {
   std::vector<Echo> From(const std::vector<Reading>& readings) const;
 
  private:
+  // A sonar of the ring, and where it is mounted.
   struct Mounted {
     std::string name;
     std::unique_ptr<Sonar> sonar;

@@ -10,6 +10,7 @@
 
 namespace gsv::python {
 
+// Makes the Python object of a sensor.
 using SensorMaker = py::object (*)(std::unique_ptr<SensorPort>);
 // The functions that make sensor objects, by sensor type.
 std::map<std::string, SensorMaker>& SensorMakers();

@@ -19,6 +19,7 @@ namespace gsv::python {
 
 namespace py = pybind11;
 
+// Releases the GIL during a bound function, so that other Python threads can run.
 using LetOthersRun = py::call_guard<py::gil_scoped_release>;
 
 // Raises the exception of gsv.errors for the error's code, with its sentence. The caller may or may

@@ -26,11 +26,13 @@ class CrowdCheck final : public simulation::Observer {
 
   std::uint64_t readings_checked() const { return readings_checked_; }
   std::uint64_t pairs_checked() const { return pairs_checked_; }
+  // Number of differences between the simulation and the check.
   std::uint64_t mismatches() const { return mismatches_; }
   // Returns a sentence about the first difference, or an empty text.
   std::string first_mismatch() const;
 
  private:
+  // Counts a difference, and stores the first sentence.
   void Report(std::string sentence);
 
   std::atomic<std::uint64_t> readings_checked_{0}, pairs_checked_{0}, mismatches_{0};

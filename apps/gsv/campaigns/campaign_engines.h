@@ -13,8 +13,9 @@
 
 namespace gsv::app {
 
+// The options of `gsv campaign run`.
 struct EngineOptions {
-  campaign::Engine engine;
+  campaign::Engine engine;  // this machine, or the kind of job queue
   int jobs = 0;  // concurrent runs; 0: one per processor or, with servers, as many as these allow
   double timeout = 300;  // wall-clock time limit of a run, s
   double poll = 0;       // time between queries of the queue, s; 0 for the engine's default
@@ -36,6 +37,7 @@ int GatherSpool(const std::string& results_file);
 // or when no server is left.
 int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
             const EngineOptions& options, Signals& signals);
+// Submits the runs to a job queue, and waits for their results if `options` say so.
 int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals);
 
@@ -46,8 +48,8 @@ int RunShard(const campaign::Campaign& campaign, const std::string& results_file
 
 // A task of a batch. A job queue starts it.
 struct TaskArguments {
-  std::string batch_file;
-  std::size_t task = 0;
+  std::string batch_file;  // the file that lists the runs of all tasks
+  std::size_t task = 0;    // number of this task in the batch
   std::string job = "none",
               node;  // stored in the journal; an empty `node` means this machine's name
   int jobs = 1;      // number of concurrent runs

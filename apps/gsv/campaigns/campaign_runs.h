@@ -28,13 +28,14 @@ class RunExecutor {
                                              const std::atomic<bool>& is_cancelled) const;
 
  private:
+  // Executes a run in a child process on this machine.
   TestResult RunHere(std::int64_t run, const std::string& scenario,
                      const std::atomic<bool>& is_cancelled) const;
 
   const campaign::Campaign& campaign_;
   const std::filesystem::path folder_;
-  ScenarioServers* const servers_;
-  TestOptions options_;
+  ScenarioServers* const servers_;  // null if this machine executes the runs
+  TestOptions options_;             // the options of each run
 };
 
 }  // namespace gsv::app

@@ -13,10 +13,11 @@ class App;
 
 namespace gsv::app {
 
+// The objects that the functions below use.
 struct CommandLine {
-  CLI::App& app;
-  Signals& signals;
-  int& exit_code;
+  CLI::App& app;     // the command to which subcommands are added
+  Signals& signals;  // the signals that end the program
+  int& exit_code;    // exit code of the program; the executed subcommand sets it
 };
 
 void AddRunCommand(const CommandLine& line);

@@ -25,10 +25,11 @@ class LostSimulations {
  public:
   static constexpr std::size_t kMaxKept = 100;
 
+  // The properties of this server that its note contains.
   struct Server {
-    std::string name;    // the name in the server's offer
-    std::string broker;  // the reference of the server's broker
-    std::filesystem::path recordings;
+    std::string name;                  // the name in the server's offer
+    std::string broker;                // the reference of the server's broker
+    std::filesystem::path recordings;  // folder of this server's recordings
   };
 
   // Takes over the notes of ended servers, and logs each lost simulation. If the state folder
@@ -57,18 +58,21 @@ class LostSimulations {
   void Examine(const std::stop_token& stop);
   // The function of watcher_: writes the note of this server after changes.
   void WatchOver(const std::stop_token& stop);
+  // Writes the note of this server.
   void Write();
+  // Returns the simulations that this server runs now, as they are noted.
   std::vector<LostSimulation> Running() const;
 
   services::SimulationHost& host_;
   gateway::RecordingSwitch& recordings_;
   std::filesystem::path file_;  // path of this server's note; empty if it cannot be written
   ServerNote note_;             // the content that was last written to file_; used only by watcher_
-  bool could_write_ = true;
-  mutable base::Mutex mutex_;  // guards lost_ and next_
+  bool could_write_ = true;     // false after a failed write, so that the failure is logged once
+  mutable base::Mutex mutex_;   // guards lost_ and next_
+  // never notified; the threads wait on it until they are stopped
   std::condition_variable_any changed_;
   std::map<int, LostSimulation> lost_ GSV_GUARDED_BY(mutex_);
-  int next_ GSV_GUARDED_BY(mutex_) = 1;
+  int next_ GSV_GUARDED_BY(mutex_) = 1;  // number of the next report
   // Destroyed before all other members, because the threads use these.
   std::jthread examiner_, watcher_;
 };

@@ -23,10 +23,10 @@ namespace gsv::app {
 
 // A simulation that was running when its server was killed.
 struct LostSimulation {
-  std::string name, world, phase;
-  double time_s = 0;       // simulated time at the last update
-  std::int64_t noted = 0;  // time of the last update, s since 1970
-  std::string recording;   // a file or folder; empty if it was not recorded
+  std::string name, world, phase;  // `phase`: the phase at the last update
+  double time_s = 0;               // simulated time at the last update
+  std::int64_t noted = 0;          // time of the last update, s since 1970
+  std::string recording;           // a file or folder; empty if it was not recorded
   // the time of the recording's last readable message; set after the file was read
   std::optional<double> whole_until_s;
   std::string server;  // the server that ran it, such as "gsv (process 123)"
@@ -45,7 +45,7 @@ struct ServerNote {
   // start of the process, in clock ticks since the machine was booted; with `boot` it detects a
   // reused pid
   std::uint64_t started = 0;
-  std::string boot, host;
+  std::string boot, host;                   // id of the machine's boot; host name
   std::string server;                       // the name of the server
   std::string broker;                       // the reference of the server's broker
   std::string recordings;                   // the server's folder of recordings

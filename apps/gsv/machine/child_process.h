@@ -54,14 +54,16 @@ class ChildProcess {
   std::string Ending();
   // Waits for the child's end or the time limit, and returns Ending().
   std::string AwaitEnd(std::chrono::milliseconds timeout);
+  // Sends a signal to the child.
   void Signal(int signal);
 
  private:
+  // How the child's streams are connected.
   struct Streams {
-    bool quiet = false;
+    bool quiet = false;  // whether stderr is discarded
     Input input = Input::kEmpty;
-    bool captures_errors = false;
-    std::vector<std::string> environment;
+    bool captures_errors = false;          // whether stderr can be read here
+    std::vector<std::string> environment;  // further variables, as NAME=VALUE
   };
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
                                                            Streams streams);
@@ -70,9 +72,9 @@ class ChildProcess {
   const pid_t pid_;
   const int input_;  // -1 if there is none
   const int output_;
-  const int errors_;         // -1 if there is none
-  int pid_descriptor_ = -1;  // becomes readable when the child ends
-  std::string buffer_;
+  const int errors_;           // -1 if there is none
+  int pid_descriptor_ = -1;    // becomes readable when the child ends
+  std::string buffer_;         // output that was read beyond the last line of ReadLine()
   std::optional<int> status_;  // the status from waitpid()
 };
 

@@ -10,9 +10,9 @@
 
 namespace gsv::app {
 
-std::filesystem::path ProgramPath();  // Returns the path of this executable.
-std::filesystem::path ProgramFolder();
-std::filesystem::path ShareFolder();  // Returns the folder with worlds, models and the viewer.
+std::filesystem::path ProgramPath();    // Returns the path of this executable.
+std::filesystem::path ProgramFolder();  // Returns the folder of this executable.
+std::filesystem::path ShareFolder();    // Returns the folder with worlds, models and the viewer.
 
 // Returns the names of the built-in worlds, such as "maze" and "office".
 std::vector<std::string> BuiltInWorlds();

@@ -21,6 +21,7 @@ class ChildProcess;
 
 class OutputReader {
  public:
+  // kOutput: stdout; kErrors: stderr.
   enum class Stream { kOutput, kErrors };
   struct Callbacks {
     std::function<void(pid_t pid, Stream stream, const std::string& line)> on_line;
@@ -48,8 +49,9 @@ class OutputReader {
     pid_t pid = 0;
     int descriptor = -1;  // -1: closed
     Stream stream = Stream::kErrors;
-    std::string partial;
+    std::string partial;  // the line that has not ended yet
   };
+  // A process whose output is read.
   struct Child {
     int pid_descriptor = -1;
     bool has_ended = false;
@@ -60,19 +62,23 @@ class OutputReader {
   bool Read(Source& source);
   // Reads the output that is left in the pipe after the child has ended.
   void ReadRest(Source& source);
+  // Calls on_line.
   void Emit(const Source& source, const std::string& line);
+  // Calls on_end, and removes the child.
   void EndChild(pid_t pid);
   // Wakes the reader's thread from poll().
   void Wake();
 
   const Callbacks callbacks_;
-  int wake_ends_[2] = {-1, -1};
+  int wake_ends_[2] = {-1, -1};  // both ends of the pipe of Wake()
   base::Mutex mutex_;
+  // Streams and children that the reader's thread has not yet taken over.
   std::vector<Source> added_ GSV_GUARDED_BY(mutex_);
   std::map<pid_t, int> added_children_ GSV_GUARDED_BY(mutex_);  // their pid descriptors
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
+  // Whether a thread is in WaitForOutput().
   bool has_waiter_ GSV_GUARDED_BY(mutex_) = false;
-  base::ConditionVariable all_read_;
+  base::ConditionVariable all_read_;  // notified when all output so far was read
   // used by the reader's thread only
   std::vector<Source> sources_;
   std::map<pid_t, Child> children_;

@@ -21,6 +21,7 @@ namespace gsv::app {
 // if there is no process with that number.
 std::optional<std::uint64_t> ProcessStart(pid_t pid);
 
+// A running gsv process of this user.
 struct Instance {
   pid_t pid = 0;
   // start of the process, in clock ticks since the machine was booted; detects a reused pid

@@ -8,9 +8,10 @@
 
 namespace gsv::app {
 
+// The limits of a sandbox.
 struct Sandbox {
   std::size_t memory_bytes = std::size_t{4} << 30;  // maximum size of the address space
-  std::chrono::seconds processor_time{60};
+  std::chrono::seconds processor_time{60};          // maximum processor time
 };
 
 // The exit code of a sandboxed process that exceeds its memory limit.

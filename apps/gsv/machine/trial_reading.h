@@ -14,9 +14,10 @@
 
 namespace gsv::app {
 
+// The limits of a trial.
 struct TrialLimits {
   Sandbox sandbox;
-  std::chrono::seconds wall_time{120};
+  std::chrono::seconds wall_time{120};  // maximum wall-clock time
 };
 
 // Returns kBadModel if the trial did not end regularly. `model_path` has folders to search for

@@ -7,13 +7,13 @@ namespace gsv::app {
 
 enum ExitCode {
   kOk = 0,
-  kAssertionFailed = 1,
-  kUsage = 2,
-  kBadModel = 3,
-  kBehaviourFailed = 4,
-  kInfrastructure = 5,
-  kTimedOut = 124,
-  kInterrupted = 130,
+  kAssertionFailed = 1,  // an expectation or a comparison failed
+  kUsage = 2,            // wrong arguments
+  kBadModel = 3,         // a missing or invalid file
+  kBehaviourFailed = 4,  // a behaviour failed
+  kInfrastructure = 5,   // a broker, disk, renderer or other resource failed
+  kTimedOut = 124,       // a limit of wall-clock time has passed
+  kInterrupted = 130,    // a signal ended the program
 };
 
 ExitCode ExitCodeFor(base::ErrorCode code);

@@ -16,7 +16,7 @@ class Signals {
   void Wait();  // Waits for one signal.
 
  private:
-  sigset_t set_;
+  sigset_t set_;  // the signals that end the program
 };
 
 }  // namespace gsv::app

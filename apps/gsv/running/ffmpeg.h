@@ -38,7 +38,7 @@ class Ffmpeg {
   Ffmpeg(pid_t pid, int input);
 
   pid_t pid_;
-  int input_;
+  int input_;  // descriptor of ffmpeg's stdin; -1 after Finish()
   int status_ = -1;
 };
 

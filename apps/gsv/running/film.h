@@ -16,10 +16,10 @@
 namespace gsv::app {
 
 struct FilmOptions {
-  std::string output;
-  double frames_a_second = 25;
-  std::uint64_t frames = 0;  // the number of frames that will be added
-  int width = 0, height = 0;
+  std::string output;             // file or folder of the film; its extension selects the format
+  double frames_a_second = 25;    // frames per second of the film
+  std::uint64_t frames = 0;       // the number of frames that will be added
+  int width = 0, height = 0;      // size of the frames, pixels
   std::string ffmpeg = "ffmpeg";  // searched on the PATH
 };
 

@@ -13,6 +13,7 @@ namespace gsv::app {
 // Returns a sentence if the name does not end with .jpg, .jpeg or .png, else an empty text.
 std::string CheckImageName(const std::string& path);
 
+// Encodes an image, as the extension of `path` says, and writes it.
 base::Status WriteImage(const model::Image& image, const std::string& path);
 // Writes an encoded image.
 base::Status WriteImageFile(std::string_view bytes, const std::string& path);

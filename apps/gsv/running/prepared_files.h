@@ -31,6 +31,7 @@ class PreparedFiles {
     bool operator==(const Key&) const = default;
   };
 
+  // Returns the world of a file, and reads it on first use. Null if it cannot be read.
   std::shared_ptr<const PreparedWorld> WorldAt(const std::string& file);
 
   Key key_;

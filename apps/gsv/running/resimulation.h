@@ -8,11 +8,12 @@
 
 namespace gsv::app {
 
+// The options of a repeated run.
 struct ResimulationOptions {
-  std::string file;
+  std::string file;       // the recording
   std::string broker;     // empty if the repeated run starts its own broker
   bool commands = false;  // whether recorded commands are used instead of live behaviours
-  bool json = false;
+  bool json = false;      // whether the result is printed as JSON
 };
 
 // Runs in lockstep, with the recorded command line and working directory, to the recorded end.

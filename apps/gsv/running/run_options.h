@@ -43,14 +43,14 @@ struct RunOptions {
   std::function<std::shared_ptr<simulation::BehaviourPort>(
       const std::string& robot, const std::string& behaviour, base::SimTime from)>
       make_behaviour;
-  std::vector<simulation::Edit> edits;  // edits to make during the run, in this order
-  simulation::Specification specification;
+  std::vector<simulation::Edit> edits;      // edits to make during the run, in this order
+  simulation::Specification specification;  // the parameters of the simulation
   std::shared_ptr<const PreparedWorld> prepared_world;  // null if the run reads the world itself
   std::string record;                                   // a file; empty if the run is not recorded
-  RecordingChoice recording;
+  RecordingChoice recording;                            // topics and rates of the recording
   double wall_timeout = 0;    // limit of the wall-clock time, s; 0 for none
   std::string failure_image;  // the file for an image of the first violation; may be empty
-  bool open_browser = false;
+  bool open_browser = false;  // whether to open the viewer's page
   bool json = false;
   bool is_strict = false;  // whether to refuse the run if files have warnings
 };

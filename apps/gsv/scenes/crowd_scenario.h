@@ -12,7 +12,7 @@ namespace gsv::app {
 inline constexpr double kCrowdRobotRadius = 0.175;  // radius of a robot, which is a disc, m
 inline constexpr double kCrowdRange = 5;            // maximum range of a robot's rays, m
 inline constexpr double kCrowdRayHeight = 0.15;     // height of the rays above the ground, m
-inline constexpr int kCrowdRays = 8;
+inline constexpr int kCrowdRays = 8;                // number of rays of each robot
 
 // Returns the world with walls, boxes and ground.
 std::shared_ptr<const model::WorldDescription> CrowdWorld(int robots, std::uint64_t seed);

@@ -11,10 +11,11 @@
 
 namespace gsv::app {
 
+// The world, the robots and the mode of a scene.
 struct MovingSceneOptions {
   std::string world =
       "office";  // a world of `gsv run`, or "square" for the crowd's square with a floor
-  std::string model = "b21r";
+  std::string model = "b21r";  // model of the robots
   int robots = 50;
   simulation::Mode mode = simulation::Mode::kRealTime;
   // Whether static bodies collide with their visuals, mesh by mesh, and not with their simpler
@@ -38,7 +39,7 @@ struct MovingScene {
                                                const rendering::CameraParameters& camera) const;
 
   std::shared_ptr<simulation::Simulation> simulation;
-  std::vector<std::string> robots;
+  std::vector<std::string> robots;  // names of the robots
 };
 
 // Returns the number of visible triangles.

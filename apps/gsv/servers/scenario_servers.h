@@ -41,24 +41,33 @@ class ScenarioServers {
 
  private:
   using Clock = std::chrono::steady_clock;
+  // A server that the broker offers.
   struct Server {
     std::string key, name;  // the server's reference, and its name in messages
     sba::ScenarioService_var service;
+    // Number of runs that the server executes at once, and number of runs that it executes for this
+    // process.
     int slots = 0, given = 0;
     // the time until which it gets no runs, because it was lost or has no free slot
     Clock::time_point avoided_until{};
   };
+  // How an attempt to run a scenario on a server has ended.
   enum class Ending { kDone, kNoFreeSlot, kLost };
 
   ScenarioServers(const CORBA::ORB_var& orb, broker::BrokerClient broker, std::string constraint)
       : orb_(orb), broker_(std::move(broker)), constraint_(std::move(constraint)) {}
 
+  // Queries the broker for servers.
   base::Status Refresh();
+  // Updates servers_ with the offers of the broker.
   void Merge(const std::vector<broker::FoundOffer>& offers) GSV_REQUIRES(mutex_);
+  // Waits for a server with a free slot, and counts the run. Null if cancelled, or without servers.
   std::shared_ptr<Server> Acquire(const std::atomic<bool>& is_cancelled);
   // Returns the server with most free slots, or null if none has a free slot.
   std::shared_ptr<Server> ServerWithMostFreeSlots() GSV_REQUIRES(mutex_);
+  // Ends the count of a run. A lost or full server gets no runs for a while.
   void Release(Server& server, Ending ending);
+  // Runs a scenario on a server. Sets `result` if the ending is kDone.
   Ending RunAt(Server& server, const std::string& scenario, double timeout,
                const std::atomic<bool>& is_cancelled, TestResult& result);
 
@@ -66,9 +75,10 @@ class ScenarioServers {
   broker::BrokerClient broker_;
   const std::string constraint_;
   mutable base::Mutex mutex_;
-  base::ConditionVariable room_;
+  base::ConditionVariable room_;  // notified when a slot may be free
   std::vector<std::shared_ptr<Server>> servers_
       GSV_GUARDED_BY(mutex_);  // in the order in which the broker returns the offers
+  // Whether a thread is in Refresh().
   bool is_refreshing_ GSV_GUARDED_BY(mutex_) = false;
   Clock::time_point refreshed_ GSV_GUARDED_BY(mutex_){},
       served_{};  // the last time at which a server existed

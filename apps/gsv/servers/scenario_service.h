@@ -14,6 +14,7 @@
 
 namespace gsv::app {
 
+// One run, as a CORBA object.
 class ScenarioRunServant;
 
 class ScenarioServiceServant final : public POA_sba::ScenarioService {
@@ -24,18 +25,20 @@ class ScenarioServiceServant final : public POA_sba::ScenarioService {
 
   sba::ScenarioRun_ptr run(const char* scenario, const sba::NameValues& options) override;
 
-  int running() const;
+  int running() const;  // number of runs in progress
   // Ends all runs. Later calls on their references fail.
   void Close();
 
  private:
   friend class ScenarioRunServant;
 
+  // Removes a run from runs_, and deactivates its object.
   void Forget(ScenarioRunServant* run);
+  // The function of janitor_: ends the runs whose campaign no longer calls.
   void EndAbandoned();
 
   const PortableServer::POA_var poa_;
-  const int capacity_;
+  const int capacity_;  // maximum number of concurrent runs
   mutable base::Mutex mutex_;
   base::ConditionVariable closing_changed_;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;

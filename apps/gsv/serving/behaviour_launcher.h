@@ -41,8 +41,8 @@ class BehaviourLauncher {
 
  private:
   broker::BrokerClient& broker_;
-  std::vector<std::unique_ptr<ChildProcess>> children_;
-  BehaviourOutput output_;  // output of children_
+  std::vector<std::unique_ptr<ChildProcess>> children_;  // the started programs
+  BehaviourOutput output_;                               // output of children_
   std::chrono::milliseconds end_timeout_{2000};
 };
 

@@ -49,22 +49,25 @@ class BehaviourOutput {
   void ExpectEnds();
 
  private:
+  // A line that is to be emitted as an event.
   struct Line {
-    std::string_view kind;
+    std::string_view kind;  // kind of the event, such as simulation::kStdoutEvent
     std::string text;
   };
+  // A program whose output is handled.
   struct Program {
     std::string behaviour;
     std::vector<Line> waiting;                       // lines that wait for a robot
     std::vector<std::string> errors{};               // the last lines of stderr
     std::chrono::steady_clock::time_point second{};  // the start of the current second
     int lines = 0;                                   // number of lines in that second
-    int left_out = 0;
+    int left_out = 0;  // number of lines above the limit in that second
     bool has_ended = false;
   };
 
   void OnLine(pid_t pid, OutputReader::Stream stream, const std::string& line);
   void OnEnd(pid_t pid, const std::string& ending);
+  // Emits a line as an event, or stores it until a robot has the behaviour.
   void Emit(pid_t pid, Program& program, std::string_view kind, std::string text)
       GSV_REQUIRES(mutex_);
   // Emits the waiting lines if a robot has the behaviour.
@@ -73,8 +76,9 @@ class BehaviourOutput {
 
   const ListSimulations list_;
   base::Mutex mutex_;
-  base::ConditionVariable ended_;
+  base::ConditionVariable ended_;  // notified when a program has ended
   std::map<pid_t, Program> programs_ GSV_GUARDED_BY(mutex_);
+  // Whether ExpectEnds() was called.
   bool expects_ends_ GSV_GUARDED_BY(mutex_) = false;
   std::unique_ptr<OutputReader> reader_;
 };

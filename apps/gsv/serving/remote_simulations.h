@@ -68,13 +68,14 @@ base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
 // running simulations.
 base::Error NoSuchSimulation(const Selection& selection);
 
+// Queries the server for the present status.
 base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simulation);
 
 // The health of a robot, as its server reports it.
 struct RemoteHealth {
-  std::string state, sentence;
-  int level = 0;
-  base::SimTime since{0};
+  std::string state, sentence;  // name of the state; a sentence for users
+  int level = 0;                // a health::Level as a number
+  base::SimTime since{0};       // simulated time since which the state applies
 };
 // Returns the health of the simulation's robots, by name; empty if the server does not report it.
 std::map<std::string, RemoteHealth> HealthOf(const FoundSimulation& simulation);

@@ -76,6 +76,7 @@ class Ros2Replay {
 class Ros2Access final : public Ros2Publisher {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+  // Returns the simulations of this process.
   using List = std::function<std::vector<SimulationPointer>()>;
 
   // `options` are the options of the command line. If there are none, only a scenario can start
@@ -131,17 +132,18 @@ class Ros2Access final : public Ros2Publisher {
   base::Mutex publishing_;  // locked while publishing starts or ends
   std::unique_ptr<ros2::dds::Participant> participant_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<Ros2Spawner> spawner_ GSV_GUARDED_BY(publishing_);
+  // The published simulation; expired or null if there is none.
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(publishing_);
   // With --ros2, services_ and bridge_ exist until this object ends. Without --ros2, they end with
   // the published simulation.
   std::unique_ptr<ros2::SimulationServices> services_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<ros2::Bridge> bridge_ GSV_GUARDED_BY(publishing_);
-  bool follows_ GSV_GUARDED_BY(publishing_) = false;
+  bool follows_ GSV_GUARDED_BY(publishing_) = false;    // whether Follow() was called
   bool has_world_ GSV_GUARDED_BY(publishing_) = false;  // whether bridge_ publishes a simulation
   std::thread watcher_ GSV_GUARDED_BY(publishing_);
 
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // wakes watcher_
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
 };
 

@@ -31,6 +31,7 @@ class LostSimulations;
 class Recordings;
 class SimulationBuilder;
 
+// The parts of a process, and their options.
 struct RuntimeOptions {
   std::string
       broker;  // the reference of a broker; if empty, the runtime starts a broker on loopback
@@ -43,14 +44,15 @@ struct RuntimeOptions {
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
   ServerLimits server_limits;
-  bool viewer = true;
-  ViewerOptions web;
+  bool viewer = true;                 // whether to serve the viewer
+  ViewerOptions web;                  // address, tokens and certificate of the viewer
   std::optional<ros2::Options> ros2;  // empty if there is no ROS 2 bridge
   // The name of the server in crash reports. If it is empty, there are no crash reports about this
   // process.
   std::string noted_as;
 };
 
+// All parts of a gsv process that runs simulations.
 class Runtime {
  public:
   static base::Result<std::unique_ptr<Runtime>> Start(const RuntimeOptions& options);
@@ -78,10 +80,11 @@ class Runtime {
   Runtime() = default;
   base::Status StartBroker(const RuntimeOptions& options);
   base::Status StartGateway(const RuntimeOptions& options);
+  // Returns the functions of this program that the CORBA services call.
   services::ServiceHooks Hooks();
   base::Status OfferScenarios(const std::string& name, int scenarios);
 
-  std::unique_ptr<ChildProcess> broker_process_;
+  std::unique_ptr<ChildProcess> broker_process_;  // null if the broker was already running
   CORBA::ORB_var orb_;
   std::unique_ptr<broker::BrokerClient> broker_;
   std::shared_ptr<services::SimulationHost> host_;
@@ -96,8 +99,8 @@ class Runtime {
   PortableServer::Servant_var<services::SimulationServiceServant> service_;
   PortableServer::Servant_var<ScenarioServiceServant> scenarios_;
   PortableServer::Servant_var<services::ServerLoad> load_;
-  std::vector<std::string> offers_;  // ids of the offers
-  std::unique_ptr<InstanceRecord> record_;
+  std::vector<std::string> offers_;         // ids of the offers
+  std::unique_ptr<InstanceRecord> record_;  // the file by which other commands find this process
 };
 
 }  // namespace gsv::app

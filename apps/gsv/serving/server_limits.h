@@ -12,16 +12,17 @@
 namespace gsv::app {
 
 struct ServerLimits {
-  std::size_t simulations = services::kDefaultMaxSimulations;
-  simulation::Limits simulation;
-  TrialLimits reading;
-  gateway::ServerLimits web;
-  gateway::uploads::UploadLimits uploads;
-  gateway::recordings::SessionLimits replays;
+  std::size_t simulations = services::kDefaultMaxSimulations;  // maximum number of simulations
+  simulation::Limits simulation;                               // limits of each simulation
+  TrialLimits reading;                         // limits for reading a world that is not built in
+  gateway::ServerLimits web;                   // limits of HTTP and WebSocket connections
+  gateway::uploads::UploadLimits uploads;      // limits of uploaded files
+  gateway::recordings::SessionLimits replays;  // limits of the sessions that replay recordings
 };
 
 // Whether there is a limit with that name.
 bool IsServerLimit(const std::string& name);
+// Returns the names of all limits, separated by commas.
 std::string ServerLimitNames();
 
 // Sets a limit from a text such as "robots=500", for which IsServerLimit("robots") must return

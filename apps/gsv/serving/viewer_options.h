@@ -19,6 +19,7 @@ namespace gsv::app {
 inline constexpr const char* kViewerGroup = "Viewer";
 inline constexpr const char* kNetworkGroup = "Network and security";
 
+// The address and the security of a viewer's server.
 struct ViewerOptions {
   // 0: the system chooses the port; -1: the default port, or another port if that is in use.
   int port = -1;
@@ -26,8 +27,8 @@ struct ViewerOptions {
   int history_mib = 64;              // maximum size of each simulation's history, MiB; 0: none
   std::string listen = "127.0.0.1";  // an address of this machine
   std::vector<std::string> names;    // host names of this machine that browsers may use
-  gateway::access::Tokens tokens;
-  gateway::TlsFiles tls;
+  gateway::access::Tokens tokens;    // tokens that clients must show; empty: none
+  gateway::TlsFiles tls;             // certificate and key for HTTPS; empty for HTTP
 };
 
 // Adds --port, --listen, --allow-host, --control-token, --watch-token, --tls-certificate and

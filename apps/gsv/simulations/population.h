@@ -51,6 +51,7 @@ FieldResult<Population> Populate(simulation::Simulation& simulation, formats::Mo
 using BehaviourMaker = std::function<FieldResult<std::shared_ptr<simulation::BehaviourPort>>(
     const scenario::RobotEntry&)>;
 
+// Makes the behaviours of the robots, and sets them in the simulation.
 tl::expected<void, FieldError> GiveBehaviours(simulation::Simulation& simulation,
                                               const std::vector<PlacedRobot>& robots,
                                               const BehaviourMaker& make);

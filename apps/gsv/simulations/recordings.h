@@ -88,6 +88,7 @@ class Recordings final : public gateway::RecordingSwitch {
   base::Status StopAll();
 
  private:
+  // A current recording.
   struct Recording {
     std::weak_ptr<simulation::Simulation> simulation;
     std::string path;
@@ -97,9 +98,13 @@ class Recordings final : public gateway::RecordingSwitch {
   // Finishes a recording that has ended, before a new one starts. Returns kInvalidArgument if the
   // simulation is being recorded.
   base::Status FinishEndedRecording(const std::shared_ptr<simulation::Simulation>& simulation);
+  // Ends a recording, and writes the metadata of its rosbag2 folder.
   static base::Status Finish(Recording& recording);
+  // Returns the state of a recording, for viewers.
   static State StateOf(const Recording& recording);
+  // Adds the numbers of a recording to totals.
   static void Add(const State& state, Totals& totals);
+  // Adds the numbers of an ended recording to ended_.
   void CountEnded(const Recording& recording);
   // Stores the state of a recording that ends, so that RecordingOf() always returns its path.
   void SetLast(const std::string& simulation, const Recording& recording) GSV_REQUIRES(mutex_);
@@ -113,6 +118,7 @@ class Recordings final : public gateway::RecordingSwitch {
       GSV_GUARDED_BY(mutex_);  // recordings that have ended, by the name of the simulation
   Totals ended_ GSV_GUARDED_BY(mutex_);     // totals of the ended recordings
   Totals reported_ GSV_GUARDED_BY(mutex_);  // the totals that were last returned
+  // The argument of SetSimulationOfCommand().
   std::weak_ptr<simulation::Simulation> of_command_ GSV_GUARDED_BY(mutex_);
   // The simulation that is published to ROS 2 nodes, and its ROS 2 settings.
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(mutex_);

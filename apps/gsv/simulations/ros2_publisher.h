@@ -17,6 +17,7 @@ class Ros2Publisher {
  public:
   virtual ~Ros2Publisher() = default;
 
+  // Returns whether simulations can be published, and else the reason.
   virtual gateway::SimulationFactory::Ros2Support Support() = 0;
   // Returns the options of a scenario with the key `ros2`. Fails if they cannot be used.
   virtual base::Result<ros2::Options> OptionsOf(const scenario::Scenario& scenario) = 0;

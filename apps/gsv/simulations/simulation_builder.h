@@ -67,12 +67,14 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   // the same world repeatedly.
   struct KnownWorld {
     std::string file;
-    std::filesystem::file_time_type changed;
+    std::filesystem::file_time_type changed;  // time of the file's last change when it was read
     std::shared_ptr<const model::WorldDescription> world;
     std::vector<std::string> warnings;
   };
 
+  // Reads a world, or returns it from known_.
   gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
+  // Makes the behaviour of a robot from an offer of the broker; null if the robot has none.
   gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
       const scenario::RobotEntry& robot);
   // Returns the function that makes the behaviours of a simulation's robots. `published` is the ROS
@@ -81,6 +83,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   // Returns the ROS 2 options of a scenario, or nullopt if it is not published to ROS 2 nodes.
   gateway::FieldResult<std::optional<ros2::Options>> Ros2OptionsOf(
       const scenario::Scenario& scenario);
+  // Returns the argument of PublishThrough().
   Ros2Publisher* publisher();
 
   services::SimulationHost& host_;
@@ -88,11 +91,12 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   broker::BrokerClient& broker_;
   Recordings& recordings_;
   const std::vector<std::filesystem::path> model_path_;
-  const formats::ResourceFinder finder_;
+  const formats::ResourceFinder finder_;  // finds the files of models in model_path_
   const TrialLimits reading_;
   base::Mutex mutex_;
   std::vector<KnownWorld> known_ GSV_GUARDED_BY(mutex_);  // the newest is last
   Ros2Publisher* publisher_ GSV_GUARDED_BY(mutex_) = nullptr;
+  // The argument of OfferThrough().
   services::SimulationServiceServant* service_ GSV_GUARDED_BY(mutex_) = nullptr;
 };
 

@@ -13,6 +13,7 @@
 
 namespace gsv::app {
 
+// One scenario to run.
 struct TestCase {
   std::string file;  // as the user gave it
   std::string name;  // the path of the file without its extension
@@ -40,8 +41,8 @@ struct TestOptions {
   double kept_seconds = 10;         // how many seconds of the recording before a violation are kept
   double kept_after = 2;            // how many seconds after a violation are kept
   std::vector<std::string> drives;  // see the option --drive of `gsv run`
-  int repeat = 1;
-  bool record = true;
+  int repeat = 1;                   // number of runs of each scenario
+  bool record = true;               // whether runs are recorded, to keep the recordings of failures
 };
 
 // The result of a scenario, over all its repetitions.
@@ -56,7 +57,7 @@ struct TestResult {
   double failed_at = 0;       // simulated time of the first violation, else of the end, s
   std::string about;          // the robot that the failure is about; may be empty
   std::string command;        // the command that repeats the failed run
-  double wall_seconds = 0;
+  double wall_seconds = 0;    // wall-clock time of all repetitions
   std::vector<std::string> hashes;  // state hashes of the repetitions
   nlohmann::ordered_json report;    // the report of `gsv run` for the last repetition; may be empty
 };

@@ -52,11 +52,11 @@ class TlsChannel final : public Channel {
  private:
   // Converts the result of a call to OpenSSL, and sets failure_ if it has failed.
   Step StepAfter(int result) GSV_REQUIRES(mutex_);
-  template <typename Call>
   // Makes a call to OpenSSL once. Sets `moved` to the number of bytes that were read or written.
-  Step Try(const Call& call, std::size_t& moved);
   template <typename Call>
+  Step Try(const Call& call, std::size_t& moved);
   // Repeats a call to OpenSSL until it is done. Returns the same values as Channel::Receive().
+  template <typename Call>
   int Await(const Call& call, const omni_time_t& deadline);
 
   const std::shared_ptr<const TlsContext> context_;

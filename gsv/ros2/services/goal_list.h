@@ -16,8 +16,10 @@ namespace gsv::ros2 {
 
 class GoalList {
  public:
+  // The UUID that the client has given to a goal.
   using Id = std::array<std::uint8_t, 16>;
   using Status = std::int8_t;  // a constant of GoalStatus
+  // Maximum number of unfinished goals, and of finished goals.
   static constexpr std::size_t kMaxGoals = 100;
 
   // Accepts a goal. Returns false if its id is already known, or if there are too many goals.
@@ -27,6 +29,7 @@ class GoalList {
   bool IsFinished(const Id& id) const;
   // Starts to execute an accepted goal. Returns false if the goal is being cancelled.
   bool Begin(const Id& id);
+  // Ends a goal with a final status.
   void Finish(const Id& id, Status status);
 
   // Marks the goals that the request selects as canceling. The response lists them.
@@ -38,6 +41,7 @@ class GoalList {
 
  private:
   messages::action_msgs::GoalStatus* Find(const Id& id);
+  // Removes the oldest finished goals beyond kMaxGoals.
   void ForgetOldest();
 
   std::vector<messages::action_msgs::GoalStatus> goals_;

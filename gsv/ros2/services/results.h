@@ -12,6 +12,7 @@
 namespace gsv::ros2 {
 
 messages::simulation_interfaces::Result Succeeded();
+// `code` is a constant of Result.
 messages::simulation_interfaces::Result Failed(std::uint8_t code, std::string message);
 // Converts an error to a result. kNotFound, kNotRunning and kEnded have their own codes. All other
 // errors become RESULT_OPERATION_FAILED.

@@ -43,6 +43,7 @@ class ServiceHost {
     kSlow,      // requests that read files or wait for the simulation
     kStepping,  // requests that wait for steps of the simulation
   };
+  // One offered service: its handler, and the writer of its replies.
   class Service;
   // Sends the reply to one request, at most once. The object may be kept, and may be used on
   // another thread.
@@ -110,19 +111,23 @@ class ServiceHost {
   bool is_stopping() const { return is_stopping_; }
 
  private:
+  // Keeps replies to clients that are not yet discovered, and sends them after discovery.
   class Outbox;
+  // Logs the first request of a service that cannot be decoded.
   static void Refuse(const std::string& service, const base::Error& error);
+  // Passes a request to the thread of the lane. Drops it if too many wait.
   void Enqueue(const std::shared_ptr<Service>& service, Lane lane,
                std::span<const std::byte> sample, const dds::Request& request);
 
   dds::Participant& participant_;
-  const bool has_hashes_;
+  const bool has_hashes_;  // whether endpoints contain the hashes of their types
   std::shared_ptr<Outbox> outbox_;
   std::vector<std::shared_ptr<Service>> services_;
   std::vector<std::unique_ptr<dds::Reader>> request_readers_;
   std::vector<dds::Guid> readers_, writers_;
-  std::vector<std::unique_ptr<dds::Writer>> topics_;
+  std::vector<std::unique_ptr<dds::Writer>> topics_;  // the writers of Advertise()
   std::atomic<bool> is_stopping_{false};
+  // The threads of the lanes. Requests of kLists run on quick_.
   ServiceWorker quick_, slow_, stepping_;
 };
 

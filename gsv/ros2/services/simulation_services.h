@@ -25,6 +25,7 @@ namespace gsv::ros2 {
 // Threads  any, except for spawned().
 class ServedSimulation {
  public:
+  // Sets the ROS namespace of a robot.
   using SetNamespace =
       std::function<base::Status(const std::string& robot, const std::string& name_space)>;
 
@@ -55,15 +56,17 @@ class ServedSimulation {
   std::shared_ptr<simulation::Simulation> simulation() const;
   // Returns the result for a request that needs a simulation, if no simulation is set.
   messages::simulation_interfaces::Result NoSimulation() const;
+  // Calls the function `set_namespace` of Serve().
   base::Status SetNamespaceOf(const std::string& robot, const std::string& name_space) const;
+  // Whether clients can load another world.
   bool loads_worlds() const { return spawner != nullptr && spawner->loads_worlds(); }
   // Returns the names of entities that were added to the simulation. Call it only on the thread of
   // ServiceHost::Lane::kSlow.
   std::set<std::string>& spawned();
 
-  ServiceHost& host;
-  const std::string node;
-  Spawner* const spawner;
+  ServiceHost& host;       // offers the services
+  const std::string node;  // name of the node, such as "/gsv"
+  Spawner* const spawner;  // adds models and loads worlds; null if requests to add entities fail
 
  private:
   mutable base::Mutex mutex_;
@@ -96,6 +99,7 @@ class SimulationServices {
   const std::vector<dds::Guid>& writers() const { return writers_; }
 
  private:
+  // Offers all services.
   void Offer();
 
   std::vector<dds::Guid> readers_, writers_;

@@ -24,16 +24,19 @@ struct SpawnRequest {
 
 class Spawner {
  public:
+  // A model that clients can add.
   struct Spawnable {
-    std::string uri;  // "model://pebble"
-    bool is_robot = false;
+    std::string uri;        // "model://pebble"
+    bool is_robot = false;  // whether the model has a drive
   };
 
+  // A world that clients can load.
   struct World {
     std::string name;  // a name that `gsv run` accepts
     std::string uri;   // the file of the world
   };
 
+  // A pose in the world that has a name, for clients to place entities.
   struct NamedPose {
     std::string name;
     geometry::Pose world_from_pose;

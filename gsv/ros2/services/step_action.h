@@ -19,17 +19,23 @@ class StepAction {
   explicit StepAction(ServedSimulation& served);
 
  private:
+  // The result of a goal, with its final status.
   using Outcome = messages::simulation_interfaces::SimulateStepsGetResultResponse;
 
+  // Accepts or refuses a goal, and starts its execution on the stepping lane.
   messages::simulation_interfaces::SimulateStepsSendGoalResponse Accept(
       const messages::simulation_interfaces::SimulateStepsSendGoalRequest& request);
+  // Sends the outcome of a goal, at once or when the goal is finished.
   void GiveResult(const GoalList::Id& id, const ServiceHost::Replier& reply);
+  // Executes a goal to its end, on the stepping lane.
   void Execute(const GoalList::Id& id, std::uint64_t steps);
   // Takes the steps. Returns the number of steps taken and, if this is less than `steps`, the
   // reason.
   Outcome Take(simulation::Simulation& simulation, const GoalList::Id& id, std::uint64_t steps);
   void SendFeedback(const GoalList::Id& id, std::uint64_t completed, std::uint64_t remaining);
+  // Stores the outcome, and sends it to the clients that wait for it.
   void Finish(const GoalList::Id& id, const Outcome& outcome);
+  // Publishes the states of all goals.
   void SendStatus() GSV_REQUIRES(mutex_);
   bool IsCanceled(const GoalList::Id& id) const;
 
@@ -39,6 +45,7 @@ class StepAction {
   mutable base::Mutex mutex_;
   GoalList goals_ GSV_GUARDED_BY(mutex_);
   std::map<GoalList::Id, Outcome> outcomes_ GSV_GUARDED_BY(mutex_);  // outcomes of finished goals
+  // Clients that wait for the result of an unfinished goal.
   std::multimap<GoalList::Id, ServiceHost::Replier> waiting_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -37,6 +37,7 @@ inline std::unique_ptr<dds::Participant> MakeParticipant(bool watches_endpoints 
   return made ? *std::move(made) : nullptr;
 }
 
+// A participant that keeps all samples of the topics to which it listens.
 class Peer {
  public:
   explicit Peer(bool watches_endpoints = false)

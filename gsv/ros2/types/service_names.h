@@ -19,6 +19,7 @@ struct ServiceTopic {
 // Returns the request topic of a service, such as "/gsv/spawn_entity" of the type
 // "simulation_interfaces/srv/SpawnEntity".
 ServiceTopic RequestTopic(std::string_view service, std::string_view type);
+// Returns the topic of a service's replies.
 ServiceTopic ResponseTopic(std::string_view service, std::string_view type);
 
 // Returns the names of a topic of an action, such as "/gsv/simulate_steps/_action/feedback" with

@@ -27,6 +27,7 @@ using GripperSetupPtr = std::shared_ptr<const GripperSetup>;
 // A gripper's state since its last command.
 class GripperState final : public world::ActuatorState {
  public:
+  // An attached body.
   struct Hold {
     world::Grasp grasp;
     double width = 0;  // width of the attached body, m
@@ -69,8 +70,8 @@ class GripperState final : public world::ActuatorState {
   void MoveAttachedBody(const world::Layout& layout, int robot, world::State& state) const;
 
   const GripperSetupPtr setup_;
-  const double opening_before_;
-  const std::optional<Hold> hold_;
+  const double opening_before_;     // distance between the fingers at followed().since, m
+  const std::optional<Hold> hold_;  // nullopt if no body is attached
 };
 
 }  // namespace gsv::sensing

@@ -26,10 +26,10 @@ namespace gsv::sensing {
 
 // The error parameters of a lidar.
 struct LidarErrors {
-  double range_noise = 0, incidence_noise = 0;
-  double beam_divergence = 0;
-  double reach = 0;
-  double short_probability = 0, short_range = 1;
+  double range_noise = 0, incidence_noise = 0;    // m per metre; m
+  double beam_divergence = 0;                     // rad
+  double reach = 0;                               // m
+  double short_probability = 0, short_range = 1;  // fraction of beams; m
 
   // Whether all errors are off.
   bool is_none() const {

@@ -61,10 +61,10 @@ class DriftState final : public world::DeviceState {
                                       std::uint64_t seed) const;
 
  private:
-  const OdometryDrift drift_;
+  const OdometryDrift drift_;  // the parameters of the sensor
   // True position at the last step; nullopt before the first step.
   std::optional<geometry::PlanarPosition> exact_;
-  geometry::PlanarPosition estimate_;
+  geometry::PlanarPosition estimate_;  // the estimate at the last step
 };
 
 }  // namespace gsv::sensing

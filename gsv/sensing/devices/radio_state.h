@@ -65,7 +65,7 @@ class RadioState final : public world::DeviceState {
   std::uint64_t StreamOf(const world::RadioMessage& message) const;
 
   const world::RadioSetupPtr setup_;
-  const RadioErrors errors_;
+  const RadioErrors errors_;  // errors of the channel, at this receiver
   std::uint64_t heard_ = 0;
   std::vector<HeardMessage> inbox_;
 };

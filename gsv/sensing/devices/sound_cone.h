@@ -46,11 +46,11 @@ struct SoundSettings {
   double threshold = 0.02;
   // Largest angle between the sound and a smooth surface's normal at which an echo returns, rad.
   double specular_width = 0.035;
-  double roughness = 0;   // fraction of the sound that is scattered in all directions
-  double gain_range = 0;  // m; 0: the amplifier compensates every distance
-  bool target_size = false;
-  bool second_reflections = false;
-  int firing_slot = 0;  // 0: the sonar fires alone
+  double roughness = 0;             // fraction of the sound that is scattered in all directions
+  double gain_range = 0;            // m; 0: the amplifier compensates every distance
+  bool target_size = false;         // whether small targets reflect less sound
+  bool second_reflections = false;  // whether sound may return from a second surface
+  int firing_slot = 0;              // 0: the sonar fires alone
 };
 
 // Reads transducer_radius, frequency, threshold, specular_width, roughness, gain_range,
@@ -76,11 +76,13 @@ class SoundCone {
                      double max_distance, std::span<const Sender> others = {}) const;
 
  private:
+  // One of the rays that represent the sound.
   struct Beam {
     geometry::Vector3 direction;  // direction in the sonar's frame
     double strength = 0;          // strength after the way to the target and back
   };
 
+  // The echo of one ray.
   struct Echo {
     double distance = 0, strength = 0;
     Ray ray;  // the ray that hits the reflecting surface
@@ -110,8 +112,8 @@ class SoundCone {
   Echo EchoNear(const Sampling& sampling, Ray ray, Hit hit, const geometry::Vector3& axis) const;
 
   const SoundSettings sound_;
-  const double spacing_;  // angle between rings of rays, rad
-  std::vector<Beam> beams_;
+  const double spacing_;     // angle between rings of rays, rad
+  std::vector<Beam> beams_;  // the rays, ring by ring around the axis
 };
 
 }  // namespace gsv::sensing

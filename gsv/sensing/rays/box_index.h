@@ -50,10 +50,11 @@ class BoxIndex {
   }
 
  private:
+  // The method that suits the boxes.
   enum class Kind { kList, kGrid, kTree };
 
   Kind kind_ = Kind::kList;
-  std::uint32_t count_ = 0;
+  std::uint32_t count_ = 0;  // number of boxes
   ColumnGrid grid_;
   std::unique_ptr<BoundingVolumeTree> tree_;  // null until it is needed
 };

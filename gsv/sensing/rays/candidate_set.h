@@ -94,13 +94,13 @@ class CandidateSet {
   static __m128 Four(double x) { return _mm_set1_ps(static_cast<float>(x)); }
 
   geometry::Vector3 place_;
-  double reach_ = -1;
+  double reach_ = -1;  // m; negative before Begin()
   // number of solids; after them there are up to three entries that no ray hits
   std::size_t count_ = 0;
-  bool is_overfull_ = false;
+  bool is_overfull_ = false;  // whether a solid had no space
   // Centres relative to place_.
   alignas(16) std::array<float, kMax + 4> x_, y_, z_, squared_radius_;
-  std::array<std::uint32_t, kMax> numbers_;
+  std::array<std::uint32_t, kMax> numbers_;  // numbers of the solids in the scene
 };
 
 }  // namespace gsv::sensing

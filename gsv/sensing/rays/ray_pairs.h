@@ -87,7 +87,7 @@ class RayPairs {
   PoseLanes<kMax> parts_, shapes_;                             // part_from_world, shape_from_set
   // The halves of a box's sides. For a cylinder, x is the radius and z is half of the length.
   alignas(32) Lanes size_x_{}, size_y_{}, size_z_{};
-  alignas(32) Lanes distances_{};
+  alignas(32) Lanes distances_{};  // results of Cast(), m
 };
 
 }  // namespace gsv::sensing

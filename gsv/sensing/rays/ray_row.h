@@ -50,6 +50,7 @@ class RayRow {
 
  private:
   static constexpr std::size_t kGroup = 4;
+  // Four rays.
   struct alignas(32) Group {
     std::array<double, kGroup> x, y, z;  // directions in the world, unit length
     std::array<double, kGroup> range;    // m
@@ -71,7 +72,7 @@ class RayRow {
                          std::size_t first, std::size_t last);
 
   geometry::Vector3 origin_;
-  double max_distance_;
+  double max_distance_;  // length of the rays, m
   std::size_t size_;
   // after the last ray, the last group is filled with copies of this ray
   std::unique_ptr<Group[]> groups_;

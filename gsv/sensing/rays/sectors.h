@@ -19,9 +19,9 @@ namespace gsv::sensing {
 
 // The part of a fan in which a solid may be: azimuths between `from` and `to`, or all azimuths.
 struct Sector {
-  double nearest = 0;  // distance from the fan's origin to the solid's box, m
-  double from = 0, to = 0;
-  bool is_all = false;
+  double nearest = 0;       // distance from the fan's origin to the solid's box, m
+  double from = 0, to = 0;  // rad; `to` is not less than `from`
+  bool is_all = false;  // whether every ray may hit the solid; `from` and `to` then have no meaning
 };
 
 // Boxes in their own frames, and the poses of the world in these frames, as a structure of arrays.

@@ -23,6 +23,7 @@ namespace gsv::sensing {
 struct Bearer {
   int body = -1;  // body of all shapes; -1: each shape has its own body, which Add() sets
   int part = -1;  // index of the part in the scene
+  // Added to the primitive index of each shape, so that the indices of one body's parts differ.
   std::uint32_t first_primitive = 0;
 };
 
@@ -30,6 +31,7 @@ struct Bearer {
 struct Nearest {
   double distance = 0;  // initially the length of the ray
   int body = -1;        // -1: nothing found yet
+  // Primitive index of the hit shape or triangle. It decides between hits at equal distances.
   std::uint32_t primitive = 0;
   int part = -1;            // Bearer::part of the hit set
   std::uint32_t solid = 0;  // number of the solid in its set, for SolidSet::NormalAt()
@@ -130,6 +132,7 @@ class SolidSet {
   float ReflectanceOf(std::uint32_t solid) const;
 
  private:
+  // A triangle of the set, with its primitive index. `body` is not used if the bearer has a body.
   struct SolidTriangle {
     geometry::Vector3 corner, edge1, edge2;
     std::uint32_t primitive;
@@ -166,10 +169,11 @@ class SolidSet {
   BoxIndex shape_index_;
   SphereGrid shape_grid_;
   std::vector<SolidPlane> planes_;
+  // in the order of shapes_ and planes_
   std::vector<float> shape_reflectances_, plane_reflectances_;
   // The first triangle of each mesh with the reflectance of the mesh.
   std::vector<std::pair<std::uint32_t, float>> mesh_reflectances_;
-  std::uint32_t primitives_ = 0;
+  std::uint32_t primitives_ = 0;  // number of primitives that were added
   geometry::Bounds bounds_;
   bool bounded_ = false;  // whether bounds_ is valid
 };

@@ -26,7 +26,7 @@ struct TouchedSpheres {
   static constexpr std::size_t kMax = 64;
   struct Touched {
     std::uint32_t number;
-    unsigned rays;
+    unsigned rays;  // bit i: ray i may touch the sphere
   };
   std::array<Touched, kMax> touched;
   std::size_t count = 0;
@@ -43,9 +43,9 @@ struct PacketRays {
   alignas(32) Floats ox, oy, oz;  // origins of the rays relative to the place, times -2
   alignas(32) Floats start;       // scalar product of origin and direction
   alignas(32) Floats square;      // square of the origin's distance, m²
-  alignas(32) Floats length;
+  alignas(32) Floats length;      // lengths of the rays, m
   float place_x, place_y, place_z;
-  float reach;
+  float reach;     // largest distance from the place to a point of a ray, m
   float rounding;  // distance by which spheres are enlarged, m
   unsigned used;   // bit i: whether ray i exists
 };
@@ -75,6 +75,7 @@ class SphereGrid {
   bool FindTouched(const PacketSearch& search, TouchedSpheres& found) const;
 
  private:
+  // A solid that is too large for a cell.
   struct Large {
     geometry::Bounds box;
     std::uint32_t number;
@@ -92,8 +93,8 @@ class SphereGrid {
   // Chooses the cells. Returns false if the spheres do not suit a grid.
   bool Divide(std::span<const BoundingSphere> spheres);
 
-  bool is_suitable_ = true;
-  double low_x_ = 0, low_y_ = 0, cells_per_metre_ = 0;
+  bool is_suitable_ = true;                             // whether the spheres suit a grid
+  double low_x_ = 0, low_y_ = 0, cells_per_metre_ = 0;  // corner of the grid, m; 1 / side of a cell
   int columns_ = 0, rows_ = 0;
   double max_radius_ = 0;  // the radius of the largest sphere that is in a cell
   // The index of the first sphere of each cell, row by row. The last element is the number of
@@ -103,8 +104,8 @@ class SphereGrid {
   std::uint32_t count_ = 0;             // the number of spheres in cells
   // The spheres, ordered by cell. After the last sphere there is space for a whole vector.
   std::vector<float> x_, y_, z_, radius_;
-  std::vector<std::uint32_t> numbers_;
-  std::vector<Large> large_;  // solids that are too large for cells
+  std::vector<std::uint32_t> numbers_;  // the number of each sphere, as in Build()
+  std::vector<Large> large_;            // solids that are too large for cells
 };
 
 }  // namespace gsv::sensing

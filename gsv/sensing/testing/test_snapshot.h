@@ -19,6 +19,7 @@ inline std::shared_ptr<model::Model> ModelOf(const geometry::Shape& shape) {
   return model;
 }
 
+// A body of the snapshot.
 struct Placed {
   std::string name;
   std::shared_ptr<const model::Model> model;

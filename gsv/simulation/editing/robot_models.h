@@ -20,6 +20,7 @@ class RobotModels {
       const std::shared_ptr<const model::Model>& model, const std::string& drive, bool is_avatar);
 
  private:
+  // A model, and the robot that was made from it.
   struct Entry {
     std::shared_ptr<const model::Model> model, robot;
   };

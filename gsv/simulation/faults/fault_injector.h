@@ -46,6 +46,7 @@ class FaultInjector {
   // Apply() applies a fault of any kind. The other functions apply one kind each. If the fault
   // cannot be applied, they return the reason.
   base::Status Apply(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);
+  // Applies kSensorSilent or kSensorError.
   base::Status FailSensor(const scenario::Fault& fault, RobotAgent& agent);
   base::Status MoveBody(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);
   base::Status MoveJoint(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);

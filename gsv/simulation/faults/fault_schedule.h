@@ -39,7 +39,7 @@ class FaultSchedule {
 
  private:
   std::vector<scenario::Fault> faults_;
-  std::size_t done_ = 0;
+  std::size_t done_ = 0;  // number of applied faults; also the index of the next fault
 };
 
 }  // namespace gsv::simulation

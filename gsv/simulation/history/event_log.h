@@ -51,17 +51,19 @@ class EventLog {
   void Publish(const StepTimes& times) const;
 
  private:
-  static constexpr std::size_t kMaxOutputs = 2000;
+  static constexpr std::size_t kMaxOutputs = 2000;  // number of lines of output that are kept
 
+  // A list of the newest events.
   struct BoundedLog {
     std::size_t capacity = 0;
     std::deque<Event> events{};
-    std::uint64_t dropped = 0;
+    std::uint64_t dropped = 0;  // number of events that were removed at the front
 
     void Add(const Event& event);
     std::vector<Event> Since(std::uint64_t first) const;
   };
 
+  // Returns a copy of the list, so that observers can be called without the lock.
   std::vector<std::shared_ptr<Observer>> Observers() const;
   // Updates has_observers_ and wants_times_ after the observers have changed.
   void UpdateFlags() GSV_REQUIRES(mutex_);
@@ -70,6 +72,7 @@ class EventLog {
   std::atomic<bool> has_observers_ = false, wants_times_ = false;
 
   mutable base::Mutex mutex_;
+  // Events other than lines of output, and lines of output.
   BoundedLog events_ GSV_GUARDED_BY(mutex_);
   BoundedLog outputs_ GSV_GUARDED_BY(mutex_);
   std::vector<std::shared_ptr<Observer>> observers_ GSV_GUARDED_BY(mutex_);

@@ -35,13 +35,14 @@ class MotionHistory {
   Motion Of(const world::Snapshot& snapshot, int body) const;
 
  private:
+  // The motion of one body so far.
   struct Track {
-    geometry::Pose anchor;  // pose at some time within the last second
-    SimTime anchored_at{0};
-    SimTime moved_at{0};  // the last time at which the base moved
-    SimTime moves_since{0};
-    SimTime commanded_for{0};
-    SimTime contact_since{0};
+    geometry::Pose anchor;     // pose at some time within the last second
+    SimTime anchored_at{0};    // time of `anchor`
+    SimTime moved_at{0};       // the last time at which the base moved
+    SimTime moves_since{0};    // start of the present motion
+    SimTime commanded_for{0};  // see Motion::commanded_for
+    SimTime contact_since{0};  // start of the present contact
     bool has_moved = false;
     bool is_in_contact = false;
   };
@@ -53,7 +54,7 @@ class MotionHistory {
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<Track> tracks_;  // one for each body of layout_
-  SimTime sampled_{0};
+  SimTime sampled_{0};         // time of the last sample
 };
 
 // Returns, for each body, the first other body that it touches, or -1. Contacts with a body that

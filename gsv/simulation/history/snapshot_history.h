@@ -76,8 +76,9 @@ class SnapshotHistory {
   void Restart(SnapshotPtr snapshot);
 
  private:
+  // The samples of one cadence.
   struct Samples {
-    SnapshotPtr arrived;
+    SnapshotPtr arrived;  // the newest sample whose latency has passed
     // snapshots whose latency has not passed; their maximum number is the latency divided by the
     // period
     std::deque<SnapshotPtr> coming;
@@ -85,6 +86,7 @@ class SnapshotHistory {
 
   mutable base::Mutex mutex_;
   SnapshotPtr latest_ GSV_GUARDED_BY(mutex_);
+  // The samples of each cadence in use.
   std::map<Cadence, Samples> kept_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -24,8 +24,9 @@ class SnapshotPool {
   }
 
  private:
+  // The unused snapshots. Snapshots in use keep the shelf alive.
   struct Shelf {
-    static constexpr std::size_t kMaxIdle = 4;
+    static constexpr std::size_t kMaxIdle = 4;  // number of unused snapshots that are kept
 
     std::unique_ptr<world::Snapshot> Take() {
       const base::MutexLock lock(mutex);

@@ -30,7 +30,7 @@ class Pacer {
 
  private:
   base::SimTime step_;
-  WallDuration period_;
+  WallDuration period_;  // wall-clock time of one step: step_ / factor
   WallTime due_{};
   std::uint64_t late_steps_ = 0;
 };

@@ -43,10 +43,10 @@ class RunPace {
 
  private:
   Pacer pacer_;
-  double factor_;
+  double factor_;  // target real-time factor
   RunStatistics statistics_;
   bool is_running_ = false;
-  bool has_resumed_ = false;
+  bool has_resumed_ = false;  // whether the run has started or resumed since RestartIfResumed()
 };
 
 }  // namespace gsv::simulation

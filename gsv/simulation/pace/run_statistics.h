@@ -27,18 +27,20 @@ class RunStatistics {
   WallDuration mean_step_time() const;
 
  private:
+  // Simulated time at an instant of wall-clock time.
   struct Sample {
     WallTime wall;
     base::SimTime time;
   };
   bool running_ = false;
-  Sample start_{};
-  Sample latest_{};
-  std::deque<Sample> recent_;
+  Sample start_{};             // the last call of Started()
+  Sample latest_{};            // the last step
+  std::deque<Sample> recent_;  // samples of about the last second
+  // Wall-clock time for which the simulation ran before the last call of Started().
   WallDuration wall_before_{};
-  WallDuration in_steps_{};
+  WallDuration in_steps_{};  // total duration of all steps
   std::int64_t steps_ = 0;
-  base::SimTime time_before_{0};
+  base::SimTime time_before_{0};  // like wall_before_, in simulated time
 };
 
 }  // namespace gsv::simulation

@@ -14,6 +14,7 @@ namespace gsv::simulation {
 // Measures the parts of each step.
 class StepTimer {
  public:
+  // A member of StepTimes, such as &StepTimes::bodies.
   using Part = std::chrono::nanoseconds StepTimes::*;
 
   // Ignores the time since the end of the last step. Call this after a pause.
@@ -45,9 +46,10 @@ class StepTimer {
   }
 
  private:
+  // End of the last step (WallTime() after Interrupt()), and time of the last Mark().
   WallTime ended_{}, mark_{};
-  WallDuration idle_{};
-  StepTimes times_;
+  WallDuration idle_{};  // the sum of AddIdle() since the last step
+  StepTimes times_;      // the times of the current step
 };
 
 }  // namespace gsv::simulation

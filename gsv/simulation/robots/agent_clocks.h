@@ -52,9 +52,10 @@ class AgentClocks {
   void AddToHash(base::Hash& hash) const;
 
  private:
+  // An open clock.
   struct Clock {
     ClockId id = 0;
-    bool waiting = false;
+    bool waiting = false;  // whether the clock waits for `until`
     base::SimTime until{0};
     std::uint64_t last_cycle = 0;
   };

@@ -30,6 +30,7 @@ class BehaviourCaller {
   bool WaitUntilIdle(std::chrono::milliseconds timeout);
 
  private:
+  // A posted call.
   struct Task {
     std::string key;
     std::function<void()> call;
@@ -43,7 +44,7 @@ class BehaviourCaller {
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   std::deque<Task> tasks_ GSV_GUARDED_BY(mutex_);
-  std::set<std::string> in_progress_ GSV_GUARDED_BY(mutex_);
+  std::set<std::string> in_progress_ GSV_GUARDED_BY(mutex_);  // keys of the running calls
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> threads_;
 };

@@ -23,8 +23,9 @@ class RobotAgent;
 
 class CycleChannel final : public Wakeable {
  public:
+  // A control cycle that the client has requested.
   struct Request {
-    exchange::CycleRequest cycle;
+    exchange::CycleRequest cycle;      // the command, and the instant to wait for
     std::vector<std::string> sensors;  // names, for a cycle of sleep_and_read()
   };
   // How a cycle is answered.
@@ -59,6 +60,7 @@ class CycleChannel final : public Wakeable {
   void Close();
 
  private:
+  // The answer to a request whose wait is over.
   struct Due {
     std::uint32_t state = 0;  // the slot's state at SetDue()
     exchange::CycleAnswer answer;
@@ -68,12 +70,12 @@ class CycleChannel final : public Wakeable {
   void Change(std::uint32_t from, exchange::CycleState to);
 
   const std::unique_ptr<exchange::Mapping> memory_;
-  exchange::CycleSlot& slot_;
+  exchange::CycleSlot& slot_;  // in memory_
   const ClockId clock_;
   const std::weak_ptr<RobotAgent> agent_;
   base::Mutex mutex_;
-  Request request_ GSV_GUARDED_BY(mutex_);
-  std::optional<Due> due_ GSV_GUARDED_BY(mutex_);
+  Request request_ GSV_GUARDED_BY(mutex_);         // the accepted request
+  std::optional<Due> due_ GSV_GUARDED_BY(mutex_);  // set from SetDue() to Open()
 };
 
 // All channels of a simulation, and their memory. The memory is created with the first channel.
@@ -81,6 +83,7 @@ class CycleChannel final : public Wakeable {
 // Threads  with the simulation's mutex held.
 class CycleChannels {
  public:
+  // A channel and the agent whose clock uses it.
   struct Channel {
     std::shared_ptr<CycleChannel> channel;
     RobotAgent* agent = nullptr;
@@ -88,9 +91,11 @@ class CycleChannels {
 
   // Creates the memory if it does not exist yet.
   base::Status Prepare();
+  // The bell of all channels; null before Prepare().
   exchange::Bell* bell() const {
     return bell_ != nullptr ? static_cast<exchange::Bell*>(bell_->data()) : nullptr;
   }
+  // A new channel, and where a client finds its memory.
   struct Added {
     std::shared_ptr<CycleChannel> channel;
     CycleMemory memory;
@@ -106,10 +111,11 @@ class CycleChannels {
   bool empty() const { return channels_.empty(); }
 
  private:
+  // Closes and removes the channels for which `predicate` is true.
   template <typename Predicate>
   void CloseIf(Predicate predicate);
 
-  std::unique_ptr<exchange::SharedFile> file_;
+  std::unique_ptr<exchange::SharedFile> file_;  // the memory of the bell and of all slots
   std::unique_ptr<exchange::Mapping> bell_;
   std::uint64_t size_ = 0;  // size of the file in bytes; slots are not used twice
   std::vector<Channel> channels_;

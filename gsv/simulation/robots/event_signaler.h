@@ -32,8 +32,8 @@ class EventSignaler {
   void Run();
 
   base::Mutex mutex_;
-  base::ConditionVariable came_;
-  Events waiting_ GSV_GUARDED_BY(mutex_);
+  base::ConditionVariable came_;           // notified when waiting_ gets events, or at the end
+  Events waiting_ GSV_GUARDED_BY(mutex_);  // events that the thread must signal
   bool quit_ GSV_GUARDED_BY(mutex_) = false;
   std::jthread thread_;
 };

@@ -67,6 +67,7 @@ class Turn {
   // Sets the values that the sensors of `beams` measure at this instant. These sensors have no
   // update rate.
   void ReadBeams(const sensing::BeamSet& beams, std::span<double> values) const;
+  // The time of the snapshot that the turn reads.
   base::SimTime snapshot_time() const { return sampling_->snapshot()->state.time; }
   // Announces that the turn will read `sensors` sensors that cast rays.
   void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
@@ -97,6 +98,7 @@ class Turn {
  private:
   friend class RobotAgent;
 
+  // The four ways in which a turn can end.
   struct Waiting {
     base::SimTime until{0};
   };
@@ -110,8 +112,8 @@ class Turn {
 
   const Instant* instant_ = nullptr;
   const sensing::Sampling* sampling_ = nullptr;
-  RobotCommands commands_;
-  std::uint64_t exchanges_ = 0;
+  RobotCommands commands_;       // the commands of this turn
+  std::uint64_t exchanges_ = 0;  // number of CountExchange() calls in this turn
   std::variant<Finished, Failed, Waiting, Blocked> end_;
 };
 

@@ -21,8 +21,8 @@ struct SensorDesign {
   model::SensorDescription description;
   // null if the parameters are invalid; then `refusal` contains the reason
   std::unique_ptr<const sensing::Sensor> sensor;
-  base::Error refusal;
-  Cadence cadence;
+  base::Error refusal;  // why the sensor could not be created
+  Cadence cadence;      // when samples are taken and available
 };
 
 using SensorDesignPtr = std::shared_ptr<const SensorDesign>;
@@ -93,7 +93,7 @@ class MountedSensor {
 
   // Counts a reading that the behaviour received.
   void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
-  std::uint64_t readings() const;
+  std::uint64_t readings() const;  // number of readings that the behaviour received
 
   // Resets the sensor to its initial state.
   void Forget();
@@ -109,11 +109,12 @@ class MountedSensor {
 
   mutable base::Mutex mutex_;
   std::shared_ptr<Sweeps> sweeps_ GSV_GUARDED_BY(mutex_);  // null if the sensor belongs to no sweep
-  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // number of sweeps at Join()
-  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;   // step of the newest sample, or -1
-  std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;
-  sensing::Reading newest_ GSV_GUARDED_BY(mutex_);
-  bool has_failed_ GSV_GUARDED_BY(mutex_) = false;
+  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;   // number of sweeps at Join()
+  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;    // step of the newest sample, or -1
+  std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;  // Layout::version of the newest sample
+  sensing::Reading newest_ GSV_GUARDED_BY(mutex_);           // the newest sample
+  bool has_failed_ GSV_GUARDED_BY(mutex_) = false;           // whether a fault makes readings fail
+  // The snapshot that the sensor keeps reading because of a fault; null if there is none.
   std::shared_ptr<const world::Snapshot> silent_since_ GSV_GUARDED_BY(mutex_);
 };
 

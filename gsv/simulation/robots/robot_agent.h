@@ -61,6 +61,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
 
   base::Result<CycleMemory> ShareMemory(ClockId clock) override;
 
+  // The result of Wake().
   struct Woken {
     // whether the wait event must be signalled, preferably without holding a lock
     bool has_passed = false;
@@ -79,6 +80,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Reads the sensors of a cycle and writes their readings to `content`.
   CycleChannel::Readings WriteReadings(const CycleChannel::Request& request,
                                        exchange::ContentWriter& content);
+  // Closes the shared memory of a clock, if it has one.
   void CloseChannel(ClockId clock);
 
   // Returns a reading for an observer.
@@ -199,11 +201,14 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void MakeReady() GSV_REQUIRES(simulation_mutex);
 
  private:
+  // Whether the behaviour still takes part in the run.
   enum class Fate { kAlive, kUnresponsive, kDead };
 
   // Fails if the behaviour may not give commands now.
   base::Status CheckCanCommand() const GSV_REQUIRES(simulation_mutex);
+  // Reports to the channel that the wait of its cycle is over.
   void SetDue(CycleChannel& channel) GSV_REQUIRES(simulation_mutex);
+  // Commands the drive, unless an exchange of a clock with a higher id has already done so.
   base::Status OfferDrive(ClockId clock, const world::DriveCommand& command)
       GSV_REQUIRES(simulation_mutex);
   // Fails if the behaviour is dead, or the run has ended.
@@ -215,6 +220,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                             std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
   // Returns the present readings of all sensors that are open.
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
+  // Returns the present reading of a sensor for the behaviour.
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
   // Makes the clock wait. Returns false if `until` is already reached.
   bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
@@ -247,12 +253,13 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   alignas(64) const std::shared_ptr<SharedState> shared_;
   std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
   LocalBehaviour* local_ GSV_GUARDED_BY(simulation_mutex) = nullptr;  // behaviour_->local()
-  int body_ GSV_GUARDED_BY(simulation_mutex) = -1;
-  bool has_motor_ GSV_GUARDED_BY(simulation_mutex) = true;
+  int body_ GSV_GUARDED_BY(simulation_mutex) = -1;  // index in the layout; -1 if not in the world
+  bool has_motor_ GSV_GUARDED_BY(simulation_mutex) = true;  // false after LoseMotor()
   // Whether a local behaviour waits for slow work that it passed to Block().
   bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool started_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool is_removed_ GSV_GUARDED_BY(simulation_mutex) = false;
+  // Whether ReportDeath() was called. The death may not have taken effect yet.
   bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
   // Whether the behaviour has reported its own death. Its later calls are ignored.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
@@ -263,7 +270,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // whether the agent is in shared_->commanded
   bool is_commanded_ GSV_GUARDED_BY(simulation_mutex) = false;
   WallTime running_since_ GSV_GUARDED_BY(simulation_mutex){};
-  RobotCommands commands_ GSV_GUARDED_BY(simulation_mutex);
+  RobotCommands commands_ GSV_GUARDED_BY(simulation_mutex);  // commands for the next step
   Turn turn_;  // used by the stepping thread and, during a turn, by the thread of the turn
   ClockId turn_clock_ = 0;                        // the clock of the last turn; used like turn_
   std::atomic<WallTime> turn_began_{WallTime()};  // start of the current turn; WallTime() between
@@ -285,7 +292,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::string detail_ GSV_GUARDED_BY(simulation_mutex);
   // The error that the behaviour reported; empty if there is none.
   std::string cause_ GSV_GUARDED_BY(simulation_mutex);
-  SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};
+  SimTime detail_since_ GSV_GUARDED_BY(simulation_mutex){0};  // time since which detail_ applies
 };
 
 }  // namespace gsv::simulation

@@ -37,6 +37,7 @@ base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceC
 // The commands that one robot has received since the last step.
 class RobotCommands {
  public:
+  // A command to the drive, with its origin.
   struct Drive {
     ClockId clock = 0;  // the clock of the exchange that sent the command; 0 if there was none
     world::DriveCommand command;

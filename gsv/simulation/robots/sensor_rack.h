@@ -38,9 +38,11 @@ class SensorRack {
   base::Result<MountedSensorPtr> Find(const std::string& name) const;
   std::vector<MountedSensorPtr> OpenSensors() const;  // Returns the open sensors, ordered by name.
 
+  // Returns the number of readings that the behaviour received, by sensor type.
   std::map<std::string, std::uint64_t> readings_by_type() const;
 
  private:
+  // A sensor and its state on this robot.
   struct Slot {
     MountedSensorPtr sensor;
     bool is_created = false;  // whether a caller created the sensor; false if it belongs to the
@@ -52,6 +54,7 @@ class SensorRack {
   // The index of the slot with the name `name`. If there is none, the index at which this slot
   // would be inserted.
   std::size_t PlaceOf(const std::string& name) const GSV_REQUIRES(mutex_);
+  // Returns the error for an unknown name.
   base::Error NoSuchSensor(const std::string& name) const;
 
   const std::string robot_;

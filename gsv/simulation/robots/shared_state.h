@@ -36,27 +36,29 @@ struct SharedState {
 
   // The next members have their own locks.
   SnapshotHistory history;
-  sensing::RaySceneCache rays;
-  SensorDesigns designs;
+  sensing::RaySceneCache rays;  // ray scenes for all sensors of the simulation
+  SensorDesigns designs;        // the sensors of each model
   const Mode mode;
-  const std::uint64_t seed;
+  const std::uint64_t seed;  // seed of the noise of all sensors
 
   // Used by SimulationLock and AgentCallLock.
   base::Mutex line;
-  base::Mutex mutex;
+  base::Mutex mutex;  // guards the members that are GSV_GUARDED_BY(simulation_mutex)
   // Notifies the stepping thread that the phase changed, that the last running agent waits, or that
   // a local behaviour can continue.
   StepSignal changed;
   // The reason why calls of agents end; empty while they may continue.
   std::string end_reason GSV_GUARDED_BY(simulation_mutex);
-  SimTime now GSV_GUARDED_BY(simulation_mutex){0};
-  MotionHistory motions GSV_GUARDED_BY(simulation_mutex);
+  SimTime now GSV_GUARDED_BY(simulation_mutex){0};         // time of the latest step
+  MotionHistory motions GSV_GUARDED_BY(simulation_mutex);  // recent motion of all robots
 
   // Whether the stepping thread takes several steps at once. Requests to the run wait for their end,
   // so that their results are those of single steps.
   bool takes_many GSV_GUARDED_BY(simulation_mutex) = false;
+  // number of threads in AwaitManySteps()
   int waiting_requests GSV_GUARDED_BY(simulation_mutex) = 0;
-  base::ConditionVariable many_taken;
+  base::ConditionVariable many_taken;  // notified when takes_many becomes false
+  // Waits until the stepping thread has taken its steps. `lock` is released during the wait.
   void AwaitManySteps(base::MutexLock& lock) GSV_NO_THREAD_SAFETY_ANALYSIS {
     if (!takes_many) return;
     ++waiting_requests;
@@ -78,6 +80,7 @@ struct SharedState {
   TimerQueue<RobotAgent> turn_sleepers GSV_GUARDED_BY(simulation_mutex);
   // Commands to drives for the next step, from the turns of local behaviours. At most one for each
   // agent. They apply before the commands of agents in `commanded`.
+  // A command for the drive of an agent's robot.
   struct DriveOrder {
     RobotAgent* agent;
     world::DriveCommand command;
@@ -147,7 +150,7 @@ class GSV_SCOPED_CAPABILITY AgentCallLock {
 
  private:
   SharedState& state_;
-  bool is_held_ = false;
+  bool is_held_ = false;  // whether the mutex is locked
 };
 
 }  // namespace gsv::simulation

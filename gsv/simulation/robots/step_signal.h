@@ -23,6 +23,7 @@ class StepSignal {
   StepSignal(const StepSignal&) = delete;
   StepSignal& operator=(const StepSignal&) = delete;
 
+  // Signals, and wakes all waiting threads.
   void notify_all() {
     exchange::Bell& bell = *bell_.load();
     bell.rings.fetch_add(1);
@@ -66,6 +67,7 @@ class StepSignal {
   }
 
  private:
+  // The bell before Use(), and the bell that is used now.
   exchange::Bell own_{};
   std::atomic<exchange::Bell*> bell_{&own_};
   std::atomic<int> sleepers_{0};  // number of waiting threads; the bell also stores it, for clients

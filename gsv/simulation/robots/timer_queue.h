@@ -66,6 +66,7 @@ class TimerQueue {
     }
   }
 
+  // Removes all entries of a sleeper.
   void Remove(const Sleeper* sleeper) {
     for (auto& [instant, sleepers] : entries_) std::erase(sleepers, sleeper);
   }
@@ -76,8 +77,8 @@ class TimerQueue {
   // cache.
   static constexpr std::size_t kAhead = 8;
 
-  std::map<base::SimTime, std::vector<Sleeper*>> entries_;
-  std::vector<Sleeper*> spare_;  // kept for reuse by the next entry
+  std::map<base::SimTime, std::vector<Sleeper*>> entries_;  // sleepers by their instants
+  std::vector<Sleeper*> spare_;                             // kept for reuse by the next entry
 };
 
 }  // namespace gsv::simulation

@@ -62,14 +62,14 @@ class LifeCycle {
   // Wakes the threads in WaitForPhase().
   void NotifyPhase() GSV_REQUIRES(simulation_mutex);
 
-  RunControl run_ GSV_GUARDED_BY(simulation_mutex);
-  RunPace pace_ GSV_GUARDED_BY(simulation_mutex);
+  RunControl run_ GSV_GUARDED_BY(simulation_mutex);  // the phase of the run
+  RunPace pace_ GSV_GUARDED_BY(simulation_mutex);    // the real-time schedule of the run
   const WorldLock& world_lock_;
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;
   AgentPopulation& agents_;
   BehaviourCaller& caller_;
-  mutable base::ConditionVariable phase_changed_;
+  mutable base::ConditionVariable phase_changed_;  // notified when the phase changes
 };
 
 }  // namespace gsv::simulation

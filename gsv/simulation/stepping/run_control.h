@@ -113,18 +113,18 @@ class RunControl {
   Change Enter(Phase phase, Change change);
 
   const std::string simulation_;
-  const SimTime duration_;
+  const SimTime duration_;  // simulated time at which the run ends; 0: no limit
 
   Phase phase_ = Phase::kCreated;
-  int starts_pending_ = 0;
+  int starts_pending_ = 0;  // number of behaviours whose start has not ended
   // The instants at which the run pauses by itself. A start or a resume sets them.
   std::optional<SimTime> run_until_;    // pauses after the step that reaches this time
   std::optional<SimTime> run_through_;  // pauses after the turns at this instant
   std::int64_t steps_left_ = -1;        // pauses after this number of steps; -1: no limit
 
-  std::uint64_t run_ = 0;
+  std::uint64_t run_ = 0;          // number of starts and resumes so far
   std::uint64_t run_of_step_ = 0;  // value of `run_` when the current step began
-  bool turns_have_begun_ = false;
+  bool turns_have_begun_ = false;  // whether the agents that wait for this instant were woken
   bool was_edited_ = false;
   std::string failure_;
   std::string final_hash_;

@@ -60,7 +60,9 @@ class StepLoop {
   void ApplyFaults();
   // Wakes the agents whose waits end now.
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
+  // Begins the cycles that clients have posted to shared memory, and sets when a client must ring.
   void TakeCycles() GSV_REQUIRES(simulation_mutex);
+  // Signals the events in woken_. `lock` is released meanwhile.
   void OpenWoken(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   // Ends the run, if the death of a behaviour must end it.
   void FailIfRequired(const RobotAgent& dead) GSV_REQUIRES(simulation_mutex);
@@ -72,6 +74,7 @@ class StepLoop {
     std::size_t begin = 0, end = 0;             // executed turns that are not yet applied
   };
   // Any thread may call the next three functions, for different ranges of turns_.
+  // Executes the turns from `begin` to `end`.
   void TakePiece(std::size_t begin, std::size_t end, TurnThread& thread);
   // For the turns of `thread` that ended in a wait: applies them and sets usual_ends_. Then wakes
   // the agents from `begin` to `end` and sets outcomes_.

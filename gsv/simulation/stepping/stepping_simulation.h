@@ -110,6 +110,7 @@ class SteppingSimulation final : public Simulation {
   void AddStation(const std::string& name) GSV_REQUIRES(world_mutex);
   // Adds the robots to the world, and creates their agents.
   base::Status PlaceRobots(std::vector<RobotSpecification>& robots);
+  // Removes robots and their agents, for example after a failed init.
   base::Status RemoveRobots(const std::vector<std::string>& names);
 
   const Specification specification_;
@@ -125,7 +126,7 @@ class SteppingSimulation final : public Simulation {
   FaultInjector faults_;
   StepLoop step_loop_;
   Watchdog watchdog_;
-  base::Mutex control_mutex_;
+  base::Mutex control_mutex_;  // held during a request, so that requests do not overlap
   RobotModels robot_models_ GSV_GUARDED_BY(control_mutex_);
   mutable base::Mutex expectations_mutex_;
   std::weak_ptr<const ExpectationSource> expectations_ GSV_GUARDED_BY(expectations_mutex_);

@@ -36,7 +36,7 @@ class Watchdog {
   AgentPopulation& agents_;
   LifeCycle& life_cycle_;
   bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
-  base::ConditionVariable stopped_;
+  base::ConditionVariable stopped_;  // notified by Stop()
   std::jthread thread_;
 };
 

@@ -41,7 +41,7 @@ struct State {
   Interval step;  // range of steps that the latest snapshot may have
   // only while running: the step at which the requested number of steps is complete
   std::optional<Interval> counted;
-  std::optional<std::int64_t> run_until;
+  std::optional<std::int64_t> run_until;  // only while running: the step of a request kRunUntil
 
   // Returns the step at which the run pauses by itself.
   std::optional<Interval> Goal() const {
@@ -110,6 +110,7 @@ class LifeCycleModel {
   }
 
  private:
+  // Returns states_, and the states into which a run changes by itself.
   std::vector<State> WithSpontaneousChanges() const {
     std::vector<State> all = states_;
     for (const State& state : states_) {
@@ -195,7 +196,7 @@ class LifeCycleModel {
     return std::nullopt;
   }
 
-  const std::int64_t end_;
+  const std::int64_t end_;  // step at which the run finishes; kUnbounded if it does not
   std::vector<State> states_{State()};
 };
 

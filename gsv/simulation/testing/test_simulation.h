@@ -18,7 +18,7 @@ namespace gsv::simulation {
 using namespace std::chrono_literals;
 using geometry::PlanarPose;
 
-inline constexpr auto kLease = 200ms;
+inline constexpr auto kLease = 200ms;  // lease of each wait of a behaviour
 inline constexpr auto kTimeout = 20s;  // wall-clock time limit of every expected change
 
 // The current pose of a body.
@@ -31,6 +31,7 @@ inline geometry::Pose PoseOf(const Simulation& simulation, const std::string& na
 // A behaviour on a thread of this process.
 class ThreadBehaviour final : public BehaviourPort {
  public:
+  // The code of the behaviour's thread. It waits on the given clock.
   using Body = std::function<void(Agent&, ClockId)>;
 
   explicit ThreadBehaviour(Body body, bool time_managed = true)
@@ -69,9 +70,9 @@ class ThreadBehaviour final : public BehaviourPort {
   const std::string& name() const override { return name_; }
   const std::string& place() const override { return place_; }
 
-  std::optional<base::Error> init_error;
-  std::atomic<bool> dead = false;
-  std::atomic<int> inits = 0, stops = 0, pauses = 0, resumes = 0;
+  std::optional<base::Error> init_error;  // the result of Init(); nullopt for success
+  std::atomic<bool> dead = false;         // the result of IsDead()
+  std::atomic<int> inits = 0, stops = 0, pauses = 0, resumes = 0;  // numbers of calls
 
  private:
   const Body body_;
