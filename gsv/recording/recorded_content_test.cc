@@ -34,6 +34,38 @@ TEST_F(SimulationRecorderTest, TopicsAndRatesCanBeChosen) {
                         {"/gsv/poses", 11}, {"/robot/back", 5}, {"/robot/front", 6}}));
 }
 
+TEST_F(SimulationRecorderTest, SensorsOfSeveralRatesKeepTheirInstants) {
+  const auto behaviour = std::make_shared<simulation::ThreadBehaviour>(
+      [](simulation::Agent& agent, simulation::ClockId clock) {
+        for (const int rate : {3, 7}) {
+          model::SensorDescription sonar;
+          sonar.name = "at_" + std::to_string(rate);
+          sonar.type = "sonar";
+          sonar.update_rate = rate;
+          sonar.parameters = {{"min", 0.1}, {"max", 5.0}};
+          EXPECT_TRUE(agent.CreateSensor(sonar));
+        }
+        while (simulation::SleepFor(agent, clock, 50ms)) {
+        }
+      });
+  auto simulation = MakeSimulation(1s, behaviour);
+  auto recorder = Start(simulation);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE(recorder->Stop());
+  // The first steps of 10 ms at or after the multiples of 1/3 s and of 1/7 s. The sensors are
+  // created after the instant 0.
+  const std::map<std::string, std::vector<unsigned>> expected{
+      {"/robot/at_3", {340, 670, 1000}}, {"/robot/at_7", {150, 290, 430, 580, 720, 860}}};
+  for (const auto& [topic, instants_ms] : expected) {
+    std::vector<unsigned> recorded_ms;
+    for (const auto& range : Read<messages::sensor_msgs::Range>(topic)) {
+      const messages::builtin_interfaces::Time& stamp = range.header.stamp;
+      recorded_ms.push_back(static_cast<unsigned>(stamp.sec) * 1000 + stamp.nanosec / 1'000'000);
+    }
+    EXPECT_EQ(recorded_ms, instants_ms) << topic;
+  }
+}
+
 TEST_F(SimulationRecorderTest, BeamsCanBeRecordedWithoutReadings) {
   auto simulation = MakeSimulation(1s, Drives(1.0));
   RecorderOptions options = NamingOptions();

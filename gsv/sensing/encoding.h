@@ -26,11 +26,14 @@ inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::st
 // Returns the message in CDR.
 template <typename Message>
 std::vector<std::uint8_t> Encoded(const Message& message) {
-  messages::Bytes bytes;
-  bytes.reserve(256);  // most messages are smaller
+  constexpr std::size_t kMaxKept = std::size_t{1} << 16;  // bytes
+  static thread_local messages::Bytes bytes;              // the memory of short messages is reused
+  bytes.clear();
   messages::Encode(message, bytes);
   const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  return {begin, begin + bytes.size()};
+  std::vector<std::uint8_t> encoded(begin, begin + bytes.size());
+  if (bytes.capacity() > kMaxKept) messages::Bytes().swap(bytes);
+  return encoded;
 }
 
 }  // namespace gsv::sensing

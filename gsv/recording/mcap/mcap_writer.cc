@@ -146,7 +146,8 @@ bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   const auto has_room = [&]() GSV_REQUIRES(mutex_) {
     return queued() < options_.queue_size || closing_ || !status_;
   };
-  if (!room_.wait_for(lock, options_.wait_limit, has_room)) {
+  // Usually there is room. Then the clock is not read.
+  if (!has_room() && !room_.wait_for(lock, options_.wait_limit, has_room)) {
     EndWith({base::ErrorCode::kTimeout,
              "the recording's disk does not keep up; record fewer topics or to a faster disk",
              {}});

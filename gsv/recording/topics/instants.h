@@ -23,6 +23,9 @@ class Instants {
     return has_come;
   }
 
+  // The first time after the last call's at which AdvanceTo() returns true.
+  base::SimTime next() const { return to_; }
+
  private:
   base::SimTime period_;
   std::int64_t index_ = -1;  // index of the newest instant that has passed

@@ -77,6 +77,7 @@ void SensorRecorder::SetSensors(const SensorLists& lists, const world::Snapshot&
   }
   if (found == sensors_) return;
   sensors_ = std::move(found);
+  next_due_ = base::SimTime(0);
   layout_ = nullptr;
   WriteTransforms(snapshot);
 }
@@ -120,6 +121,14 @@ void SensorRecorder::FindBodies(const std::shared_ptr<const world::Layout>& layo
 
 void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
   if (layout_ != snapshot->layout) FindBodies(snapshot->layout);
+  const base::SimTime now = snapshot->state.time;
+  if (now < none_due_from_ || now >= next_due_) RecordDue(snapshot);
+  if (beams_instants_.AdvanceTo(now) && beams_.is_wanted()) WriteBeams(*snapshot);
+}
+
+void SensorRecorder::RecordDue(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  none_due_from_ = snapshot->state.time;
+  next_due_ = base::SimTime::max();
   sensing::Sampling sampling(snapshot, 0, seed_, rays_);
   std::vector<Sample> of_robot;
   std::vector<Sample> slow;
@@ -138,7 +147,9 @@ void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapsh
     slow.clear();
   };
   for (const auto& [topic, sensor] : sensors_) {
-    if (!sensor->instants.AdvanceTo(snapshot->state.time) || sensor->has_failed) continue;
+    const bool is_due = sensor->instants.AdvanceTo(snapshot->state.time);
+    next_due_ = std::min(next_due_, sensor->instants.next());
+    if (!is_due || sensor->has_failed) continue;
     if (sensor->body < 0) continue;
     Sample sample{&topic, sensor.get(), {}, {}, {}};
     if (sensor->sensor->TakesLong()) {
@@ -153,7 +164,6 @@ void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapsh
   }
   take_of_robot();
   if (!slow.empty()) take_slow();
-  if (beams_instants_.AdvanceTo(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
 }
 
 void SensorRecorder::TakeRobotSamples(sensing::Sampling& sampling, std::span<Sample> samples) {

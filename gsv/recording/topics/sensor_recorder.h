@@ -54,13 +54,15 @@ class SensorRecorder {
 
   // Sets the sensors that are recorded from now on.
   void SetSensors(const SensorLists& lists, const world::Snapshot& snapshot);
-  // Writes the readings that are due at the snapshot's time. Several images are rendered at the
+  // Writes the readings and beams that are due at the snapshot's time. Several images are rendered at the
   // same time.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
   // A sensor with its channels and the instants of its readings.
   struct Sensor;
+  // Writes the readings that are due, and sets the time at which the next ones are due.
+  void RecordDue(const std::shared_ptr<const world::Snapshot>& snapshot);
   // A due reading of one sensor, with its encoded messages.
   struct Sample {
     const std::string* topic = nullptr;  // key of the sensor in sensors_
@@ -106,6 +108,8 @@ class SensorRecorder {
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // samples slow sensors; null if there are none
   Sensors sensors_;
+  // No reading is due from `none_due_from_` until before `next_due_`.
+  base::SimTime none_due_from_{0}, next_due_{0};
   // The layout whose body indices Sensor::body and robot_beams_ use; null after SetSensors().
   std::shared_ptr<const world::Layout> layout_;
   std::vector<RobotBeams> robot_beams_;  // by body
