@@ -240,6 +240,7 @@ void ImageRenderer::SetBackground(const Background& background) {
                        old.has_shadow == background.has_shadow &&
                        IsSameView(old.view, background.view) &&
                        std::memcmp(&old.block, &background.block, sizeof old.block) == 0;
+  is_repeated_ = is_same;
   if (is_same) return;
   background_ = background;
   const int columns = (width_ + kTileWidth - 1) / kTileWidth;
@@ -277,14 +278,14 @@ void ImageRenderer::LightTile(const LightModel& light, const SunShadow* shadow, 
            std::any_of(shadow->moved().begin(), shadow->moved().end(),
                        [&](const auto& part) { return Overlap(part, tile.in_shadow); });
   };
-  const bool is_still = IsStillTile(x0, y0, x1, y1);
+  const bool is_still = is_repeated_ && IsStillTile(x0, y0, x1, y1);
   if (tile.is_kept && is_still && !is_shaded_by_movers()) return;
   const TileBox box = BoxOfTile(x0, y0, x1, y1);
   const Lamps lamps = box.is_empty ? Lamps() : light.Reaching(box.min, box.max);
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; x += 8) Light(light, lamps, x, y, shading);
   }
-  tile.in_shadow = InShadow(box);
+  if (is_still) tile.in_shadow = InShadow(box);
   tile.is_kept = is_still && !is_shaded_by_movers();
 }
 
@@ -421,6 +422,11 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
   for (const Seen& seen : transparent_) {
     const Drawn drawn =
         DrawnItem(render_list, seen.item, *seen.level, view.world_from_camera.position);
+    // Most items are so small that few lamps reach them.
+    const Vector3 centre = render_list.placed()[seen.item].centre - view.world_from_camera.position;
+    const double radius = render_list.items()[seen.item].radius;
+    const Vector3 to_corner{radius, radius, radius};
+    const Lamps lamps = light.Reaching(centre - to_corner, centre + to_corner);
     rasteriser_.ForEachTriangle(
         drawn, 0, drawn.group->double_sided, [&](const Triangle& t, const Box& box, bool) {
           const TriangleSurface surface = SurfaceOf(drawn, t);
@@ -436,11 +442,6 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            // Images have few transparent pixels. So it would not save time to select the lamps
-            // that reach these pixels, and all lamps are used.
-            constexpr double kAnywhere = 1e30;
-            const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
-                                               {kAnywhere, kAnywhere, kAnywhere});
             const I8 above = Encoded(light.Colour(surfaces, ray, lamps, visible), SplatInt(0));
             std::uint32_t* to =
                 &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];

@@ -4,9 +4,10 @@
 // last. Then each pixel is shaded once, in tiles. Then transparent items are blended from far to
 // near.
 //
-// A tile that shows only still bodies, on which no moving body casts a shadow, keeps its colours
-// for the next image of the same view. This does not change the image: a new ImageRenderer would
-// render the same one.
+// From the second image of a view on, a tile that shows only still bodies, on which no moving body
+// casts a shadow, keeps its colours for the next image. This does not change the image: a new
+// ImageRenderer would render the same one. The first image keeps nothing, because most cameras move
+// with a robot and have another view each time.
 // Threads  one thread at a time; it shades on the threads of a team.
 #pragma once
 
@@ -126,7 +127,8 @@ class ImageRenderer {
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
   Background background_;
-  std::vector<Tile> tiles_;  // row by row
+  bool is_repeated_ = false;  // whether the last image had the present background too
+  std::vector<Tile> tiles_;   // row by row
   Rasteriser rasteriser_;
 };
 

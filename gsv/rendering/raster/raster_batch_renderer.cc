@@ -44,7 +44,7 @@ std::vector<std::shared_ptr<const model::Image>> RasterBatchRenderer::DrawImages
   planned.render_list->Pose(snapshot);
   planned.lighting->TakeLamps(snapshot);
   const bool shadows = lighting.sun_casts_shadows();
-  if (shadows) shadow_.Draw(render_list, planned.id, lighting.to_sun(), views);
+  if (shadows) shadow_.Draw(render_list, planned.id, lighting.to_sun(), views, team_);
   std::vector<std::shared_ptr<const model::Image>> images(views.size());
   const auto draw = [&](ImageRenderer& renderer, std::size_t i, base::ThreadTeam* team) {
     FrameBlock block = lighting.BlockFor(views[i]);

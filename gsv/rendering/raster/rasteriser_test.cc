@@ -169,5 +169,45 @@ TEST(RasterBatchRenderer, DrawsEqualImagesByOneAndBySeveralThreads) {
   }
 }
 
+// Several threads draw the shadow map in bands of rows. The shadows of posts and balls cross the
+// borders between bands.
+TEST(RasterBatchRenderer, DrawsEqualShadowsByOneAndBySeveralThreads) {
+  TestScene scene;
+  model::Light sun;
+  sun.direction = geometry::Normalized(geometry::Vector3{0.5, 0.3, -0.6});
+  scene.description().lights = {sun};
+  scene.Add("floor", geometry::Box{{24, 24, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.9, 0.8, 0.7), true);
+  constexpr int kSide = 5;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const geometry::Pose pose{{4.0 * (i % kSide) - 8, 4.0 * (i / kSide) - 8, 0.8}, {}};
+    if (i % 2 == 0) {
+      scene.Add("ball" + std::to_string(i), geometry::Sphere{0.8}, pose, Matt(0.7, 0.1, 0.1));
+    } else {
+      scene.Add("post" + std::to_string(i), geometry::Cylinder{0.2, 1.6}, pose, Matt(0, 0, 0.6));
+    }
+  }
+  const auto still = scene.Snapshot();
+  const CameraView view{{{0, 0, 30}, geometry::FromRollPitchYaw({0, std::numbers::pi / 2, 0})},
+                        {300, 300, 1.0, 0.05, 60}};
+  raster::RasterBatchRenderer one(1), three(3), sixteen(16);
+  std::vector<std::uint8_t> last;
+  for (int i = 0; i < 6; ++i) {
+    auto snapshot = std::make_shared<world::Snapshot>(*still);
+    for (std::size_t b = 1; b < snapshot->state.bodies.size(); ++b) {
+      snapshot->state.bodies[b].world_from_model.position.x +=
+          0.13 * i * static_cast<double>(b % 3);
+      snapshot->state.bodies[b].world_from_model.position.y += 0.11 * i;
+    }
+    const auto expected = one.Draw(*snapshot, {view});
+    const auto by_three = three.Draw(*snapshot, {view});
+    const auto by_sixteen = sixteen.Draw(*snapshot, {view});
+    ASSERT_TRUE(expected && by_three && by_sixteen);
+    EXPECT_EQ(by_three->at(0)->pixels, expected->at(0)->pixels) << i;
+    EXPECT_EQ(by_sixteen->at(0)->pixels, expected->at(0)->pixels) << i;
+    EXPECT_NE(expected->at(0)->pixels, last);
+    last = expected->at(0)->pixels;
+  }
+}
+
 }  // namespace
 }  // namespace gsv::rendering

@@ -1,6 +1,7 @@
 #include "gsv/rendering/raster/shadow_bounds.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 namespace gsv::rendering::raster {
@@ -21,15 +22,28 @@ float Most(F8 a) {
 }  // namespace
 
 void ShadowBounds::Update(const float* map, std::ptrdiff_t stride,
-                          const ShadowRegion::Rectangle& part) {
+                          std::span<const ShadowRegion::Rectangle> parts, base::ThreadTeam& team) {
+  constexpr std::size_t kRows = 8;  // rows of blocks that a thread takes at once
   const auto first = [](int texel) { return std::max(0, (texel - kAfter) / kBlock); };
   const auto end = [](int texel) { return std::min(kSide, (texel - 1 + kBefore) / kBlock + 1); };
-  if (part.min_x >= part.max_x || part.min_y >= part.max_y) return;
-  for (int y = first(part.min_y); y < end(part.max_y); ++y) {
-    for (int x = first(part.min_x); x < end(part.max_x); ++x) {
-      blocks_[static_cast<std::size_t>(kSide * y + x)] = BoundsOf(map, stride, x, y);
+  team.ParallelFor(kSide, kRows, [&](std::size_t begin_row, std::size_t end_row) {
+    for (int y = static_cast<int>(begin_row); y < static_cast<int>(end_row); ++y) {
+      // Parts overlap, but each block is computed once.
+      std::bitset<kSide> is_changed;
+      for (const ShadowRegion::Rectangle& part : parts) {
+        if (part.min_x >= part.max_x || part.min_y >= part.max_y) continue;
+        if (y < first(part.min_y) || y >= end(part.max_y)) continue;
+        for (int x = first(part.min_x); x < end(part.max_x); ++x) {
+          is_changed.set(static_cast<std::size_t>(x));
+        }
+      }
+      if (is_changed.none()) continue;
+      for (int x = 0; x < kSide; ++x) {
+        if (!is_changed[static_cast<std::size_t>(x)]) continue;
+        blocks_[static_cast<std::size_t>(kSide * y + x)] = BoundsOf(map, stride, x, y);
+      }
     }
-  }
+  });
 }
 
 ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stride, int x, int y) {

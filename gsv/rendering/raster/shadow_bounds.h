@@ -2,8 +2,10 @@
 // suffice: a point above the upper bound is lit, and a point below the lower bound is in shadow.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/rendering/raster/simd.h"
 #include "gsv/rendering/scene/shadow_region.h"
 
@@ -20,9 +22,11 @@ class ShadowBounds {
   static constexpr int kBefore = 2, kAfter = 2;
   static constexpr float kBesideX = 1.601f, kBesideY = 1.301f;
 
-  // Computes the bounds that depend on the texels of `part`. `map` points to texel (0, 0) of a map
-  // with a border of at least one texel, and `stride` is the number of texels from row to row.
-  void Update(const float* map, std::ptrdiff_t stride, const ShadowRegion::Rectangle& part);
+  // Computes the bounds that depend on the texels of `parts`, on the threads of `team`. `map` points
+  // to texel (0, 0) of a map with a border of at least one texel, and `stride` is the number of
+  // texels from row to row.
+  void Update(const float* map, std::ptrdiff_t stride,
+              std::span<const ShadowRegion::Rectangle> parts, base::ThreadTeam& team);
 
   // The lowest and the highest depth that look-ups at (x, y) may read. Look-ups outside the map
   // read the texels at its border.

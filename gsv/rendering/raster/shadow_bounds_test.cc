@@ -26,7 +26,7 @@ class Map {
     }
   }
   void UpdateBounds(const ShadowRegion::Rectangle& part) {
-    bounds_.Update(&texels_[kFirst], kStride, part);
+    bounds_.Update(&texels_[kFirst], kStride, {&part, 1}, team_);
   }
   // The bounds at eight points to the right of (x, y), 0.37 texels apart.
   ShadowBounds::Range BoundsAt(double x, double y) const {
@@ -63,6 +63,7 @@ class Map {
  private:
   std::vector<float> texels_;
   ShadowBounds bounds_;
+  base::ThreadTeam team_{2};
 };
 
 constexpr ShadowRegion::Rectangle kAll{0, 0, kShadowSide, kShadowSide};

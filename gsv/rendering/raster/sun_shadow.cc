@@ -37,54 +37,43 @@ const Level& LevelFor(const std::vector<Level>& levels, const DrawItem& item, do
 }  // namespace
 
 void SunShadow::Draw(const RenderList& render_list, std::uint64_t render_list_id,
-                     const geometry::Vector3& to_sun, const std::vector<CameraView>& views) {
+                     const geometry::Vector3& to_sun, const std::vector<CameraView>& views,
+                     base::ThreadTeam& team) {
   region_ = ShadowRegion(render_list, to_sun);
   if (region_.IsEmpty()) return;
   const Drawn wanted{render_list_id, render_list.moved_count(), region_};
-  std::vector<ShadowRegion::Rectangle> changed = std::move(moved_);
+  std::vector<ShadowRegion::Rectangle> changed = std::move(moved_), copied;
   if (drawn_ != wanted) {
     still_.assign(std::size_t{kStride} * (kShadowSide + 2), 0.0f);
-    DrawCasters(render_list, ShadowRegion::StillCasters(render_list), still_);
+    DrawCasters(render_list, ShadowRegion::StillCasters(render_list), {}, still_, team);
     drawn_ = wanted;
     moving_ = still_;
     changed = {{0, 0, kShadowSide, kShadowSide}};
   } else {
-    for (const ShadowRegion::Rectangle& part : changed) CopyStill(part);
+    copied = changed;
   }
   const std::vector<std::size_t> moving = region_.MovingCasters(render_list, views);
   moved_ = region_.PartsOf(render_list, moving);
-  DrawCasters(render_list, moving, moving_);
+  DrawCasters(render_list, moving, copied, moving_, team);
   changed.insert(changed.end(), moved_.begin(), moved_.end());
-  for (const ShadowRegion::Rectangle& part : changed) {
-    // A caster at the map's edge may be drawn into the texels beyond it.
-    bounds_.Update(&moving_[kFirst], kStride, {part.min_x, part.min_y, part.max_x + 1, part.max_y});
-  }
+  // A caster at the map's edge may be drawn into the texels beyond it.
+  for (ShadowRegion::Rectangle& part : changed) ++part.max_x;
+  bounds_.Update(&moving_[kFirst], kStride, changed, team);
 }
 
-void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
-  for (int y = part.min_y; y < part.max_y; ++y) {
+void SunShadow::CopyStill(const ShadowRegion::Rectangle& part, const Band& band) {
+  for (int y = std::max(part.min_y, band.begin); y < std::min(part.max_y, band.end); ++y) {
     const std::ptrdiff_t row = kFirst + std::ptrdiff_t{kStride} * y;
     std::copy(still_.begin() + row + part.min_x, still_.begin() + row + part.max_x,
               moving_.begin() + row + part.min_x);
   }
 }
 
-void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
-                            std::vector<float>& map) {
-  FrameBlock block{};
-  region_.Describe({}, block);
-  // Converts the map's x and y, from 0 to 1, to clip space, from -1 to 1.
-  std::array<float, 16> clip = block.shadow_from_relative;
-  float depth_row[4];
-  for (int column = 0; column < 4; ++column) {
-    depth_row[column] = clip[4 * column + 2];
-    for (int row = 0; row < 2; ++row) {
-      float& m = clip[4 * column + row];
-      m = 2 * m - (column == 3 ? 1.0f : 0.0f);
-    }
-  }
-  rasteriser_.Begin(kShadowSide, kShadowSide, 0.5, clip, Rasteriser::Rows::kUpwards);
-  for (const std::size_t i : casters) {
+std::vector<SunShadow::Caster> SunShadow::CastersOf(
+    const RenderList& render_list, const std::vector<std::size_t>& items,
+    const std::array<float, 16>& shadow_from_relative) const {
+  std::vector<Caster> casters;
+  for (const std::size_t i : items) {
     const DrawItem& item = render_list.items()[i];
     const Fineness fineness = item.of_robot ? kRobot : kThing;
     if (item.radius <= fineness.smallest * region_.TexelSize()) continue;
@@ -92,24 +81,69 @@ void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std
     const auto& mesh = static_cast<const RasterMesh&>(*group.mesh);
     const Level& level =
         LevelFor(mesh.levels[group.chunk], item, fineness.moved_by * region_.TexelSize());
-    DrawCaster(DrawnItem(render_list, i, level, {}), depth_row, !item.of_robot, map);
+    Caster& caster = casters.emplace_back();
+    caster.drawn = DrawnItem(render_list, i, level, {});
+    for (int k = 0; k < 4; ++k) {
+      float& m = caster.depth_row[k];
+      m = k == 3 ? shadow_from_relative[14] : 0;
+      for (std::size_t j = 0; j < 3; ++j) {
+        m += shadow_from_relative[4 * j + 2] * caster.drawn.rows[j][k];
+      }
+    }
+    caster.both_sides = !item.of_robot || group.double_sided;
+    caster.around = region_.PartsOf(render_list, {i}).front();
   }
+  return casters;
 }
 
-void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4],
-                           bool both_sides, std::vector<float>& map) {
-  const RasterMesh& mesh = *caster.mesh;
-  float row[4];  // computes the depth from a mesh vertex
-  for (int k = 0; k < 4; ++k) {
-    row[k] = k == 3 ? depth_row[3] : 0;
-    for (int j = 0; j < 3; ++j) row[k] += depth_row[j] * caster.rows[j][k];
+void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& items,
+                            std::span<const ShadowRegion::Rectangle> copied,
+                            std::vector<float>& map, base::ThreadTeam& team) {
+  // More bands than threads, because some bands have more casters than others. But a caster is
+  // projected once for each band that it touches, so bands are not too narrow.
+  constexpr int kBandsPerThread = 4, kMaxBands = 32;
+  FrameBlock block{};
+  region_.Describe({}, block);
+  const std::vector<Caster> casters = CastersOf(render_list, items, block.shadow_from_relative);
+  // Converts the map's x and y, from 0 to 1, to clip space, from -1 to 1.
+  std::array<float, 16> clip = block.shadow_from_relative;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 2; ++row) {
+      float& m = clip[4 * column + row];
+      m = 2 * m - (column == 3 ? 1.0f : 0.0f);
+    }
   }
-  const auto* holes = caster.group->blending == Blending::kAlphaMask
-                          ? static_cast<const RasterTexture*>(caster.group->base_colour.get())
+  rasterisers_.resize(static_cast<std::size_t>(team.threads()));
+  for (Rasteriser& rasteriser : rasterisers_) {
+    rasteriser.Begin(kShadowSide, kShadowSide, 0.5, clip, Rasteriser::Rows::kUpwards);
+  }
+  const int bands = team.threads() == 1 ? 1 : std::min(kBandsPerThread * team.threads(), kMaxBands);
+  const auto draw = [&](std::size_t begin, std::size_t end, std::size_t thread) {
+    const auto row_of = [&](std::size_t i) { return kShadowSide * static_cast<int>(i) / bands; };
+    const Band band{row_of(begin), row_of(end)};
+    for (const ShadowRegion::Rectangle& part : copied) CopyStill(part, band);
+    for (const Caster& caster : casters) {
+      if (caster.around.max_y <= band.begin || caster.around.min_y >= band.end) continue;
+      DrawCaster(caster, band, rasterisers_[thread], map);
+    }
+  };
+  team.ParallelFor(static_cast<std::size_t>(bands), 1, draw);
+}
+
+void SunShadow::DrawCaster(const Caster& caster, const Band& band, Rasteriser& rasteriser,
+                           std::vector<float>& map) {
+  const RasterMesh& mesh = *caster.drawn.mesh;
+  const DrawGroup& group = *caster.drawn.group;
+  const float(&row)[4] = caster.depth_row;
+  const auto* holes = group.blending == Blending::kAlphaMask
+                          ? static_cast<const RasterTexture*>(group.base_colour.get())
                           : nullptr;
-  rasteriser_.ForEachTriangle(
-      caster, 0, both_sides || caster.group->double_sided,
-      [&](const Triangle& t, const Box& box, bool) {
+  rasteriser.ForEachTriangle(
+      caster.drawn, 0, caster.both_sides, [&](const Triangle& t, const Box& box, bool) {
+        // The value at a texel does not depend on the rows with which the box begins and ends.
+        const Box part{box.x0, std::max(box.y0, band.begin), box.x1,
+                       std::min(box.y1, band.end - 1)};
+        if (part.y0 > part.y1) return;
         float a = 0, b = 0, c = 0;
         for (int i = 0; i < 3; ++i) {
           const std::uint32_t v = t.corner[i];
@@ -119,7 +153,7 @@ void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)
         // Moves the depth away from the sun by its change over a texel, so that no surface shades
         // itself.
         c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
-        Scan(t, box, [&](int x, int y, I8 covered, F8) {
+        Scan(t, part, [&](int x, int y, I8 covered, F8) {
           const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
           const float dy = static_cast<float>(y) - t.y0;
           if (holes != nullptr) covered &= Solid(t, mesh, *holes, 0, dx, dy);

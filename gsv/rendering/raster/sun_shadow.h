@@ -3,11 +3,15 @@
 // Static shadow casters are drawn once, into a first map. A second map contains the moving casters
 // as well. For each snapshot, the changed parts of the second map are restored from the first one
 // and drawn again, if a camera may see the shadows.
-// Threads  Draw() needs exclusive access; const members may run concurrently.
+//
+// Threads      Draw() needs exclusive access; const members may run concurrently.
+// Determinism  the map is bit-identical for any number of threads.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/rendering/raster/rasteriser.h"
 #include "gsv/rendering/raster/shadow_bounds.h"
 #include "gsv/rendering/scene/shadow_region.h"
@@ -17,10 +21,11 @@ namespace gsv::rendering::raster {
 // The shadow map of the sun in memory.
 class SunShadow {
  public:
-  // Draws the shadow map of a posed render list for some cameras. `render_list_id` identifies the
-  // render list.
+  // Draws the shadow map of a posed render list for some cameras, on the threads of `team`.
+  // `render_list_id` identifies the render list.
   void Draw(const RenderList& render_list, std::uint64_t render_list_id,
-            const geometry::Vector3& to_sun, const std::vector<CameraView>& views);
+            const geometry::Vector3& to_sun, const std::vector<CameraView>& views,
+            base::ThreadTeam& team);
 
   const ShadowRegion& region() const { return region_; }
   // The parts of the map that contain shadows of moving casters.
@@ -39,15 +44,32 @@ class SunShadow {
     friend bool operator==(const Drawn&, const Drawn&) = default;
   };
 
-  // Copies a part of still_ to moving_.
-  void CopyStill(const ShadowRegion::Rectangle& part);
-  // Draws casters into a map. Moving casters are drawn with front faces and coarser levels only,
-  // which suffices for closed meshes.
-  void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
-                   std::vector<float>& map);
-  // Draws one caster into a map.
-  void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4], bool both_sides,
-                  std::vector<float>& map);
+  // A caster that is ready to be drawn.
+  struct Caster {
+    raster::Drawn drawn;
+    float depth_row[4];  // computes the depth in the map from a mesh vertex
+    bool both_sides = false;
+    ShadowRegion::Rectangle around;  // the texels that the caster may cover
+  };
+  // A run of rows of the map, [begin, end). Threads draw different bands.
+  struct Band {
+    int begin = 0, end = 0;
+  };
+
+  // Copies the part of still_ that is in a band to moving_.
+  void CopyStill(const ShadowRegion::Rectangle& part, const Band& band);
+  // Returns casters that are large enough to cast a shadow. Moving casters are drawn with front
+  // faces and coarser levels only, which suffices for closed meshes.
+  std::vector<Caster> CastersOf(const RenderList& render_list,
+                                const std::vector<std::size_t>& items,
+                                const std::array<float, 16>& shadow_from_relative) const;
+  // Copies parts of still_ to moving_, if `map` is moving_, and draws casters into `map`.
+  void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& items,
+                   std::span<const ShadowRegion::Rectangle> copied, std::vector<float>& map,
+                   base::ThreadTeam& team);
+  // Draws the part of a caster that is in a band.
+  static void DrawCaster(const Caster& caster, const Band& band, Rasteriser& rasteriser,
+                         std::vector<float>& map);
   // Returns the fraction of sunlight at a depth z, interpolated between the four nearest texels.
   F8 Lit(F8 x, F8 y, F8 z) const;
 
@@ -57,7 +79,7 @@ class SunShadow {
   Drawn drawn_;                                 // the present content of still_
   std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
   ShadowBounds bounds_;                         // bounds of the depths in moving_
-  Rasteriser rasteriser_;
+  std::vector<Rasteriser> rasterisers_;         // one for each thread
 };
 
 }  // namespace gsv::rendering::raster
