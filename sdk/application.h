@@ -47,9 +47,9 @@ struct RobotState {
   std::string name, model, behaviour;
   // state of the behaviour: "running", "waiting", "finished", "unresponsive", "dead", …
   std::string agent;
-  Placement place;      // world_from_robot
-  double distance = 0;  // driven distance, m
-  std::uint64_t collisions = 0;
+  Placement place;               // world_from_robot
+  double distance = 0;           // driven distance, m
+  std::uint64_t collisions = 0;  // number of contacts that have begun
 };
 
 // The state of a simulation and its robots at one instant.
@@ -58,8 +58,8 @@ struct SimulationState {
   // time and robots are the last known values.
   std::string phase;
   SimTime time{0};
-  double real_time_factor = 0;
-  std::uint64_t late_steps = 0;
+  double real_time_factor = 0;   // actual real-time factor
+  std::uint64_t late_steps = 0;  // number of steps that started late, in real time
   // The robot that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s";
   // empty if there is none.
   std::string waiting_for;

@@ -42,7 +42,7 @@ class HeldInstant {
  private:
   // The reading of a sensor at this instant, and whether the behaviour has used the sensor.
   struct Use {
-    bool is_used = false;
+    bool is_used = false;  // whether the behaviour has read the sensor since its last wait
     std::optional<Reading> reading;  // nullopt if the wait returned no reading of the sensor
   };
 

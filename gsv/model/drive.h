@@ -45,11 +45,12 @@ struct Slip {
 // Units  m, rad, s. Joints are indices in Model::joints.
 struct Drive {
   DriveKind kind = DriveKind::kDifferential;
+  // Joints that turn the wheels of the left and of the right side.
   std::vector<int> left_wheels;
   std::vector<int> right_wheels;
   std::vector<int> steered;       // kAckermann: steering joints
   double wheel_separation = 0.3;  // distance between the left and right contact points
-  double wheel_radius = 0.1;
+  double wheel_radius = 0.1;      // the radius with which the drive computes wheel speeds
   // kDifferential: the true radius of the left and of the right wheels, divided by wheel_radius.
   // The drive computes wheel speeds with wheel_radius.
   double left_wheel_scale = 1, right_wheel_scale = 1;

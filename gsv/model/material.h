@@ -18,7 +18,7 @@ struct Colour {
 // map is multiplied with the factor of the same name.
 struct Material {
   Colour base_colour{0.7, 0.7, 0.7, 1};  // transparent if a < 1
-  Colour emissive{0, 0, 0, 1};
+  Colour emissive{0, 0, 0, 1};           // colour of the light that the surface emits
   double metalness = 0;
   double roughness = 0.8;
   std::shared_ptr<const Image> base_colour_map;
@@ -33,7 +33,7 @@ struct Material {
   // If true, the alpha of base_colour_map is a mask: a pixel is transparent if its alpha is below
   // one half. If false, alpha is blended.
   bool alpha_mask = false;
-  bool double_sided = false;
+  bool double_sided = false;  // whether the back faces of triangles are drawn too
 };
 
 }  // namespace gsv::model

@@ -41,9 +41,9 @@ struct SlippingWheel {
 
 // Coulomb friction, slip and restitution, as in SDFormat's <surface>.
 struct Surface {
-  double friction = 1.0;   // along friction_direction
-  double friction2 = 1.0;  // friction coefficient across friction_direction
-  double restitution = 0.0;
+  double friction = 1.0;     // along friction_direction
+  double friction2 = 1.0;    // friction coefficient across friction_direction
+  double restitution = 0.0;  // 0: no rebound, 1: rebound with the speed of the impact
   // Unit vector in the collision's frame; zero for the world's x axis.
   geometry::Vector3 friction_direction;
   // Velocity at which the surfaces slide on each other, per friction force, m/(s N): <slip1> and
@@ -51,7 +51,7 @@ struct Surface {
   double slip = 0, slip2 = 0;
   // Soft ground: this slip is added to the slip of wheels that roll on the surface.
   Slip wheel_slip;
-  CollisionFilter filter;
+  CollisionFilter filter;  // which other surfaces the surface can touch
 };
 
 // A collision shape of a link, with its surface.
@@ -135,8 +135,8 @@ struct Joint {
   Range position_limits;            // rad or m, relative to zero position
   double effort_limit = std::numeric_limits<double>::infinity();    // in N or N m
   double velocity_limit = std::numeric_limits<double>::infinity();  // rad/s or m/s
-  double damping = 0;
-  double friction = 0;
+  double damping = 0;       // N m s/rad or N s/m: force per velocity
+  double friction = 0;      // N m or N: constant force against the motion
   double thread_pitch = 0;  // in m/rad, for kScrew
   std::optional<Mimic> mimic = std::nullopt;
   // The controllers that follow position and velocity commands with rigid-body dynamics (default:
@@ -159,7 +159,7 @@ struct JointTarget {
   };
   int joint = 0;  // index of the joint in Model::joints
   Kind kind = Kind::kPosition;
-  double value = 0;
+  double value = 0;  // in the unit of the kind
 };
 
 // The method that moves a model with a drive.

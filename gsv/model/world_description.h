@@ -21,6 +21,8 @@ struct Light {
   Colour diffuse{1, 1, 1, 1};
   double intensity = 1;  // factor that multiplies `diffuse`
   double range = 10;     // range of point and spot lights, m
+  // Only for point and spot lights, at the distance d: the light is divided by constant + linear d
+  // + quadratic d².
   double constant_attenuation = 1, linear_attenuation = 0, quadratic_attenuation = 0;
   // Only for spots: the full angles of the cone with full light and of the cone with any light.
   double inner_angle = 0, outer_angle = 0;  // rad: spot
@@ -30,9 +32,9 @@ struct Light {
 // The ambient light, the background and the sky of a world.
 struct SceneLook {
   Colour ambient{0.4, 0.4, 0.4, 1};
-  Colour background{0.7, 0.75, 0.8, 1};
-  bool shadows = true;  // false: no light of the world casts shadows
-  bool sky = false;     // true: a blue sky is drawn instead of `background`
+  Colour background{0.7, 0.75, 0.8, 1};  // colour of the sky, unless `sky` is true
+  bool shadows = true;                   // false: no light of the world casts shadows
+  bool sky = false;                      // true: a blue sky is drawn instead of `background`
 };
 
 // A model with its name and pose in a world.
@@ -55,9 +57,9 @@ struct PedestrianGroup;  // gsv/model/pedestrian_group.h
 // The data of one world. A simulation starts from it and does not change it.
 struct WorldDescription {
   std::string name;
-  std::string source;  // the file of the world, for messages
-  base::SimTime max_step_size{std::chrono::milliseconds(1)};
-  double real_time_factor = 1;  // target real-time factor
+  std::string source;                                         // the file of the world, for messages
+  base::SimTime max_step_size{std::chrono::milliseconds(1)};  // default length of a step
+  double real_time_factor = 1;                                // target real-time factor
   geometry::Vector3 gravity{0, 0, -9.8};
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
   // Temperature of the air at height 0, in K.

@@ -21,7 +21,7 @@ struct OrbOptions {
   bool local_socket = false;       // also listen on a local socket if possible, see local_socket.h
   std::uint64_t max_message_bytes = 64u << 20;  // maximum size of a message, including its header
   std::chrono::seconds message_time{30};        // time limit for receiving a message
-  std::chrono::milliseconds call_timeout{10'000};
+  std::chrono::milliseconds call_timeout{10'000};  // default time limit of remote calls
   // A function that removes arguments that crash omniORB, see broker::CheckRequest(). Null for no
   // check.
   void (*check_request)(std::string& message) = nullptr;

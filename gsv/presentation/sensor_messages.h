@@ -38,7 +38,7 @@ bool HasLines(const sensing::SensorType& type, const model::SensorDescription& s
 // deletion, because a viewer with a slow connection gets only some of the messages.
 class BeamMarkers {
  public:
-  static constexpr int kDeletions = 45;
+  static constexpr int kDeletions = 45;  // number of further messages that repeat a deletion
 
   // Adds the lines of a reading: its beams, or short dashes at its points. `body` is the robot's
   // index in the snapshot's layout.

@@ -116,8 +116,8 @@ struct Odometry {
 // WGS84.
 struct Navsat {
   static constexpr const char* kType = "navsat";
-  double latitude_deg = 0, longitude_deg = 0, altitude = 0;
-  double east = 0, north = 0, up = 0;  // velocity of the sensor, m/s
+  double latitude_deg = 0, longitude_deg = 0, altitude = 0;  // degrees, degrees, m
+  double east = 0, north = 0, up = 0;                        // velocity of the sensor, m/s
   static constexpr auto kFields = std::make_tuple(
       Value("latitude_deg", "°", &Navsat::latitude_deg, "latitude"),
       Value("longitude_deg", "°", &Navsat::longitude_deg, "longitude"),
@@ -356,7 +356,7 @@ struct NormalImage {
 // A box in pixels, counted from the image's upper left corner.
 struct BoundingBox {
   std::string name;
-  double left = 0, top = 0, right = 0, bottom = 0;
+  double left = 0, top = 0, right = 0, bottom = 0;  // pixels
   static constexpr auto kFields = std::make_tuple(
       Value("name", "", &BoundingBox::name), Value("left", "px", &BoundingBox::left, "bbox.center"),
       Value("top", "px", &BoundingBox::top, "bbox.center"),

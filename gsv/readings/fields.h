@@ -65,6 +65,7 @@ constexpr void ForEachField(Function function) {
 
 namespace internal {
 
+// The kind of a member, as in the list above.
 template <typename T>
 inline constexpr bool kIsOptional = false;
 template <typename T>
@@ -116,7 +117,7 @@ class Cursor {
  private:
   std::span<const double> values_;
   std::span<const std::string> labels_;
-  bool is_bad_ = false;
+  bool is_bad_ = false;  // whether a value or label was missing or invalid
 };
 
 template <typename Struct>

@@ -20,7 +20,7 @@ namespace gsv::reality {
 struct Row {
   // Name of the device, name of the statistic, and unit of the three values.
   std::string device, what, unit;
-  double real = 0, simulated = 0, confidence = 0;
+  double real = 0, simulated = 0, confidence = 0;  // values of the log and of the simulation
 };
 
 // The real and the simulated distribution of one quantity, which are plotted together.

@@ -27,7 +27,7 @@ namespace gsv::recording {
 // The start of a contact of a robot with another body.
 struct Collision {
   base::SimTime time{};
-  std::string robot, other;
+  std::string robot, other;  // names of the robot and of the other body
 };
 
 // The history of a running simulation.

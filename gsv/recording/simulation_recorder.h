@@ -27,9 +27,9 @@ namespace gsv::recording {
 
 // The options of a recording.
 struct RecorderOptions {
-  WriteGlb write_glb;      // required: writes a model as GLB
-  double poses_rate = 50;  // in Hz of simulated time, > 0
-  SensorRates sensors;
+  WriteGlb write_glb;               // required: writes a model as GLB
+  double poses_rate = 50;           // in Hz of simulated time, > 0
+  SensorRates sensors;              // rates of the topics of sensors
   std::vector<std::string> topics;  // see Selection; empty for all topics
   WritePng write_png;               // if empty, images are recorded in the encoding of the sensors
   bool replace = false;             // whether to replace an existing file
@@ -85,7 +85,7 @@ class SimulationRecorder {
   SourceAttachments sources_;
   std::shared_ptr<SimulationFeed> feed_;
   std::shared_ptr<const world::Snapshot> latest_;  // the last recorded snapshot
-  std::atomic<bool> has_ended_ = false;
+  std::atomic<bool> has_ended_ = false;            // whether the recording has ended
 
   base::Mutex stopping_;
   bool is_stopped_ GSV_GUARDED_BY(stopping_) = false;

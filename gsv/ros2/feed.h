@@ -48,9 +48,9 @@ class Feed final : public simulation::Observer {
 
  private:
   static constexpr std::size_t kMaxSnapshots = 16;
-  static constexpr std::size_t kMaxEvents = 1000;
+  static constexpr std::size_t kMaxEvents = 1000;  // further events are dropped
 
-  const bool waits_when_full_;
+  const bool waits_when_full_;  // true in lockstep: the stepping thread waits for space
   mutable base::Mutex mutex_;
   base::ConditionVariable news_;  // notified when Next() can return
   base::ConditionVariable room_;  // notified when the queue has space for a snapshot
@@ -59,7 +59,7 @@ class Feed final : public simulation::Observer {
   std::deque<SnapshotPointer> snapshots_ GSV_GUARDED_BY(mutex_);
   std::vector<simulation::Event> events_ GSV_GUARDED_BY(mutex_);
   std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
-  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;  // whether Wake() was called since the last Next()
   bool is_closed_ GSV_GUARDED_BY(mutex_) = false;
 };
 

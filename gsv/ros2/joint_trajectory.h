@@ -20,7 +20,7 @@ namespace gsv::ros2 {
 
 // A decoded trajectory.
 struct JointTrajectory {
-  static constexpr std::size_t kMaxPoints = 100'000;
+  static constexpr std::size_t kMaxPoints = 100'000;  // longer trajectories are refused
 
   struct Point {
     base::SimTime time{};            // time after the start; increases from point to point

@@ -43,7 +43,7 @@ class NodeSteps {
 
  private:
   struct Robot {
-    bool is_open = false;
+    bool is_open = false;                    // whether a node steps the robot
     std::optional<base::SimTime> stamp{};    // time stamp of the newest command
     world::DriveCommand command{};           // the newest command
     std::optional<base::SimTime> awaited{};  // the time stamp for which Await() last waited
@@ -82,7 +82,7 @@ class NodeBehaviour final : public simulation::BehaviourPort {
   void Run(simulation::Agent& agent, simulation::ClockId clock);
 
   const std::shared_ptr<NodeSteps> steps_;
-  const base::SimTime period_;
+  const base::SimTime period_;  // period of /clock
   const std::string name_ = kRos2Behaviour;
   const std::string place_ = "ROS 2";
   std::shared_ptr<simulation::Agent> agent_;

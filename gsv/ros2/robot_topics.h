@@ -73,7 +73,7 @@ class RobotTopics {
   const std::string body_;  // name of the body in the world
   const std::shared_ptr<const model::Model> model_;
   const world::BodyKind kind_;
-  const bool has_odometry_;
+  const bool has_odometry_;  // whether the robot has wheel odometry
   const bool takes_commands_;
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
@@ -87,6 +87,7 @@ class RobotTopics {
   // Type of cmd_vel, such as "geometry_msgs/msg/Twist"; empty if there is no such topic.
   std::string drive_type_;
   dds::Reader* drive_reader_ = nullptr;  // reader of cmd_vel; null if there is none
+  // Whether CheckPublishers() has logged that several nodes command the robot, or a wrong type.
   bool has_warned_of_many_ = false;
   bool has_warned_of_type_ = false;
 };

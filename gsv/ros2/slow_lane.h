@@ -31,7 +31,7 @@ class SlowLane {
   std::uint64_t skipped() const;
 
  private:
-  static constexpr std::size_t kMaxWaiting = 2;
+  static constexpr std::size_t kMaxWaiting = 2;  // maximum number of snapshots that wait
 
   // The sources to publish for one instant.
   struct Job {

@@ -49,7 +49,7 @@ struct SensorType {
   const messages::Schema* schema = nullptr;
   readings::Layout layout;             // layout of the readings; empty if it is unknown
   std::optional<Companion> companion;  // set for cameras, whose frames include an optical frame
-  Overlay overlay = Overlay::kNone;
+  Overlay overlay = Overlay::kNone;    // how viewers draw the readings
 
   // Set only if the messages depend on the sensor's description. If it is empty, `schema` and
   // `companion` apply to all sensors of the type.

@@ -75,7 +75,7 @@ const char* ToString(AgentPhase phase);
 // The recent motion of a robot's base. It is sampled every 0.1 s of simulated time
 // (history/motion_history.h).
 struct Motion {
-  bool is_moving = false;
+  bool is_moving = false;  // whether the base has moved within the last second
   bool has_moved = false;  // whether the robot has moved since the start, or since it was added
   SimTime since{0};        // time since which the robot has been moving, or at rest
   bool is_stuck = false;   // whether it was commanded to move for stuck_after, without effect

@@ -36,7 +36,7 @@ struct Finding {
   // The first step at which the verdict was certain.
   std::int64_t step = 0;
   base::SimTime time{0};
-  std::vector<MeasuredAtom> atoms;
+  std::vector<MeasuredAtom> atoms;  // the conditions of the expectation
 
   // Returns a sentence such as "violated at 3.21 s (step 321): the distance between a and b was
   // 0.39 m, …".

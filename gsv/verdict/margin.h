@@ -32,7 +32,7 @@ class Margin {
   // Start and end of the window in which the margin is computed; no `by_`: to the end of the run.
   base::SimTime from_{0};
   std::optional<base::SimTime> by_;
-  std::string unit_;
+  std::string unit_;              // unit of the margin; may be empty
   std::optional<double> margin_;  // nullopt before the first value
   base::SimTime at_{0};           // time of margin_
 };

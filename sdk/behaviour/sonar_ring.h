@@ -33,8 +33,8 @@ class SonarRing {
   struct Mounted {
     std::string name;
     std::unique_ptr<Sonar> sonar;
-    double bearing;
-    double offset;  // distance from the robot's origin to the sonar, m
+    double bearing;  // rad
+    double offset;   // distance from the robot's origin to the sonar, m
   };
   std::vector<Mounted> sonars_;
 };

@@ -53,7 +53,7 @@ class OutputReader {
   };
   // A process whose output is read.
   struct Child {
-    int pid_descriptor = -1;
+    int pid_descriptor = -1;  // becomes readable when the process ends
     bool has_ended = false;
   };
 

@@ -25,8 +25,8 @@ class PreparedFiles {
   // The options for reading. Files that were read with other options are not used.
   struct Key {
     std::vector<std::filesystem::path> model_path;
-    std::map<std::string, std::string> drives;
-    std::vector<std::filesystem::path> plugins;
+    std::map<std::string, std::string> drives;   // see ReadOptions::drives
+    std::vector<std::filesystem::path> plugins;  // plug-ins with sensor types
     formats::ReadLimits limits;
     bool operator==(const Key&) const = default;
   };
@@ -34,7 +34,7 @@ class PreparedFiles {
   // Returns the world of a file, and reads it on first use. Null if it cannot be read.
   std::shared_ptr<const PreparedWorld> WorldAt(const std::string& file);
 
-  Key key_;
+  Key key_;  // the options with which library_ has read files
   std::shared_ptr<formats::ModelLibrary> library_;                      // null if nothing was read
   std::map<std::string, std::shared_ptr<const PreparedWorld>> worlds_;  // by file
 };

@@ -45,7 +45,7 @@ class RecordedImages {
   const std::shared_ptr<rendering::Renderer> renderer_;
   const gateway::RecordedScene scene_;
   gateway::RecordedView view_;
-  // The camera of the first call that follows no robot, and its computed view.
+  // The last camera that follows no robot, and its computed view.
   std::optional<std::pair<view::Camera, rendering::CameraView>> fixed_;
 };
 

@@ -29,7 +29,7 @@ struct PreparedWorld {
 
 // The options of a run, after they were parsed.
 struct RunOptions {
-  RuntimeOptions runtime;
+  RuntimeOptions runtime;       // options of the process that runs the simulation
   scenario::Scenario scenario;  // the scenario with the options that override it
   base::Problems problems;      // problems of the scenario's file
   std::string behaviour;        // the behaviour of all robots without a behaviour of their own

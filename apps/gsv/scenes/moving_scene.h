@@ -16,7 +16,7 @@ struct MovingSceneOptions {
   std::string world =
       "office";  // a world of `gsv run`, or "square" for the crowd's square with a floor
   std::string model = "b21r";  // model of the robots
-  int robots = 50;
+  int robots = 50;             // number of robots
   simulation::Mode mode = simulation::Mode::kRealTime;
   // Whether static bodies collide with their visuals, mesh by mesh, and not with their simpler
   // collision shapes.

@@ -37,11 +37,11 @@ struct RuntimeOptions {
       broker;  // the reference of a broker; if empty, the runtime starts a broker on loopback
   // if false, the process has no behaviours over CORBA, no services and no viewer
   bool has_broker = true;
-  std::vector<std::filesystem::path> model_path;
-  std::map<std::string, std::string> drives;  // drives by model, see ReadOptions::drives
+  std::vector<std::filesystem::path> model_path;  // folders that are searched for models
+  std::map<std::string, std::string> drives;      // drives by model, see ReadOptions::drives
   // A library that has already read files with these options; null for a new library.
   std::shared_ptr<formats::ModelLibrary> library;
-  SensorTypeOptions sensors;
+  SensorTypeOptions sensors;  // sensor types of plug-ins
   formats::ReadLimits limits;
   ServerLimits server_limits;
   bool viewer = true;                 // whether to serve the viewer

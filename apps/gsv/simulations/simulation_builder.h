@@ -69,7 +69,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
     std::string file;
     std::filesystem::file_time_type changed;  // time of the file's last change when it was read
     std::shared_ptr<const model::WorldDescription> world;
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings;  // problems of the world's files
   };
 
   // Reads a world, or returns it from known_.
@@ -92,7 +92,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   Recordings& recordings_;
   const std::vector<std::filesystem::path> model_path_;
   const formats::ResourceFinder finder_;  // finds the files of models in model_path_
-  const TrialLimits reading_;
+  const TrialLimits reading_;             // limits for worlds that are not built in
   base::Mutex mutex_;
   std::vector<KnownWorld> known_ GSV_GUARDED_BY(mutex_);  // the newest is last
   Ros2Publisher* publisher_ GSV_GUARDED_BY(mutex_) = nullptr;

@@ -14,7 +14,7 @@
 
 namespace gsv::orb {
 
-inline constexpr std::size_t kGiopHeaderBytes = 12;
+inline constexpr std::size_t kGiopHeaderBytes = 12;  // size of a GiopHeader in a message
 
 // The twelve bytes at the start of a message.
 struct GiopHeader {

@@ -77,9 +77,9 @@ class Connection : public omni::giopConnection,
   // true if a client has opened the connection, false if this process has
   bool is_accepted_ = false;
   std::unique_ptr<ConnectionHooks> hooks_;  // null if the policy has no hooks for this connection
-  std::atomic<bool> is_shut_down_ = false;
+  std::atomic<bool> is_shut_down_ = false;  // whether Shutdown() was called
   base::Mutex mutex_;
-  IncomingMessage incoming_ GSV_GUARDED_BY(mutex_);
+  IncomingMessage incoming_ GSV_GUARDED_BY(mutex_);  // the message that is being received
 };
 
 // A connection that this process has opened.

@@ -30,8 +30,8 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   // The time range and the number of messages.
   struct Extent {
     base::SimTime start{}, end{};  // range of the times of the kept messages
-    std::size_t bytes = 0;
-    std::uint64_t messages = 0;  // number of written messages, including dropped ones
+    std::size_t bytes = 0;         // size of the kept records
+    std::uint64_t messages = 0;    // number of written messages, including dropped ones
   };
   Extent extent() const;
 
@@ -74,7 +74,7 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   // the same name.
   void DropReplaced() GSV_REQUIRES(mutex_);
 
-  const std::size_t capacity_;
+  const std::size_t capacity_;  // maximum size of all kept pieces, bytes
   mutable base::Mutex mutex_;
   std::uint64_t offset_ GSV_GUARDED_BY(mutex_) = 0;  // offset of the next write
   std::size_t size_ GSV_GUARDED_BY(mutex_) = 0;      // number of bytes of all kept pieces

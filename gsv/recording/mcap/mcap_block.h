@@ -27,8 +27,8 @@ struct Limits {
 // A chunk, or a sequence of messages that are outside of chunks.
 struct MessageBlock {
   std::uint64_t offset = 0;  // offset of the block's first record in the file
-  std::uint64_t length = 0;
-  bool is_chunk = true;
+  std::uint64_t length = 0;  // number of bytes of the block in the file
+  bool is_chunk = true;      // false for messages outside of chunks
   std::uint64_t uncompressed_size = 0;
   base::SimTime start{};  // time of the earliest message
   base::SimTime end{};    // time of the latest message

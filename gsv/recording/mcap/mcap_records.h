@@ -52,6 +52,7 @@ struct FooterRecord {
   std::uint64_t summary_offset_start = 0;
   std::uint32_t summary_crc = 0;  // 0 if there is no checksum
 };
+// Size of a complete footer record, in bytes.
 inline constexpr std::size_t kFooterSize = kRecordHeaderSize + 20;
 
 struct SchemaRecord {
@@ -123,7 +124,7 @@ struct AttachmentIndexRecord {
   std::uint64_t length = 0;  // length of the whole record
   std::chrono::nanoseconds log_time{};
   std::chrono::nanoseconds create_time{};
-  std::uint64_t data_size = 0;
+  std::uint64_t data_size = 0;  // number of bytes of the attached file
   std::string name;
   std::string media_type;
 };
@@ -142,7 +143,7 @@ struct StatisticsRecord {
 
 struct MetadataRecord {
   std::string name;
-  StringMap values;
+  StringMap values;  // values by name
 
   friend bool operator==(const MetadataRecord&, const MetadataRecord&) = default;
 };

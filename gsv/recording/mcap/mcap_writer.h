@@ -116,8 +116,8 @@ class McapWriter {
   Bytes queue_ GSV_GUARDED_BY(mutex_);                 // encoded records in the form of the file
   std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);    // large records, each in its own buffer
   std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;  // number of bytes in whole_
-  bool flush_ GSV_GUARDED_BY(mutex_) = false;  // whether the thread must flush the sink next
-  bool closing_ GSV_GUARDED_BY(mutex_) = false;
+  bool flush_ GSV_GUARDED_BY(mutex_) = false;    // whether the thread must flush the sink next
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;  // whether Close() was called
   // Time of the oldest message that is not flushed; zero if there is none.
   std::chrono::steady_clock::time_point oldest_ GSV_GUARDED_BY(mutex_){};
   base::Status status_ GSV_GUARDED_BY(mutex_);
@@ -127,8 +127,8 @@ class McapWriter {
   // The next sequence number, by channel.
   std::vector<std::uint32_t> sequences_ GSV_GUARDED_BY(mutex_);
 
-  std::atomic<bool> failed_ = false;
-  std::once_flag joined_;  // Close() has joined thread_
+  std::atomic<bool> failed_ = false;  // whether an error has ended the recording
+  std::once_flag joined_;             // Close() has joined thread_
   std::thread thread_;
 };
 

@@ -31,8 +31,8 @@ struct RecordingInfo {
   base::SimTime start{};  // time of the first message
   base::SimTime end{};    // time of the last message
   std::uint64_t messages = 0;
-  std::uint64_t chunks = 0;
-  bool indexed = false;
+  std::uint64_t chunks = 0;       // number of chunks
+  bool indexed = false;           // whether the file has a valid summary
   std::vector<Channel> channels;  // ordered by topic
   std::vector<File> attachments;
   std::vector<MetadataRecord> metadata;

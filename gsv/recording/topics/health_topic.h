@@ -37,13 +37,13 @@ class HealthTopic {
   TopicWriter<messages::gsv_msgs::Health> topic_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const std::uint64_t seed_;
-  const base::SimTime stuck_after_;
+  const base::SimTime stuck_after_;  // Specification::stuck_after
   // Sensors that were created from types_.
   sensing::SensorSet made_;
   std::map<std::string, std::shared_ptr<const sensing::Sensor>> sensors_;  // by "robot/sensor"
   sensing::RaySceneCache rays_;
   std::shared_ptr<const SensorLists> lists_;  // the argument of SetSensors()
-  Instants instants_;
+  Instants instants_;                         // instants at which changes are checked
   health::HealthTracker tracker_;
   // The last written message, and its time.
   std::optional<messages::gsv_msgs::Health> written_;

@@ -117,9 +117,9 @@ class SensorRecorder {
   // their beams.
   std::vector<const Sensor*> due_beams_;
   std::vector<double> beam_values_;
-  Instants beams_instants_;
+  Instants beams_instants_;  // instants at which beams are recorded
   presentation::BeamMarkers beam_markers_;
-  bool has_warned_ = false;
+  bool has_warned_ = false;  // whether WarnOnce() has logged a warning
 
   TopicWriter<messages::visualization_msgs::MarkerArray> beams_;
   TopicWriter<messages::tf2_msgs::TFMessage> transforms_;

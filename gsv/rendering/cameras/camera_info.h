@@ -19,9 +19,9 @@ namespace gsv::rendering {
 
 // The parameters of a pinhole or an equidistant lens; zero if ROS has no model of the lens.
 struct LensModel {
-  std::string name;  // ROS's distortion_model; empty if ROS has none for the lens
-  std::vector<double> coefficients;
-  Intrinsics intrinsics;
+  std::string name;                  // ROS's distortion_model; empty if ROS has none for the lens
+  std::vector<double> coefficients;  // the distortion D
+  Intrinsics intrinsics;             // the elements of K
 };
 // Returns the ROS parameters of a lens.
 LensModel LensModelOf(const Lens& lens);

@@ -19,7 +19,7 @@ namespace gsv::rendering {
 struct DepthGrid {
   int width = 0, height = 0;  // size of the image
   int spacing = 1;            // distance between samples
-  int columns = 0, rows = 0;
+  int columns = 0, rows = 0;  // numbers of samples
   // For each sample, in rows from the top, the inverse of the depth along the camera's axis; 0 for
   // the background. Transparent surfaces are left out.
   std::vector<float> inverse_depth;

@@ -36,7 +36,7 @@ class RenderTarget {
     GlFramebuffer frame;
   };
 
-  int width_, height_, capacity_;
+  int width_, height_, capacity_;   // pixels, pixels; maximum number of layers
   std::size_t begun_ = 0;           // number of images since the last Read()
   GlRenderbuffer depth_;            // the depth buffer, which all layers share
   std::vector<Layer> layers_;       // layers are added when they are needed

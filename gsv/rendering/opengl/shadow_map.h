@@ -31,7 +31,7 @@ class ShadowMap {
   // Identifies the content of a map: its render list, bodies that have moved, and region.
   struct Drawn {
     std::uint64_t render_list_id = 0;
-    int moved_count = -1;
+    int moved_count = -1;  // RenderList::moved_count(); -1: nothing was drawn
     ShadowRegion region;
     friend bool operator==(const Drawn&, const Drawn&) = default;
   };

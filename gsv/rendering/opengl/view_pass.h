@@ -57,8 +57,8 @@ class ViewPass {
   GlProgram sky_;                           // the program that draws the sky
   GlBuffer frame_;                          // the FrameBlock of the current image
   std::vector<Seen> solid_, transparent_;   // visible items, opaque and transparent
-  std::vector<Call> solid_calls_, transparent_calls_;
-  std::vector<InstanceData> staged_;  // the instances of all draw calls
+  std::vector<Call> solid_calls_, transparent_calls_;  // the staged draw calls
+  std::vector<InstanceData> staged_;                   // the instances of all draw calls
 };
 
 }  // namespace gsv::rendering

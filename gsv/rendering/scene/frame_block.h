@@ -13,7 +13,7 @@
 
 namespace gsv::rendering {
 
-inline constexpr int kMaxLights = 8;
+inline constexpr int kMaxLights = 8;  // maximum number of lights of an image besides the sun
 
 using Float4 = std::array<float, 4>;
 
@@ -69,9 +69,9 @@ class Lighting {
 
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};
   std::array<double, 3> sun_colour_{};  // red, green and blue, linear light
-  bool shadows_ = true;
-  std::vector<Lamp> lamps_;         // lamps of the world, followed by the lamps of robots
-  std::size_t own_lamp_count_ = 0;  // number of lamps in lamps_ that belong to the world
+  bool shadows_ = true;                 // whether the sun casts shadows
+  std::vector<Lamp> lamps_;             // lamps of the world, followed by the lamps of robots
+  std::size_t own_lamp_count_ = 0;      // number of lamps in lamps_ that belong to the world
   Float4 ambient_above_, ambient_below_, zenith_, horizon_, nadir_;  // see FrameBlock
 };
 

@@ -68,7 +68,7 @@ class MeshStore {
   // Returns the mesh of a shape such as a box; makes it on first use.
   std::shared_ptr<const DrawMesh> FindGenerated(const Key& key, const geometry::Shape& shape);
 
-  const Make make_;
+  const Make make_;  // makes the back end's meshes
   std::map<const geometry::TriangleMesh*, FileMesh> file_meshes_;
   std::map<Key, std::weak_ptr<const DrawMesh>> generated_;
 };

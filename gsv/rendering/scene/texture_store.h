@@ -37,7 +37,7 @@ class TextureStore {
     std::shared_ptr<const DrawTexture> texture;
   };
   const Make make_;
-  const int max_side_;
+  const int max_side_;  // pixels; images with a longer side are not used
   std::map<const model::Image*, Entry> entries_;
 };
 

@@ -73,7 +73,7 @@ class ServedSimulation {
   std::weak_ptr<simulation::Simulation> simulation_ GSV_GUARDED_BY(mutex_);
   SetNamespace set_namespace_ GSV_GUARDED_BY(mutex_);
   std::uint64_t count_ GSV_GUARDED_BY(mutex_) = 0;  // number of simulations so far
-  std::set<std::string> spawned_;
+  std::set<std::string> spawned_;                   // names of added entities, see spawned()
   std::uint64_t spawned_in_ = 0;  // value of count_ for the simulation of spawned_
 };
 

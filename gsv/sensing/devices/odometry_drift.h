@@ -23,7 +23,7 @@ namespace gsv::sensing {
 // The parameters of accumulating odometry errors. A scale is the measured value divided by the true
 // value.
 struct OdometryDrift {
-  double linear_scale = 1, angular_scale = 1;
+  double linear_scale = 1, angular_scale = 1;  // for the distance and for the change of heading
   double linear_per_metre = 0;    // standard deviation of the path length after one metre, m
   double angular_per_metre = 0;   // standard deviation of the heading after one metre, rad
   double angular_per_radian = 0;  // standard deviation of the heading after one radian, rad

@@ -84,8 +84,8 @@ class SoundCone {
 
   // The echo of one ray.
   struct Echo {
-    double distance = 0, strength = 0;
-    Ray ray;  // the ray that hits the reflecting surface
+    double distance = 0, strength = 0;  // m; relative to the strongest echo from straight ahead
+    Ray ray;                            // the ray that hits the reflecting surface
     Hit hit;
   };
 

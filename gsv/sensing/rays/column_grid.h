@@ -93,9 +93,9 @@ class ColumnGrid {
   double cell_ = 1, per_metre_ = 1;  // width and depth of a column
   int columns_ = 0, rows_ = 0;       // number of columns and rows without the ring
   double occupancy_ = 0;
-  std::vector<Range> ranges_;
+  std::vector<Range> ranges_;                // columns and rows of each box
   std::vector<std::uint32_t> starts_{0, 0};  // the start of each column in `entries_`, and the end
-  std::vector<std::uint32_t> entries_;
+  std::vector<std::uint32_t> entries_;       // entries of all columns, one column after the other
 };
 
 }  // namespace gsv::sensing

@@ -33,10 +33,10 @@ struct LayoutSolids {
   LayoutSolids& operator=(const LayoutSolids&) = delete;
 
   std::shared_ptr<const world::Layout> layout;
-  SolidSet standing;  // the solids of all static bodies
-  std::vector<std::vector<Part>> models;
-  std::vector<BodyPart> moving;  // ordered by body, with unbounded parts last
-  std::size_t bounded = 0;       // number of bounded parts in `moving`
+  SolidSet standing;                      // the solids of all static bodies
+  std::vector<std::vector<Part>> models;  // the parts of each model that moving bodies have
+  std::vector<BodyPart> moving;           // ordered by body, with unbounded parts last
+  std::size_t bounded = 0;                // number of bounded parts in `moving`
 };
 
 }  // namespace gsv::sensing

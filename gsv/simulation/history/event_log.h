@@ -69,7 +69,7 @@ class EventLog {
   void UpdateFlags() GSV_REQUIRES(mutex_);
 
   const SnapshotHistory& history_;
-  std::atomic<bool> has_observers_ = false, wants_times_ = false;
+  std::atomic<bool> has_observers_ = false, wants_times_ = false;  // results of UpdateFlags()
 
   mutable base::Mutex mutex_;
   // Events other than lines of output, and lines of output.

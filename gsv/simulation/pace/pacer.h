@@ -31,7 +31,7 @@ class Pacer {
  private:
   base::SimTime step_;
   WallDuration period_;  // wall-clock time of one step: step_ / factor
-  WallTime due_{};
+  WallTime due_{};       // time at which the next step is due
   std::uint64_t late_steps_ = 0;
 };
 

@@ -55,9 +55,9 @@ class AgentClocks {
   // An open clock.
   struct Clock {
     ClockId id = 0;
-    bool waiting = false;  // whether the clock waits for `until`
-    base::SimTime until{0};
-    std::uint64_t last_cycle = 0;
+    bool waiting = false;          // whether the clock waits for `until`
+    base::SimTime until{0};        // the instant to wait for
+    std::uint64_t last_cycle = 0;  // see AgentClocks::last_cycle()
   };
   // Returns null if the clock is not open.
   const Clock* Find(ClockId id) const {

@@ -81,7 +81,7 @@ class AgentPopulation {
   std::map<std::string, AgentPtr> agents_ GSV_GUARDED_BY(simulation_mutex);
   // Robots whose behaviours have not yet answered IsDead().
   std::set<std::string> liveness_checks_ GSV_GUARDED_BY(simulation_mutex);
-  std::atomic<bool> has_hosted_{false};
+  std::atomic<bool> has_hosted_{false};  // see has_hosted()
 };
 
 }  // namespace gsv::simulation

@@ -32,7 +32,7 @@ class BehaviourCaller {
  private:
   // A posted call.
   struct Task {
-    std::string key;
+    std::string key;  // calls with equal keys run one after the other
     std::function<void()> call;
   };
 

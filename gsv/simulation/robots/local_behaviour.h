@@ -33,7 +33,7 @@ class Turn {
   // The data that all turns at one instant share.
   struct Instant {
     base::SimTime now{0};
-    SnapshotHistory::Frame snapshots;
+    SnapshotHistory::Frame snapshots;  // the snapshots that the sensors read
     sensing::RaySceneCache* rays = nullptr;
     std::uint64_t seed = 0;
     bool is_timed = false;  // whether the durations of turns are measured, see
@@ -47,7 +47,7 @@ class Turn {
     // Records that a turn has cast rays. Prepare() then builds the ray scene at the next instant.
     void NoteRays() const;
 
-    mutable std::atomic<bool> casts_rays{false};
+    mutable std::atomic<bool> casts_rays{false};     // see NoteRays()
     std::shared_ptr<const sensing::RayScene> scene;  // keeps the scene alive during the turns
   };
 

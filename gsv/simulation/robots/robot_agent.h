@@ -257,7 +257,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool has_motor_ GSV_GUARDED_BY(simulation_mutex) = true;  // false after LoseMotor()
   // Whether a local behaviour waits for slow work that it passed to Block().
   bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
-  bool started_ GSV_GUARDED_BY(simulation_mutex) = false;
+  bool started_ GSV_GUARDED_BY(simulation_mutex) = false;  // whether the behaviour has started
   bool is_removed_ GSV_GUARDED_BY(simulation_mutex) = false;
   // Whether ReportDeath() was called. The death may not have taken effect yet.
   bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
@@ -280,8 +280,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;
   const bool is_avatar_;
-  SensorRack rack_;
-  WaitEvent wait_event_;
+  SensorRack rack_;       // the robot's sensors
+  WaitEvent wait_event_;  // signalled when a wait of the agent ends
   // The channels of this agent's clocks. Some of them may be closed.
   std::vector<std::shared_ptr<CycleChannel>> channels_ GSV_GUARDED_BY(simulation_mutex);
   // The number of calls that wait on wait_event_.

@@ -126,7 +126,7 @@ class RunControl {
   std::uint64_t run_of_step_ = 0;  // value of `run_` when the current step began
   bool turns_have_begun_ = false;  // whether the agents that wait for this instant were woken
   bool was_edited_ = false;
-  std::string failure_;
+  std::string failure_;  // why the run failed; empty if it has not
   std::string final_hash_;
 };
 

@@ -127,6 +127,7 @@ class SteppingSimulation final : public Simulation {
   StepLoop step_loop_;
   Watchdog watchdog_;
   base::Mutex control_mutex_;  // held during a request, so that requests do not overlap
+  // Models of the robots, with their drives.
   RobotModels robot_models_ GSV_GUARDED_BY(control_mutex_);
   mutable base::Mutex expectations_mutex_;
   std::weak_ptr<const ExpectationSource> expectations_ GSV_GUARDED_BY(expectations_mutex_);

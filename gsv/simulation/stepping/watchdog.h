@@ -29,7 +29,7 @@ class Watchdog {
   // Fails the run if a behaviour has not returned from its turn within the deadline.
   void CheckTurnDeadlines() GSV_REQUIRES(simulation_mutex);
 
-  const std::chrono::milliseconds deadline_;
+  const std::chrono::milliseconds deadline_;  // maximum duration of a turn
   WorldLock& world_lock_;
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;

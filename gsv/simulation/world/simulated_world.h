@@ -73,6 +73,7 @@ class SimulatedWorld {
   std::unique_ptr<dynamics::Engine> engine_ GSV_GUARDED_BY(world_mutex);
   std::shared_ptr<const world::Layout> layout_ GSV_GUARDED_BY(world_mutex);
   world::State state_ GSV_GUARDED_BY(world_mutex);
+  // Bodies that are attached to grippers.
   Attachments attachments_ GSV_GUARDED_BY(world_mutex);
   world::WheelOdometry wheel_odometry_ GSV_GUARDED_BY(world_mutex);
   const std::shared_ptr<base::ThreadTeam> team_;
