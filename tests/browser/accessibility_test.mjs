@@ -5,7 +5,7 @@ import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { faultsOf } from "./axe.mjs";
+import { judge } from "./axe.mjs";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { record, startReplay, startServer } from "./server.mjs";
 
@@ -39,15 +39,6 @@ async function pauseAt(url) {
   const headers = { "content-type": "application/json" };
   const answer = await fetch(`${url}api/simulations/${name}/pause`, { method: "POST", headers, body: "{}" });
   assert.equal(answer.status, 200);
-}
-
-async function judge(page) {
-  const found = {};
-  for (const colorScheme of ["light", "dark"]) {
-    await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
-    found[colorScheme] = await faultsOf(page);
-  }
-  assert.deepEqual(found, { light: [], dark: [] });
 }
 
 // A robot is selected, its sensors are read, and a value is plotted. The simulation is paused,

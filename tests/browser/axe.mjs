@@ -1,4 +1,5 @@
 // Runs axe-core on a page of the viewer.
+import assert from "node:assert/strict";
 import fs from "node:fs";
 import { requireFromWeb } from "./browser.mjs";
 
@@ -13,4 +14,14 @@ export async function faultsOf(page) {
       ({ target, failureSummary }) => `${id} at ${target}: ${failureSummary.replaceAll(/\s+/g, " ")}`,
     ),
   );
+}
+
+// Checks that axe-core finds no problem in light and in dark colours.
+export async function judge(page) {
+  const found = {};
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+    found[colorScheme] = await faultsOf(page);
+  }
+  assert.deepEqual(found, { dark: [], light: [] });
 }

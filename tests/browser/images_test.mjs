@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { judge } from "./axe.mjs";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
 import { until } from "./viewing.mjs";
@@ -135,6 +136,18 @@ test("an image that is behind the simulation shows its age", async () => {
   await until(async () => /^\d+:\d\d\.\d\d · \d+\.\d s old$/.test(await caption.textContent()), "the age");
   await page.evaluate(() => (window.testHeld = ""));
   await until(async () => /^\d+:\d\d\.\d\d$/.test(await caption.textContent()), "a new image");
+});
+
+test("on a phone, a depth image with its scale and all cameras have no accessibility problems", async () => {
+  await page.setViewportSize({ width: 390, height: 780 });
+  await page.getByRole("tab", { name: "Images", exact: true }).click();
+  const depth = await camera().locator("option").evaluateAll((all) => all.find(({ text }) => text.endsWith("· depth")).value);
+  await camera().selectOption(depth);
+  await panel().locator(".picture-scale").waitFor();
+  await judge(page);
+  await press("Show all cameras");
+  await until(async () => (await panel().locator("canvas").count()) === 6 && (await colours()).some((number) => number > 5), "the grid");
+  await judge(page);
 });
 
 test("no other host was contacted and there were no errors", () => {

@@ -1,9 +1,10 @@
 // Tests the page on a phone, by touch alone: every panel opens, the palette has every panel, command,
-// robot, object, sensor and topic, everything is inside the screen, and sheets close after a choice.
+// robot, object, sensor and topic, everything is inside the screen, and sheets close after a choice. axe-core finds no problem meanwhile.
 import assert from "node:assert/strict";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { judge } from "./axe.mjs";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
 import { ask, phaseIs, until } from "./viewing.mjs";
@@ -111,6 +112,21 @@ test("every panel opens by its button in the bar, and closes", async () => {
   }
 });
 
+test("the palette, the help and the menus have no accessibility problems", async () => {
+  await openPalette("layout");
+  await judge(page);
+  await page.keyboard.press("Escape");
+  for (const menu of ["Layout", "Overlays", "Share", "Speed and steps", "Viewers", "Notes"]) {
+    await button(menu).tap();
+    await page.getByRole("group", { name: menu, exact: true }).waitFor();
+    await judge(page);
+    await page.keyboard.press("Escape");
+  }
+  await run("Help", "Keys and gestures");
+  await judge(page);
+  await page.keyboard.press("Escape");
+});
+
 test("the palette has every panel, and the tab in front is in sight among many", async () => {
   assert.deepEqual((await commandsOf("Panel")).sort(), [...titles].sort());
   for (const title of titles.slice(-5)) {
@@ -126,6 +142,7 @@ test("the list of robots closes after a choice, and after a tap beside it", asyn
   for (const robot of ["pebble", "surveyor"]) {
     await button("Robots").tap();
     await isInside(list, "the list of robots");
+    if (robot === "pebble") await judge(page);
     await page.locator(`[data-robot="${robot}"]`).tap();
     await list.waitFor({ state: "hidden" });
     await page.waitForFunction((name) => window.gsv.chosen[0] === name, robot);
@@ -267,7 +284,7 @@ test("the menus of speed, viewers and notes are inside the screen, and close aft
   await notes.getByLabel("Note", { exact: true }).fill("from a phone");
   await notes.getByRole("button", { name: /^Add at/ }).tap();
   await notes.waitFor({ state: "hidden" });
-  await button("Notes").tap();
+  await button("Notes 1").tap();
   await notes.getByText(/from a phone$/).waitFor();
   await page.keyboard.press("Escape");
 });
@@ -294,6 +311,13 @@ test("every command of the run works from the palette", async () => {
   await until(async () => (await ask(page, "")).target_factor === 5, "the speed");
   await take("Edit");
   await isInside(region("Edit"), "the panel Edit");
+  await judge(page);
+  for (const menu of ["Shape", "Robot or object", "Save"]) {
+    await button(menu, region("Edit")).tap();
+    await isInside(page.getByRole("group", { name: menu, exact: true }), `the menu ${menu}`);
+    await judge(page);
+    await page.keyboard.press("Escape");
+  }
   for (const label of await commandsOf("Run")) seen.add(label);
   await take("End editing");
   await region("Edit").waitFor({ state: "detached" });
@@ -304,6 +328,8 @@ test("every command of the run works from the palette", async () => {
   await phaseIs(page, "paused");
   await take("New simulation");
   await isInside(page.locator(".set-up"), "the form for a new simulation");
+  await page.locator('.set-up[aria-busy="false"]').waitFor();
+  await judge(page);
   await page.locator(".set-up").getByRole("button", { name: "Cancel", exact: true }).tap();
   await page.locator(".set-up").waitFor({ state: "hidden" });
   await take("Reset");

@@ -1,6 +1,7 @@
 // Tests plots as they are drawn: curves of any field, expressions, paths, and marks of events.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { judge } from "./axe.mjs";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
 import { ask, phaseIs, settled, until } from "./viewing.mjs";
@@ -109,6 +110,13 @@ test("a field of a topic that is not a robot's value is plotted", async () => {
   await legend().getByText("gsv poses step").waitFor();
   const { step } = await ask(page, "");
   await until(async () => parseFloat((await legend().locator("li .number").allTextContents()).at(-1)) > step, "the newest step");
+});
+
+test("on a phone, plots with curves have no accessibility problems", async () => {
+  await page.setViewportSize({ width: 390, height: 780 });
+  await page.getByRole("tab", { name: "Plots", exact: true }).click();
+  await until(async () => (await pixelsOf("blue")) > 5, "the curve");
+  await judge(page);
 });
 
 test("no other host was contacted and there were no errors", () => {

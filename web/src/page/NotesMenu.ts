@@ -17,7 +17,7 @@ const LONGEST_NOTE = 500; // characters
 export function createNotesMenu(app: App): HTMLElement {
   const list = element("ol", { class: "note-list", "aria-label": "Notes" });
   const menu = createMenu("Notes", "label", addForm(app), list);
-  const count = element("span", { class: "number note-count" });
+  const count = element("span", { class: "number note-count", "aria-hidden": "true" });
   menu.button.append(count);
   app.store.watch(
     (state) => canNote(state),
@@ -28,6 +28,7 @@ export function createNotesMenu(app: App): HTMLElement {
     () => {
       const notes = notesOf(app.store.get());
       setText(count, notes.length > 0 ? String(notes.length) : "");
+      menu.button.setAttribute("aria-label", notes.length > 0 ? `Notes ${notes.length}` : "Notes");
       list.replaceChildren(...notes.map((note) => item(app, note, menu.close)));
     },
     shallowEqual,

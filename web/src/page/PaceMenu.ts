@@ -42,7 +42,7 @@ function speedPart(app: App): HTMLElement {
   return element(
     "div",
     { class: "pace-part", role: "group", "aria-label": "Speed" },
-    element("h3", {}, "Speed"),
+    element("h2", {}, "Speed"),
     buttons,
     typed.element,
     hint,
@@ -73,7 +73,7 @@ function stepsPart(app: App): HTMLElement {
   return element(
     "div",
     { class: "pace-part", role: "group", "aria-label": "Steps" },
-    element("h3", {}, "Steps"),
+    element("h2", {}, "Steps"),
     element("div", { class: "field-pair pace-steps" }, field.element, take),
   );
 }
