@@ -28,7 +28,7 @@ const ACTION_TIMEOUT_MS = 60_000; // two browsers may share two busy cores
 // Opens a browser on `profile`, a folder; close() ends the browser and removes the folder. `drawer`
 // selects what draws the view: "browser", "server", or null for the page's own choice. Without
 // `webgl`, the browser behaves like Chrome on a machine without a graphics card. With `touch`, it
-// behaves like the browser of a phone.
+// behaves like the browser of a phone. `pixelRatio` is the number of pixels for a CSS pixel.
 export async function openBrowser({
   width = 1280,
   height = 800,
@@ -36,6 +36,7 @@ export async function openBrowser({
   drawer = "browser",
   webgl = true,
   touch = false,
+  pixelRatio = 1,
 } = {}) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-browser-"));
   const context = await chromium.launchPersistentContext(profile, {
@@ -46,6 +47,7 @@ export async function openBrowser({
     colorScheme,
     hasTouch: touch,
     isMobile: touch,
+    deviceScaleFactor: pixelRatio,
     reducedMotion: "reduce",
   });
   context.setDefaultTimeout(ACTION_TIMEOUT_MS);

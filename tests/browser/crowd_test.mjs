@@ -25,6 +25,7 @@ before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-crowd-"));
   server = await startServer(crowd(folder, ROBOTS));
   browser = await openBrowser({ width: 1280, height: 800 });
+  await browser.context.addInitScript(countDrawing);
   ({ page, faults } = await openPage(browser, server.url));
   await waitUntilDrawn(page, 300_000);
   await noteClicks(page);
@@ -43,6 +44,27 @@ test("a thousand robots are listed and drawn, and they move", async () => {
   assert.equal(isBlank(await picture(page, await viewClip(page))), false);
   const time = (await ask(page, "")).time_s;
   await until(async () => (await page.evaluate(() => window.gsv.time)) > time, "the next instant");
+});
+
+// Counts the drawing calls of each frame.
+function countDrawing() {
+  window.testDrawn = 0;
+  for (const name of ["drawArrays", "drawArraysInstanced", "drawElements", "drawElementsInstanced"]) {
+    const draw = WebGL2RenderingContext.prototype[name];
+    WebGL2RenderingContext.prototype[name] = function (...rest) {
+      window.testDrawn += 1;
+      return draw.apply(this, rest);
+    };
+  }
+}
+
+test("the robots are drawn with one call for each mesh and material, not one for each robot", async () => {
+  const count = () => page.evaluate(() => ({ calls: window.testDrawn, frames: window.gsv.frames }));
+  const before = await count();
+  await page.waitForFunction((frames) => window.gsv.frames > frames + 5, before.frames);
+  const after = await count();
+  const calls = (after.calls - before.calls) / (after.frames - before.frames);
+  assert.ok(calls >= 3 && calls < 40, `${calls} calls for a frame with ${ROBOTS} robots`);
 });
 
 test("a click in the list shows the robot in the inspector", async () => {

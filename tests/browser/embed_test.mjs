@@ -1,8 +1,10 @@
 // Tests <gsv-view> in a plain page of another origin, which has only the address of the viewer.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { once } from "node:events";
 import http from "node:http";
 import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { openBrowser, withTimeout } from "./browser.mjs";
 import { changedPixels, isBlank, picture } from "./pixels.mjs";
 import { startServer, startView } from "./server.mjs";
@@ -100,4 +102,31 @@ test("the element shows a simulation through a relay", async () => {
   await shown(page);
   assert.deepEqual(faults, []);
   await page.close();
+});
+
+// Loads only the module of notebooks, which does not need the compiled part of the package.
+const NOTEBOOK = `
+import sys, types
+gsv = sys.modules["gsv"] = types.ModuleType("gsv")
+gsv.__path__ = [sys.argv[1]]
+from gsv.notebook import view
+print(view(sys.argv[2], width="600px", height="300px", follow="pebble")._repr_html_())
+`;
+const MODULE = fileURLToPath(new URL("../../sdk/python/gsv", import.meta.url));
+
+test("gsv.view() of a notebook shows the world, also in a notebook that runs no scripts", async () => {
+  const made = spawnSync("python3", ["-B", "-c", NOTEBOOK, MODULE, server.url], { encoding: "utf8" });
+  assert.equal(made.status, 0, made.stderr);
+  const { page, faults } = await open(made.stdout);
+  await shown(page);
+  const { width, height } = await page.locator("gsv-view").boundingBox();
+  assert.deepEqual([width, height], [600, 300]);
+  assert.equal(await page.locator("gsv-view").evaluate((view) => view.querySelector("img").checkVisibility()), false, "only one view is seen");
+  await page.close();
+  const { page: plain } = await open(made.stdout.replace(/<script.*<\/script>/, ""));
+  await plain.waitForFunction(() => document.images[0]?.naturalWidth > 0);
+  const image = await picture(plain, await plain.locator("img").boundingBox());
+  assert.equal(isBlank(image), false);
+  assert.deepEqual(faults, []);
+  await plain.close();
 });

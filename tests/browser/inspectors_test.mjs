@@ -1,16 +1,20 @@
 // Tests the inspectors of objects and sensors of the world, which are chosen in the view, in the
 // list, in the tree and by the command palette. Also tests the arrows of forces, and the colours of points.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
+import process from "node:process";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
-import { startServer } from "./server.mjs";
+import { openBrowser, openPage, requireFromWeb, waitUntilDrawn } from "./browser.mjs";
+import { program, startServer } from "./server.mjs";
 import { keepPicture } from "./documentation.mjs";
-import { changedPixels, cut, picture } from "./pixels.mjs";
+import { changedPixels, cut, isRed, picture } from "./pixels.mjs";
 import { phaseIs, project, settled, until, viewClip } from "./viewing.mjs";
 
+const { PNG } = requireFromWeb("pngjs");
+const NAME = `inspectors_${process.pid}`;
 const box = (size) => `<geometry><box><size>${size}</size></box></geometry>`;
 const NEAR = [-0.4, 3, 0.2]; // centres of the boards in m
 const FAR = [0.55, 4.2, 0.2];
@@ -57,7 +61,7 @@ let faults;
 before(async () => {
   const world = path.join(folder, "inspectors.sdf");
   fs.writeFileSync(world, WORLD);
-  server = await startServer([world, "--robot", "pebble@-3,3"]);
+  server = await startServer([world, "--robot", "pebble@-3,3", "--name", NAME]);
   browser = await openBrowser({ width: 1366, height: 768 });
   ({ page, faults } = await openPage(browser, `${server.url}?quality=high#view=${[...EYE, ...TARGET]}`));
   await waitUntilDrawn(page);
@@ -206,6 +210,23 @@ test("points are coloured by range or by intensity, from dark to bright", async 
     await until(async () => isWanted(await look()), `points by ${value}`);
   }
   await page.keyboard.press("2");
+});
+
+test("gsv snapshot draws an image of the running simulation from the same place", async () => {
+  await page.getByRole("button", { name: "Resume", exact: true }).click();
+  await phaseIs(page, "running");
+  const file = path.join(folder, "snapshot.png");
+  const [eye, target] = [EYE, TARGET].map((point) => point.join());
+  const command = spawnSync(program(), ["snapshot", NAME, "-o", file, "--size", "640x480", `--eye=${eye}`, `--target=${target}`, "--fov", "50"], { encoding: "utf8" });
+  assert.equal(command.status, 0, command.stderr);
+  const image = PNG.sync.read(fs.readFileSync(file));
+  assert.deepEqual([image.width, image.height], [640, 480]);
+  const colourAt = (point) => {
+    const { x, y } = project(point, EYE, TARGET, image);
+    return [...image.data.subarray(4 * (Math.round(y) * 640 + Math.round(x))).subarray(0, 3)];
+  };
+  const [crate, beside] = [colourAt([-0.2, 0, 0.2]), colourAt([-0.8, -0.8, 0])];
+  assert.ok(isRed(...crate) && !isRed(...beside), `the crate is ${crate}, the ground ${beside}`);
 });
 
 test("Escape ends the choice, and the inspector explains how to choose", async () => {

@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { judge } from "./axe.mjs";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { startServer } from "./server.mjs";
-import { ask, phaseIs, until } from "./viewing.mjs";
+import { ask, phaseIs, settled, until } from "./viewing.mjs";
 
 const MODELS = path.join(path.dirname(fileURLToPath(import.meta.url)), "models");
 const WORLD = path.join(MODELS, "workcell.sdf");
@@ -287,6 +287,50 @@ test("the menus of speed, viewers and notes are inside the screen, and close aft
   await button("Notes 1").tap();
   await notes.getByText(/from a phone$/).waitFor();
   await page.keyboard.press("Escape");
+});
+
+test("a robot is moved by its handle, and a wall is drawn, by touch", async () => {
+  await run("Run", "Edit");
+  await isInside(region("Edit"), "the panel Edit");
+  await run("Robot", "pebble");
+  await run("View", "Reset view");
+  await settled(page);
+  await page.waitForFunction(() => window.gsv.chosen[0] === "pebble" && window.gsv.gizmoHandle("x") !== null);
+  const placeOf = async (name) => (await ask(page, "/scene")).bodies.find((body) => body.name === name)?.pose;
+  const before = await placeOf("pebble");
+  const [from, middle] = await page.evaluate(() => [window.gsv.gizmoHandle("x"), window.gsv.robotScreenPosition("pebble")]);
+  const finger = await page.context().newCDPSession(page);
+  const touch = (type, ...touchPoints) => finger.send("Input.dispatchTouchEvent", { type, touchPoints });
+  await touch("touchStart", from);
+  for (const part of [0.3, 0.6, 0.9]) await touch("touchMove", { x: from.x + part * (from.x - middle.x), y: from.y + part * (from.y - middle.y) });
+  await touch("touchEnd");
+  await until(async () => (await placeOf("pebble"))[0] - before[0] > 0.05, "the moved robot");
+  const now = await placeOf("pebble");
+  assert.ok(Math.abs(now[1] - before[1]) < 1e-6 && Math.abs(now[2] - before[2]) < 1e-6, `${before} to ${now}: along x only`);
+  const undo = page.locator('.edit [aria-label="Undo"]:enabled');
+  await undo.tap();
+  await until(async () => Math.abs((await placeOf("pebble"))[0] - before[0]) < 1e-6, "the robot at its old place");
+  await button("Shape", region("Edit")).tap();
+  const shape = page.getByRole("group", { name: "Shape", exact: true });
+  await shape.getByLabel("Shape", { exact: true }).selectOption("wall");
+  await button("Draw wall", shape).tap();
+  await shape.waitFor({ state: "hidden" });
+  await settled(page);
+  const at = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
+  // On a busy machine a tap may last so long that the browser takes it for a long press.
+  await until(async () => {
+    await page.touchscreen.tap(at.x - 60, at.y + 30);
+    return page.getByText("where the wall ends").waitFor({ timeout: 10_000 }).then(() => true, () => false);
+  }, "the beginning of the wall");
+  await until(async () => {
+    await page.touchscreen.tap(at.x - 10, at.y + 60);
+    return page.waitForFunction(() => window.gsv.chosen[0] === "wall", undefined, { timeout: 10_000 }).then(() => true, () => false);
+  }, "the wall");
+  await undo.tap();
+  await until(async () => (await placeOf("wall")) === undefined, "the end of the wall");
+  await finger.detach();
+  await run("Run", "End editing");
+  await region("Edit").waitFor({ state: "detached" });
 });
 
 test("every command of the run works from the palette", async () => {

@@ -276,6 +276,34 @@ test("with loop it starts again at the end", async () => {
   await until(async () => !(await replay()).loop, "the loop's end");
 });
 
+test("the layout Replay a failure shows the log, plots and the timeline of a recording", async () => {
+  await press("Layout");
+  await page.getByRole("group", { name: "Layout" }).getByRole("button", { name: "Replay a failure", exact: true }).click();
+  const panel = (name) => page.getByRole("region", { name, exact: true });
+  await panel("Log").locator(".log-line").first().waitFor();
+  await page.locator(`[data-robot="${MOVER}"]`).click();
+  await panel("Inspector").getByRole("button", { name: "Plot speed" }).click();
+  await panel("Plots").getByRole("list", { name: "Curves" }).getByText(`${MOVER} speed`).waitFor();
+  // The curve is that of the whole recording, although the page shows one instant.
+  const curve = panel("Plots").getByRole("img", { name: "Plot", exact: true }).locator("canvas").first();
+  const widthOfCurve = () =>
+    curve.evaluate((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const columns = new Set();
+      for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 200 && data[i + 2] > 180 && data[i] < 120) columns.add((i / 4) % canvas.width);
+      return columns.size / canvas.width;
+    });
+  await until(async () => (await widthOfCurve()) > 0.3, "the curve of the speed");
+  const boxes = await Promise.all([page.locator(".view"), page.locator(".timeline"), ...["Log", "Plots", "Inspector", "Images"].map(panel)].map((each) => each.boundingBox()));
+  for (const [i, a] of boxes.entries()) {
+    assert.ok(a.width > 80 && a.height > 25 && a.x + a.width <= 1025 && a.y + a.height <= 681, JSON.stringify(a));
+    for (const b of boxes.slice(i + 1)) {
+      const isApart = a.x + a.width <= b.x + 1 || b.x + b.width <= a.x + 1 || a.y + a.height <= b.y + 1 || b.y + b.height <= a.y + 1;
+      assert.ok(isApart, JSON.stringify({ a, b }));
+    }
+  }
+});
+
 test("it works on a phone's screen with dark colours, and both pages show the same instant", async () => {
   const phone = await openBrowser({ width: 390, height: 760, colorScheme: "dark" });
   try {

@@ -5,7 +5,7 @@ import { setTimeout } from "node:timers/promises";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { changedPixels, isBlank, picture } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
-import { ask, until } from "./viewing.mjs";
+import { ask, settled, until } from "./viewing.mjs";
 
 const SIMULATION = ["playground", "--robot", "pebble@0,0", "--behaviour", "wander"];
 
@@ -173,16 +173,33 @@ test("overlays and the handles of editing are painted above the image, and a han
   assert.ok(Math.abs(now[0] - before[0]) < 1e-6 && Math.abs(now[1] - before[1]) < 1e-6, "along z only");
 });
 
+test("while nothing changes no image is drawn, and a turn of the view brings one", async () => {
+  await page.keyboard.press("Escape");
+  await settled(page); // the simulation is paused for editing
+  const then = await page.evaluate(() => window.gsv.frames);
+  for (let i = 0; i < 10; i++) await ask(page, "");
+  assert.equal(await page.evaluate(() => window.gsv.frames), then);
+  const { sum } = await lookAtImage();
+  await page.keyboard.press("t");
+  await until(async () => (await lookAtImage()).sum !== sum, "the view from above");
+});
+
 test("the server pushes the images, and there were no errors", () => {
   assert.deepEqual(requested, []);
   assert.deepEqual(faults, []);
 });
 
 test("with WebGL the user chooses whether the browser or the server draws", async () => {
-  const other = await openBrowser({ width: 1024, height: 680 });
+  const other = await openBrowser({ width: 800, height: 560, pixelRatio: 2 });
   try {
     const { page: drawn } = await openPage(other, `${server.url}?view=server`);
     await waitUntilDrawn(drawn);
+    // The image has as many pixels as the screen, and fills the view.
+    await drawn.waitForFunction(() => {
+      const canvas = document.querySelector(".drawn-view");
+      const [view, box] = [document.querySelector(".view").getBoundingClientRect(), canvas.getBoundingClientRect()];
+      return ["width", "height"].every((side) => Math.abs(canvas[side] - 2 * view[side]) <= 2 && Math.abs(box[side] - view[side]) <= 1);
+    });
     const choice = drawn.getByTestId("drawer");
     assert.equal(await choice.textContent(), "drawn by the server");
     await choice.click();
