@@ -25,6 +25,7 @@ class CdrReader {
   }
 
   bool ok() const { return ok_; }
+  // Makes ok() false. All later values are read as zero.
   void Fail() {
     ok_ = false;
     position_ = bytes_.size();
@@ -111,7 +112,7 @@ class CdrReader {
 
  private:
   std::string_view bytes_;
-  std::size_t position_;
+  std::size_t position_;  // index of the next byte in bytes_
   int minor_;
   bool little_endian_;
   bool ok_ = true;

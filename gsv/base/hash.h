@@ -32,10 +32,11 @@ class Hash {
   std::string Hex() const;
 
  private:
+  // The deleter of XXH3's state.
   struct Free {
     void operator()(XXH3_state_s* state) const;
   };
-  std::unique_ptr<XXH3_state_s, Free> state_;
+  std::unique_ptr<XXH3_state_s, Free> state_;  // null after a move
 };
 
 }  // namespace gsv::base

@@ -50,8 +50,8 @@ void RedactInLog(const std::string& secret);
 
 // Line counts since the process started.
 struct LogCounts {
-  std::uint64_t written = 0;
-  std::uint64_t suppressed = 0;
+  std::uint64_t written = 0;     // lines that were printed
+  std::uint64_t suppressed = 0;  // lines beyond the rate limit, which were not printed
 };
 LogCounts ProcessLogCounts();
 

@@ -38,10 +38,11 @@ class LogRateLimiter {
   std::uint64_t TakeSuppressed() { return std::exchange(suppressed_, 0); }
 
  private:
+  // The bucket: tokens per second, maximum number of tokens, and present number of tokens.
   double rate_, capacity_, left_;
-  Time last_{};
-  bool has_begun_ = false;
-  std::uint64_t suppressed_ = 0;
+  Time last_{};                   // time of the last Take()
+  bool has_begun_ = false;        // whether Take() has been called
+  std::uint64_t suppressed_ = 0;  // see TakeSuppressed()
 };
 
 }  // namespace gsv::base

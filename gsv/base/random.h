@@ -32,7 +32,8 @@ class Noise {
   double Gaussian();
 
  private:
-  std::array<std::uint32_t, 2> key_;
+  std::array<std::uint32_t, 2> key_;  // a hash of the seed and the stream
+  // Number of draws in this step (the low half), and the step.
   std::array<std::uint32_t, 4> counter_;
 };
 

@@ -51,6 +51,8 @@ inline ::testing::AssertionResult CheckError(double error, double bound, const s
          << " are allowed";
 }
 
+// The predicates of the macros EXPECT_WITHIN and ASSERT_WITHIN, EXPECT_WITHIN_PERCENT, and
+// EXPECT_WITHIN_3_SIGMA. GoogleTest passes each argument as text and as value.
 inline ::testing::AssertionResult Within(const char* measured_text, const char* expected_text,
                                          const char*, const char*, double measured, double expected,
                                          double bound, const std::string& unit) {

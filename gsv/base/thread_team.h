@@ -45,6 +45,8 @@ class ThreadTeam {
   }
 
  private:
+  // One call of ParallelFor(): its arguments, and the instance of Call() that converts `work` back
+  // to its type.
   struct Job {
     std::size_t count = 0, grain = 1;
     const void* work = nullptr;
@@ -53,6 +55,7 @@ class ThreadTeam {
   };
 
   template <class Work>
+  // Calls the function object `of`, whose type is Work, for one piece.
   static void Call(const void* of, std::size_t begin, std::size_t end, std::size_t thread) {
     const Work& work = *static_cast<const Work*>(of);
     if constexpr (std::is_invocable_v<Work, std::size_t, std::size_t, std::size_t>) {
@@ -62,9 +65,13 @@ class ThreadTeam {
     }
   }
 
+  // Divides the job among the threads, processes pieces of it, and returns when the job is done.
   void Run(const Job& job);
+  // The function of each worker thread. `self` is the index of the thread, see ParallelFor().
   void Work(std::size_t self);
+  // Returns when all workers that have joined the job have left it.
   void WaitForWorkers();
+  // Processes pieces of the open job until none is left, and then closes the job.
   void RunPieces(std::size_t self);
   // Waits for an open job and processes pieces of it. Returns false when the team ends.
   bool Join();
@@ -76,7 +83,7 @@ class ThreadTeam {
   // the job. The caller then waits for the workers that have joined, and not for workers that wake
   // later.
   static constexpr unsigned kOpen = 1u << 31;
-  Job job_;
+  Job job_;  // the open job, or the last one
   // The part of the range with which a thread begins. Equal parts in successive jobs keep data in
   // the thread's cache. When its own part is done, the thread processes pieces of the other parts.
   struct alignas(64) Part {
@@ -87,7 +94,7 @@ class ThreadTeam {
   std::atomic<unsigned> state_{0};  // the bit kOpen, and the number of workers that have joined
   std::atomic<bool> is_stopping_{false};
   Mutex mutex_;
-  ConditionVariable called_;
+  ConditionVariable called_;  // notified when a job opens, and when the team ends
   std::vector<std::thread> workers_;
 };
 

@@ -24,10 +24,12 @@ namespace gsv::broker {
 struct BrokerOptions {
   std::string host = "127.0.0.1";  // the address to listen on
   std::uint16_t port = 0;          // 0 if the system chooses the port
+  // Limits on untrusted input, such as the number of offers.
   TraderLimits limits;
   // The file in which offers and service types survive a restart. If the name is empty, offers and
   // types are in memory only.
   std::string data_file{};
+  // How the broker finds and withdraws the offers of services that no longer exist.
   LivenessOptions liveness{};
 };
 
@@ -40,7 +42,9 @@ class Broker {
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
 
+  // The address at which clients reach the broker: "corbaloc::1.2@HOST:PORT/TradingService".
   const std::string& reference() const;
+  // The port on which the broker listens, also if the system chose it.
   std::uint16_t port() const;
 
   // Closes the data file. The file then contains all acknowledged changes. Later changes are

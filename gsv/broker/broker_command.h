@@ -9,8 +9,8 @@
 namespace gsv::broker {
 
 struct BrokerCommand {
-  BrokerOptions broker;
-  ProcessLimits process;
+  BrokerOptions broker;   // address, limits and data file
+  ProcessLimits process;  // limits on memory and file descriptors of this process
   // This process ends when `parent` ends; 0 for no parent. The kernel watches the thread (not the
   // process) that started this process. So this thread should live as long as the parent process.
   pid_t parent = 0;

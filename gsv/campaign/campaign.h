@@ -15,7 +15,7 @@
 
 namespace gsv::campaign {
 
-inline constexpr std::size_t kMaxRuns = 1'000'000;
+inline constexpr std::size_t kMaxRuns = 1'000'000;  // maximum number of runs of a campaign
 
 struct Engine;
 struct EngineRequest;
@@ -23,8 +23,8 @@ struct EngineRequest;
 // A parameter of the scenario that varies from run to run.
 struct Parameter {
   enum class Kind { kList, kUniform, kNormal };
-  std::string path;  // the path of the parameter in the scenario, such as robots[0].x
-  Kind kind = Kind::kList;
+  std::string path;         // the path of the parameter in the scenario, such as robots[0].x
+  Kind kind = Kind::kList;  // a list of values, or a random number: uniform or normal
   std::vector<std::string> values;  // the values of a kList parameter
   double a = 0, b = 0;  // for kUniform the bounds; for kNormal the mean and the standard deviation
 };
@@ -35,7 +35,7 @@ struct Campaign {
   std::vector<Parameter> parameters;
   // how many times the random parameters are drawn for each point of the grid
   std::size_t draws = 1;
-  std::uint64_t draw_seed = 0;
+  std::uint64_t draw_seed = 0;  // seed of the random parameters
 
   std::size_t runs() const;  // The number of runs, at most kMaxRuns.
   // Returns the values of run `run` in the order of the parameters. Runs are counted from 0. From
@@ -59,6 +59,7 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
 
 // Returns the whole campaign as one text, for the machines that execute its runs.
 std::string ToJson(const Campaign& campaign);
+// Reads the output of ToJson().
 base::Result<Campaign> CampaignInJson(const std::string& text);
 
 }  // namespace gsv::campaign

@@ -11,8 +11,10 @@
 
 namespace gsv::campaign {
 
+// The CommandOutcome::ending of a command that succeeded.
 inline constexpr std::string_view kSucceeded = "exit code 0";
 
+// The result of a command that has ended.
 struct CommandOutcome {
   std::string ending;  // how the command ended, such as "exit code 0" or "signal 9"
   std::string output;  // stdout and stderr of the command together

@@ -25,13 +25,14 @@ struct QueueContext {
   std::function<void(const std::string& sentence)> say;  // prints a sentence for the user
   std::function<std::chrono::steady_clock::time_point()> now = &std::chrono::steady_clock::now;
 };
+// Makes the queue of an engine, with the settings that were read from the campaign's file.
 using MakeQueue = std::function<std::unique_ptr<JobQueue>(const QueueContext&)>;
 
 // An option of `gsv campaign run` that sets a key of the engine in the campaign file.
 struct EngineOption {
-  std::string flag;  // "--partition"
-  std::string key;   // the engine's key in the campaign file
-  std::string help;
+  std::string flag;      // "--partition"
+  std::string key;       // the engine's key in the campaign file
+  std::string help;      // the option's text in --help
   bool is_list = false;  // whether values are appended to the list under the key
 };
 
@@ -40,7 +41,7 @@ struct EngineType {
   // the engine's name in `engine: NAME` and --engine NAME; also the key of the engine's mapping
   std::string name;
   std::string title;  // the name in sentences, such as "Slurm"
-  std::string help;
+  std::string help;   // the engine's text in --help
   std::vector<EngineOption> options;
   std::chrono::milliseconds poll_period{10'000};  // time between queries of the queue
   bool outlives_driver = true;                    // whether tasks continue without the driver

@@ -14,6 +14,7 @@
 
 namespace gsv::campaign {
 
+// A task that is waiting or running in the queue.
 struct QueuedTask {
   std::string state;   // "PENDING" for a waiting task, else "RUNNING" or another state of the queue
   std::string reason;  // the reason why the task waits, such as "Resources"
@@ -37,8 +38,8 @@ class JobQueue {
 // The shell command that executes one task. The texts are inserted unquoted, so that a queue may
 // pass shell variables.
 struct TaskCommand {
-  std::string program;  // the path of gsv on the machine
-  std::string batch_file;
+  std::string program;     // the path of gsv on the machine
+  std::string batch_file;  // path of the batch's file in the spool
   // the number of the task, and the fields `job` and `node` of its journal
   std::string task, job, node;
   std::string jobs = "1";  // how many runs are executed at once

@@ -33,9 +33,11 @@ class JournalWriter {
   JournalWriter(const JournalWriter&) = delete;
   JournalWriter& operator=(const JournalWriter&) = delete;
 
+  // Appends that the run has begun.
   base::Status Begin(std::int64_t run);
   // Appends a result, which is durable when this function returns.
   base::Status Add(const RunResult& result);
+  // Appends that the attempt has ended.
   base::Status End();
 
  private:
@@ -58,13 +60,16 @@ class JournalReader {
   base::Result<std::vector<RunResult>> ReadNew();
   // The attempt according to the lines that were read; nullopt before the first line was read.
   const std::optional<Attempt>& attempt() const { return attempt_; }
+  // Whether the attempt has ended, according to the lines that were read.
   bool is_over() const { return is_over_; }
   // The numbers of runs that have begun and have no result yet.
   const std::set<std::int64_t>& open_runs() const { return open_runs_; }
+  // The number of lines that were ignored because their hash or content is wrong.
   std::size_t torn_lines() const { return torn_lines_; }
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  // Applies one line. Appends its result, if it has one, to `results`.
   void Take(const nlohmann::ordered_json& json, std::vector<RunResult>& results);
 
   std::filesystem::path file_;

@@ -8,20 +8,22 @@
 
 namespace gsv::campaign {
 
+// The progress of a campaign.
 struct Progress {
+  // Numbers of runs: of the whole campaign, with a result, and with a result that is not "passed".
   std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes runs of earlier drivers
   // estimated wall-clock time to the end; 0 if unknown
   double seconds_left = 0;
 };
 
 struct LocalEngine {
-  int jobs = 1;
+  int jobs = 1;  // maximum number of runs at the same time
   // Executes one run. The engine calls it on one of its threads. nullopt means that the run was
   // cancelled and does not count.
   std::function<std::optional<RunResult>(std::int64_t run, const std::atomic<bool>& is_cancelled)>
       execute;
   std::function<void(const Progress&)> report;  // called about twice a second
-  std::function<bool()> is_interrupted;
+  std::function<bool()> is_interrupted;         // whether the user has interrupted the campaign
 
   // Blocks until the results contain all runs, or until the user interrupts it. An interrupt
   // cancels the runs in progress and keeps the results. Fails if the results cannot be written.

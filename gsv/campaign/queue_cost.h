@@ -14,8 +14,8 @@ namespace gsv::campaign {
 struct QueueCost {
   std::size_t tasks = 0;     // number of started tasks; a task that was requeued counts again
   std::size_t requeued = 0;  // number of starts that followed a requeue
-  std::size_t nodes = 0;
-  std::size_t slots = 0;               // maximum number of concurrent runs
+  std::size_t nodes = 0;     // number of machines that executed tasks
+  std::size_t slots = 0;     // maximum number of concurrent runs
   double mean_wait = 0, max_wait = 0;  // from submission to the first start of a share, s
   double run_seconds = 0;              // sum of the durations of all runs, s
   double task_seconds = 0;             // sum over the tasks of slots times duration, s
@@ -26,6 +26,7 @@ struct QueueCost {
 // Returns the cost of the attempts that a queue started, or nullopt if there are none.
 std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts);
 
+// Returns the cost as a text for users.
 std::string Sentence(const QueueCost& cost);
 nlohmann::ordered_json ToJson(const QueueCost& cost);
 

@@ -17,7 +17,7 @@
 namespace gsv::campaign {
 
 struct QueueDriver {
-  JobQueue& queue;
+  JobQueue& queue;    // the queue to which the driver submits batches
   std::string title;  // the name of the queue in messages
   // number of runs per task; 0 means that the driver chooses a number that gives at most 1,000
   // tasks, or fewer for a small queue

@@ -14,13 +14,13 @@ namespace gsv::campaign {
 struct Group {
   std::vector<std::string> values;  // values of the grouping parameters
   std::size_t runs = 0, passed = 0;
-  std::map<std::string, std::vector<double>> metrics;
+  std::map<std::string, std::vector<double>> metrics;  // by metric, the values of the group's runs
 };
 
 // The content of a report.
 struct Report {
   std::string title;
-  std::int64_t planned = 0;
+  std::int64_t planned = 0;             // number of runs of the whole campaign
   std::vector<std::string> parameters;  // the parameters by which the runs are grouped
   std::vector<std::string> metrics;     // the metrics to show
   std::vector<Group> groups;            // in the order of their first runs

@@ -25,11 +25,12 @@ namespace gsv::campaign {
 // The result of one run.
 struct RunResult {
   std::int64_t run = 0;
-  std::string status;   // "passed", "failed" or "error"
-  std::string message;  // the reason why the run did not pass
-  std::string state_hash;
+  std::string status;                  // "passed", "failed" or "error"
+  std::string message;                 // the reason why the run did not pass
+  std::string state_hash;              // hash of the world's state at the end of the run
   double sim_time = 0, wall_time = 0;  // in s
   std::string recording;               // path of the recording; empty if there is none
+  // values of the varied parameters, by the parameter's path
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
   // values of metrics, as JSON numbers by the metric's name
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
@@ -68,11 +69,14 @@ class Results {
   base::Status Add(const std::vector<RunResult>& results,
                    const std::vector<Attempt>& attempts = {});
 
+  // Returns the numbers of the runs that have a result.
   base::Result<std::set<std::int64_t>> DoneRuns();
+  // Returns the number of results that are not "passed".
   base::Result<std::size_t> NotPassed();
   base::Result<std::vector<RunResult>> All();  // Returns all results, ordered by run number.
   // Returns all attempts, ordered by the instant at which they started.
   base::Result<std::vector<Attempt>> Attempts();
+  // Returns the number of runs of the whole campaign.
   base::Result<std::int64_t> PlannedRuns();
   // Returns the paths of the varied parameters, in order.
   base::Result<std::vector<std::string>> Parameters();
@@ -80,6 +84,7 @@ class Results {
  private:
   Results(broker::Database database, std::string file)
       : database_(std::move(database)), file_(std::move(file)) {}
+  // Creates the tables for a campaign, or checks that they belong to it.
   base::Status Begin(const Campaign& campaign);
   // Returns SQLite's error with the name of the file and what to do.
   tl::unexpected<base::Error> Refused(const base::Error& error) const;
@@ -88,6 +93,7 @@ class Results {
 
   broker::Database database_;
   const std::string file_;
+  // Descriptor of the file whose lock excludes other writers; -1 if the file is only read.
   int lock_ = -1;
 };
 

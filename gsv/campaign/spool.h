@@ -23,14 +23,14 @@ namespace gsv::campaign {
 // Runs that were submitted together as tasks. The tasks are numbered from 0 and have the same
 // number of runs each.
 struct Batch {
-  int number = 1;
+  int number = 1;        // number of the batch in the campaign, from 1
   std::string name;      // the unique name of the job in the queue
   std::string job;       // the number of the job in the queue; empty if it is unknown
   double submitted = 0;  // in s since 1970
   std::size_t runs_per_task = 1;
-  std::vector<std::int64_t> runs;
-  double timeout = 300;  // wall-clock time limit of a run, s
-  std::string failures;  // folder for the files of failed runs; empty if there is none
+  std::vector<std::int64_t> runs;  // numbers of the campaign's runs, in the order of the tasks
+  double timeout = 300;            // wall-clock time limit of a run, s
+  std::string failures;            // folder for the files of failed runs; empty if there is none
 
   std::size_t tasks() const { return (runs.size() + runs_per_task - 1) / runs_per_task; }
   std::vector<std::int64_t> RunsOf(std::size_t task) const;  // the runs of a task
@@ -69,6 +69,7 @@ class Spool {
   base::Result<std::vector<RunResult>> Collect(const std::string& share = "");
   // Returns the readers of all journals, by file name.
   const std::map<std::string, JournalReader>& read() const { return readers_; }
+  // Returns the attempts of all journals that Collect() has read.
   std::vector<Attempt> Attempts() const;
 
  private:

@@ -6,6 +6,7 @@
 
 namespace gsv::campaign {
 
+// An estimate, and the bounds of its confidence interval.
 struct Interval {
   double middle = 0, low = 0, high = 0;
 };

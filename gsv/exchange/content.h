@@ -47,7 +47,7 @@ class ContentWriter {
   }
 
   std::span<std::byte> buffer_;
-  std::size_t used_ = 0;
+  std::size_t used_ = 0;  // number of bytes that were written
   bool is_ok_ = true;
 };
 
@@ -96,7 +96,7 @@ class ContentReader {
   }
 
   std::span<const std::byte> bytes_;
-  std::size_t used_ = 0;
+  std::size_t used_ = 0;  // number of bytes that were read
   bool is_ok_ = true;
 };
 

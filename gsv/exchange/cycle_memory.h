@@ -52,6 +52,7 @@ enum class CycleState : std::uint32_t {
   kRepeat,    // there is no answer; the client repeats this cycle by a call
   kClosed,    // the slot is not used any more; the client uses calls
 };
+// Number of bits of CycleSlot::state that contain the state.
 constexpr std::uint32_t kStateBits = 3;
 inline CycleState StateOf(std::uint32_t word) {
   return static_cast<CycleState>(word & ((1U << kStateBits) - 1));
@@ -65,23 +66,25 @@ struct CycleRequest {
   // Cycle number of an exchange; 0 for sleep_and_read(), whose sensor names are in
   // CycleSlot::content.
   std::uint64_t cycle = 0;
-  std::int64_t instant_ns = 0;
+  std::int64_t instant_ns = 0;                  // simulated time until which the caller waits
   double linear = 0, lateral = 0, angular = 0;  // m/s, m/s, rad/s
-  std::uint32_t has_command = 0;
-  std::uint32_t content_size = 0;  // bytes
+  std::uint32_t has_command = 0;                // 1 if the request contains a drive command, else 0
+  std::uint32_t content_size = 0;               // bytes
 };
 
+// An answer, see Clock::exchange() and BatchClock::sleep_and_read() in idl/.
 struct CycleAnswer {
-  std::int64_t reached_ns = 0;
-  std::uint32_t holds_time = 0;
+  std::int64_t reached_ns = 0;   // simulated time of the answer
+  std::uint32_t holds_time = 0;  // 1 if simulated time stands still until the next request, else 0
   std::uint32_t content_size = 0;  // bytes
 };
 
-constexpr std::size_t kSlotSize = std::size_t{64} << 10U;
-constexpr std::size_t kContentSize = kSlotSize - 192;
+constexpr std::size_t kSlotSize = std::size_t{64} << 10U;  // distance between two slots, bytes
+constexpr std::size_t kContentSize = kSlotSize - 192;      // size of CycleSlot::content, bytes
 
+// The memory by which one clock exchanges its cycles.
 struct CycleSlot {
-  alignas(64) Word state;
+  alignas(64) Word state;  // a CycleState and a request number, see CycleState
   // Whether the command of the request was applied. Set before the state becomes kTaken.
   Word is_applied;
   alignas(64) CycleRequest request;

@@ -50,6 +50,7 @@ class SharedFile {
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
 
+  // The address by which another process can open this file.
   FileAddress address() const;
   // Makes the file larger. New bytes are 0.
   base::Status Grow(std::uint64_t size);

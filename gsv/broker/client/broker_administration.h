@@ -19,6 +19,8 @@ struct LinkDescription {
   std::string name;
   // "host:port" of the other trader; empty if its reference has no TCP address
   std::string address;
+  // The link's two follow rules, see TraderLink: the rule that is passed on with a query if the
+  // importer sets none, and the most permissive rule that the link allows.
   FollowOption def_pass_on = FollowOption::kAlways;
   FollowOption limiting = FollowOption::kAlways;
   bool answers = false;  // whether the other trader answered a call within a second
@@ -52,8 +54,8 @@ class BrokerAdministration {
   [[nodiscard]] base::Status RemoveOffer(const std::string& id) const;
 
  private:
-  const std::string broker_;
-  const std::chrono::milliseconds timeout_;
+  const std::string broker_;                 // the broker's address
+  const std::chrono::milliseconds timeout_;  // time limit of each call
 };
 
 void PrintLinks(const std::vector<LinkDescription>& links, std::ostream& out);

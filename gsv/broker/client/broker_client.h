@@ -24,15 +24,15 @@
 namespace gsv::broker {
 
 struct FoundOffer {
-  CORBA::Object_var object;
+  CORBA::Object_var object;  // the offered service
   PropertyList properties;
 };
 
 // An offer as the broker describes it.
 struct DescribedOffer {
   std::string id;
-  std::string type;
-  CORBA::Object_var object;
+  std::string type;          // name of the service type
+  CORBA::Object_var object;  // the offered service
   PropertyList properties;
 };
 
@@ -54,6 +54,7 @@ class BrokerClient {
   // the broker is on another host, because no client there could call it.
   [[nodiscard]] base::Result<std::string> Export(const std::string& type, CORBA::Object_ptr object,
                                                  const std::vector<Property>& properties);
+  // Removes the offer with this id from the broker.
   [[nodiscard]] base::Status Withdraw(const std::string& id);
   // Sets `properties`. Other properties of the offer do not change.
   [[nodiscard]] base::Status Modify(const std::string& id, const std::vector<Property>& properties);
@@ -71,9 +72,10 @@ class BrokerClient {
 
  private:
   BrokerClient() = default;
+  // Resolves reference_ and gets the broker's interfaces.
   base::Status Resolve(CORBA::ORB_ptr orb, unsigned long timeout_ms);
 
-  std::string reference_;
+  std::string reference_;  // the broker's address
   unsigned long timeout_ms_ = 0;
   CORBA::ORB_var orb_;
   CosTrading::Lookup_var lookup_;

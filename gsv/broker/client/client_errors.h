@@ -20,6 +20,7 @@ base::Error ErrorOfCurrentException(const std::string& where);
 struct CallCounts {
   std::atomic<std::uint64_t> made{0}, failed{0};
 };
+// The counts of this process, which Guarded() and GuardedRepeatable() increase.
 CallCounts& ProcessCallCounts();
 
 // Calls `call` and converts an exception to an error. Returns the errors of `call` unchanged.

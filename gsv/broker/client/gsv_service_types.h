@@ -16,11 +16,12 @@ const ServiceType& SimulationServiceType();
 // The type for sba::ScenarioService.
 const ServiceType& ScenarioServiceType();
 
+// The properties of an offer of type AgentBehaviourFactoryType().
 struct BehaviourOffer {
   std::string name;  // the name of the behaviour, such as "wander"
   std::string description;
   std::string host;
-  std::int32_t pid = 0;
+  std::int32_t pid = 0;  // id of the process that serves the behaviour
   // whether the behaviour uses the robot's clock, so that the simulation may wait for it
   bool time_managed = true;
 };
@@ -28,12 +29,13 @@ std::vector<Property> PropertiesOf(const BehaviourOffer& offer);
 // Reads an offer. Properties that are missing keep their defaults.
 BehaviourOffer BehaviourOfferFrom(const PropertyList& properties);
 
+// The properties of an offer of type SimulationServiceType().
 struct SimulationServiceOffer {
   std::string name;  // the name of the server
   std::string host;
-  std::int32_t pid = 0;
+  std::int32_t pid = 0;    // id of the server's process
   std::string viewer_url;  // empty if the server has no viewer
-  std::int32_t cores = 1;
+  std::int32_t cores = 1;  // number of the machine's processor cores
 };
 std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer);
 
@@ -41,9 +43,9 @@ std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer);
 struct ScenarioServiceOffer {
   std::string name;  // the name of the server
   std::string host;
-  std::int32_t pid = 0;
+  std::int32_t pid = 0;  // id of the server's process
   std::int32_t slots = 0;
-  std::int32_t cores = 1;
+  std::int32_t cores = 1;  // number of the machine's processor cores
 };
 std::vector<Property> PropertiesOf(const ScenarioServiceOffer& offer);
 // Reads an offer. Properties that are missing keep their defaults.

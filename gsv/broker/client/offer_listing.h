@@ -14,7 +14,7 @@ namespace gsv::broker {
 
 struct OfferDescription {
   std::string id;
-  std::string type;
+  std::string type;          // name of the service type
   std::string interface_id;  // the type id in the reference of the service
   std::string address;    // "host:port" of the service; empty if its reference has no TCP address
   std::string reference;  // the reference, "IOR:…"

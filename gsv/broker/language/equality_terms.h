@@ -11,7 +11,7 @@ namespace gsv::broker {
 
 struct EqualityTerm {
   std::string property;
-  ScalarValue value;
+  ScalarValue value;  // the literal
 };
 
 // Returns the equality terms that `and` joins at the top level of the constraint, in their order.

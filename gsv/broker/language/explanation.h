@@ -12,8 +12,8 @@ namespace gsv::broker {
 
 struct TermOutcome {
   enum class Result : std::uint8_t { kTrue, kFalse, kNoValue };
-  std::string term;  // the term as text, with all its parentheses
-  Result result = Result::kNoValue;
+  std::string term;                    // the term as text, with all its parentheses
+  Result result = Result::kNoValue;    // value of the term for the offer
   std::vector<std::string> missing{};  // properties in the term that the offer lacks
 };
 

@@ -60,8 +60,8 @@ base::Result<Expression> ParseConstraint(std::string_view text, const Expression
 
 struct Preference {
   enum class Kind : std::uint8_t { kFirst, kRandom, kMin, kMax, kWith };
-  Kind kind = Kind::kFirst;
-  Expression expression;  // for kMin, kMax and kWith
+  Kind kind = Kind::kFirst;  // the word with which the preference begins
+  Expression expression;     // for kMin, kMax and kWith
 };
 
 // Parses a preference: "max e", "min e", "with e", "random", "first", or the empty text, which

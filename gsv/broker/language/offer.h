@@ -21,9 +21,9 @@ struct ProxyPart {
 // An offer is immutable: a modification replaces it by a new object. So any thread may read an
 // offer without a lock.
 struct Offer {
-  std::uint64_t number = 0;  // position in the order of export, from 1
-  Interned<std::string> type;
-  std::string reference;  // reference of the service, or of a proxy's target: "IOR:…"
+  std::uint64_t number = 0;    // position in the order of export, from 1
+  Interned<std::string> type;  // name of the service type
+  std::string reference;       // reference of the service, or of a proxy's target: "IOR:…"
   PropertyList properties;
   std::shared_ptr<const ProxyPart> proxy{};  // null for an ordinary offer
 };

@@ -17,11 +17,13 @@ namespace gsv::broker {
 
 // A value during an evaluation, or none. Strings are views and are never copied.
 using Operand = std::variant<std::monostate, bool, std::int64_t, double, std::string_view>;
+// The Operand of an expression that has no value.
 inline constexpr std::monostate kNoOperand{};
 
 Operand ToOperand(const ScalarValue& value);
 // Returns kNoOperand for a sequence and for a value of type kOther.
 Operand ToOperand(const Value& value);
+// Returns the value of an integer or a real number, or nullopt for any other operand.
 std::optional<long double> ToNumber(const Operand& operand);
 
 // Returns the result of the comparison `op`, or kNoOperand if the operands cannot be compared.
@@ -33,6 +35,7 @@ Operand Compare(Operator op, const Operand& left, const Operand& right);
 // integer, and quotients are truncated. An integer and a real number give a real number. An integer
 // result beyond 64 bits becomes a real number.
 Operand Calculate(Operator op, const Operand& left, const Operand& right);
+// Calculate() for two real numbers, without the check for a divisor of 0.
 double RealResult(Operator op, double left, double right);
 // Returns whether `sequence` has an element that is equal to `element`. Returns kNoOperand if the
 // sequence is null, or if an element before the equal one cannot be compared. `element` must not be

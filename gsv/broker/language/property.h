@@ -59,6 +59,7 @@ class PropertyList : public PropertySource {
   static PropertyList LastOfEachName(std::vector<Property> properties);
 
   const Value* Find(std::string_view name) const override;
+  // Adds the property, or replaces the value of the property with that name.
   void Set(Property property);
   // Removes a property. Returns false if there is none with that name.
   bool Remove(std::string_view name);
@@ -74,6 +75,7 @@ class PropertyList : public PropertySource {
   const Interned<PropertyNames>& names() const { return names_; }
   std::span<const Value> values() const { return values_; }
 
+  // An upper bound of the encoded size of all properties, in bytes.
   std::size_t EncodedSize() const;
 
  private:

@@ -37,8 +37,8 @@ using ScalarValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // The type of a property. Two types are equal when their scalar, sequence and name are.
 struct PropertyType {
-  Scalar scalar = Scalar::kOther;
-  bool sequence = false;
+  Scalar scalar = Scalar::kOther;  // the type, or the type of a sequence's elements
+  bool sequence = false;           // whether the type is a sequence
   std::string name{};     // for a kOther type, its IDL spelling with aliases resolved; else empty
   std::string encoded{};  // for a kOther type, its TypeCode as a CDR encapsulation; else empty
 
@@ -53,8 +53,8 @@ struct PropertyType {
 // A value of a type that the constraint language cannot handle: the spelling of its type, and the
 // whole `any` as a CDR encapsulation.
 struct OtherValue {
-  std::string type_name;
-  std::string encoded;
+  std::string type_name;  // spelling of the value's type
+  std::string encoded;    // the `any` as a CDR encapsulation
   // The declared type of a dynamic property's value. Null if the property is not dynamic.
   std::shared_ptr<const PropertyType> promised_type{};
 };
@@ -108,6 +108,7 @@ class Value {
   friend bool operator==(const Value& a, const Value& b);
 
  private:
+  // Maximum length of a text that is stored in the object itself, in bytes.
   static constexpr std::size_t kInlineText = 14;
 
   // The kind of data in `content_`. Values up to kInlineText mean a text of that length.
@@ -120,7 +121,9 @@ class Value {
     kOther,
   };
   template <typename Content>
+  // The content of a sequence or other value, and the number of Values that share it.
   struct Shared;
+  // A text that is too long for content_, and the number of Values that share it.
   struct LongText;
 
   Value(Scalar scalar, bool value);
@@ -130,15 +133,19 @@ class Value {
   static Value Integer(Scalar scalar, std::int64_t value) { return Value(scalar, value); }
 
   template <typename T>
+  // Returns the first bytes of content_ as a T.
   T Read() const;
   template <typename T>
+  // Sets form_, and the first bytes of content_.
   void Write(Form form, const T& content);
   // Calls `use` with the shared content, if there is any.
   template <typename Use>
   void WithShared(const Use& use) const;
+  // Gives up this object's share of the shared content, and deletes the content after its last
+  // user.
   void Release();
 
-  alignas(8) std::array<char, kInlineText> content_{};
+  alignas(8) std::array<char, kInlineText> content_{};  // the value itself, or a pointer to it
   Form form_ = Form::kBoolean;
   Scalar scalar_;
 };

@@ -43,7 +43,9 @@ class ColumnConstraint {
     std::vector<std::size_t> properties{};  // indices in properties_
   };
 
+  // Adds the terms that `and` joins below the node `root`.
   void AddTerms(std::size_t root);
+  // Adds the indices of the properties that are used at or below the node `root`.
   void AddProperties(std::size_t root, std::vector<std::size_t>& properties) const;
 
   const Expression& constraint_;

@@ -51,7 +51,7 @@ class DynamicValues {
   const Value* Find(const Offer& offer, std::string_view name);
 
  private:
-  using Key = std::pair<std::uint64_t, std::string>;
+  using Key = std::pair<std::uint64_t, std::string>;  // number of an offer, name of a property
   // The index at which this property was found last, for offers with these property names.
   struct Place {
     std::string name;
@@ -59,13 +59,14 @@ class DynamicValues {
     std::size_t index = 0;
   };
 
+  // Returns the property as the offer stores it, without an evaluation.
   const Value* FindStatic(const Offer& offer, std::string_view name);
 
   DynamicEvaluator* const evaluator_;
   ScanSlot* slot_ = nullptr;
-  const std::chrono::milliseconds budget_;
+  const std::chrono::milliseconds budget_;  // time limit of all evaluations of the query
   std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // set by the first evaluation
-  std::map<Key, std::optional<Value>> known_;
+  std::map<Key, std::optional<Value>> known_;  // results of the evaluations so far
   std::vector<Place> places_;
 };
 
@@ -80,6 +81,7 @@ class EvaluatedOffer : public PropertySource {
   DynamicValues& values_;
 };
 
+// Whether the value refers to a service that computes the property's value.
 bool IsDynamic(const Value& value);
 bool HasDynamicProperties(const Offer& offer);
 

@@ -90,7 +90,7 @@ class PropertyColumns {
   base::Mutex mutex_;
   std::map<std::string, std::shared_ptr<const PropertyColumn>> columns_
       GSV_GUARDED_BY(mutex_);  // null after the first request for the property
-  std::optional<bool> plain_ GSV_GUARDED_BY(mutex_);
+  std::optional<bool> plain_ GSV_GUARDED_BY(mutex_);  // the result of ArePlain(), once computed
 };
 
 }  // namespace gsv::broker

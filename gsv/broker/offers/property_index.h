@@ -33,14 +33,16 @@ class PropertyIndex {
  private:
   using Key = std::variant<bool, long double, std::string>;
 
+  // Returns nullopt for NaN, which is equal to no value.
   static std::optional<Key> KeyOf(const ScalarValue& value);
   // Returns the list that contains the offer, or null if its property has no value to index.
   Offers* PlaceOf(const Offer& offer);
+  // Returns the offers whose stored property is equal to `value`, without uncertain_.
   const Offers& Equal(const ScalarValue& value) const;
 
   const std::string property_;
   std::unordered_map<Key, Offers> by_value_;
-  Offers uncertain_;
+  Offers uncertain_;  // offers that Find() returns for every value
 };
 
 }  // namespace gsv::broker

@@ -19,15 +19,17 @@ class ScanSlots {
   // Returns the number of cores minus one, but at least 1.
   static std::size_t ForThisMachine();
 
+  // Waits for a slot and occupies it.
   void Acquire();
+  // Frees one slot that Acquire() has occupied.
   void Release();
 
  private:
   const std::uint64_t slot_count_;
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
-  std::uint64_t requests_ GSV_GUARDED_BY(mutex_) = 0;
-  std::uint64_t released_ GSV_GUARDED_BY(mutex_) = 0;
+  base::ConditionVariable changed_;                    // notified when a slot is freed
+  std::uint64_t requests_ GSV_GUARDED_BY(mutex_) = 0;  // number of calls of Acquire()
+  std::uint64_t released_ GSV_GUARDED_BY(mutex_) = 0;  // number of calls of Release()
 };
 
 // Holds a slot during its lifetime. For a scan that needs no slot, pass null; then the object does
@@ -48,7 +50,7 @@ class ScanSlot {
   }
 
  private:
-  ScanSlots* const slots_;
+  ScanSlots* const slots_;  // null for a scan that needs no slot
 };
 
 }  // namespace gsv::broker

@@ -38,6 +38,8 @@ struct ServiceType {
   // The interface of the offered services, as a repository identifier or a scoped name. Empty for
   // any interface.
   std::string interface_name{};
+  // The properties that this type itself declares. In a fully described type, also the inherited
+  // ones.
   std::vector<PropertyDefinition> properties{};
   std::vector<std::string> super_types{};
   bool masked = false;            // whether offers of exactly this type are refused

@@ -68,7 +68,7 @@ class OfferIdIteratorServant : public POA_CosTrading::OfferIdIterator {
   void destroy() override;
 
  private:
-  TradingObjects& objects_;
+  TradingObjects& objects_;  // the trader, and the cursors of all iterators over ids
 };
 
 }  // namespace gsv::broker

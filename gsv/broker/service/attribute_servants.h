@@ -18,7 +18,7 @@ class ComponentsServant : public virtual POA_CosTrading::TraderComponents {
 
  protected:
   explicit ComponentsServant(TradingObjects& objects) : objects_(objects) {}
-  TradingObjects& objects_;
+  TradingObjects& objects_;  // the trader, its cursors, and the references of its interfaces
 };
 
 // Implements the attributes for the trader's optional features and its type repository.
@@ -33,7 +33,7 @@ class SupportServant : public virtual POA_CosTrading::SupportAttributes {
   explicit SupportServant(TradingObjects& objects) : trading_(objects) {}
 
  private:
-  TradingObjects& trading_;
+  TradingObjects& trading_;  // the trader, and the reference of its type repository
 };
 
 // Implements the attributes for the limits of queries.
@@ -55,7 +55,7 @@ class ImportServant : public virtual POA_CosTrading::ImportAttributes {
   explicit ImportServant(const Trader& trader) : trader_(trader) {}
 
  private:
-  const Trader& trader_;
+  const Trader& trader_;  // the trader whose attributes are returned
 };
 
 }  // namespace gsv::broker

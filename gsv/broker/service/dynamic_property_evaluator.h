@@ -28,11 +28,13 @@ class DynamicPropertyEvaluator : public DynamicEvaluator {
   // The key of a cached answer: the property's name, and the service and arguments of the call as
   // CDR.
   using Question = std::pair<std::string, std::string>;
+  // A cached answer of a service.
   struct Answer {
-    std::optional<Value> value;
-    Clock::time_point expires;
+    std::optional<Value> value;  // nullopt if the call failed
+    Clock::time_point expires;   // after this time, the service is called again
   };
 
+  // Adds an answer to the cache, within the limits.
   void Remember(Question question, Answer answer);
 
   const DynamicLimits limits_;

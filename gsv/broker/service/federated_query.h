@@ -12,8 +12,8 @@ namespace gsv::broker {
 struct FederatedQuery {
   Query query;
   const CosTrading::PolicySeq& policies;  // the importer's policies, unchanged
-  const DesiredProperties& desired;
-  std::string request_id;
+  const DesiredProperties& desired;       // the properties that the importer requests
+  std::string request_id;                 // the same id at every trader that the query reaches
 };
 
 // Adds the offers of other traders to the local ones, and the names of the policies that limited

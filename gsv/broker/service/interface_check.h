@@ -8,6 +8,7 @@
 
 namespace gsv::broker {
 
+// Whether a service has the required interface. kUnknown means that this could not be determined.
 enum class Conformance { kConforms, kDiffers, kUnknown };
 
 // Checks only the type id in the reference. `interface_name` is a repository identifier, a scoped

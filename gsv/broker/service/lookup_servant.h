@@ -32,7 +32,7 @@ class OfferIteratorServant : public POA_CosTrading::OfferIterator {
   void destroy() override;
 
  private:
-  TradingObjects& objects_;
+  TradingObjects& objects_;  // the trader, and the cursors of all iterators over offers
 };
 
 }  // namespace gsv::broker

@@ -22,13 +22,13 @@ namespace gsv::broker {
 
 // The properties of an offer that an importer requests.
 struct DesiredProperties {
-  bool all = false;
-  std::vector<std::string> names;
+  bool all = false;                // whether all properties are requested
+  std::vector<std::string> names;  // names of the requested properties, unless `all` is true
 };
 
 // The parts of a query that are equal for all traders.
 struct ForwardedQuery {
-  std::string type;
+  std::string type;  // name of the service type
   std::string preference;
   DesiredProperties desired;  // includes the properties that the preference needs
   std::size_t at_most = 0;    // the maximum number of offers from each trader
@@ -38,17 +38,17 @@ struct ForwardedQuery {
 // A trader to which a query is forwarded, and the parts of the query that are specific to this
 // trader.
 struct QueryDestination {
-  std::string name;    // the name in messages, such as "link north"
-  std::string target;  // the trader's Lookup: "IOR:…"
-  std::string constraint;
+  std::string name;        // the name in messages, such as "link north"
+  std::string target;      // the trader's Lookup: "IOR:…"
+  std::string constraint;  // the constraint for this trader; a proxy's recipe may change it
   CosTrading::PolicySeq policies;
 };
 
 // The answer of one trader.
 struct ForwardedAnswer {
   Offers offers{};
-  std::vector<std::string> limits_applied{};
-  bool complete = false;  // false if the trader did not answer all of the query
+  std::vector<std::string> limits_applied{};  // names of the policies that limited the answer
+  bool complete = false;                      // false if the trader did not answer all of the query
 };
 
 class QueryForwarder {
@@ -61,6 +61,7 @@ class QueryForwarder {
                                    const std::vector<QueryDestination>& destinations);
 
  private:
+  // Calls one trader, and waits for its answer until the query's deadline.
   ForwardedAnswer AskOne(CORBA::ORB_ptr orb, const ForwardedQuery& query,
                          const QueryDestination& destination);
   // Returns false if the trader is silent and another query is calling it, or if too many calls are

@@ -8,6 +8,7 @@ namespace gsv::broker {
 // Throws the exception of CosTrading or CosTradingRepos, or CORBA::IMP_LIMIT.
 [[noreturn]] void Raise(const TradingError& error);
 
+// Returns the value of `traded`, or throws its error with Raise().
 template <typename T>
 T ValueOrRaise(TradingResult<T> traded) {
   if (!traded) Raise(traded.error());

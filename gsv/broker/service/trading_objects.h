@@ -39,39 +39,43 @@ class RemainingOffers {
   const FoundOffers& Sorted() const;
 
  private:
+  // The offers as they were found, and after sorting. All copies of an object share one Shared.
   struct Shared {
-    std::once_flag once{};
+    std::once_flag once{};  // set when `sorted` is made from `offers`
     RankedOffers offers{};
     FoundOffers sorted{};
   };
 
-  std::size_t first_;
+  std::size_t first_;  // index of the first remaining offer in the sorted list
   std::size_t size_;
   std::shared_ptr<Shared> shared_;
 };
 
+// The cursors of iterators over offers. The context is the properties that the importer requests.
 using OfferCursors = CursorTable<RemainingOffers, DesiredProperties>;
+// The context of cursors over ids, which need none.
 struct NoContext {};
 using OfferIdCursors = CursorTable<std::vector<std::string>, NoContext>;
 
 struct TradingObjects {
+  // `stem` and `seed` are those of Trader. `seed` also makes the ids of requests unique.
   explicit TradingObjects(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
   Trader trader;
-  DynamicPropertyEvaluator dynamic;
-  QueryForwarder forwarder;
-  RequestHistory requests;
-  OfferCursors offer_cursors;
-  OfferIdCursors id_cursors;
+  DynamicPropertyEvaluator dynamic;  // calls the services of dynamic properties
+  QueryForwarder forwarder;          // forwards queries to other traders
+  RequestHistory requests;           // recently answered requests
+  OfferCursors offer_cursors;        // results of open OfferIterators
+  OfferIdCursors id_cursors;         // results of open OfferIdIterators
 
   // Returns an id that no other query of any trader has.
   std::string NewRequestId();
 
   // Set before the first request is served.
   CORBA::ORB_var orb;
-  PortableServer::POA_var offer_iterators;
-  PortableServer::POA_var id_iterators;
-  CosTrading::Lookup_var lookup;
+  PortableServer::POA_var offer_iterators;  // the POA of the OfferIterators
+  PortableServer::POA_var id_iterators;     // the POA of the OfferIdIterators
+  CosTrading::Lookup_var lookup;            // the references of this trader's interfaces
   CosTrading::Register_var registry;
   CosTrading::Link_var link;
   CosTrading::Proxy_var proxy;
@@ -79,8 +83,8 @@ struct TradingObjects {
   CosTradingRepos::ServiceTypeRepository_var types;
 
  private:
-  const std::string process_;  // unique to each start of the trader
-  std::atomic<std::uint64_t> next_request_ = 0;
+  const std::string process_;                    // unique to each start of the trader
+  std::atomic<std::uint64_t> next_request_ = 0;  // the next request's number, a part of its id
 };
 
 }  // namespace gsv::broker

@@ -28,6 +28,8 @@ class Statement {
   [[nodiscard]] base::Status Run();
   // Steps to the next row. Returns false after the last one.
   [[nodiscard]] base::Result<bool> Next();
+  // These functions return a column of the present row, as an integer or as bytes. Columns count
+  // from 0.
   std::int64_t Integer(int column) const;
   std::string Bytes(int column) const;
 
@@ -57,6 +59,7 @@ class Database {
   struct Close {
     void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
   };
+  // Returns an error with SQLite's message about the last failure.
   base::Error Failure() const;
 
   std::unique_ptr<sqlite3, Close> database_;

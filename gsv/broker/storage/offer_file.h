@@ -44,12 +44,16 @@ class OfferFile : public Journal {
   void Close() override;
 
  private:
+  // The prepared statements, named after the changes that they write. `put_number` writes a row of
+  // the table `broker`.
   struct Statements {
     Statement put_offer, remove_offer, put_proxy, remove_proxy, put_type, remove_type, put_link,
         remove_link, put_attribute, put_number, begin, commit;
   };
 
   OfferFile(std::string path, Database database, Statements statements);
+  // Each function reads one part of the state. Numbers are the rows of the table `broker`: the
+  // stem, and the numbers of the next offer and the next type.
   base::Status LoadNumbers(TraderState& state);
   base::Status LoadTypes(TraderState& state);
   base::Status LoadOffers(TraderState& state);
@@ -58,8 +62,11 @@ class OfferFile : public Journal {
   base::Status LoadAttributes(TraderState& state);
 
   void Write();  // the function of writer_
+  // Calls WriteAll(), and calls it again for some seconds while memory is short.
   base::Status WriteWithRetries(const std::vector<StateChange>& changes);
+  // Writes the changes in one transaction.
   base::Status WriteAll(const std::vector<StateChange>& changes);
+  // Each function writes one change, or a part of a change, to the tables.
   base::Status Apply(const OfferStored& change);
   base::Status PutProxy(const Offer& offer);
   base::Status Apply(const OffersRemoved& change);
@@ -68,6 +75,7 @@ class OfferFile : public Journal {
   base::Status Apply(const LinkStored& change);
   base::Status Apply(const LinkRemoved& change);
   base::Status Apply(const AttributesStored& change);
+  // Writes a row of the table `broker`, see offer_file_schema.h.
   base::Status PutNumber(std::string_view name, std::uint64_t value);
 
   const std::string path_;
@@ -75,12 +83,12 @@ class OfferFile : public Journal {
   Statements statements_;
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable appended_;
-  base::ConditionVariable written_;
-  std::vector<StateChange> waiting_ GSV_GUARDED_BY(mutex_);
+  base::ConditionVariable appended_;  // notified when waiting_ gets a change, and at the end
+  base::ConditionVariable written_;   // notified when changes have been written, or cannot be
+  std::vector<StateChange> waiting_ GSV_GUARDED_BY(mutex_);  // changes that are not written yet
   ChangeNumber last_appended_ GSV_GUARDED_BY(mutex_) = 0;
   ChangeNumber last_written_ GSV_GUARDED_BY(mutex_) = 0;
-  bool works_ GSV_GUARDED_BY(mutex_) = true;
+  bool works_ GSV_GUARDED_BY(mutex_) = true;  // false once a change could not be written
   bool ending_ GSV_GUARDED_BY(mutex_) = false;
   std::thread writer_;  // destroyed first, because it uses the other members
 };

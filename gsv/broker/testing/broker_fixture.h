@@ -34,18 +34,22 @@ class BrokerFixture : public testing::Test {
                                         const std::vector<Repository::PropStruct>& properties = {},
                                         const std::vector<std::string>& super_types = {},
                                         const std::string& interface_name = "");
+  // Returns the definition of a property for AddType().
   static Repository::PropStruct Define(const char* name, CORBA::TypeCode_ptr type,
                                        Repository::PropertyMode mode);
   // Exports TestService() and returns the offer's id.
   std::string Export(const std::string& type, const std::vector<Property>& properties = {});
   static CosTrading::PropertySeq Sequence(const std::vector<Property>& properties);
+  // Returns a policy for Query().
   static CosTrading::Policy Policy(const char* name, const CORBA::Any& value);
 
+  // The results of Lookup::query().
   struct Answer {
-    CosTrading::OfferSeq_var offers;
-    CosTrading::OfferIterator_var rest;
-    CosTrading::PolicyNameSeq_var limits_applied;
+    CosTrading::OfferSeq_var offers;     // the first offers, at most `how_many`
+    CosTrading::OfferIterator_var rest;  // iterator over the other offers; nil if there are none
+    CosTrading::PolicyNameSeq_var limits_applied;  // names of the policies that limited the result
   };
+  // Queries the broker. The first function requests all properties.
   Answer Query(const std::string& type, const std::string& constraint = "",
                const std::string& preference = "",
                const std::vector<CosTrading::Policy>& policies = {}, CORBA::ULong how_many = 100);
@@ -54,7 +58,7 @@ class BrokerFixture : public testing::Test {
                CORBA::ULong how_many, const Lookup::SpecifiedProps& desired);
 
   BrokerProcess broker_;
-  CosTrading::Lookup_var lookup_;
+  CosTrading::Lookup_var lookup_;  // the references of the broker's interfaces
   CosTrading::Register_var register_;
   CosTrading::Admin_var admin_;
   CosTradingRepos::ServiceTypeRepository_var types_;

@@ -8,6 +8,7 @@
 
 namespace gsv::broker {
 
+// Returns the number as a value for BrokerFixture::Policy().
 inline CORBA::Any ULong(CORBA::ULong value) {
   CORBA::Any any;
   any <<= value;
@@ -34,13 +35,14 @@ class BrokerNode : public BrokerFixture {
   using BrokerFixture::Sequence;
   using BrokerFixture::types_;
 
+  // Adds a link from this broker to `other`, with the link's two follow rules.
   void LinkTo(const BrokerNode& other, const char* name,
               CosTrading::FollowOption pass_on = CosTrading::always,
               CosTrading::FollowOption limiting = CosTrading::always) {
     link_->add_link(name, other.lookup_, pass_on, limiting);
   }
 
-  CosTrading::Link_var link_;
+  CosTrading::Link_var link_;  // the broker's interface for links
 };
 
 }  // namespace gsv::broker

@@ -36,7 +36,7 @@ class TestProcess {
  private:
   std::string first_line_;
   pid_t pid_ = 0;
-  int stderr_ = -1;
+  int stderr_ = -1;  // descriptor of the pipe from which stderr is read
 };
 
 class BrokerProcess : public TestProcess {

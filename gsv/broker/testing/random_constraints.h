@@ -40,6 +40,7 @@ class RandomConstraints {
  private:
   static constexpr std::array<const char*, 6> kNames = {"a", "b", "c", "d", "order", "in_1"};
 
+  // Returns a random number from 0 to `bound` - 1.
   std::size_t Below(std::size_t bound) { return random_() % bound; }
 
   template <typename T, std::size_t kSize>
@@ -75,6 +76,7 @@ class RandomConstraints {
     }
   }
 
+  // Returns a random string literal.
   std::string Quoted() {
     std::string result = "'";
     for (const char c : Letters()) {
@@ -98,6 +100,7 @@ class RandomConstraints {
     }
   }
 
+  // Returns a random term that is meant to be a number.
   std::string Numeric(int depth) {
     if (depth <= 0 || Below(3) == 0) return Below(2) == 0 ? Name() : NumberLiteral();
     const std::string sign = Pick(std::array<const char*, 4>{"+", "-", "*", "/"});
@@ -119,6 +122,7 @@ class RandomConstraints {
     }
   }
 
+  // Returns a random boolean term. `depth` limits the levels of nested terms.
   std::string Truth(int depth) {
     if (depth <= 0) {
       return Pick(std::array<std::string, 4>{"TRUE", "FALSE", "exist " + Name(), Name()});

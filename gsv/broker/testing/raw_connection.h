@@ -12,6 +12,7 @@
 
 namespace gsv::broker {
 
+// Returns the address 127.0.0.1 with this port.
 inline sockaddr_in Loopback(int port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -32,6 +33,7 @@ inline std::string ReadRawMessage(int socket) {
   return message;
 }
 
+// A TCP connection to a port on 127.0.0.1.
 class RawConnection {
  public:
   explicit RawConnection(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -45,6 +47,7 @@ class RawConnection {
   void Send(const std::string& bytes) const {
     send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }
+  // Waits for the next message, see ReadRawMessage().
   std::string Read() const { return ReadRawMessage(socket_); }
 
  private:

@@ -24,8 +24,9 @@
 namespace gsv::broker {
 
 struct CursorLimits {
-  std::size_t cursors = 1000;
-  std::size_t entries = 2'000'000;
+  std::size_t cursors = 1000;       // maximum number of open cursors
+  std::size_t entries = 2'000'000;  // maximum number of entries in all open cursors
+  // A cursor that is not used for this time is removed.
   std::chrono::nanoseconds lifetime = std::chrono::seconds(60);
 };
 
@@ -49,10 +50,13 @@ class CursorTable {
  public:
   using Entry = std::decay_t<decltype(std::declval<const Entries&>()[0])>;
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
+  // Returns the size of an entry in a reply, in bytes.
   using SizeOf = std::function<std::size_t(const Entry&, const Context&)>;
 
+  // The entries that one call of Take() returns.
   struct Batch {
     std::vector<Entry> entries;
+    // The value that Open() stored with the cursor.
     Context context;
     bool more = false;  // whether entries remain
   };
@@ -135,7 +139,7 @@ class CursorTable {
     Entries entries;
     std::size_t next = 0;
     Context context;
-    std::chrono::steady_clock::time_point used;
+    std::chrono::steady_clock::time_point used;  // time of the last use
   };
   using Cursors = std::map<std::uint64_t, Cursor>;
 

@@ -18,6 +18,7 @@ namespace gsv::broker {
 struct OfferStored {
   OfferPtr offer;
 };
+// The removal of the offers with these numbers.
 struct OffersRemoved {
   std::vector<std::uint64_t> numbers;
 };
@@ -25,6 +26,7 @@ struct OffersRemoved {
 struct TypeStored {
   ServiceType type;
 };
+// The removal of the service type with this name.
 struct TypeRemoved {
   std::string name;
 };
@@ -32,9 +34,11 @@ struct TypeRemoved {
 struct LinkStored {
   TraderLink link;
 };
+// The removal of the link with this name.
 struct LinkRemoved {
   std::string name;
 };
+// New values of all attributes of the trader.
 struct AttributesStored {
   TraderAttributes attributes;
 };

@@ -25,6 +25,7 @@ struct TraderLink {
 
 class LinkTable {
  public:
+  // `limit` is the maximum number of links.
   explicit LinkTable(std::size_t limit) : limit_(limit) {}
 
   // Adds a link. `bound` is the trader's max_link_follow_policy.
@@ -39,6 +40,7 @@ class LinkTable {
   void Restore(TraderLink link);
 
  private:
+  // Returns an error if no link has this name.
   TradingResult<void> CheckKnown(const std::string& name) const;
 
   const std::size_t limit_;

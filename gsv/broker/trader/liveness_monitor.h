@@ -60,11 +60,12 @@ class LivenessMonitor {
   // A service, and the numbers of its offers.
   struct Service {
     std::string reference;
-    std::string address;
-    std::vector<std::uint64_t> offers;
+    std::string address;                // "host:port"; several services may have the same address
+    std::vector<std::uint64_t> offers;  // numbers of the service's offers
   };
 
   void Work();  // the function of each thread
+  // Calls services when they are due, one after the other, until the monitor ends.
   void AskDueServices();
   // Waits for the next service that is due. Returns null at the end.
   std::shared_ptr<const Service> Next(base::MutexLock& lock) GSV_REQUIRES(mutex_);
@@ -72,6 +73,7 @@ class LivenessMonitor {
   void StartRound() GSV_REQUIRES(mutex_);
   // Returns true if the service is dead.
   bool Judge(const Service& service, Liveness pulse) GSV_REQUIRES(mutex_);
+  // Withdraws all offers of a dead service.
   void Withdraw(const Service& service, Liveness pulse);
 
   const LivenessOptions options_;
@@ -79,11 +81,12 @@ class LivenessMonitor {
   const Ask ask_;
 
   base::Mutex mutex_;
-  base::ConditionVariable ending_changed_;
+  base::ConditionVariable ending_changed_;  // notified when the monitor ends
   bool ending_ GSV_GUARDED_BY(mutex_) = false;
+  // The services that are checked in this period, and the index of the next service to check.
   std::vector<std::shared_ptr<const Service>> round_ GSV_GUARDED_BY(mutex_);
   std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
-  Clock::time_point round_start_ GSV_GUARDED_BY(mutex_);
+  Clock::time_point round_start_ GSV_GUARDED_BY(mutex_);  // time of the last StartRound()
   // addresses that did not answer since the last StartRound()
   std::set<std::string> silent_addresses_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, Clock::time_point> silent_since_ GSV_GUARDED_BY(mutex_);  // by reference

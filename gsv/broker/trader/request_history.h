@@ -29,11 +29,12 @@ class RequestHistory {
   bool Remember(const std::string& id);
 
  private:
-  using Remembered = std::set<std::string>;
+  using Remembered = std::set<std::string>;  // ids of requests
 
+  // Forgets the request that was remembered first of all.
   void ForgetOldest() GSV_REQUIRES(mutex_);
 
-  const std::size_t requests_;
+  const std::size_t requests_;  // maximum number of remembered requests
   const std::chrono::nanoseconds lifetime_;
   const Clock clock_;
   base::Mutex mutex_;

@@ -34,7 +34,7 @@
 namespace gsv::broker {
 
 struct Query {
-  std::string type;
+  std::string type;  // name of the service type
   std::string constraint{};
   std::string preference{};
   ImportPolicies policies{};
@@ -47,6 +47,7 @@ struct MatchingOffers {
   Preference preference{};
   std::vector<double> known{};  // see broker::Rank()
   Cardinalities cardinalities{};
+  // Names of the policies that limited the result so far.
   std::vector<std::string> limits_applied{};
 };
 
@@ -59,13 +60,13 @@ struct QueryResult {
 // The result of a query whose offers are not sorted yet: the caller sorts as many as it needs.
 struct RankedResult {
   RankedOffers offers{};
-  std::vector<std::string> limits_applied{};
+  std::vector<std::string> limits_applied{};  // names of the policies that limited the result
 };
 
 // The changes that Modify() makes to an offer.
 struct Modification {
-  std::vector<std::string> remove{};
-  std::vector<Property> set{};
+  std::vector<std::string> remove{};  // names of the properties to remove
+  std::vector<Property> set{};        // properties to add, or to give a new value
 };
 
 class Trader {
@@ -79,6 +80,7 @@ class Trader {
   // Errors  kCorrupt if the state contradicts itself.
   [[nodiscard]] base::Status Restore(TraderState state, std::unique_ptr<Journal> journal);
 
+  // The number that is part of every offer's id, see the constructor.
   std::uint32_t stem() const { return stem_; }
   const TraderLimits& limits() const { return limits_; }
   TraderAttributes attributes() const;
@@ -166,29 +168,37 @@ class Trader {
   void Record(StateChange change) GSV_REQUIRES(mutex_) {
     if (journal_ != nullptr) last_change_ = journal_->Append(std::move(change));
   }
+  // Appends the present definition of a service type to the journal.
   void RecordType(const std::string& name) GSV_REQUIRES(mutex_);
 
+  // The offers among which a query searches, and the limits of the search.
   struct Candidates;
+  // The search of one query among the candidates.
   class Search;
   // `terms` are the equality terms of the query's constraint.
   Candidates SelectCandidates(const Query& query, const std::vector<EqualityTerm>& terms) const;
+  // Makes indices for a query with these terms, see OfferStore::Index().
   void MakeIndex(const std::vector<std::string>& types,
                  const std::vector<EqualityTerm>& terms) const;
+  // Returns the number in an offer's id. Fails if the text is no id, or has another stem.
   TradingResult<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
   // Finds an offer or a proxy.
   TradingResult<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
+  // These functions find an offer that is no proxy, or only a proxy.
   TradingResult<OfferPtr> FindOffer(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   TradingResult<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   // Checks the size, sets the offer's number, and stores it.
   TradingResult<std::string> Store(Offer offer);
   void Remove(std::vector<std::uint64_t> numbers) GSV_REQUIRES(mutex_);
+  // Returns an error if an offer with these properties and this reference exceeds the limits.
   TradingResult<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
 
   const TraderLimits limits_;
   std::uint32_t stem_;
-  std::unique_ptr<Journal> journal_;  // null if everything is in memory only
-  mutable std::atomic<std::uint64_t> seed_;
+  std::unique_ptr<Journal> journal_;         // null if everything is in memory only
+  mutable std::atomic<std::uint64_t> seed_;  // seed of the next query for the preference "random"
+  // Limits the number of queries that scan many offers at the same time.
   mutable ScanSlots scan_slots_{ScanSlots::ForThisMachine()};
   mutable base::SharedMutex mutex_;
   TraderAttributes attributes_ GSV_GUARDED_BY(mutex_);

@@ -48,9 +48,14 @@ class TypeRepository {
   TradingResult<std::vector<std::string>> WithSubTypes(const std::string& name) const;
 
  private:
+  // Returns the type as it was added. Fails if the name is not a type's name, or unknown.
   TradingResult<const ServiceType*> Find(const std::string& name) const;
+  // Checks the names in a new type, and that no type has its name.
   TradingResult<void> CheckNew(const ServiceType& type) const;
+  // Checks that the super types exist, and that their interfaces fit.
   TradingResult<void> CheckSuperTypes(const ServiceType& type) const;
+  // Checks that the type and its super types do not define a property in conflicting ways, and that
+  // what the type inherits is within the limits.
   TradingResult<void> CheckInheritedProperties(const ServiceType& type) const;
   // Returns all super types of `type`. The nearest come first, and each occurs once.
   std::vector<const ServiceType*> Ancestors(const ServiceType& type) const;

@@ -11,7 +11,7 @@ struct ProcessLimits {
   // Allocations beyond this limit fail with bad_alloc. A sixteenth of this limit is a reserve for
   // threads that do not catch bad_alloc (memory_reserve.h).
   std::size_t address_space_bytes = std::size_t{2} << 30;
-  int malloc_arenas = 2;
+  int malloc_arenas = 2;           // maximum number of malloc's arenas
   std::size_t descriptors = 8192;  // the process gets fewer if the system allows fewer
 };
 

@@ -17,19 +17,19 @@ struct Part {
   // The joint of the model between this part and its parent; -1 for the base. A ball joint consists
   // of three joints of the model. For a ball joint, `joint` is the last of the three.
   int joint = -1;
-  int parent = -1;  // index of the parent part, which precedes this part; -1 for the base
-  std::vector<int> links;
+  int parent = -1;         // index of the parent part, which precedes this part; -1 for the base
+  std::vector<int> links;  // indices of the model's links
   double mass = 0;
-  geometry::Pose model_from_part;
-  geometry::Vector3 inertia;  // principal moments
-  double heaviness = 1;       // the fraction of the part's mass on which gravity acts
-  bool is_kinematic = false;  // forces do not move this part
+  geometry::Pose model_from_part;  // pose of the part's frame, see above
+  geometry::Vector3 inertia;       // principal moments
+  double heaviness = 1;            // the fraction of the part's mass on which gravity acts
+  bool is_kinematic = false;       // forces do not move this part
 };
 
 // A model as a tree of rigid parts.
 struct Articulation {
-  std::vector<Part> parts;  // parents come before their children; the first part is the base
-  std::vector<int> part_of_link;
+  std::vector<Part> parts;        // parents come before their children; the first part is the base
+  std::vector<int> part_of_link;  // for each link of the model, the index of its part
   // Whether the base is fixed in the world: a joint attaches a link to the world, or the base is
   // kinematic and has child parts.
   bool is_fixed = false;

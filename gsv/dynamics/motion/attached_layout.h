@@ -28,9 +28,10 @@ class AttachedLayout {
   std::shared_ptr<const world::Layout> TakeChanged();
 
  private:
+  // An attachment, with the poses of the held body's links when it was attached.
   struct Held {
     Attachment attachment;
-    std::vector<geometry::Pose> held_from_links;
+    std::vector<geometry::Pose> held_from_links;  // in the frame of the held model
   };
 
   // Returns an error if the attachment is invalid, see Engine::Attach().
@@ -42,9 +43,9 @@ class AttachedLayout {
   // Returns the layout in which the shapes of each held body belong to its holder.
   std::shared_ptr<const world::Layout> Derive() const;
 
-  std::shared_ptr<const world::Layout> layout_;
-  std::vector<Held> held_;  // ordered by holder, link and held body
-  bool has_changed_ = false;
+  std::shared_ptr<const world::Layout> layout_;  // the layout of Reset(), without attachments
+  std::vector<Held> held_;                       // ordered by holder, link and held body
+  bool has_changed_ = false;  // whether attachments have changed since TakeChanged()
 };
 
 }  // namespace gsv::dynamics

@@ -37,7 +37,7 @@ class BallAngles {
  private:
   std::array<int, 3> joints_;
   std::array<geometry::Vector3, 3> axes_;  // the three joint axes, in the joint's frame
-  geometry::Quaternion part_from_joint_;
+  geometry::Quaternion part_from_joint_;   // from the joint's frame to the child's part frame
 };
 
 }  // namespace gsv::dynamics

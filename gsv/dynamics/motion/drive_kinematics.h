@@ -33,7 +33,7 @@ inline constexpr double kMaxAngularSpeed = 100;  // rad/s
 // The distance that a base's reference point has covered in a step, in the base's frame, and the
 // change of the base's heading.
 struct Travel {
-  double forward = 0, left = 0, angle = 0;
+  double forward = 0, left = 0, angle = 0;  // m, m, rad
 };
 
 // The kinematics of one drive: how its base and its wheels move for a command.
@@ -103,6 +103,7 @@ class DriveKinematics {
     double forward = 0, left = 0, angle = 0;  // rad/m, rad/m, rad/rad
     double ahead = 0;                         // distance in front of the rear axle, m
   };
+  // A joint that steers a wheel.
   struct Steered {
     int joint = 0;
     double sign = 1;     // sign of the z component of the joint's axis
@@ -127,10 +128,10 @@ class DriveKinematics {
   // Returns the angle of a steering joint (rad) for a path of this curvature (1/m).
   double SteeringAngle(const Steered& steered, double curvature) const;
 
-  model::Drive drive_;
-  double reference_x_ = 0;
-  bool wheels_are_as_believed_ = true;
-  bool slips_ = false;
+  model::Drive drive_;                  // the model's drive; of kind kVelocity for Free()
+  double reference_x_ = 0;              // see reference_x()
+  bool wheels_are_as_believed_ = true;  // whether the wheels have the radii that the drive assumes
+  bool slips_ = false;                  // whether the drive's wheels slip, see "Slip" above
   double turn_share_ = 1;  // fraction of the wheels' rotation that the base performs, in (0, 1]
   std::vector<Wheel> wheels_;
   std::vector<Steered> steered_;

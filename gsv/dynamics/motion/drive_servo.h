@@ -28,8 +28,8 @@ class DriveServo {
 
  private:
   const DriveKinematics& kinematics_;
-  world::DriveState drive_;
-  base::SimTime now_;
+  world::DriveState drive_;  // the drive's state at now_
+  base::SimTime now_;        // the time at the end of the last substep
 };
 
 // Some drives have no wheels that could roll (synchro, mecanum, velocity). Such a drive controls

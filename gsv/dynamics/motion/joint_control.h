@@ -16,8 +16,8 @@ namespace gsv::dynamics {
 // A constraint row on the velocity v of a joint: v + softness * impulse = rate, with an impulse
 // (N m s or N s) between two bounds.
 struct JointDemand {
-  double rate = 0, softness = 0;
-  double lower = 0, upper = 0;
+  double rate = 0, softness = 0;  // rad/s or m/s; velocity per impulse
+  double lower = 0, upper = 0;    // bounds of the impulse
 };
 
 // Returns the gains that apply to a command of this kind, or null.

@@ -29,11 +29,12 @@ class ActorMover {
   void Move(base::SimTime step, world::State& state, world::State* before) const;
 
  private:
+  // An actor of the layout, with the data that are computed once from its script.
   struct Actor {
-    int body = 0;
+    int body = 0;  // index of the body in the layout
     const model::Script* script = nullptr;
     geometry::Pose world_from_trajectory;
-    int first_joint = 0;
+    int first_joint = 0;  // index of the actor's first joint in State::joint_positions
     // for each trajectory: distance from the start to each waypoint, m
     std::vector<std::vector<double>> ways;
   };

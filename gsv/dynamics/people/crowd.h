@@ -45,8 +45,9 @@ class Crowd {
   void Decide(base::SimTime step, world::State& state);
 
  private:
+  // A pedestrian.
   struct Walker {
-    int body = 0;
+    int body = 0;  // index of the body in the layout
     const world::Pedestrian* pedestrian = nullptr;
     // index in levels_ of the heights at which walls are sliced for this pedestrian
     std::size_t level = 0;
@@ -56,16 +57,19 @@ class Crowd {
     std::uint32_t reached = 0;
     Vector2 goal;
   };
+  // A body that pedestrians avoid, also a pedestrian itself.
   struct Other {
-    int body = 0;
+    int body = 0;     // index of the body in the layout
     int walker = -1;  // index of the walker; -1 for a body that is not a pedestrian
     double radius = 0, height = 0;
-    Vector2 at, velocity;
-    double z = 0;
+    Vector2 at, velocity;  // position and velocity of the body's origin in the plane, world frame
+    double z = 0;          // height of the body's origin, m
   };
   // Number of walkers in a batch. The forces of many pairs are computed together.
   static constexpr std::size_t kBlock = 64;
+  // The working memory for one batch of walkers.
   struct Block {
+    // For each walker of the batch: the direction to its goal, and the sum of forces on it.
     std::array<Vector2, kBlock> directions, forces;
     Repulsions repulsions;
   };
@@ -98,15 +102,16 @@ class Crowd {
   std::vector<ObstacleField> walls_;   // slices of the walls at each of levels_
   std::vector<int> standing_;          // static bodies, which are walls
   std::vector<geometry::Pose> poses_;  // poses of the bodies in standing_ when they were sliced
-  bool is_sliced_ = false;
+  bool is_sliced_ = false;             // whether walls_ are valid for the present layout
 
   std::vector<Other> others_;  // bodies that pedestrians avoid, in the order of bodies
   // The grid of others_. A cell is at least as wide as the range of the forces. The entries of a
   // cell are consecutive in sorted_.
-  double left_ = 0, bottom_ = 0, per_cell_ = 1;
+  double left_ = 0, bottom_ = 0, per_cell_ = 1;  // minimum x and y, m; number of cells per metre
   int columns_ = 0, rows_ = 0;
+  // The cell of each of others_. For each cell, the start of its entries in sorted_.
   std::vector<std::uint32_t> cell_of_, cell_start_;
-  std::vector<Other> sorted_;
+  std::vector<Other> sorted_;       // others_, ordered by cell
   std::vector<Vector2> sorted_at_;  // positions of sorted_
   // The walkers, ordered by grid cell. Walkers in one cell mostly have the same bodies in range.
   std::vector<std::uint32_t> walker_order_;

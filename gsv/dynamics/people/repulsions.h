@@ -42,12 +42,14 @@ class Repulsions {
   void Finish(std::span<geometry::Vector2> forces);
 
  private:
-  static constexpr std::size_t kPairs = 256;
+  static constexpr std::size_t kPairs = 256;  // maximum number of stored pairs
   using Column = std::array<double, kPairs>;
 
-  std::size_t count_ = 0;
+  std::size_t count_ = 0;  // number of stored pairs
+  // The arguments of Add(), one entry per pair.
   std::array<std::uint32_t, kPairs> walker_;
   alignas(64) Column x_, y_, radii_, velocity_x_, velocity_y_, wanted_x_, wanted_y_;
+  // Values that Finish() computes for each pair.
   alignas(64) Column exponent_, direction_x_, direction_y_, sum_, b_;
 };
 

@@ -15,6 +15,7 @@ namespace gsv::dynamics {
 // Finds the pairs of overlapping discs.
 class BroadPhase {
  public:
+  // The indices of two discs.
   struct Pair {
     std::uint32_t first, second;  // first < second
     // NOLINTNEXTLINE(modernize-use-nullptr)
@@ -28,6 +29,7 @@ class BroadPhase {
                                 std::span<const double> radii);
 
  private:
+  // A disc in a cell of the grid.
   struct Entry {
     double x, y, radius;
     std::uint32_t index;
@@ -42,7 +44,8 @@ class BroadPhase {
   // Adds the pair if the two discs overlap.
   void AddIfNear(const Entry& a, const Entry& b);
 
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0, rows_ = 0;  // size of the grid in cells
+  // The cell of each disc. For each cell, the start of its entries in entries_.
   std::vector<std::uint32_t> cell_of_, cell_start_;
   std::vector<Entry> entries_;  // sorted by cell
   std::vector<Pair> pairs_;

@@ -76,19 +76,22 @@ class MoverCollisions {
                ContactCollector& contacts) const;
 
  private:
-  static constexpr int kIterations = 8;
+  static constexpr int kIterations = 8;  // see "Method" above
 
+  // Two pieces of a MoverPair that may touch.
   struct PiecePair {
     std::uint32_t first, second;  // indices of pieces of the two footprints
-    geometry::PlanarPosition first_found_at, second_found_at;
+    geometry::PlanarPosition first_found_at, second_found_at;  // positions of the two movers
     Separation separation;  // separation of the two pieces at first_found_at and second_found_at
   };
+  // Two movers that may touch in this step.
   struct MoverPair {
     std::uint32_t first, second;           // movers
     std::uint32_t begin_piece, end_piece;  // range of the pair's entries in pieces_
   };
+  // The space of a mover that the last FindCandidates() covered, see HasRoom().
   struct Room {
-    Vector2 centre;
+    Vector2 centre;  // the mover's origin at the search
     double radius = -1;
   };
   // The result for a mover so far.
@@ -96,6 +99,7 @@ class MoverCollisions {
     double time;           // time until the mover stops, s
     int since, new_since;  // first iteration that used `time`, and its value for the next iteration
   };
+  // The motions of all movers, as passed to Stop().
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;
     std::span<const geometry::Twist> twists;
@@ -127,16 +131,16 @@ class MoverCollisions {
 
   const PlanarScene& scene_;
   base::ThreadTeam& team_;
-  std::vector<Room> rooms_;
-  BroadPhase finder_;
-  std::vector<Vector2> centres_;
+  std::vector<Room> rooms_;       // one for each mover
+  BroadPhase finder_;             // finds candidates_
+  std::vector<Vector2> centres_;  // discs of the movers for finder_
   std::vector<double> radii_;
-  std::vector<BroadPhase::Pair> candidates_;
-  std::vector<BroadPhase::Pair> marked_;  // pairs that the last MarkNear() has found
+  std::vector<BroadPhase::Pair> candidates_;  // pairs that may come close within some steps
+  std::vector<BroadPhase::Pair> marked_;      // pairs that the last MarkNear() has found
 
-  std::vector<MoverPair> pairs_;
-  std::vector<PiecePair> pieces_;
-  std::vector<BodyPair> touching_;
+  std::vector<MoverPair> pairs_;    // pairs that may touch in this step
+  std::vector<PiecePair> pieces_;   // pieces of pairs_, pair by pair
+  std::vector<BodyPair> touching_;  // see AddTouching()
 
   std::vector<Outcome> outcomes_;               // outcomes of the movers in pairs_
   std::vector<std::optional<Impact>> impacts_;  // impacts of pairs_ in this iteration

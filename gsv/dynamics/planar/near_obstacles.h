@@ -58,20 +58,22 @@ class NearObstacles {
  private:
   // A piece of a mover and an obstacle near it.
   struct Near {
+    // Index of the mover in the scene, of the piece in the mover's footprint, and of the obstacle
+    // in `field`.
     std::uint32_t mover, piece, obstacle;
     const ObstacleField* field;
-    geometry::PlanarPosition found_at;
+    geometry::PlanarPosition found_at;  // position of the mover at the search
     Separation separation;  // separation of the piece from the obstacle, with the mover at found_at
   };
   // Stores that a mover with its origin at `centre`, at any heading, is further than `radius` from
   // every obstacle.
   struct Clearance {
-    Vector2 centre;
+    Vector2 centre;  // the mover's origin at the search
     double radius = -1;
   };
   struct alignas(64) Chunk {  // aligned to a cache line, because threads write to adjacent chunks
-    std::vector<Near> near;
-    std::vector<BodyPair> touching;
+    std::vector<Near> near;   // obstacles near the chunk's movers in this step
+    std::vector<BodyPair> touching;  // see AddTouching()
   };
 
   const Footprint::Piece& PieceOf(const Near& near) const {
@@ -87,7 +89,7 @@ class NearObstacles {
                 double within, double look, bool dynamic) const;
 
   const PlanarScene& scene_;
-  std::vector<Clearance> clearances_;
+  std::vector<Clearance> clearances_;  // one for each mover
   std::vector<Chunk> chunks_;
 };
 

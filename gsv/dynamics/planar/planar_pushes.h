@@ -30,18 +30,20 @@ class PlanarPushes {
   void SetImpulses(std::vector<world::Contact>& contacts) const;
 
  private:
+  // A planar body that can push rigid bodies.
   struct Pusher {
-    int body = 0;    // index of the body in the layout
-    double low = 0;  // the robot pushes above this height over the model's origin, m
-    double mass = 0;
+    int body = 0;     // index of the body in the layout
+    double low = 0;   // the robot pushes above this height over the model's origin, m
+    double mass = 0;  // mass of the robot, kg; limits the force of its pushes
     DriveKinematics kinematics;
   };
 
+  // Returns the pusher of a planar body, by the body's index in the layout.
   const Pusher& PusherOf(int body) const;
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<Pusher> pushers_;  // the planar bodies, in the order of the layout
-  std::vector<Push> pushes_;
+  std::vector<Push> pushes_;     // the result of the last Find()
 };
 
 }  // namespace gsv::dynamics

@@ -30,22 +30,22 @@ namespace gsv::dynamics {
 
 // The margin of the obstacle fields beyond a footprint, in metres.
 inline constexpr double kLookAround = 0.25;
-inline constexpr double kRides = 0.005;
+inline constexpr double kRides = 0.005;  // m, see "Dynamic" above
 
 // The properties that movers of one model share.
 struct MoverKind {
   DriveKinematics kinematics;
   Footprint footprint;
-  double climb = 0;
+  double climb = 0;        // see ClimbHeight(), m
   double spin_radius = 0;  // no part of the mover is faster than speed + spin_radius * turning rate
 };
 
 // A body that the planar mover moves.
 struct Mover {
-  int body = 0;  // index of the body in the layout; movers are in the order of bodies
-  std::uint32_t kind = 0;
-  std::uint32_t first_level = 0;  // the first level of its pieces, see PlanarScene::level()
-  int first_joint = 0, joint_count = 0;
+  int body = 0;            // index of the body in the layout; movers are in the order of bodies
+  std::uint32_t kind = 0;  // index of its MoverKind, see PlanarScene::kind()
+  std::uint32_t first_level = 0;         // the first level of its pieces, see PlanarScene::level()
+  int first_joint = 0, joint_count = 0;  // range of the body's joints in the state
 };
 
 // A disc of the plane in which a mover looks for obstacles.
@@ -57,7 +57,7 @@ struct Sight {
 // The movers of a layout, and slices of its bodies as obstacles for these movers.
 class PlanarScene {
  public:
-  static constexpr int kMaxLevels = 64;
+  static constexpr int kMaxLevels = 64;  // maximum number of levels, see "Levels" above
 
   // Returns an error for invalid drives and for poses that are not finite.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
@@ -104,19 +104,20 @@ class PlanarScene {
   void FindDynamicObstacles(const world::State& state, std::span<const Sight> sights);
 
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<MoverKind> kinds_;
+  std::vector<MoverKind> kinds_;  // one for each model of a mover
   std::vector<Mover> movers_;
-  std::vector<int> levels_;
+  std::vector<int> levels_;          // levels of all pieces of all movers, see level()
   std::vector<Interval> intervals_;  // height intervals of the levels
   std::vector<int> static_bodies_;   // bodies that are neither movers nor dynamic obstacles
-  std::vector<geometry::Pose> static_poses_;  // poses of static bodies when they were sliced
-  std::vector<double> heights_;               // heights of the movers at the last slicing
-  std::vector<ObstacleField> fields_;
-  std::vector<int> dynamic_;           // indices of rigid bodies and actors
-  std::vector<double> dynamic_radii_;  // radii of dynamic_ (DynamicRadius())
-  std::vector<int> seen_;              // indices of the sliced dynamic obstacles
-  std::vector<double> dynamic_state_;  // bodies, poses and joints at the last slicing
-  std::vector<ObstacleField> dynamic_fields_;
+  std::vector<geometry::Pose> static_poses_;   // poses of static bodies when they were sliced
+  std::vector<double> heights_;                // heights of the movers at the last slicing
+  std::vector<ObstacleField> fields_;          // static obstacles, one field per level
+  std::vector<int> dynamic_;                   // indices of rigid bodies and actors
+  std::vector<double> dynamic_radii_;          // radii of dynamic_ (DynamicRadius())
+  std::vector<int> seen_;                      // indices of the sliced dynamic obstacles
+  std::vector<double> dynamic_state_;          // bodies, poses and joints at the last slicing
+  std::vector<ObstacleField> dynamic_fields_;  // dynamic obstacles, one field per level
+  // Whether fields_ and dynamic_fields_ are valid for the layout.
   bool is_sliced_ = false, is_dynamic_sliced_ = false;
 };
 

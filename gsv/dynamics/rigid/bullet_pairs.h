@@ -20,7 +20,7 @@ class PairAlgorithms final : public btDefaultCollisionConfiguration {
   btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int first, int second) override;
 
  private:
-  btConvexConvexAlgorithm::CreateFunc at_one_point_;
+  btConvexConvexAlgorithm::CreateFunc at_one_point_;  // the algorithm for spheres
 };
 
 // Finds the contact points of two pieces with Bullet.
@@ -37,8 +37,8 @@ class BulletPairs {
 
   PairAlgorithms algorithms_;
   btCollisionDispatcher dispatcher_;
-  btCollisionObject first_, second_;
-  btManifoldArray manifolds_;
+  btCollisionObject first_, second_;  // the two pieces, in Bullet's form
+  btManifoldArray manifolds_;         // memory that is used again in each call
 };
 
 }  // namespace gsv::dynamics

@@ -11,7 +11,7 @@ namespace gsv::dynamics {
 struct Contact {
   int first = 0, second = 0;  // solids: indices in ContactFinder::colliders()
   TouchPoint point;
-  double friction = 0, restitution = 0;
+  double friction = 0, restitution = 0;  // coefficients, see SetSurfaces()
   // Friction acts along these two axes, at right angles to the normal. If a surface has two
   // friction coefficients, the axis with the lower coefficient is shorter than 1.
   std::array<geometry::Vector3, 2> axes;

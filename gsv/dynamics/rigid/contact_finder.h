@@ -68,9 +68,10 @@ class ContactFinder {
     geometry::Vector3 low, high;
     double reach = 0;  // maximum distance that the body may move in the substep, m
   };
+  // A piece of a static body.
   struct StaticPiece {
     PlacedPiece placed;
-    int collider = 0;
+    int collider = 0;  // index in colliders_
   };
 
   // Computes the poses of the static bodies.
@@ -98,21 +99,21 @@ class ContactFinder {
   const RigidScene* scene_ = nullptr;
   std::span<const std::unique_ptr<MovingBody>> bodies_;
   std::vector<Collider> colliders_;
-  std::vector<PlacedPiece> pieces_;  // pieces of the groups
-  std::vector<int> collider_of_piece_;
-  std::vector<Group> groups_;  // groups of rigid bodies, then of planar bodies
+  std::vector<PlacedPiece> pieces_;     // pieces of the groups
+  std::vector<int> collider_of_piece_;  // for each of pieces_, an index in colliders_
+  std::vector<Group> groups_;           // groups of rigid bodies, then of planar bodies
   // Number of colliders of rigid and static bodies, which stay from step to step.
   std::size_t static_colliders_ = 0;
-  std::size_t rigid_pieces_ = 0;
-  std::vector<geometry::Pose> static_poses_;
-  std::vector<StaticPiece> statics_, planes_;
-  BoxBvh static_bvh_;  // BVH of statics_
-  std::vector<int> near_;
-  std::vector<int> order_;  // groups ordered by their minimum x
-  std::vector<std::pair<int, int>> group_pairs_;
-  std::vector<Contact> contacts_;
-  std::vector<TouchPoint> points_;
-  std::vector<std::pair<int, int>> slipping_;  // the colliders of each contact that slips
+  std::size_t rigid_pieces_ = 0;  // number of pieces of rigid bodies, at the start of pieces_
+  std::vector<geometry::Pose> static_poses_;      // poses of the static bodies in static_bvh_
+  std::vector<StaticPiece> statics_, planes_;     // pieces of static bodies; planes are separate
+  BoxBvh static_bvh_;                             // BVH of statics_
+  std::vector<int> near_;                         // pieces near a group; memory that is used again
+  std::vector<int> order_;                        // groups ordered by their minimum x
+  std::vector<std::pair<int, int>> group_pairs_;  // groups whose bounding boxes overlap
+  std::vector<Contact> contacts_;                 // the result of the last Find()
+  std::vector<TouchPoint> points_;                // points of two pieces; memory that is used again
+  std::vector<std::pair<int, int>> slipping_;     // the colliders of each contact that slips
   BulletPairs bullet_;
 };
 

@@ -23,11 +23,14 @@ namespace gsv::dynamics {
 // Solves the contacts of a large island of bodies without joints.
 class ContactSweeps {
  public:
+  // The velocities of a body, which change with each impulse, and its inverse mass and inertia in
+  // the world.
   struct Body {
     geometry::Vector3 velocity, angular_velocity;
     double inverse_mass = 0;
     Matrix3 inverse_inertia;
   };
+  // One of the two bodies at a contact.
   struct Side {
     int body = -1;          // from AddBody(); -1 for a fixed body
     geometry::Vector3 arm;  // vector from the body's centre of mass to the contact
@@ -58,8 +61,9 @@ class ContactSweeps {
   }
 
  private:
+  // A contact, with the values that AddContact() computes once.
   struct Contact {
-    int first, second;
+    int first, second;  // bodies; -1 for a fixed body
     geometry::Vector3 arm_first, arm_second;
     std::array<geometry::Vector3, 3> axes;
     // Changes of the two bodies' angular velocities by a unit impulse along each axis.
@@ -71,9 +75,9 @@ class ContactSweeps {
     double normal, a, b, c, max;
     std::array<double, 2> coupling;
     std::array<double, 3> targets;
-    double friction;
+    double friction;  // coefficient of friction
     std::array<double, 2> softness;
-    std::array<double, 3> impulse;
+    std::array<double, 3> impulse;  // the present solution, N s
   };
   // Four contacts, one in each value of a vector. Unused values refer to bodies that no impulse
   // moves.
@@ -114,6 +118,8 @@ class ContactSweeps {
   std::vector<int> open_;  // batches with space for more contacts
   // For each body, and for one fixed body: velocity, inverse mass, angular velocity, 0.
   std::vector<double> motions_;
+  // The contacts ordered by level, and the level of each body. The other members are memory for
+  // Order(): bodies whose neighbours are visited next, and the contacts of each body.
   std::vector<int> order_, levels_, queue_, first_of_body_, contacts_of_body_;
 };
 

@@ -18,6 +18,7 @@ inline const FourDoubles& FourAt(const double* values) {
 }
 inline FourDoubles& FourAt(double* values) { return *reinterpret_cast<FourDoubles*>(values); }
 
+// Returns the sum of the four values.
 __attribute__((always_inline)) inline double SumOf(const FourDoubles& four) {
   return (four[0] + four[2]) + (four[1] + four[3]);
 }

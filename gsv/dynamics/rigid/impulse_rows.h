@@ -44,9 +44,9 @@ class ImpulseRows {
   };
   // The target velocity of a row, and the bounds of its impulse.
   struct Limits {
-    double target = 0;    // m/s or rad/s
-    double softness = 0;  // (m/s) / (N s), or in the units of the row
-    double lower = 0, upper = 0;
+    double target = 0;            // m/s or rad/s
+    double softness = 0;          // (m/s) / (N s), or in the units of the row
+    double lower = 0, upper = 0;  // bounds of the impulse
   };
 
   // Removes all.
@@ -75,7 +75,7 @@ class ImpulseRows {
   int AddCone(int normal_row, int first_row, double friction, const Axes& axes,
               const std::array<double, 2>& softness = {});
 
-  static constexpr int kMaxDirect = 150;
+  static constexpr int kMaxDirect = 150;  // maximum number of rows in the linear equations
 
   // Iterates until no row's velocity changes by more than the tolerance. Returns the number of
   // iterations.
@@ -93,13 +93,15 @@ class ImpulseRows {
     int begin = 0, end = 0;  // range in which the jacobian is not zero, from `start`
     int next = -1;           // the next block on the same body (CoupleAll())
   };
+  // A row, and its state in the iterations.
   struct Row {
     std::array<Block, 2> sides;
     double target, softness, lower, upper, impulse;
-    double mass_inverse;  // J M⁻¹ Jᵀ + softness; 0 if no impulse can move the row
-    double change, search;
-    bool is_in_cone;
+    double mass_inverse;    // J M⁻¹ Jᵀ + softness; 0 if no impulse can move the row
+    double change, search;  // last change of the impulse; direction in which Accelerate() continues
+    bool is_in_cone;        // whether it is a friction row of a cone, which SolveCone() solves
   };
+  // The friction rows of a contact: `first_row` and the row after it.
   struct Cone {
     int normal_row, first_row;
     double friction;
@@ -169,6 +171,7 @@ class ImpulseRows {
   // The change of energy by all rows in the last iteration; it is small near the solution.
   double ChangeOfEnergy() const;
 
+  // The velocities of all bodies, and the jacobians and responses of all rows.
   std::vector<double> velocities_, jacobians_, responses_;
   std::vector<Row> rows_;
   std::vector<Cone> cones_;
@@ -182,8 +185,8 @@ class ImpulseRows {
   std::vector<int> slipping_;      // cones that slip in a direction that does not change
   // For each cone that slips, whether its direction may change.
   std::vector<bool> turns_;
-  std::vector<double> matrix_, unknown_;  // matrix and unknowns of free_
-  std::vector<double> velocities_before_, impulses_before_;
+  std::vector<double> matrix_, unknown_;                     // matrix and unknowns of free_
+  std::vector<double> velocities_before_, impulses_before_;  // see Remember()
 };
 
 // The callers of these functions are compiled once for each instruction set, so these functions

@@ -35,7 +35,7 @@ namespace gsv::dynamics {
 
 // A row that gives a point of a body the required speed along a direction. Its force never pulls.
 struct PushRow {
-  int moving = 0;
+  int moving = 0;                   // index of the moving body
   geometry::Vector3 point, normal;  // world
   double speed = 0, limit = 0;      // m/s, N s
   double impulse = 0;               // result of the solver, N s
@@ -44,6 +44,7 @@ struct PushRow {
 // Computes the impulses and velocities of one island of bodies that act on each other.
 class IslandSolver {
  public:
+  // Numbers of velocities, see "Heaps" and "Others" above.
   static constexpr int kMaxVelocities = 96, kMaxHeap = 48;
 
   // Removes all bodies, contacts and pushes.
@@ -83,11 +84,12 @@ class IslandSolver {
     // velocity error to a guess of the impulse.
     double compliance = 0, stiffness = 0;
     double impulse = 0;
-    bool is_active = false;
+    bool is_active = false;  // whether the row is in the linear equations
   };
+  // The rows of a contact: the normal, and two tangents.
   struct ContactRows {
-    Row normal;  // its values are the values of three rows: normal, then both tangents
-    int index = 0;
+    Row normal;     // its values are the values of three rows: normal, then both tangents
+    int index = 0;  // index in `contacts` of Solve()
     double friction = 0;
     std::array<double, 2> target{}, softness{}, compliance{}, impulse{};
     double stiffness = 0;  // stiffness of both tangents
@@ -158,23 +160,27 @@ class IslandSolver {
   void AddRowTo(const Row& row, const double* values, const ImpulseRows::Limits& limits,
                 std::span<const std::unique_ptr<MovingBody>> bodies);
 
+  // Indices in the lists that are passed to Solve().
   std::vector<int> bodies_, contacts_, pushes_;
-  int size_ = 0;
-  std::vector<int> first_;     // index of each body's first velocity
-  std::vector<int> first_of_;  // index of the first velocity, by the index of the moving body
-  std::vector<Row> rows_;      // rows of joints, then rows of pushes
-  std::size_t joint_rows_ = 0;
+  int size_ = 0;                // number of velocities of the island
+  std::vector<int> first_;      // index of each body's first velocity
+  std::vector<int> first_of_;   // index of the first velocity, by the index of the moving body
+  std::vector<Row> rows_;       // rows of joints, then rows of pushes
+  std::size_t joint_rows_ = 0;  // number of rows of joints, at the start of rows_
   std::vector<ContactRows> contact_rows_;
-  std::vector<int> columns_;
-  std::vector<double> values_;
+  std::vector<int> columns_;    // velocities on which the rows act, see Row::begin
+  std::vector<double> values_;  // jacobians of the rows, see Row::values
+  // Velocities of the island: before the substep, after the substep without impulses, and the
+  // solution. `momenta_` are the mass matrix times free_.
   std::vector<double> start_, free_, momenta_, velocities_;
-  std::vector<double> matrix_, unknown_;
-  std::vector<double> side_values_[3];
+  std::vector<double> matrix_, unknown_;  // the linear equations for the velocities
+  std::vector<double> side_values_[3];  // values of a contact's three rows, before they are stored
   std::vector<geometry::Vector3> motions_;
   ImpulseRows impulse_rows_;
   ContactSweeps sweeps_;
   OverlapRemoval overlaps_;
-  bool is_swept_ = false;
+  bool is_swept_ = false;  // whether ContactSweeps solves the island
+  // The arguments of ContactSweeps::AddContact() for a contact.
   struct Pending {
     ContactSweeps::Side first, second;
     std::array<geometry::Vector3, 3> axes;
@@ -187,7 +193,7 @@ class IslandSolver {
   std::vector<int> place_of_;     // index in bodies_, by the index of the moving body
   // for each body, the index at which its velocities begin in the rows
   std::vector<int> columns_of_rows_;
-  std::vector<double> jacobian_[2], response_[2];
+  std::vector<double> jacobian_[2], response_[2];  // the two sides of a row for impulse_rows_
 };
 
 }  // namespace gsv::dynamics

@@ -10,15 +10,16 @@ namespace gsv::dynamics {
 // A row requires J v + softness * impulse = target, where v are the tree's velocities at the end of
 // a substep. Its impulse (N m s or N s) has bounds.
 struct JointRow {
-  int begin = 0, count = 0;  // range of its velocities and values in JointRows
-  double target = 0;         // rad/s or m/s
-  double softness = 0;
-  double lower = 0, upper = 0;
+  int begin = 0, count = 0;     // range of its velocities and values in JointRows
+  double target = 0;            // rad/s or m/s
+  double softness = 0;          // velocity per impulse
+  double lower = 0, upper = 0;  // bounds of the impulse
 };
 
 // A list of constraint rows on the joints of one tree of links.
 class JointRows {
  public:
+  // The bound of an impulse without limit.
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
   void Clear() {

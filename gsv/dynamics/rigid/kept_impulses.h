@@ -14,6 +14,7 @@ namespace gsv::dynamics {
 // The impulses of a substep, from which the next substep starts.
 class KeptImpulses final : public world::EngineState {
  public:
+  // The impulse at one contact point.
   struct Entry {
     BodyPair bodies;          // indices in the layout, in the order of the contact
     geometry::Vector3 point;  // contact point, in the frame of the first body's part

@@ -114,19 +114,21 @@ class LinkTree {
   void Respond(std::span<double> row) const;
 
  private:
+  // A part, with the joint between it and its parent.
   struct Link {
-    int parent = -1, joint = -1;
-    int first = 0, count = 0;  // range of the velocities of its joint
+    int parent = -1, joint = -1;  // parent part, and joint of the model; -1 for the base
+    int first = 0, count = 0;     // range of the velocities of its joint
     model::JointKind kind = model::JointKind::kFixed;
     // orientation in the parent's frame with the joint at zero
     geometry::Quaternion parent_from_part;
     // The axis, and the vector from the pivot to the part, in the part's frame, and the pivot in
     // the parent's frame.
     geometry::Vector3 axis, pivot_in_parent, arm;
-    double pitch = 0, mass = 0, heaviness = 1;
+    double pitch = 0, mass = 0, heaviness = 1;  // pitch of a screw joint, m/rad, else 0; see Part
     geometry::Vector3 inertia;
-    std::vector<int> chain;
+    std::vector<int> chain;  // see Chain()
   };
+  // The inertia of a part with all parts below it in the tree.
   struct Inertia {
     double mass;
     geometry::Vector3 moment;  // mass times the vector from the base's centre of mass
@@ -152,24 +154,27 @@ class LinkTree {
   std::vector<Link> links_;
   std::vector<BallAngles> balls_;  // one for each ball joint
   std::vector<int> ball_of_;       // index in balls_ for each part; -1: none
-  int size_ = 0, base_size_ = 6;
-  std::vector<int> parents_;  // for each velocity, the index of its parent; -1: none
+  int size_ = 0, base_size_ = 6;   // numbers of velocities: of the tree, and of its base (6 or 0)
+  std::vector<int> parents_;       // for each velocity, the index of its parent; -1: none
 
   geometry::Quaternion base_;                // orientation of the base
   std::vector<geometry::Quaternion> turns_;  // rotation of the ball joint of each part
   std::vector<double> joint_positions_;      // one for each part
+  // The poses of the parts in the world.
   std::vector<geometry::Quaternion> orientations_;
   std::vector<Matrix3> rotations_;
   std::vector<geometry::Vector3> positions_;
-  std::vector<double> velocities_, free_, free_momenta_, efforts_;
-  std::vector<geometry::Vector3> forces_, torques_;
+  std::vector<double> velocities_, free_, free_momenta_, efforts_;  // one for each velocity
+  std::vector<geometry::Vector3> forces_, torques_;  // added forces and torques, one for each part
   // One for each velocity. `moving` is the velocity of the point at the base's centre of mass.
   std::vector<Motion> motions_;
-  std::vector<Inertia> inertias_;
-  std::vector<Matrix3> own_inertias_;  // inertia of each part about its centre of mass
-  std::vector<double> masses_, factors_;
-  Matrix3 inverse_inertia_;  // inverse inertia of a single body
-  mutable std::vector<double> scratch_;
+  std::vector<Inertia> inertias_;         // one for each part
+  std::vector<Matrix3> own_inertias_;     // inertia of each part about its centre of mass
+  std::vector<double> masses_, factors_;  // the mass matrix, and its factorisation
+  Matrix3 inverse_inertia_;               // inverse inertia of a single body
+  mutable std::vector<double> scratch_;   // memory that is used again in each call
+  // Memory for AddBias(), one for each part: accelerations that the motion itself requires, and
+  // velocities. Both are angular and linear.
   std::vector<geometry::Vector3> bias_turning_, bias_moving_, spins_, speeds_;
 };
 

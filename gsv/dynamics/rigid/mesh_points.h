@@ -40,9 +40,9 @@ class MeshPoints {
   // Reduces the added points to at most kMaxPoints points.
   void Choose();
 
-  const double margin_, near_, radius_;
+  const double margin_, near_, radius_;  // see the constructor
   std::vector<TouchPoint>& points_;
-  const std::size_t begin_;
+  const std::size_t begin_;  // number of points before the first added point
 };
 
 }  // namespace gsv::dynamics

@@ -101,18 +101,18 @@ class MovingBody {
   const model::WorldDescription& world_;
   LinkTree tree_;
   JointRows rows_;
-  std::vector<LoopJoint> loops_;
+  std::vector<LoopJoint> loops_;  // joints that close loops of links
   std::vector<Motor> motors_;
-  std::optional<DriveServo> servo_;
+  std::optional<DriveServo> servo_;            // nullopt if the body has no drive
   std::vector<world::JointCommand> commands_;  // commands of the model's joints; may be empty
   std::vector<double> integrals_;              // integral terms of the model's joints; may be empty
   // positions and rates that the drive commands to its joints
   std::vector<double> wanted_positions_, wanted_rates_;
-  bool is_kinematic_, rolls_;
-  double thickness_;
+  bool is_kinematic_, rolls_;  // see is_kinematic(); whether the drive's wheels propel the base
+  double thickness_;           // see thickness()
   geometry::Vector3 velocity_, angular_velocity_;  // velocities of a kinematic body
   geometry::Vector3 outer_acceleration_;  // m/s²: acceleration of a single body due to outer forces
-  double resting_speed_before_ = 0;
+  double resting_speed_before_ = 0;       // RestingSpeed() at the start of the step
   double separating_speed_ = 0;  // m/s: the greatest speed given to Separate() in this step
   // whether something can hold the body in this step, so that it may rest (kResting)
   bool is_held_ = false;

@@ -47,10 +47,12 @@ class OverlapRemoval {
     double inverse_mass = 0;
     geometry::Vector3 velocity;
   };
+  // A contact: the condition that its two bodies separate fast enough.
   struct Row {
     int first, second;
     geometry::Vector3 normal;
     double gap;
+    // Wanted velocity along the normal (m/s), effective mass (kg), and impulse so far (N s).
     double target = 0, mass = 0, impulse = 0;
   };
 

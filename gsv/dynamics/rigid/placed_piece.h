@@ -11,8 +11,8 @@ namespace gsv::dynamics {
 // A piece of a solid with its pose and bounding box in the world.
 struct PlacedPiece {
   const Piece* piece = nullptr;
-  geometry::Vector3 position;
-  Matrix3 rotation;
+  geometry::Vector3 position;   // origin of the piece's frame, in the world
+  Matrix3 rotation;             // axes of the piece's frame, in the world
   geometry::Vector3 low, high;  // bounding box
 };
 

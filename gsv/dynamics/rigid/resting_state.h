@@ -27,10 +27,10 @@ class RestingState {
              double seconds) const;
 
  private:
-  bool rests_ = false;
-  double seconds_ = 0;
-  std::vector<double> state_;
-  std::vector<Area> areas_;
+  bool rests_ = false;         // whether a step without motion is stored
+  double seconds_ = 0;         // length of the stored step
+  std::vector<double> state_;  // poses, velocities and joints of the rigid bodies
+  std::vector<Area> areas_;    // see Remember()
   std::shared_ptr<const world::EngineState> engine_;
 };
 

@@ -50,13 +50,13 @@ struct Solid {
 
 // A body that rigid-body dynamics moves.
 struct RigidBody {
-  int body = 0;
+  int body = 0;  // index in the layout
   const model::Model* model = nullptr;
   Articulation articulation;
   std::vector<Solid> solids;      // the solids of its parts
   std::vector<PartMedium> media;  // one for each part; empty if no medium exerts a force
-  std::optional<DriveKinematics> kinematics;
-  int first_joint = 0;
+  std::optional<DriveKinematics> kinematics;  // of its drive; nullopt if it has none
+  int first_joint = 0;                        // index of the body's first joint in the state
   // Whether the body has parts that joints connect.
   bool is_jointed() const { return articulation.parts.size() > 1; }
 };

@@ -28,9 +28,9 @@ class RigidContacts {
     int substep;
   };
 
-  std::vector<Found> found_;
+  std::vector<Found> found_;        // contacts of all substeps so far
   std::vector<BodyPair> at_start_;  // pairs that touched when the step began
-  int substep_ = 0;
+  int substep_ = 0;                 // number of substeps so far
 };
 
 }  // namespace gsv::dynamics

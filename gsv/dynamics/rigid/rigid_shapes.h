@@ -61,6 +61,7 @@ class RigidShapes {
   // Returns the shape of a mesh, and creates it on first use.
   btBvhTriangleMeshShape* MeshOf(const geometry::Mesh& mesh);
 
+  // A mesh with its scale, for which one StandingMesh is made.
   struct MeshKey {
     const geometry::TriangleMesh* triangles;
     double x, y, z;  // scale

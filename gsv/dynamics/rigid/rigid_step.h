@@ -42,18 +42,20 @@ class RigidStep {
   std::vector<world::Contact> OverlapsOf(const world::State& state, int body, double tolerance);
 
  private:
+  // A planar body near rigid bodies, and its motion in the step.
   struct Planar {
     const Solid* solid;
-    geometry::Pose start;
-    geometry::Vector3 travel;
-    double turn;
+    geometry::Pose start;      // pose at the start of the step
+    geometry::Vector3 travel;  // change of position in the step, m
+    double turn;               // rotation about z in the step, rad
   };
+  // A push, with its state during the step.
   struct ActivePush {
     int push = 0;  // index in the caller's list
     PushRow row;
-    geometry::Vector3 point_in_body;
+    geometry::Vector3 point_in_body;  // the pushed point, in the frame of the pushed body's base
     bool has_started = false;
-    double impulse = 0;
+    double impulse = 0;  // impulse so far in the step, N s
   };
 
   // Loads the bodies and finds the planar bodies near them.
@@ -90,21 +92,21 @@ class RigidStep {
 
   base::ThreadTeam* team_;
   const RigidScene* scene_ = nullptr;
-  double seconds_ = 0;
+  double seconds_ = 0;  // length of the step
   std::vector<std::unique_ptr<MovingBody>> bodies_;
   ContactFinder finder_;
   std::vector<Contact>* contacts_ = nullptr;  // contacts of the finder in this substep
   std::vector<Planar> planar_;
   std::vector<ActivePush> pushes_;
-  std::vector<PushRow> push_rows_;
+  std::vector<PushRow> push_rows_;  // the rows of pushes_ in this substep
   // for each moving body: its parent in the union-find structure, and its island
   std::vector<int> parents_, islands_of_;
   std::deque<IslandSolver> islands_;  // memory for the largest number of islands so far
   std::size_t island_count_ = 0;
-  std::vector<int> starts_;  // index of each body's first velocity
-  std::vector<double> velocities_;
+  std::vector<int> starts_;         // index of each body's first velocity
+  std::vector<double> velocities_;  // velocities of all moving bodies at the end of the substep
   std::vector<geometry::Vector3> shifts_;  // velocities that separate overlapping bodies, m/s
-  std::vector<char> is_touched_;
+  std::vector<char> is_touched_;           // for each moving body, whether a contact acts on it
   // state at the start of the step; may be null
   std::shared_ptr<const world::EngineState> kept_before_;
   std::shared_ptr<KeptImpulses> kept_;  // impulses of the last substep; may be null

@@ -52,6 +52,7 @@ class TriangleSurface {
     // unit vectors in the plane, perpendicular to each edge
     std::array<geometry::Vector3, 3> inwards;
   };
+  // Each finds the contacts of one sphere or one cylinder with the triangles.
   class SphereContacts;
   class CylinderContacts;
 

@@ -47,13 +47,13 @@ class BoxBvh {
  private:
   struct Entry {
     Box box;
-    int index;
+    int index;  // index of the box in the argument of Build()
   };
   // The left child is stored directly after its parent.
   struct Node {
     Box box;
-    int right = -1;  // index of the right child; -1 for a leaf
-    int first = 0, count = 0;
+    int right = -1;            // index of the right child; -1 for a leaf
+    int first = 0, count = 0;  // range of a leaf's boxes in entries_
   };
 
   // Whether a box overlaps the box from `low` to `high`, or touches it.

@@ -33,7 +33,7 @@ class ContactCollector {
 
  private:
   std::vector<world::Contact>& contacts_;
-  double gap_;
+  double gap_;  // see the constructor
 };
 
 }  // namespace gsv::dynamics

@@ -79,12 +79,12 @@ class ObstacleField {
   }
 
   std::vector<Obstacle> obstacles_;
-  std::vector<std::uint32_t> everywhere_;  // obstacles that are too large for the grid
-  double margin_ = 0;
-  double left_ = 0, bottom_ = 0, per_cell_ = 1;
-  int columns_ = 0, rows_ = 0;
+  std::vector<std::uint32_t> everywhere_;        // obstacles that are too large for the grid
+  double margin_ = 0;                            // see the top of this file, m
+  double left_ = 0, bottom_ = 0, per_cell_ = 1;  // minimum x and y, m; number of cells per metre
+  int columns_ = 0, rows_ = 0;                   // size of the grid in cells
   std::vector<std::uint32_t> cell_start_;  // start of each cell's entries in entries_, and the end
-  std::vector<std::uint32_t> entries_;
+  std::vector<std::uint32_t> entries_;     // indices of obstacles, cell by cell
 };
 
 }  // namespace gsv::dynamics

@@ -18,6 +18,7 @@
 
 namespace gsv::dynamics {
 
+// Distances in m, see "Gaps" above.
 inline constexpr double kTouchGap = 1e-6;
 inline constexpr double kStopGap = 0.5e-6;
 
@@ -35,7 +36,7 @@ inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
 
 // The first contact of two pieces.
 struct Impact {
-  double time = 0;
+  double time = 0;                 // s
   Vector2 normal;                  // points from the first piece to the second piece
   bool first_approaches = false;   // the first piece moves towards the second
   bool second_approaches = false;  // the second piece moves towards the first

@@ -16,7 +16,7 @@ namespace gsv::dynamics::testing {
 
 class Crowd {
  public:
-  static constexpr double kStep = 0.01;
+  static constexpr double kStep = 0.01;  // s
 
   Crowd(int robots, std::shared_ptr<const model::Model> model, std::unique_ptr<Engine> engine,
         double area_per_robot = 10)
@@ -87,7 +87,7 @@ class Crowd {
   const std::vector<std::size_t>& robots() const { return robots_; }
 
  private:
-  static constexpr int kStepsPerChoice = 40;
+  static constexpr int kStepsPerChoice = 40;  // number of steps between two decisions of a robot
 
   void Drive(world::BodyState& body, const world::DriveCommand& command) {
     body.drive.command = command;

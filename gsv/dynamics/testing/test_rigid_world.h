@@ -33,6 +33,7 @@ inline std::shared_ptr<model::Model> SolidOf(const geometry::Shape& shape, doubl
   return model;
 }
 
+// A horizontal plane with this surface, as a model.
 inline std::shared_ptr<model::Model> GroundOf(const model::Surface& surface = {}) {
   auto model = ModelOf(geometry::Plane{});
   model->links[0].collisions[0].surface = surface;

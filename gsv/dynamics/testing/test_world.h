@@ -113,6 +113,7 @@ class TestWorld {
     ++state_.step;
     state_.time += step;
   }
+  // Takes steps of `step` seconds for `seconds` of simulated time.
   void Run(double seconds, double step) {
     for (int i = 0; i < static_cast<int>(seconds / step + 0.5); ++i) Step(step);
   }
@@ -124,6 +125,7 @@ class TestWorld {
   double yaw(const std::string& name) {
     return geometry::Yaw(body(name).world_from_model.orientation);
   }
+  // The position and the velocity of a joint of a body, by the joint's index in the model.
   double joint(const std::string& name, int joint) {
     return state_.joint_positions[layout_->bodies[layout_->Find(name)].first_joint + joint];
   }
@@ -131,6 +133,7 @@ class TestWorld {
     return state_.joint_velocities[layout_->bodies[layout_->Find(name)].first_joint + joint];
   }
 
+  // Returns the hash of the present state.
   std::uint64_t Digest() const {
     base::Hash hash;
     world::AddToHash(*layout_, state_, hash);

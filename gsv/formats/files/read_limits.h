@@ -11,9 +11,9 @@ namespace gsv::formats {
 
 // The limits on files. Sizes are in bytes, depths in levels.
 struct ReadLimits {
-  std::size_t xml_bytes = 64u << 20;
-  int xml_depth = 64;
-  int include_depth = 16;
+  std::size_t xml_bytes = 64u << 20;  // of a world or model, also after the expansion of entities
+  int xml_depth = 64;                 // nested elements
+  int include_depth = 16;             // files that include each other
   std::size_t models_in_world = 100'000;
   std::size_t mesh_bytes = 512u << 20;
   std::size_t mesh_triangles = 5'000'000;

@@ -37,8 +37,8 @@ class GlbBuffer {
   int AddAccessor(int view, int component_type, std::size_t count, const char* type);
 
   std::vector<std::uint8_t> bytes_;
-  Json views_ = Json::array();
-  Json accessors_ = Json::array();
+  Json views_ = Json::array();      // glTF's bufferViews
+  Json accessors_ = Json::array();  // glTF's accessors
 };
 
 }  // namespace gsv::formats

@@ -42,6 +42,7 @@ class TextureReader {
 
  private:
   ReadLimits limits_;
+  // The results of Read(), Combine() and Opaque(), by their arguments.
   std::map<std::filesystem::path, std::shared_ptr<const model::Image>> images_;
   std::map<std::pair<const void*, const void*>, std::shared_ptr<const model::Image>> combined_;
   std::map<std::shared_ptr<const model::Image>, std::shared_ptr<const model::Image>> opaque_;

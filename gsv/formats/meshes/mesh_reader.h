@@ -46,6 +46,7 @@ class MeshReader {
  private:
   ReadLimits limits_;
   TextureReader& textures_;
+  // The results of Read(), by path, submesh and `centred`.
   std::map<std::tuple<std::filesystem::path, std::string, bool>, base::Result<MeshFile>> files_;
 };
 

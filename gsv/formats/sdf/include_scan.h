@@ -43,6 +43,7 @@ class IncludeScan {
   void Visit(tinyxml2::XMLElement& element, const std::filesystem::path& file);
   // Reads an included file with its own includes. Returns its name in files().
   base::Result<std::string> ReadIncluded(const std::filesystem::path& file);
+  // Returns the repaired text of an included file. Fails if the file contains no model.
   base::Result<std::string> TextOf(XmlFile& file);
   // Replaces an <include> by a built-in model, or removes it with a warning.
   void ReplaceOrRemove(tinyxml2::XMLElement& include, const std::string& uri,
@@ -52,6 +53,7 @@ class IncludeScan {
   const ReadLimits& limits_;
   base::Problems& problems_;
   IncludedFiles files_;
+  // The results of FileOf(), by its arguments.
   std::map<std::pair<std::string, std::string>, base::Result<std::filesystem::path>> found_;
   // the chain of files that are being read; a file that includes one of them forms a cycle
   std::vector<std::filesystem::path> open_;

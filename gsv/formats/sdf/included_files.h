@@ -35,6 +35,7 @@ class IncludedFileServer {
   const std::filesystem::path* SourceOf(const std::string& name) const;
 
  private:
+  // A file in memory, and the path of the file whose text it has.
   struct Served {
     int descriptor;
     std::filesystem::path path;

@@ -81,6 +81,7 @@ class ModelStore {
   TextureReader textures_;
   MeshReader meshes_;
   base::Problems problems_of_refused_;
+  // The files that were read, by path and `plugins`.
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
   // The files of files_ by the names in <uri> elements, so that each name is searched once.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;

@@ -21,7 +21,7 @@ std::vector<std::string> WordsOf(std::string_view text);
 struct LeadingNumber {
   double value = 0;
   bool is_number = false;  // whether the word begins with a number
-  bool is_all = false;
+  bool is_all = false;     // whether the whole word is a number
 };
 LeadingNumber LeadingNumberOf(const std::string& word);
 

@@ -41,6 +41,7 @@ class WorldFrames {
   base::Result<geometry::Pose> WorldFrom(const WrittenPose& pose) const;
 
  private:
+  // The arguments of Add() for a model or frame.
   struct Entry {
     WrittenPose at;
     geometry::Pose frame_from_origin;

@@ -39,15 +39,17 @@ class WorldState {
   void ReportMissing(const model::WorldDescription& world, const ReadingContext& context) const;
 
  private:
+  // The saved state of a model.
   struct ModelState {
-    std::string place;  // "file:line"
-    std::optional<geometry::Pose> pose;
+    std::string place;                            // "file:line"
+    std::optional<geometry::Pose> pose;           // pose of the model in the world
     std::map<std::string, geometry::Pose> links;  // "inner::link"
-    std::map<std::string, double> joints;
+    std::map<std::string, double> joints;         // saved joint positions, by "inner::joint"
   };
 
+  // The saved state of a light.
   struct LightState {
-    geometry::Pose pose;
+    geometry::Pose pose;  // in the world
     std::string place;
   };
 
@@ -62,9 +64,9 @@ class WorldState {
   static std::vector<double> PositionsOf(const model::Model& model, const ModelState& state,
                                          const geometry::Pose& world_from_model);
 
-  std::map<std::string, ModelState> models_;
-  std::map<std::string, LightState> lights_;
-  std::set<std::string> deleted_;
+  std::map<std::string, ModelState> models_;  // by the model's name
+  std::map<std::string, LightState> lights_;  // by the light's name
+  std::set<std::string> deleted_;             // names of the deleted models and lights
 };
 
 }  // namespace gsv::formats

@@ -28,7 +28,7 @@ struct ElementSupport {
   int since = 0, until = 0;  // first and last minor version of SDFormat 1 (0: still exists)
   bool is_repeatable = false;
   std::optional<std::string_view> otherwise;  // text with the same meaning as a missing element
-  std::string_view note;
+  std::string_view note;                      // a clause about the replacement in GSV; may be empty
 
   // Returns the element or attribute with that name; null if SDFormat has none in this element.
   const ElementSupport* Child(std::string_view child) const;
@@ -48,7 +48,7 @@ struct ElementSupport {
 struct PluginSupport {
   Support support;
   std::string_view part;  // part of the file or class name, lower case, no "-" and "_"
-  std::string_view note;
+  std::string_view note;  // a clause about the replacement in GSV; may be empty
 };
 
 // GSV's support of each element of SDFormat and URDF.
@@ -76,7 +76,7 @@ class SupportTable {
   // Reads the table of plugins.
   void ReadPlugins(std::string_view table);
 
-  ElementSupport::ByName definitions_;
+  ElementSupport::ByName definitions_;  // the definitions of element_tables.h, such as "box_shape"
   std::vector<PluginSupport> plugins_;
 };
 

@@ -17,8 +17,8 @@ namespace gsv::formats {
 
 // A joint as URDF describes it.
 struct UrdfJoint {
-  std::string name, type;  // "fixed", "revolute", "continuous", "prismatic", "floating"
-  std::string parent, child;
+  std::string name, type;     // "fixed", "revolute", "continuous", "prismatic", "floating"
+  std::string parent, child;  // names of links
   geometry::Pose parent_from_child;
   geometry::Vector3 axis{1, 0, 0};  // in the child's frame
   // the source of limits and dynamics; null for a joint that MakeUrdfTree() adds

@@ -28,7 +28,7 @@ struct UrdfMesh {
 
 // A model as URDF: the XML, and the mesh files to which it refers.
 struct Urdf {
-  std::string text;
+  std::string text;  // the XML
   std::vector<UrdfMesh> meshes;
 };
 

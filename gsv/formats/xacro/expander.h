@@ -25,11 +25,12 @@ class Expander {
  private:
   // The state of the expansion at an element.
   struct Context {
-    Scope& scope;
-    Space& space;
+    Scope& scope;           // the properties that are visible here
+    Space& space;           // the macros that are visible here
     int line = 0;           // line of the call in the main file; 0 for the file's own line
     int includes_left = 0;  // number of levels to which files may still include other files
   };
+  // A function that expands one kind of element, and appends the result to `parent`.
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
 
   // Expands the children of a node, and appends the results to `parent`.
@@ -94,15 +95,15 @@ class Expander {
   base::Result<Value> ArgumentNamed(const std::string& name) const;
 
   base::Problems& problems_;
-  FileAccess files_;
-  std::map<std::string, std::string> arguments_;
-  const Resolve resolve_;
-  Space main_;
-  bool takes_plain_names_ = false;  // whether <macro> means <xacro:macro>
-  std::set<const Node*> active_;    // definitions of macros that are being expanded
-  std::string missing_file_;        // the last include that was not found; empty if all were found
-  std::set<std::string> missing_packages_;
-  int steps_ = 0, levels_ = 0, max_include_depth_;
+  FileAccess files_;                              // reads the files that the main file names
+  std::map<std::string, std::string> arguments_;  // values of $(arg), by name
+  const Resolve resolve_;                         // evaluates texts of lazy properties
+  Space main_;                                    // the outermost namespace
+  bool takes_plain_names_ = false;                // whether <macro> means <xacro:macro>
+  std::set<const Node*> active_;                  // definitions of macros that are being expanded
+  std::string missing_file_;  // the last include that was not found; empty if all were found
+  std::set<std::string> missing_packages_;          // ROS packages that were not found
+  int steps_ = 0, levels_ = 0, max_include_depth_;  // steps so far; present depth of elements
 };
 
 }  // namespace gsv::formats::xacro

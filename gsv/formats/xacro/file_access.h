@@ -45,11 +45,11 @@ class FileAccess {
   const ResourceFinder& finder_;
   const ReadLimits& limits_;
   base::Problems& problems_;
-  std::map<std::string, std::filesystem::path> packages_;
-  std::map<std::filesystem::path, NodePtr> included_;
-  std::map<std::filesystem::path, Value> yaml_;
-  std::size_t bytes_ = 0;  // number of bytes that were read
-  int includes_ = 0;
+  std::map<std::string, std::filesystem::path> packages_;  // folders of ROS packages, by name
+  std::map<std::filesystem::path, NodePtr> included_;      // roots of included files, by path
+  std::map<std::filesystem::path, Value> yaml_;            // contents of YAML files, by path
+  std::size_t bytes_ = 0;                                  // number of bytes that were read
+  int includes_ = 0;                                       // number of included files
 };
 
 }  // namespace gsv::formats::xacro

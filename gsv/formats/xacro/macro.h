@@ -12,7 +12,7 @@ namespace gsv::formats::xacro {
 // A parameter in the attribute `params` of <xacro:macro>.
 struct Parameter {
   enum class Kind {
-    kValue,
+    kValue,     // the argument is an attribute
     kBlock,     // *name: the argument is an element
     kChildren,  // **name: the argument is the content of an element
   };
@@ -20,7 +20,7 @@ struct Parameter {
   Kind kind = Kind::kValue;
   // ^: the default is the caller's property of this name
   bool is_forwarded = false;
-  std::optional<std::string> otherwise;
+  std::optional<std::string> otherwise;  // the default; nullopt if a value is required
 };
 
 // Parses "a b:=1 c:=^|'x y' *block". Blanks outside of quotes and ${…} separate parameters.

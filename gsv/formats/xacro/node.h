@@ -16,8 +16,8 @@ namespace gsv::formats::xacro {
 // An element or a text of a xacro file.
 struct Node {
   bool is_element = true;
-  std::string text;  // the element's name, or the text
-  std::vector<std::pair<std::string, std::string>> attributes;
+  std::string text;                                             // the element's name, or the text
+  std::vector<std::pair<std::string, std::string>> attributes;  // names and values
   std::vector<std::shared_ptr<const Node>> children;
   std::shared_ptr<const std::filesystem::path> file;
   int line = 0;       // in `file`

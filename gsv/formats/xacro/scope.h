@@ -21,7 +21,7 @@ class Scope;
 // its definition.
 struct Property {
   Value value;
-  NodePtr defined_at;
+  NodePtr defined_at;  // the element that has set the property
   bool is_lazy = false;
   bool is_resolving = false;  // whether its text is being evaluated, to detect cycles
 };
@@ -29,9 +29,10 @@ struct Property {
 // The nodes that <xacro:insert_block> inserts.
 struct Block {
   std::vector<NodePtr> nodes;
-  bool is_expanded = false;
+  bool is_expanded = false;  // whether the nodes are inserted as they are, without expansion
 };
 
+// Evaluates a text of the node `at`, with the properties of the scope.
 using Resolve = std::function<base::Result<Value>(const std::string& text, const Node& at, Scope&)>;
 
 // The properties and blocks that are visible at an element.
@@ -74,10 +75,10 @@ struct Space {
   // the macro.
   std::pair<const Macro*, Space*> FindMacro(const std::string& name);
 
-  Space* const outer;
+  Space* const outer;  // the namespace that contains this one; null for the main file's
   Scope scope;
   std::map<std::string, Macro> macros;
-  std::map<std::string, std::unique_ptr<Space>> spaces;
+  std::map<std::string, std::unique_ptr<Space>> spaces;  // namespaces of included files, by name
 };
 
 }  // namespace gsv::formats::xacro
