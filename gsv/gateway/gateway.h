@@ -40,9 +40,9 @@ struct GatewayOptions : ServerOptions {
   SimulationFactory* factory = nullptr;
   // The folder of recordings to list and replay; empty: none.
   std::filesystem::path recordings_folder{};
-  std::string only_recording{};  // a single file of the folder that is served; empty: all files
-  uploads::UploadLimits uploads{};
-  recordings::SessionLimits replays{};
+  std::string only_recording{};     // a single file of the folder that is served; empty: all files
+  uploads::UploadLimits uploads{};  // limits of uploaded files
+  recordings::SessionLimits replays{};  // limits of open replays
   // Maximum size in bytes of the history of each simulation (recording/run_history.h); 0: no
   // history.
   std::size_t history_bytes = 0;
@@ -74,6 +74,7 @@ class Gateway {
                                                            const RelayedInstance& there);
   virtual ~Gateway() = default;
 
+  // The routes of this gateway.
   virtual const Router& router() const = 0;
   virtual std::uint16_t port() const = 0;
   virtual std::string url() const = 0;  // "http://127.0.0.1:8080/"

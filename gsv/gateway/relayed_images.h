@@ -33,8 +33,8 @@ class RelayedImages {
 
  private:
   boost::asio::io_context& io_;
-  const upstream::Address address_;
-  const std::shared_ptr<WorkerPool> pool_;
+  const upstream::Address address_;         // the other instance
+  const std::shared_ptr<WorkerPool> pool_;  // makes the requests to the other instance
   // Each open stream has a copy, so use_count() counts the open streams.
   const std::shared_ptr<int> seats_ = std::make_shared<int>(0);
 };

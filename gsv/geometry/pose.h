@@ -45,6 +45,7 @@ RollPitchYaw ToRollPitchYaw(const Quaternion& q);
 Quaternion FromAxisAngle(const Vector3& axis, double angle);
 double Yaw(const Quaternion& q);
 
+// A rigid transform: a rotation, followed by a translation.
 struct Pose {
   Vector3 position;
   Quaternion orientation;

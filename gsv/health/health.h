@@ -21,7 +21,7 @@ namespace gsv::health {
 // behaviour is unresponsive, or has not waited for 1 s of wall-clock time. A robot is dead if its
 // behaviour has crashed or was killed.
 enum class State { kMoving, kStanding, kStuck, kContact, kLate, kDead };
-inline constexpr std::size_t kStates = 6;
+inline constexpr std::size_t kStates = 6;  // number of values of State
 
 // "moving", "standing", "stuck", "contact", "late", "dead"
 const char* ToString(State state);
@@ -38,8 +38,8 @@ int Severity(State state, Level level);
 // A short distance that a range sensor measures. The obstacle at this distance may be the reason
 // why the robot does not move.
 struct Limit {
-  std::string sensor;
-  double value = 0;  // m
+  std::string sensor;  // name of the sensor
+  double value = 0;    // m
   friend bool operator==(const Limit&, const Limit&) = default;
 };
 
@@ -50,8 +50,8 @@ struct RobotHealth {
   // kWarning if the robot is stuck, in contact or late, or if its behaviour has run for 10 s
   // without motion.
   Level level = Level::kFine;
-  base::SimTime since{0};  // start of `state`
-  world::DriveCommand command;
+  base::SimTime since{0};          // start of `state`
+  world::DriveCommand command;     // the last command
   double linear = 0, angular = 0;  // the actual motion, m/s and rad/s
   std::optional<Limit> limit;      // set for a robot that stands or is stuck
   std::string contact;             // a body that the robot touches; empty if there is none
@@ -64,7 +64,7 @@ struct RobotHealth {
 struct Report {
   base::SimTime time{0};
   std::int64_t step = 0;
-  base::SimTime stuck_after{0};
+  base::SimTime stuck_after{0};  // time without motion after which a commanded robot is stuck
   std::array<std::uint32_t, kStates> counts{};  // number of robots in each State
   std::vector<RobotHealth> robots;              // ordered by name; without stations
 

@@ -36,18 +36,20 @@ class HealthTracker {
   // `robots_read` is the maximum number of robots whose sensors one update reads.
   explicit HealthTracker(std::size_t robots_read = 64) : robots_read_(robots_read) {}
 
+  // Computes the report for this status. `stuck_after` is the time without motion after which a
+  // commanded robot is stuck.
   Report Update(const simulation::SimulationStatus& status, base::SimTime stuck_after,
                 const SensorAccess& access);
 
  private:
   struct Known {
     State state = State::kMoving;
-    base::SimTime since{0}, read_at{0};
+    base::SimTime since{0}, read_at{0};  // start of `state`; time of the last reading
     std::optional<Limit> limit;
   };
   const std::size_t robots_read_;
-  std::map<std::string, Known>
-      known_;  // the last reading, by the robot's name; only for robots that do not move
+  // The last reading, by the robot's name; only for robots that do not move.
+  std::map<std::string, Known> known_;
 };
 
 // Returns the current health. Reads the sensors of at most 500 robots.

@@ -36,7 +36,7 @@ class Fibre {
   std::function<void()> body_;
   bool has_ended_ = false;
   SanitizerStack stack_;
-  boost::context::fiber inside_, outside_;
+  boost::context::fiber inside_, outside_;  // the suspended body, and the caller of Resume()
 };
 
 }  // namespace gsv::hosting

@@ -26,12 +26,15 @@ class alignas(64) LocalRobot final : public Robot {
 
   // Sets the current turn, or null between turns.
   void SetTurn(simulation::Turn* turn);
+  // Must be called before a sensor that takes long is read in a turn.
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
   // Returns the address of the robot's count of sweeps, for prefetching. A sweep reads all open
   // sensors together, once per turn. Returns null if there are no sensors.
   const void* sweeps() const { return sweeps_.get(); }
   // Ends the run for the behaviour. From now on, waits and calls return at once.
   void End() { is_running_ = false; }
+  // Ends the run for the behaviour because of this error, which error() then returns. kEnded only
+  // ends the run.
   void Note(const base::Error& error);
 
   // Whether all open sensors can be read quickly. A camera, for example, takes long.
@@ -72,31 +75,36 @@ class alignas(64) LocalRobot final : public Robot {
  private:
   using SensorPtr = std::shared_ptr<simulation::MountedSensor>;
 
+  // OpenPort() opens a sensor of the robot's model. CreatePort() adds a new sensor and opens it.
   base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
   base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
   // Adds the sensor to open_.
   base::Result<std::unique_ptr<SensorPort>> Enter(const std::string& sensor);
+  // Reads a sensor that takes long, such as a camera. Suspends the behaviour until the reading is
+  // available.
   base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
 
+  // Makes plan_ and sweeps_ for the present open sensors.
   void PlanSweeps();
   // Reads the beams of all open sensors together. Reads nothing and returns false if there is no
   // current turn, if the simulation does not allow sweeps, or if there are fewer than kMinSweep
   // beams. `readings` must have the names of the sensors.
   bool SweepInto(std::vector<Reading>& readings);
+  // Reads all open sensors: their beams together if possible, the others one by one.
   void ReadInto(std::vector<Reading>& readings);
 
   // The members that each turn of a controller uses come first, in one cache line.
-  simulation::Turn* turn_ = nullptr;
-  std::size_t ray_sensors_ = 0;            // how many open sensors cast rays
-  std::shared_ptr<const SweepPlan> plan_;  // the plan for open_; null without sensors
-  std::shared_ptr<simulation::Sweeps> sweeps_;
-  bool is_plan_shared_ = false;  // whether plan_ is a result of Share()
+  simulation::Turn* turn_ = nullptr;            // the present turn; null between turns
+  std::size_t ray_sensors_ = 0;                 // how many open sensors cast rays
+  std::shared_ptr<const SweepPlan> plan_;       // the plan for open_; null without sensors
+  std::shared_ptr<simulation::Sweeps> sweeps_;  // see sweeps()
+  bool is_plan_shared_ = false;                 // whether plan_ is a result of Share()
   std::atomic<bool> is_running_{true};
 
   const std::shared_ptr<simulation::Agent> agent_;
   Suspend suspend_;
   std::vector<SensorPtr> open_;  // ordered by name
-  std::string error_;
+  std::string error_;            // reason for the end of the run; empty if there is none
 };
 
 }  // namespace gsv::hosting

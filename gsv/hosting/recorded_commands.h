@@ -12,6 +12,7 @@
 
 namespace gsv::hosting {
 
+// A command to an actuator.
 struct RecordedDeviceCommand {
   std::string actuator;
   world::DeviceCommand command;
@@ -21,6 +22,7 @@ struct RecordedTransmission {
   std::string radio, receiver, content;
 };
 
+// A recorded command, and the instant at which it was given.
 struct TimedCommand {
   base::SimTime time{0};
   std::variant<world::DriveCommand, RecordedDeviceCommand, RecordedTransmission> command;
@@ -55,7 +57,7 @@ class RecordedCommands final : public simulation::LocalBehaviour {
   base::Mutex mutex_;  // held during a turn
   std::shared_ptr<simulation::Agent> agent_ GSV_GUARDED_BY(mutex_);
   std::atomic<simulation::ClockId> clock_ = 0;
-  std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
+  std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;  // index of the next command to repeat
 };
 
 }  // namespace gsv::hosting

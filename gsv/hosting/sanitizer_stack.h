@@ -26,6 +26,7 @@ class SanitizerStack {
   // AddressSanitizer may still mark these addresses as invalid: an earlier stack was here, and its
   // last calls never returned.
   void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
+  // Call this after Boost.Context has created the context.
   void AfterPreparing() {}
 
   // Call BeforeEntering() just before the thread switches to this stack, and AfterLeaving() just
@@ -39,6 +40,7 @@ class SanitizerStack {
     __sanitizer_finish_switch_fiber(frames_, &outside_bottom_, &outside_size_);
   }
   void BeforeLeaving() { __sanitizer_start_switch_fiber(&frames_, outside_bottom_, outside_size_); }
+  // Like BeforeLeaving(), for the last exit: the stack is not entered again.
   void BeforeLeavingForGood() {
     __sanitizer_start_switch_fiber(nullptr, outside_bottom_, outside_size_);
   }
@@ -46,10 +48,10 @@ class SanitizerStack {
  private:
   const void* bottom_;
   std::size_t size_;
-  const void* outside_bottom_ = nullptr;
+  const void* outside_bottom_ = nullptr;  // the stack from which this stack was entered
   std::size_t outside_size_ = 0;
-  void* frames_ = nullptr;
-  void* outside_frames_ = nullptr;
+  void* frames_ = nullptr;          // AddressSanitizer's data about this stack while it is left
+  void* outside_frames_ = nullptr;  // AddressSanitizer's data about the other stack
 };
 
 #elif defined(__SANITIZE_THREAD__)
@@ -73,8 +75,8 @@ class SanitizerStack {
   void BeforeLeavingForGood() { BeforeLeaving(); }
 
  private:
-  void* inside_;
-  void* outside_ = nullptr;
+  void* inside_;             // ThreadSanitizer's fibre for this stack
+  void* outside_ = nullptr;  // the fibre from which this stack was entered
 };
 
 #else

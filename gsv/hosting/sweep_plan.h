@@ -15,12 +15,14 @@
 namespace gsv::hosting {
 
 struct SweepPlan {
+  // The entry in `beam_of` of a sensor that is not read with the beams.
   static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
 
   // Makes the plan for `sensors`, which must be ordered by name. The beams of sensors without an
   // update rate are cast together.
   explicit SweepPlan(const std::vector<std::shared_ptr<simulation::MountedSensor>>& sensors);
 
+  // Whether every sensor is read with the beams.
   bool HasOnlyBeams() const { return beams.size() == names.size(); }
 
   std::vector<std::string> names;    // names of the sensors

@@ -43,6 +43,7 @@ class CdrWriter {
   requires std::is_arithmetic_v<Number>
   void Write(Number value) { WriteBlock(&value, sizeof value, sizeof value); }
   void Write(std::string_view text);
+  // Writes the number of elements of a sequence.
   void WriteCount(std::size_t count);
 
   // Writes `size` bytes of numbers of one type, in their memory representation. Writes nothing, not
@@ -83,6 +84,7 @@ class CdrReader {
   // Reads the count of a sequence whose elements take at least `element_size` bytes each. Returns 0
   // if the message is too short for this count.
   std::size_t ReadCount(std::size_t element_size);
+  // Reads `size` bytes of numbers of one type, see CdrWriter::WriteBlock().
   void ReadBlock(void* data, std::size_t size, std::size_t alignment);
 
   // Returns an error if a value exceeded the message, or if unread bytes remain. Up to three unread
@@ -90,12 +92,13 @@ class CdrReader {
   base::Status Finish() const;
 
  private:
+  // Makes the reader fail. `what` is the reason, a text that is never deleted.
   void Fail(const char* what);
   std::size_t remaining() const { return bytes_.size() - position_; }
 
   std::span<const std::byte> bytes_;  // the bytes after the encapsulation header
   std::size_t position_ = 0;
-  const char* failure_ = nullptr;
+  const char* failure_ = nullptr;  // reason of the first failure; null if there was none
 };
 
 // Appends `message` to `out`, with its encapsulation header.

@@ -35,6 +35,7 @@ class Definition {
   friend class Decoder;
 
   enum class Kind { kBool, kInteger, kUnsigned, kFloat, kString, kStruct };
+  // Whether a field is one value, an array of fixed length, or a sequence of any length.
   enum class Shape { kSingle, kArray, kSequence };
   struct Field {
     std::string name;
@@ -46,10 +47,11 @@ class Definition {
   };
   using Struct = std::vector<Field>;
 
+  // Parses the definition of one type.
   base::Status AddStruct(const std::string& type, std::string_view text);
   base::Status Check() const;  // Checks that all types are defined and that none contains itself.
 
-  std::string root_;
+  std::string root_;                       // the type of the messages, as "package/Name"
   std::map<std::string, Struct> structs_;  // by "package/Name"
 };
 

@@ -11,7 +11,7 @@ namespace gsv::formats {
 
 // The limits on files. Sizes are in bytes, depths in levels.
 struct ReadLimits {
-  std::size_t xml_bytes = 64u << 20;  // of a world or model, also after the expansion of entities
+  std::size_t xml_bytes = 64u << 20;  // maximum size of a world or model file
   int xml_depth = 64;                 // nested elements
   int include_depth = 16;             // files that include each other
   std::size_t models_in_world = 100'000;

@@ -32,13 +32,14 @@ class AccessRule {
   base::Status Check(std::string_view host, std::string_view origin) const;
 
  private:
+  // Whether the Host header has an IP address with the server's port.
   bool IsAddress(const std::string& authority) const;
 
-  const std::string scheme_;  // "http://"
-  const std::uint16_t port_, usual_port_;
+  const std::string scheme_;               // "http://"
+  const std::uint16_t port_, usual_port_;  // the server's port, and the default port of its scheme
   const bool takes_addresses_;
-  std::vector<std::string> hosts_;
-  std::vector<std::string> origins_;
+  std::vector<std::string> hosts_;    // allowed Host headers
+  std::vector<std::string> origins_;  // allowed Origin headers
 };
 
 // "127.0.0.1:80", "[::1]:80"

@@ -33,8 +33,9 @@ struct ControlLimits {
 class ViewerRegistry {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  static constexpr std::size_t kMaxViewers = 1000;
+  static constexpr std::size_t kMaxViewers = 1000;  // maximum number of viewers
 
+  // A viewer as other viewers see it.
   struct ViewerState {
     std::uint64_t number = 0;  // the number of the viewer, which is never used again
     std::string name;
@@ -44,10 +45,12 @@ class ViewerRegistry {
     // For the first viewer in the queue: time until it gets control if the holder does not answer.
     std::chrono::milliseconds left{};
   };
+  // The answer to List().
   struct ViewerList {
     std::vector<ViewerState> viewers;  // by number
     std::uint64_t you = 0;             // number of the calling viewer; 0 if it is not a viewer
   };
+  // The answer to Enter(). The viewer identifies itself by the key.
   struct Admission {
     std::uint64_t number = 0;
     std::string key;  // secret key of this viewer
@@ -80,13 +83,15 @@ class ViewerRegistry {
   base::Status CheckControl(const std::string& key, const std::string& simulation, Time now);
 
  private:
+  // A registered viewer.
   struct Viewer {
-    ViewerState person;
-    Time seen;
+    ViewerState person;  // all members except those that List() computes
+    Time seen;           // time of the viewer's last request
   };
+  // A request for control, by the key of the viewer that waits.
   struct Question {
     std::string key;
-    Time asked;
+    Time asked;  // time at which the holder was asked; valid for the first request
   };
   // The viewer that holds control of one simulation, and the queue of requests for it.
   struct Control {
@@ -102,6 +107,7 @@ class ViewerRegistry {
   void ReleaseControl(const std::string& key) GSV_REQUIRES(mutex_);
   // Gives control to the first viewer in the queue.
   static void PassControl(Control& control, Time now);
+  // Returns the viewer with this key, and notes that it is still connected.
   base::Result<Viewer*> Find(const std::string& key, Time now) GSV_REQUIRES(mutex_);
   // Returns the control of the simulation that the viewer has selected.
   Control& ControlOf(const Viewer& viewer) GSV_REQUIRES(mutex_) {
@@ -112,8 +118,8 @@ class ViewerRegistry {
   base::Mutex mutex_;
   std::map<std::string, Viewer> viewers_ GSV_GUARDED_BY(mutex_);    // by key
   std::map<std::string, Control> controls_ GSV_GUARDED_BY(mutex_);  // by simulation
-  std::uint64_t next_ GSV_GUARDED_BY(mutex_) = 1;
-  std::uint64_t version_ GSV_GUARDED_BY(mutex_) = 1;
+  std::uint64_t next_ GSV_GUARDED_BY(mutex_) = 1;                   // number of the next viewer
+  std::uint64_t version_ GSV_GUARDED_BY(mutex_) = 1;                // see Version()
 };
 
 }  // namespace gsv::gateway::access

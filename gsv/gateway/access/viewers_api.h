@@ -38,6 +38,7 @@ class ViewersApi {
   base::Status SetControlRequest(const Request& request);
   // Grants or refuses the first request in the queue for control.
   base::Status AnswerFirst(const Request& request);
+  // Responds with the list of viewers. `viewer` is the key of the calling viewer, or empty.
   Response ViewerList(const std::string& viewer);
 
   ViewerRegistry registry_;

@@ -30,15 +30,18 @@ class CommandTimeouts {
 
   // Calls `stop` after `timeout`. Replaces the pending function of the same key.
   void Set(const std::string& key, std::chrono::nanoseconds timeout, std::function<void()> stop);
+  // Drops the pending function of this key, if there is one.
   void Cancel(const std::string& key);
 
  private:
   using Clock = std::chrono::steady_clock;
+  // A pending function, and the time at which it runs.
   struct Entry {
     Clock::time_point due;
     std::function<void()> stop;
   };
 
+  // The main function of the thread.
   void Run();
 
   base::Mutex mutex_;

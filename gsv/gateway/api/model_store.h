@@ -44,8 +44,10 @@ class ModelStore {
   base::Result<SharedBytes> Glb(const std::string& id);
 
  private:
+  // The GLB file of a model. The first request writes it, while later requests wait.
   struct File {
     base::Mutex writing;
+    // The file, or the error of writing it; nullopt before it is written.
     std::optional<base::Result<SharedBytes>> glb GSV_GUARDED_BY(writing);
   };
 
@@ -56,17 +58,19 @@ class ModelStore {
 
   const WriteGlb write_;
   base::Mutex mutex_;
+  // Identifiers of models, by model. They do not keep the models alive.
   using Identities = std::map<std::weak_ptr<const model::Model>, std::string, std::owner_less<>>;
 
   // Returns the cached identifier of a model, or calls `identify`, which may take long.
   std::string CachedIdentity(Identities ModelStore::*identities,
                              const std::shared_ptr<const model::Model>& model,
                              const std::function<std::string()>& identify);
+  // Returns the model with this identifier, or null.
   static std::shared_ptr<const model::Model> FindIn(const Identities& identities,
                                                     const std::string& id);
 
-  Identities visuals_ GSV_GUARDED_BY(mutex_);
-  Identities collisions_ GSV_GUARDED_BY(mutex_);
+  Identities visuals_ GSV_GUARDED_BY(mutex_);     // identifiers from Identify()
+  Identities collisions_ GSV_GUARDED_BY(mutex_);  // identifiers from IdentifyCollisions()
   std::map<std::string, std::shared_ptr<File>> files_ GSV_GUARDED_BY(mutex_);  // by identity
 };
 

@@ -21,12 +21,13 @@ namespace gsv::gateway {
 // A replay that the API serves.
 struct Replay {
   std::shared_ptr<ReplayPlayer> player;
-  std::string recording;  // name for opening the recording again; empty: none
+  std::string recording;  // see ReplaySessions::Add(); may be empty
 };
 
 // Finds the replay to which a request refers, by the parameters of its path except {name}.
 using FindReplay = std::function<base::Result<Replay>(const Request&)>;
 
+// Returns the routes of the API. The replay of a request is the result of `find`.
 std::vector<Route> ReplayRoutes(const FindReplay& find);
 
 // Parses {"time_s": T}: a time in simulated seconds, finite and within the range of SimTime.
@@ -34,9 +35,10 @@ base::Result<base::SimTime> ParseSeekTime(std::string_view body);
 
 // The change that the body {"speed": S, "loop": B} requests. Absent values stay unchanged.
 struct ReplayChange {
-  std::optional<double> speed;
-  std::optional<bool> loop;
+  std::optional<double> speed;  // simulated seconds per second of wall-clock time
+  std::optional<bool> loop;     // whether to restart at the end
 };
+// Parses {"speed": S, "loop": B}. Both keys are optional.
 base::Result<ReplayChange> ParseReplayChange(std::string_view body);
 
 }  // namespace gsv::gateway

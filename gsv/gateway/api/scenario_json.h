@@ -18,7 +18,7 @@ FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 
 // A request to add a robot or an avatar.
 struct RobotToAdd {
-  scenario::RobotEntry robot;
+  scenario::RobotEntry robot;  // the robot, as in a scenario file
   bool is_avatar = false;
 };
 // Parses {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar,

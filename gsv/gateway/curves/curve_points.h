@@ -35,9 +35,10 @@ class CurvePoints {
   std::vector<Point> Points() const;
 
  private:
+  // The samples in one part of the time range.
   struct TimeBin {
-    std::size_t finite = 0, samples = 0;
-    Point min, max;  // both equal the first sample until a sample is finite
+    std::size_t finite = 0, samples = 0;  // numbers of finite samples and of all samples
+    Point min, max;                       // both equal the first sample until a sample is finite
   };
 
   // Adds a sample to the bin of its time.
@@ -46,7 +47,7 @@ class CurvePoints {
   const base::SimTime start_, end_;
   const std::size_t max_points_;
   std::size_t samples_ = 0;
-  std::vector<Point> points_;
+  std::vector<Point> points_;  // all samples, while they fit
   std::vector<TimeBin> bins_;  // empty while points_ holds all samples
 };
 

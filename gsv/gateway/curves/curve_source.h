@@ -21,7 +21,7 @@ namespace gsv::gateway::curves {
 //   key            real_time_factor or late_steps of the simulation
 struct CurveRequest {
   std::string topic, robot, key;
-  std::size_t max_points = 0;
+  std::size_t max_points = 0;  // maximum number of points of the curve
 
   friend bool operator==(const CurveRequest&, const CurveRequest&) = default;
 };

@@ -17,6 +17,7 @@
 
 namespace gsv::gateway::curves {
 
+// Upper limit of CurveRequest::max_points.
 inline constexpr std::size_t kMaxCurvePoints = 100'000;
 
 // The points of a curve that were read so far, and the progress of reading.
@@ -46,6 +47,7 @@ class RecordedCurves {
   void Stop();
 
  private:
+  // A requested curve, its points so far, and the progress of reading.
   struct Job;
 
   // Returns the job of the request, or null. Marks the job as the most recently used job.

@@ -8,6 +8,7 @@
 
 namespace gsv::gateway::drawing {
 
+// The content type of a stream of images.
 inline constexpr const char* kImageStreamType = "multipart/x-mixed-replace; boundary=gsv-image";
 
 // Returns the part of one image. `time` is the simulated time of the image in seconds, for the

@@ -31,6 +31,7 @@
 
 namespace gsv::gateway::drawing {
 
+// Maximum number of views of one client at the same time.
 inline constexpr std::size_t kMaxViewsOfClient = 4;
 // Size in bytes of the header before each image. It contains, in little endian: the sequence (4
 // bytes), the number of the image (8), and the time at which the drawer first saw this state, in
@@ -57,19 +58,20 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
 
  private:
   using Clock = ViewDrawer::Clock;
-  using Key = std::pair<Client*, foxglove::SubscriptionId>;
+  using Key = std::pair<Client*, foxglove::SubscriptionId>;  // a client, and its id of a view
+  // A view of a client, with the state of its images.
   struct Watched {
     std::weak_ptr<Client> client;
     foxglove::SubscriptionId id = 0;
-    ViewQuery query;
-    std::uint32_t sequence = 0;
+    ViewQuery query;                         // the requested camera, quality and rate
+    std::uint32_t sequence = 0;              // number of the camera, see WatchView
     std::shared_ptr<ViewDrawer::Seat> seat;  // null if the camera has changed
     std::uint64_t last = 0;                  // number of the last image of this camera; 0: none
     bool is_asked = false;                   // whether an answer of the ViewDrawer is pending
     int unshown = 0;                         // number of sent images not yet reported as shown
     Clock::time_point due{};                 // earliest time of the next image
-    Clock::time_point sent{};
-    Clock::duration reported_after{};  // time from the last image to its report
+    Clock::time_point sent{};                // time of the last image
+    Clock::duration reported_after{};        // time from the last image to its report
     // index in kDetails (pushed_views.cc); 0: the quality and size that the client requested
     std::size_t detail = 0;
     Clock::time_point coarse_until{};  // earliest time of a finer image
@@ -78,6 +80,7 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   };
   using WatchedPtr = std::shared_ptr<Watched>;
 
+  // Returns the view, or null if it does not exist.
   WatchedPtr Find(const Key& key) const;
   void Remove(const Key& key);
   // Asks for the next image, if the client may get another image now.
@@ -96,7 +99,7 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
                                const DrawnImage& image);
 
   ViewDrawer& drawer_;
-  const FindWorldOfHub find_;
+  const FindWorldOfHub find_;  // returns the world that is drawn
   mutable base::Mutex mutex_;
   std::map<Key, WatchedPtr> watched_ GSV_GUARDED_BY(mutex_);  // mutex_ also guards each Watched
 };

@@ -88,20 +88,23 @@ class ViewDrawer {
   void Stop();
 
  private:
+  // A world that is drawn: its source, and the newest state of it.
   struct World {
     std::weak_ptr<const void> identity;
     std::shared_ptr<ViewSource> source;
     std::shared_ptr<const world::Snapshot> snapshot;  // newest state seen by the drawer
     std::uint64_t number = 0;                         // number of this state
     std::chrono::system_clock::time_point seen{};     // when the drawer first saw this state
-    Clock::time_point used{};
+    Clock::time_point used{};                         // time of the last request for an image
   };
+  // A request that is not answered yet: the arguments of Ask().
   struct Pending {
     std::shared_ptr<Seat> seat;
     std::uint64_t after = 0;
     Clock::time_point earliest, deadline;
     Answer answer;
   };
+  // An image for one request, which equal requests share.
   struct CachedImage {
     ViewRequest request;
     DrawnImage image;
@@ -116,6 +119,7 @@ class ViewDrawer {
   bool Serve(const std::string& name);
   // Removes and returns the requests of a world that are due.
   std::vector<Pending> TakeDue(const std::string& name, std::uint64_t number);
+  // The number of a state, and the time at which the drawer first saw it.
   struct Seen {
     std::uint64_t number = 0;
     std::chrono::system_clock::time_point at{};
@@ -136,9 +140,9 @@ class ViewDrawer {
 
   base::Mutex mutex_;
   base::ConditionVariable changed_;
-  std::map<std::string, World> worlds_ GSV_GUARDED_BY(mutex_);
-  std::vector<Pending> pending_ GSV_GUARDED_BY(mutex_);
-  std::vector<std::weak_ptr<Seat>> seats_ GSV_GUARDED_BY(mutex_);
+  std::map<std::string, World> worlds_ GSV_GUARDED_BY(mutex_);  // by name
+  std::vector<Pending> pending_ GSV_GUARDED_BY(mutex_);  // requests that are not answered yet
+  std::vector<std::weak_ptr<Seat>> seats_ GSV_GUARDED_BY(mutex_);  // occupied seats
   bool stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };

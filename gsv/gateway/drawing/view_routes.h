@@ -19,8 +19,9 @@ namespace gsv::gateway::drawing {
 struct ViewedWorld {
   std::string name;                    // unique in this server
   std::weak_ptr<const void> identity;  // see ViewDrawer::SetSource()
-  ViewDrawer::MakeSource make;
+  ViewDrawer::MakeSource make;         // makes the source of the world's states
 };
+// Returns the world that a request names in its path.
 using FindWorld = std::function<base::Result<ViewedWorld>(const Request&)>;
 
 // Parses the parameters of the query. `is_stream` is true for view.mjpeg.

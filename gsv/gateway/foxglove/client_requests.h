@@ -43,12 +43,13 @@ class ClientRequests {
   // Sends the playback state after a seek (`has_jumped`) or a change.
   void PublishChanges(bool has_jumped = false);
 
+  // The names of the services that clients can call.
   std::vector<std::string> service_names() const;
 
  private:
   struct ClientState {
     std::weak_ptr<Client> client;
-    bool knows_playback = false;
+    bool knows_playback = false;    // whether the client gets the playback state
     std::set<std::string> watched;  // names of the watched parameters
     // The number of pending calls. An answer may arrive after the client or this object was
     // destroyed.
@@ -57,6 +58,7 @@ class ClientRequests {
 
   // Returns null if the client has reached the limit of pending calls.
   std::shared_ptr<std::atomic<int>> BeginCall(Client* client);
+  // These functions send changed parameters, and a changed playback state, to the clients.
   void PublishParameters();
   void PublishPlayback(bool has_jumped);
 

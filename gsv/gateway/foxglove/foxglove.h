@@ -36,7 +36,7 @@ struct Channel {
   std::string encoding;         // "cdr"
   std::string schema_name;      // "gsv_msgs/msg/Poses"
   std::string schema_encoding;  // "ros2msg"
-  std::string schema;
+  std::string schema;           // the text of the message definition
 };
 
 // The time range of a playback, in nanoseconds.
@@ -47,7 +47,8 @@ struct TimeRange {
 // The first message that a client receives.
 struct ServerInfo {
   std::string name;
-  std::vector<std::string> capabilities;
+  std::vector<std::string> capabilities;  // the protocol's names of optional features
+  // Names and values that the protocol does not define.
   std::map<std::string, std::string> metadata;
   std::string session_id;  // changes when the server restarts
   // Set for a playback, which then has the capability of playback control.
@@ -72,6 +73,7 @@ struct BinaryHeader {
   std::array<std::uint8_t, 13> bytes{};
   std::uint8_t size = 0;
 };
+// The headers of a message of a subscription, and of a message with the present time.
 BinaryHeader MessageDataHeader(SubscriptionId subscription, std::uint64_t time_ns);
 BinaryHeader TimeHeader(std::uint64_t time_ns);
 

@@ -41,6 +41,7 @@ struct Parameter {
 
 // Publishers and subscribers by topic, and providers by service.
 struct ConnectionGraph {
+  // Names of nodes, by topic or service.
   using Parties = std::map<std::string, std::set<std::string>>;
   Parties publishers, subscribers, providers;
 };
@@ -49,10 +50,10 @@ struct ConnectionGraph {
 struct PlaybackState {
   enum class Status : std::uint8_t { kPlaying = 0, kPaused = 1, kBuffering = 2, kEnded = 3 };
   Status status = Status::kPaused;
-  std::uint64_t time_ns = 0;
+  std::uint64_t time_ns = 0;  // position in the recording
   float speed = 1;
-  bool did_seek = false;
-  std::string request;  // id of the request to which this is the answer; empty if there is none
+  bool did_seek = false;  // whether the position has jumped since the last state
+  std::string request;    // id of the request to which this is the answer; empty if there is none
 };
 
 // These functions write messages from the server to a client.

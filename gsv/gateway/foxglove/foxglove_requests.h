@@ -17,20 +17,26 @@
 namespace gsv::gateway::foxglove {
 
 // The messages of clients, and their parts.
+
+// A subscription to a channel. The client chooses its id.
 struct Subscription {
   SubscriptionId id = 0;
   ChannelId channel = 0;
 };
+// Begins subscriptions.
 struct Subscribe {
   std::vector<Subscription> subscriptions;
 };
+// Ends subscriptions.
 struct Unsubscribe {
   std::vector<SubscriptionId> subscriptions;
 };
+// Requests the values of parameters.
 struct GetParameters {
   std::vector<std::string> names;  // empty: all parameters
   std::string request;             // id of the request, which is returned with the answer
 };
+// Changes parameters.
 struct SetParameters {
   std::vector<Parameter> parameters;
   std::string request;
@@ -61,7 +67,7 @@ struct PlaybackControl {
 // Requests the images of a view, which the server draws. This is an extension of the protocol
 // (docs/formats/live.md).
 struct WatchView {
-  SubscriptionId id = 0;
+  SubscriptionId id = 0;       // id of the view, which the client chooses
   std::string camera;          // parameters as in the query of /view.mjpeg
   std::uint32_t sequence = 0;  // number of this camera, which is sent back with each of its images
 };
@@ -72,11 +78,11 @@ struct UnwatchView {
 // The client has shown an image, or has skipped it.
 struct ViewShown {
   SubscriptionId id = 0;
-  std::uint64_t image = 0;
+  std::uint64_t image = 0;  // number of the image, see kImageHeaderSize
 };
 // A message of an unsupported capability.
 struct Unsupported {
-  std::string op;
+  std::string op;  // the protocol's name of the message
 };
 using ClientMessage =
     std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, WatchGraph,

@@ -63,10 +63,12 @@ class Hub {
   // channels.
   std::vector<foxglove::ChannelId> SubscribedChannels() const;
 
+  // A message for the subscribers of a channel.
   struct Message {
     std::uint64_t time_ns = 0;  // NanosecondsOf(simulated time)
     SharedBytes payload;
   };
+  // The subscribers that get a message.
   enum class Audience {
     kAll,
     kEstablished,  // all subscribers except new subscribers
@@ -75,6 +77,7 @@ class Hub {
                Audience audience = Audience::kAll);
   // Sends earlier messages to new subscribers, which then count as established.
   void Welcome(foxglove::ChannelId channel, std::span<const Message> messages);
+  // Sends the simulated time to all clients.
   void PublishTime(std::uint64_t time_ns);
   // Sends a status message. Clients that connect later get the newest status messages as well.
   void SendStatus(foxglove::StatusLevel level, std::string_view message);
@@ -95,8 +98,9 @@ class Hub {
   // A client of the hub.
   struct Member {
     std::shared_ptr<Client> client;
-    std::string name;  // name of the client in the graph
-    bool watches_graph = false;
+    std::string name;            // name of the client in the graph
+    bool watches_graph = false;  // whether it gets changes of the connection graph
+    // The channel of each subscription.
     std::map<foxglove::SubscriptionId, foxglove::ChannelId> subscriptions{};
   };
   // A channel with its subscribers and publishers.
@@ -104,7 +108,7 @@ class Hub {
     foxglove::Channel channel;
     std::map<Client*, Listener> listeners;
     std::set<std::string> publishers{"gsv"};
-    Delivery delivery = Delivery::kNewest;
+    Delivery delivery = Delivery::kNewest;  // how messages reach a slow client
   };
 
   // Carries out a message from a client.
@@ -133,13 +137,13 @@ class Hub {
   foxglove::ChannelId next_channel_ GSV_GUARDED_BY(mutex_) = 1;
   std::map<foxglove::ChannelId, Topic> topics_ GSV_GUARDED_BY(mutex_);
   std::map<Client*, Member> members_ GSV_GUARDED_BY(mutex_);
-  std::uint64_t next_member_ GSV_GUARDED_BY(mutex_) = 1;
-  std::deque<SharedBytes> statuses_ GSV_GUARDED_BY(mutex_);
+  std::uint64_t next_member_ GSV_GUARDED_BY(mutex_) = 1;     // number in the next client's name
+  std::deque<SharedBytes> statuses_ GSV_GUARDED_BY(mutex_);  // the newest status messages
   bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
   foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // the graph that was last sent
   ClientRequests requests_;
   std::shared_ptr<Views> views_ GSV_GUARDED_BY(mutex_);  // null: the server draws no views
-  bool closed_ GSV_GUARDED_BY(mutex_) = false;
+  bool closed_ GSV_GUARDED_BY(mutex_) = false;           // whether Close() was called
   CloseCode close_code_ GSV_GUARDED_BY(mutex_){};
   std::string close_reason_ GSV_GUARDED_BY(mutex_);
 };

@@ -19,6 +19,7 @@ namespace gsv::gateway::history {
 class Histories {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+  // Returns whether the simulation has viewers.
   using IsWatched = std::function<bool(const SimulationPointer&)>;
 
   // `capacity`: bytes for each simulation. This object's own thread calls `is_watched`.
@@ -33,11 +34,13 @@ class Histories {
   void Stop();
 
  private:
+  // A simulation and its history.
   struct Entry {
     std::weak_ptr<simulation::Simulation> simulation;
     std::shared_ptr<recording::RunHistory> history;
   };
 
+  // The main function of the thread.
   void Run();
   // Samples each simulation. Returns true if any simulation has viewers.
   bool Round();

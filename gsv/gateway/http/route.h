@@ -23,6 +23,7 @@ enum class Pool { kReaders, kCommanders };
 // An address of the server, with its permission and its handler.
 struct Route {
   using Handler = std::function<Response(const Request&)>;
+  // Returns the hub that the WebSocket of a request joins.
   using FindHub = std::function<base::Result<std::shared_ptr<Hub>>(const Request&)>;
 
   std::string method;  // "GET" (also for HEAD), "POST", "PUT", "DELETE"

@@ -20,6 +20,7 @@ namespace gsv::gateway {
 // Finds the route of a request.
 class Router {
  public:
+  // The result of Find().
   struct Match {
     const Route* route = nullptr;  // valid during the lifetime of the router; null: see NoRoute()
     // The permission that the answer requires. Without a route: the lowest permission of all routes
@@ -44,7 +45,9 @@ class Router {
   const std::vector<Route>& routes() const { return routes_; }
 
  private:
+  // A node of the tree of patterns: the routes that begin with the same segments.
   struct Node;
+  // Adds the pattern of a route to the tree.
   void Add(const Route& route);
 
   const std::vector<Route> routes_;

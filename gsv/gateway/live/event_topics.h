@@ -23,14 +23,17 @@ class EventTopics {
   void Publish(const simulation::Simulation& simulation);
 
  private:
+  // A topic, and the form of its messages.
   struct Topic {
     foxglove::ChannelId channel = 0;
-    std::size_t history = 0;
+    std::size_t history = 0;  // number of earlier events that a new subscriber gets
+    // Returns the message of an event.
     SharedBytes (*encode)(const simulation::Event& event) = nullptr;
     bool has_notes = false;  // whether the topic has only the notes
   };
   // Events or output, and the topics that publish them.
   struct Source {
+    // Simulation::events() or outputs(), and the member of the status that has their number.
     std::vector<simulation::Event> (simulation::Simulation::*since)(std::uint64_t first) const;
     std::uint64_t simulation::SimulationStatus::*count;
     std::vector<Topic> topics;

@@ -21,9 +21,11 @@ class HealthTopics {
   // Advertises the topics.
   explicit HealthTopics(std::shared_ptr<Hub> hub);
 
+  // Publishes the messages that are due.
   void Publish(simulation::Simulation& simulation, WallTime now);
 
  private:
+  // A topic, and its last message.
   struct Topic {
     foxglove::ChannelId channel = 0;
     Pacing pacing;
@@ -39,7 +41,7 @@ class HealthTopics {
   const std::shared_ptr<Hub> hub_;
   Topic health_, expectations_;
   health::HealthTracker tracker_;
-  messages::gsv_msgs::Health health_sent_;
+  messages::gsv_msgs::Health health_sent_;  // the messages that were published last
   messages::gsv_msgs::Expectations expectations_sent_;
 };
 

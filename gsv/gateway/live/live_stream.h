@@ -58,13 +58,14 @@ class LiveStream {
   // A channel whose messages are encoded from the latest snapshot.
   struct SnapshotTopic {
     foxglove::ChannelId channel = 0;
+    // Returns the message for a snapshot.
     SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
-    double rate = kPublishRate;
+    double rate = kPublishRate;  // Hz
     // The limit of bytes per second does not reduce the rate below this value, in Hz.
     double min_rate = kPublishRate;
     Pacing pacing{rate};
-    std::weak_ptr<const world::Snapshot> published;
-    Hub::Message latest;
+    std::weak_ptr<const world::Snapshot> published;  // the snapshot of the last message
+    Hub::Message latest;                             // the last message, for new subscribers
   };
 
   // Updates the list of poses after a change of the layout, and the topics of sensors when due.
@@ -90,9 +91,9 @@ class LiveStream {
   EventTopics events_;
   HealthTopics health_;
 
-  std::shared_ptr<const world::Layout> layout_;
+  std::shared_ptr<const world::Layout> layout_;     // the layout of the last snapshot
   std::vector<presentation::PoseEntry> pose_list_;  // list of the poses of layout_
-  Pacing refresh_pacing_;
+  Pacing refresh_pacing_;  // limits how often the topics of sensors are listed
   std::weak_ptr<const world::Snapshot> time_of_;  // the last snapshot whose time was published
   CommandTopic commands_;
   ContactTopic contacts_;

@@ -25,8 +25,8 @@ class Pacing {
   void Done(WallTime now) { next_ = (now - next_ > interval_ ? now : next_) + interval_; }
 
  private:
-  std::chrono::nanoseconds interval_{};
-  WallTime next_{};
+  std::chrono::nanoseconds interval_{};  // time between two messages
+  WallTime next_{};                      // time at which the next message is due
 };
 
 }  // namespace gsv::gateway

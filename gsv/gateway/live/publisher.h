@@ -36,6 +36,7 @@ class Publisher {
   void Stop();
 
  private:
+  // A simulation and its live stream.
   struct Entry {
     std::string name;
     std::weak_ptr<simulation::Simulation> simulation;
@@ -52,6 +53,7 @@ class Publisher {
   bool Round();
   // Closes streams whose simulation is no longer in the directory.
   void DropEnded();
+  // Returns a copy of entries_.
   std::vector<Entry> Entries() const;
 
   const std::shared_ptr<SimulationDirectory> directory_;
@@ -62,7 +64,7 @@ class Publisher {
   mutable base::Mutex mutex_;
   base::ConditionVariable changed_;
   std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);
-  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;  // whether a round was requested, see Wake()
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   Pacing directory_pacing_;  // used by thread_ only
   std::thread thread_;

@@ -25,9 +25,9 @@ class RobotBeams {
  public:
   // A sensor with beams.
   struct Source {
-    std::string sensor;
+    std::string sensor;  // name of the sensor
     const sensing::SensorType* type = nullptr;
-    std::shared_ptr<const sensing::Sensor> made;
+    std::shared_ptr<const sensing::Sensor> made;  // the sensor itself
   };
   using Sources = std::map<std::string, std::vector<Source>>;  // by robot
 
@@ -46,6 +46,7 @@ class RobotBeams {
                const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
 
  private:
+  // The topic of one robot, and the state of its readings.
   struct Robot;
 
   void Publish(const std::shared_ptr<simulation::Simulation>& simulation,

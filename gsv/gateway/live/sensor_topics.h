@@ -41,6 +41,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   // Requests the sensors of a robot. The next Refresh() advertises them even beyond
   // kMaxSensorTopics.
   void Want(const std::string& robot) { wanted_.Want(robot); }
+  // Whether sensors were requested since the last Refresh().
   bool has_requests() const { return wanted_.has_requests(); }
 
   // Lists the current sensors; advertises and withdraws their topics.
@@ -51,6 +52,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
                const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
 
  private:
+  // A sensor with its topics, and the state of its readings.
   struct Sensor;
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
   using SensorList = std::vector<std::shared_ptr<Sensor>>;
@@ -93,16 +95,16 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
   std::optional<sensing::SensorSet> made_;  // set by the first Refresh()
   Sensors sensors_;
-  std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
-  std::size_t topics_ = 0;  // number of channels of sensors that were not requested
-  bool limit_reported_ = false;
+  std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;  // sensors_, by channel
+  std::size_t topics_ = 0;       // number of channels of sensors that were not requested
+  bool limit_reported_ = false;  // whether the status message about kMaxSensorTopics was sent
   WantedRobots wanted_;
-  bool transforms_changed_ = true;
-  std::shared_ptr<const SensorList> beam_sensors_;
+  bool transforms_changed_ = true;  // whether the sensors' transforms must be published again
+  std::shared_ptr<const SensorList> beam_sensors_;  // the sensors with beams
   Pacing beams_pacing_;
   std::weak_ptr<const world::Snapshot> beams_of_;  // the snapshot whose beams were read last
-  std::atomic<bool> beams_busy_{false};
-  presentation::BeamMarkers beam_markers_;  // used only by the job that reads the beams
+  std::atomic<bool> beams_busy_{false};            // whether a worker thread reads the beams now
+  presentation::BeamMarkers beam_markers_;         // used only by the job that reads the beams
   RobotBeams robot_beams_;
 };
 

@@ -34,16 +34,17 @@ class StatusTopics {
   void Publish(const simulation::Simulation& simulation, WallTime now);
 
  private:
+  // A topic, and its last message.
   struct Topic {
     foxglove::ChannelId channel = 0;
     SharedBytes (*encode)(const simulation::SimulationStatus& status) = nullptr;
-    Pacing pacing;
+    Pacing pacing;  // limits the rate of all messages
     // nullopt: the size does not limit the rate
     std::optional<double> max_bytes_per_second{};
     std::optional<simulation::Phase> phase{};  // the phase that was last published
     std::uint64_t states = 0;                  // hash of the states that were last published
-    Pacing counters_pacing{pacing};
-    Hub::Message latest{};
+    Pacing counters_pacing{pacing};            // limits the rate of messages without a new state
+    Hub::Message latest{};                     // the last message, for new subscribers
   };
   static double RateFor(const Topic& topic, std::size_t size);  // Hz
   void Publish(Topic& topic, const simulation::Simulation& simulation, WallTime now);

@@ -16,6 +16,7 @@
 
 namespace gsv::gateway {
 
+// Maximum numbers of behaviours that delay steps, and of single steps, in a message.
 inline constexpr std::size_t kMaxHoldUps = 64;
 inline constexpr std::size_t kMaxLongestSteps = 32;
 
@@ -29,6 +30,7 @@ class StepCostTopic {
   void Publish(simulation::Simulation& simulation, WallTime now);
 
  private:
+  // Collects the times of steps on the stepping thread.
   class Watch;
 
   const std::shared_ptr<Hub> hub_;

@@ -57,9 +57,10 @@ class StepEventTopic {
   // queues.
   static constexpr std::size_t kMaxMoments = 64;
 
+  // Collects the events on the stepping thread.
   class Watch final : public simulation::Observer {
    public:
-    using Moment = std::pair<base::SimTime, Message>;
+    using Moment = std::pair<base::SimTime, Message>;  // an event, and the time of its step
 
     explicit Watch(Collect collect) : collect_(std::move(collect)) {}
 
@@ -97,6 +98,7 @@ using ContactTopic = StepEventTopic<messages::gsv_msgs::Contact>;
 // /gsv/radio: radio messages and the robots that receive them.
 using RadioTopic = StepEventTopic<messages::gsv_msgs::Transmission>;
 
+// The functions `collect` of ContactTopic and RadioTopic.
 void CollectContacts(const world::Snapshot& snapshot,
                      std::vector<messages::gsv_msgs::Contact>& found);
 void CollectTransmissions(const world::Snapshot& snapshot,

@@ -14,6 +14,7 @@
 
 namespace gsv::gateway {
 
+// The number of requested robots above which robots without subscribers are removed.
 inline constexpr std::size_t kMaxWantedRobots = 100;
 
 // The robots whose sensor topics viewers have requested.
@@ -21,6 +22,7 @@ class WantedRobots {
  public:
   // Requests the topics of a robot.
   void Want(const std::string& robot);
+  // Whether robots were requested since the last TakeRequests().
   bool has_requests() const;
 
   // Processes the requests since the last call. Returns false if there were none.
@@ -34,7 +36,7 @@ class WantedRobots {
 
  private:
   mutable base::Mutex mutex_;
-  std::set<std::string> requests_ GSV_GUARDED_BY(mutex_);
+  std::set<std::string> requests_ GSV_GUARDED_BY(mutex_);  // requests since the last TakeRequests()
   // Used by the thread that takes the requests.
   std::set<std::string> wanted_;
   std::list<std::string> in_order_;  // the robots in the order of requests

@@ -15,6 +15,7 @@ namespace gsv::gateway::metrics {
 class Exposition {
  public:
   enum class Kind { kCounter, kGauge };
+  // A name and a value that distinguish the samples of a family.
   struct Label {
     std::string_view name, value;
   };
@@ -38,10 +39,11 @@ class Exposition {
   // Writes the line of one sample.
   void Line(std::initializer_list<Label> labels, const std::string& value);
 
-  std::string name_;
+  std::string name_;  // name of the current family
   std::string text_;
 };
 
+// The content type of the text.
 inline constexpr std::string_view kContentType = "text/plain; version=0.0.4; charset=utf-8";
 
 }  // namespace gsv::gateway::metrics

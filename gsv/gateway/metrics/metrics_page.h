@@ -24,13 +24,14 @@ struct BrokerCalls {
 
 // The objects from which GET /metrics reads its numbers.
 struct MetricsSources {
-  std::string version;
+  std::string version;  // version of the program
   // Each source may be null. Its metrics are then left out.
   SimulationDirectory* directory = nullptr;
   RecordingSwitch* recordings = nullptr;
   std::function<BrokerCalls()> broker_calls{};
 };
 
+// Returns the response to GET /metrics.
 Response MetricsPage(const MetricsSources& sources, const Traffic& traffic);
 
 // The routes /healthz and /metrics. The handlers are valid during the lifetime of this object.

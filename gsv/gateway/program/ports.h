@@ -29,6 +29,7 @@ class SimulationDirectory {
 // Threads  any; starting writes models, stopping waits for the disk.
 class RecordingSwitch {
  public:
+  // The state of the recording of one simulation.
   struct State {
     bool is_recording = false;
     std::string path;            // path of the current or the last recording
@@ -45,6 +46,7 @@ class RecordingSwitch {
 
   // Totals of all recordings since this process started.
   struct Totals {
+    // Numbers of current recordings, of recorded and dropped messages, and of written bytes.
     std::uint64_t under_way = 0, messages = 0, dropped = 0, bytes = 0;
   };
   virtual Totals totals() = 0;

@@ -30,8 +30,8 @@ inline tl::unexpected<FieldError> WrongField(std::string field, base::Error erro
 
 // A request to create a simulation.
 struct SimulationRequest {
-  scenario::Scenario scenario;
-  bool record = false;  // whether to record to a file that the server chooses
+  scenario::Scenario scenario;  // the simulation to create, as in a scenario file
+  bool record = false;          // whether to record to a file that the server chooses
 };
 
 // The requested pose of a body.
@@ -50,15 +50,18 @@ struct ObjectRequest {
 // The interface through which the gateway creates and edits simulations.
 class SimulationFactory {
  public:
+  // A model in a list for users.
   struct ModelLine {
     std::string name;
     bool is_avatar = false;
   };
+  // A behaviour that the broker offers, see BehaviourOffer.
   struct BehaviourLine {
     std::string name, description, host;
     std::int32_t pid = 0;
     bool time_managed = true;
   };
+  // The answer of FindBehaviours().
   struct Behaviours {
     std::vector<BehaviourLine> offers;
     std::string broker;         // address of the broker
@@ -91,8 +94,11 @@ class SimulationFactory {
   virtual std::vector<ModelLine> Models() = 0;
   // names of all models, also of models that are not robots
   virtual std::vector<std::string> Objects() = 0;
+  // Returns the behaviours that the broker offers and for which the constraint is TRUE. An empty
+  // constraint is TRUE for all.
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;
 
+  // Whether simulations can be published to ROS 2.
   virtual Ros2Support Ros2() { return {}; }
 
   // Creates a preview of the initial state, without behaviours.

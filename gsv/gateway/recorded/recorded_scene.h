@@ -46,9 +46,10 @@ class RecordedScene {
   base::Result<SharedBytes> Model(const std::string& id) const;
 
  private:
+  // A scene of the recording.
   struct Entry {
-    SharedBytes json;
-    std::map<std::string, std::size_t> body_poses;
+    SharedBytes json;                               // the scene, as in GET …/scene
+    std::map<std::string, std::size_t> body_poses;  // see BodyPoses()
   };
 
   // Reads an attached scene.
@@ -56,9 +57,9 @@ class RecordedScene {
   void Warn(const base::Error& error);
 
   const recording::McapReader& reader_;
-  const ModelSource model_source_;
-  std::set<std::string> robots_;
-  std::map<std::uint32_t, Entry> scenes_;                           // scenes by layout version
+  const ModelSource model_source_;         // provides models that are not attached; may be null
+  std::set<std::string> robots_;           // names of robots and avatars in all scenes
+  std::map<std::uint32_t, Entry> scenes_;  // scenes by layout version
   std::map<std::string, recording::AttachmentIndexRecord> models_;  // by attachment name
   base::Problems problems_;
 };

@@ -19,7 +19,7 @@ namespace gsv::gateway {
 // A message of /gsv/events or /gsv/notes ("note"), or a collision of a robot ("collision").
 struct RecordedEvent {
   base::SimTime time{};
-  std::string event, robot, detail;
+  std::string event, robot, detail;  // kind of the event, the robot (may be empty), and a text
 };
 
 // A message of /rosout.

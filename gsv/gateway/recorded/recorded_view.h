@@ -21,6 +21,7 @@ namespace gsv::gateway {
 // Reconstructs the world at any instant of a recording.
 class RecordedView {
  public:
+  // The world at one instant.
   struct Instant {
     std::shared_ptr<const world::Snapshot> snapshot;
     const view::DrawnScene* scene = nullptr;  // valid during the lifetime of the RecordedView
@@ -37,6 +38,7 @@ class RecordedView {
   base::Result<Instant> At(const messages::gsv_msgs::Poses& poses);
 
  private:
+  // A recorded message of poses, and its time.
   struct Timed {
     base::SimTime time{};
     messages::gsv_msgs::Poses poses;

@@ -14,6 +14,7 @@
 
 namespace gsv::gateway::recordings {
 
+// Maximum number of notes of a recording.
 inline constexpr std::size_t kMaxNotes = 1000;
 
 // A note of a viewer on an instant of a recording.

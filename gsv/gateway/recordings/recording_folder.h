@@ -35,23 +35,24 @@ struct RecordingLine {
   std::uint64_t size = 0;  // bytes
   std::chrono::system_clock::time_point modified;
   State state = State::kComplete;
-  std::string problem;  // a sentence with the reason, if it is unreadable
-  base::SimTime start{}, end{};
-  std::uint64_t messages = 0;
+  std::string problem;           // a sentence with the reason, if it is unreadable
+  base::SimTime start{}, end{};  // simulated times of the first and the last message
+  std::uint64_t messages = 0;    // number of messages
   // Empty or nullopt if the recording does not contain the value.
-  std::string world;
-  std::optional<std::uint64_t> robots;
-  std::string verdict;                // "passed" or "failed"
-  std::string sentence;               // description of the first violation
-  std::optional<double> violation_s;  // simulated time of the first violation
+  std::string world;                    // name of the world
+  std::optional<std::uint64_t> robots;  // number of robots
+  std::string verdict;                  // "passed" or "failed"
+  std::string sentence;                 // description of the first violation
+  std::optional<double> violation_s;    // simulated time of the first violation
 };
 
 // Lists the recordings that viewers may replay.
 class RecordingFolder {
  public:
+  // The result of List().
   struct Listing {
     std::vector<RecordingLine> lines;  // the newest first
-    std::size_t left_out = 0;
+    std::size_t left_out = 0;          // number of older recordings that are not listed
   };
 
   // `only`: the single recording in the folder that is listed, with any extension; empty: all.

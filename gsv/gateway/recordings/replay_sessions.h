@@ -22,8 +22,8 @@ namespace gsv::gateway::recordings {
 
 // The maximum number of open replays, and the time after which a replay without viewers ends.
 struct SessionLimits {
-  std::size_t sessions = 32;
-  std::chrono::milliseconds unwatched{30'000};
+  std::size_t sessions = 32;                    // maximum number of open replays
+  std::chrono::milliseconds unwatched{30'000};  // time after which a replay without viewers ends
 };
 
 // The open replays of recordings.
@@ -36,7 +36,8 @@ class ReplaySessions {
   // session. kUnavailable: too many sessions.
   base::Result<std::string> Open(const std::string& path, const std::string& recording);
 
-  // Adds a session for a player. If `recording` is empty, viewers cannot open the recording again.
+  // Adds a session for a player. `recording` is the name under which viewers can open the recording
+  // after the session has ended. Empty if they cannot, as for the history of a simulation.
   base::Result<std::string> Add(std::unique_ptr<ReplayPlayer> player, const std::string& recording);
 
   // Returns the routes below /replays/{session}/: the API of a replay, and its live stream at ws,
@@ -52,9 +53,10 @@ class ReplaySessions {
   void Stop();
 
  private:
+  // An open replay.
   struct Entry {
     Replay replay;
-    std::chrono::steady_clock::time_point used;
+    std::chrono::steady_clock::time_point used;  // last time at which viewers used it
   };
 
   // Returns the replay of a session. Fails with kNotFound if it does not exist.
@@ -66,7 +68,7 @@ class ReplaySessions {
   const SessionLimits limits_;
   base::Mutex mutex_;
   std::map<std::string, Entry> sessions_ GSV_GUARDED_BY(mutex_);  // by name
-  std::uint64_t next_ GSV_GUARDED_BY(mutex_) = 1;
+  std::uint64_t next_ GSV_GUARDED_BY(mutex_) = 1;                 // the next session's name
   bool is_stopped_ GSV_GUARDED_BY(mutex_) = false;
 };
 

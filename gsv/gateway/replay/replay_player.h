@@ -91,6 +91,7 @@ class ReplayPlayer {
 
   const std::unique_ptr<recording::McapReader> reader_;
   std::string name_;
+  // The mode and the step size of the recorded simulation.
   simulation::Mode mode_ = simulation::Mode::kRealTime;
   base::SimTime step_ = std::chrono::milliseconds(10);
   const RecordedScene scene_;
@@ -101,8 +102,9 @@ class ReplayPlayer {
   mutable base::Mutex mutex_;
   base::ConditionVariable changed_;
   ReplayClock clock_ GSV_GUARDED_BY(mutex_);
+  // Whether the position has jumped since the last publication.
   bool has_jumped_ GSV_GUARDED_BY(mutex_) = false;
-  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;  // see Wake()
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
 
   ReplayStream stream_;

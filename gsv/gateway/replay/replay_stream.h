@@ -53,13 +53,15 @@ class ReplayStream {
   messages::gsv_msgs::Poses recorded_poses() const;
 
  private:
+  // How the messages of a topic are published. kPlain: the newest message.
   enum class Kind { kPlain, kEvents, kStatus, kClock, kPoses };
+  // The messages of one channel of the recording.
   struct Track {
     Kind kind = Kind::kPlain;
-    foxglove::ChannelId channel = 0;  // 0 if the track is not published
-    bool is_wanted = false;           // true if it is advertised because its robot was requested
-    std::optional<Hub::Message> latest;
-    bool is_fresh = false;
+    foxglove::ChannelId channel = 0;     // 0 if the track is not published
+    bool is_wanted = false;              // true if it is advertised because its robot was requested
+    std::optional<Hub::Message> latest;  // the newest message; nullopt before the first one
+    bool is_fresh = false;               // whether `latest` was not published yet
   };
 
   // Returns how the messages of a topic are published.
@@ -91,16 +93,16 @@ class ReplayStream {
 
   const recording::McapReader& reader_;
   const std::shared_ptr<Hub> hub_;
-  foxglove::ChannelId clock_channel_ = 0, status_channel_ = 0;
-  std::map<std::uint16_t, Track> tracks_;
+  foxglove::ChannelId clock_channel_ = 0, status_channel_ = 0;  // /clock and /gsv/status; 0: none
+  std::map<std::uint16_t, Track> tracks_;                       // by channel of the recording
   WantedRobots wanted_;
-  std::optional<recording::MessageCursor> cursor_;
-  std::optional<recording::MessageRecord> next_;  // the next message of cursor_
-  std::optional<base::SimTime> published_time_;
+  std::optional<recording::MessageCursor> cursor_;  // position in the recording
+  std::optional<recording::MessageRecord> next_;    // the next message of cursor_
+  std::optional<base::SimTime> published_time_;     // the time and phase that were published last
   std::optional<simulation::Phase> published_phase_;
   Pacing status_pacing_;
   bool has_jumped_ = false;  // whether there was a jump since the last Publish()
-  int warnings_ = 0;
+  int warnings_ = 0;         // number of warnings so far, which is limited
 
   mutable base::Mutex mutex_;
   SharedBytes status_ GSV_GUARDED_BY(mutex_);  // the status as it was recorded

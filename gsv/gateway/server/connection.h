@@ -14,21 +14,21 @@ namespace gsv::gateway {
 
 // The objects that all connections of a server use.
 struct ServerContext {
-  ServerOptions options;
-  AccessRule access;
+  ServerOptions options;  // as passed to Server::Start()
+  AccessRule access;      // checks the Host and Origin headers
   const std::shared_ptr<access::Authenticator> authenticator;
   Handler& handler;
   const std::shared_ptr<metrics::Traffic> traffic;
   const std::shared_ptr<boost::asio::ssl::context> tls;  // null for plain HTTP
   std::atomic<std::size_t> uploads{0};                   // current number of uploads
-  std::atomic<bool> stopping{false};
+  std::atomic<bool> stopping{false};                     // whether the server is being stopped
 };
 
 // The owner of a WebSocket.
 struct SocketOwner {
-  access::Principal principal;
-  std::string viewer;       // key of the viewer, or empty
-  bool is_private = false;  // whether the client's commands affect no other viewer
+  access::Principal principal;  // the sender of the request that opened it
+  std::string viewer;           // key of the viewer, or empty
+  bool is_private = false;      // whether the client's commands affect no other viewer
 };
 
 // Counts one connection during its lifetime.
@@ -64,7 +64,7 @@ class UploadSlot {
       : context_(std::move(context)), number_(++context_->uploads) {}
 
   const std::shared_ptr<ServerContext> context_;
-  const std::size_t number_;
+  const std::size_t number_;  // number of uploads, including this one, when it began
 };
 
 // The interface with which the server ends a session (HttpSession or WebSocketSession).

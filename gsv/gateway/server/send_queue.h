@@ -25,16 +25,16 @@ namespace gsv::gateway {
 
 // The limits of a SendQueue.
 struct SendLimits {
-  std::size_t control_bytes = 32u << 20;
-  std::size_t data_bytes = 16u << 20;
-  std::size_t data_messages = 256;
+  std::size_t control_bytes = 32u << 20;  // maximum size of queued control messages
+  std::size_t data_bytes = 16u << 20;     // maximum size of queued data messages
+  std::size_t data_messages = 256;        // maximum number of queued data messages
 };
 
 // A message in a SendQueue.
 struct Outgoing {
   using Time = std::chrono::steady_clock::time_point;
 
-  bool is_text = false;
+  bool is_text = false;           // whether it is a text message, not a binary one
   bool is_data = false;           // false: a control message
   foxglove::BinaryHeader header;  // empty for control messages
   SharedBytes payload;
@@ -48,7 +48,7 @@ struct Outgoing {
 class SendQueue {
  public:
   using Time = Outgoing::Time;
-  static constexpr std::chrono::milliseconds kMaxWait{200};
+  static constexpr std::chrono::milliseconds kMaxWait{200};  // see "Newest" above
 
   explicit SendQueue(const SendLimits& limits) : limits_(limits) {}
 
@@ -57,9 +57,10 @@ class SendQueue {
   // Always keeps the newest message. Returns the number of older messages that were dropped.
   std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload, Delivery delivery,
                        Time now);
+  // The result of Pop().
   struct Popped {
-    std::optional<Outgoing> message;
-    std::size_t left_out = 0;  // number of older data messages that were dropped
+    std::optional<Outgoing> message;  // nullopt if there is no message
+    std::size_t left_out = 0;         // number of older data messages that were dropped
   };
   // Removes and returns the next message: control messages first, then data, each in order. If
   // `allows_data` is false, returns only control messages.

@@ -33,14 +33,15 @@ class SendWindow {
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
 
-  static constexpr std::size_t kFirstBytes = 16u << 10;
-  static constexpr std::size_t kMinBytes = 8u << 10;
-  static constexpr std::size_t kMaxBytes = 4u << 20;
+  static constexpr std::size_t kFirstBytes = 16u << 10;  // size of the window at the start
+  static constexpr std::size_t kMinBytes = 8u << 10;     // minimum size of the window
+  static constexpr std::size_t kMaxBytes = 4u << 20;     // maximum size of the window
+  // Delays of a full window in addition to the minimum delay, see above.
   static constexpr std::chrono::milliseconds kAimedDelay{200}, kMaxDelay{300};
   // A ping that is sent after data may have to wait for the data, so its delay may be longer than
   // the minimum delay. A minimum delay that was measured in this way is limited to this value.
   static constexpr std::chrono::milliseconds kMaxMinDelay{500};
-  static constexpr std::chrono::seconds kMinDelayAge{30};
+  static constexpr std::chrono::seconds kMinDelayAge{30};  // see above
   static constexpr std::chrono::milliseconds kPingPeriod{100};
   // A pong is late if its delay exceeds the minimum delay by more than kMaxDelay. A connection
   // counts as slow after its pongs were late for kSlowAfter. It counts as fast again after no pong
@@ -95,7 +96,7 @@ class SendWindow {
     std::size_t data_position = 0;  // data bytes sent before the ping
     std::size_t bytes = 0;          // bytes sent since the previous ping
     Time first_started{};           // start of the first message after the previous ping
-    Time started{};
+    Time started{};                 // see Ping()
     // whether the ping measures the minimum delay: all data were confirmed before it
     bool measures = false;
   };
@@ -109,20 +110,20 @@ class SendWindow {
   void TakeMinDelay(const Mark& mark, Time now);
 
   std::size_t bytes_ = kFirstBytes;
-  std::size_t sent_ = 0;  // all bytes that were sent
-  std::size_t data_sent_ = 0, data_confirmed_ = 0;
-  std::optional<Mark> mark_;  // the ping without a pong
-  std::uint64_t pings_ = 0;
+  std::size_t sent_ = 0;                            // all bytes that were sent
+  std::size_t data_sent_ = 0, data_confirmed_ = 0;  // data bytes that were sent and confirmed
+  std::optional<Mark> mark_;                        // the ping without a pong
+  std::uint64_t pings_ = 0;                         // number of pings so far
   Time last_ping_{}, last_pong_{};
-  std::size_t last_position_ = 0;      // bytes sent before the last ping
-  std::optional<Time> first_started_;  // start of the first message after the last ping
-  std::optional<Clock::duration> min_delay_;
-  Time min_measured_{};      // when min_delay_ was measured
-  bool measures_ = false;    // whether the minimum delay is being measured again
-  bool holds_back_ = false;  // whether a message had to wait since the last pong
+  std::size_t last_position_ = 0;             // bytes sent before the last ping
+  std::optional<Time> first_started_;         // start of the first message after the last ping
+  std::optional<Clock::duration> min_delay_;  // the minimum delay; nullopt before the first pong
+  Time min_measured_{};                       // when min_delay_ was measured
+  bool measures_ = false;                     // whether the minimum delay is being measured again
+  bool holds_back_ = false;                   // whether a message had to wait since the last pong
   bool is_slow_ = false;
-  std::optional<double> rate_;
-  std::optional<Time> first_late_, last_late_;
+  std::optional<double> rate_;  // bytes/s, measured when the connection was last busy
+  std::optional<Time> first_late_, last_late_;  // first and last late pong of the present series
 };
 
 }  // namespace gsv::gateway

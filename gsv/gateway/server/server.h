@@ -22,9 +22,9 @@ namespace gsv::gateway {
 
 // Limits that protect a server from its clients. Sizes are in bytes.
 struct ServerLimits {
-  std::size_t connections = 256;
-  std::uint32_t header_bytes = 16u << 10;
-  std::uint64_t body_bytes = 64u << 10;
+  std::size_t connections = 256;           // maximum number of open connections
+  std::uint32_t header_bytes = 16u << 10;  // maximum size of a request's header
+  std::uint64_t body_bytes = 64u << 10;    // maximum size of a request's body, except uploads
   std::uint64_t upload_bytes = 64u << 20;  // maximum size of one file
   std::size_t uploads_at_once = 4;         // an upload is in memory until it is complete
   std::size_t message_bytes = 256u << 10;  // maximum size of one WebSocket message from a client
@@ -32,7 +32,7 @@ struct ServerLimits {
   std::chrono::milliseconds request_time{30'000};
   // Time without an answer to pings after which a viewer is disconnected.
   std::chrono::milliseconds idle_time{60'000};
-  SendLimits send;
+  SendLimits send;  // limits of the queue to each client
 };
 
 // Names of PEM files; either both names are set, or neither.
@@ -61,6 +61,7 @@ struct ServerOptions {
 class Handler {
  public:
   virtual ~Handler() = default;
+  // The routes by which the server finds the handler of a request.
   virtual const Router& router() const = 0;
   // Runs the handler of the route, on the threads that the route names. `respond` must be called
   // once, now or later, from any thread, before the server is stopped.

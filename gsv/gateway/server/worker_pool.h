@@ -32,6 +32,7 @@ class WorkerPool {
   void Stop();
 
  private:
+  // The function of each thread.
   void Work();
 
   const std::size_t queue_limit_;

@@ -61,9 +61,9 @@ class FakeFactory final : public SimulationFactory {
     return SavedWorld{"<sdf/>", "world: " + file + "\n", {"no mesh"}};
   }
 
-  Ros2Support ros2;
-  std::optional<FieldError> refusal;
-  ObjectRequest asked;  // the last requested object
+  Ros2Support ros2;                   // the result of Ros2()
+  std::optional<FieldError> refusal;  // if set, requests are refused with this error
+  ObjectRequest asked;                // the last requested object
 
  private:
   SimulationList& list_;

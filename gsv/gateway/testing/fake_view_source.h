@@ -33,6 +33,7 @@ class FakeViewSource final : public drawing::ViewSource {
         snapshot->state.time};
   }
 
+  // Makes a new snapshot, whose time is one second later.
   void Change() {
     auto model = std::make_shared<model::Model>();
     model->links.resize(1);
@@ -50,8 +51,8 @@ class FakeViewSource final : public drawing::ViewSource {
     snapshot_ = snapshot;
   }
 
-  std::atomic<int> looks = 0;
-  std::atomic<bool> has_ended = false;
+  std::atomic<int> looks = 0;           // number of calls of Now()
+  std::atomic<bool> has_ended = false;  // if true, Now() fails as for a removed simulation
 
  private:
   base::Mutex mutex_;

@@ -21,6 +21,7 @@ class LiveStreamTest : public ::testing::Test {
   void SetUp() override { stream_.hub()->Add(client_); }
   void TearDown() override { workers_.Stop(); }
 
+  // Advances the wall clock and runs one round of the stream.
   void Round(std::chrono::milliseconds later = std::chrono::milliseconds(34)) {
     now_ += later;
     stream_.Round(simulation_, now_);
@@ -45,6 +46,7 @@ class LiveStreamTest : public ::testing::Test {
     return client_->data(id)[count - 1];
   }
 
+  // The number of status messages with this sentence that the client has received.
   std::size_t WarningCount(const std::string& sentence) const {
     const auto texts = client_->texts();
     return static_cast<std::size_t>(

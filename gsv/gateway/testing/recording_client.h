@@ -15,7 +15,7 @@ namespace gsv::gateway::testing {
 
 // A binary message that a client has received, parsed.
 struct ReceivedData {
-  int opcode = 0;
+  int opcode = 0;                             // 1: message of a subscription; 2: time
   foxglove::SubscriptionId subscription = 0;  // opcode 1
   std::uint64_t time_ns = 0;
   std::string payload;
@@ -38,6 +38,7 @@ Message Decoded(const ReceivedData& data) {
   return messages::Decode<Message>(bytes).value();
 }
 
+// A client that keeps all messages.
 class RecordingClient final : public Client {
  public:
   void SendText(SharedBytes text) override {
@@ -65,6 +66,7 @@ class RecordingClient final : public Client {
     close_reason_ = std::move(reason);
   }
 
+  // Returns the text messages.
   std::vector<nlohmann::json> texts() const {
     const std::lock_guard lock(mutex_);
     return texts_;
@@ -86,6 +88,7 @@ class RecordingClient final : public Client {
     return found;
   }
 
+  // Returns the times that the server sent, in nanoseconds.
   std::vector<std::uint64_t> times() const {
     const std::lock_guard lock(mutex_);
     std::vector<std::uint64_t> times;

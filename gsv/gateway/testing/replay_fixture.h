@@ -20,10 +20,12 @@
 
 namespace gsv::gateway::testing {
 
+// Writes the model's name instead of a GLB file.
 inline base::Result<std::vector<std::uint8_t>> NameAsGlb(const model::Model& model) {
   return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
 }
 
+// Returns the path of a recording in the folder for temporary files.
 inline std::string PathFor(const std::string& name) {
   return ::testing::TempDir() + "gsv_replay_" + std::to_string(getpid()) + "_" + name + ".mcap";
 }
@@ -75,6 +77,7 @@ class ReplayGatewayTest : public ::testing::Test {
 
   std::uint16_t port() const { return gateway_->port(); }
   HttpReply Get(const std::string& target) const { return Fetch(port(), "GET", target); }
+  // Requests an action of the replay, such as "pause".
   HttpReply Post(const std::string& action, const std::string& body = "") const {
     return Fetch(port(), "POST", "/api/simulations/simulation/" + action, "", body);
   }

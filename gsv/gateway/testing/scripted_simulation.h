@@ -31,6 +31,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   void Meet(const std::string& first, const std::string& second);
   // Passes the times of a step to the observers that request them.
   void Time(const simulation::StepTimes& times);
+  // The number of observers that were added.
   std::size_t observers() const;
   // Adds a robot at the end; the layout changes.
   void AddOneRobot();
@@ -104,7 +105,7 @@ class ScriptedSimulation final : public simulation::Simulation {
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  int robots_ = 0;
+  int robots_ = 0;  // number of robots
   simulation::Phase phase_ = simulation::Phase::kCreated;
   base::SimTime time_{0};
   std::shared_ptr<const world::Layout> layout_;
@@ -112,6 +113,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   std::vector<simulation::Event> events_, outputs_;
   std::weak_ptr<const simulation::ExpectationSource> expectations_;
   std::map<std::string, simulation::Motion> motions_;  // by robot
+  // Sensors that Mount() has added, by robot.
   std::map<std::string, std::vector<model::SensorDescription>> mounted_;
   std::map<std::string, world::DriveState> drive_states_;  // by robot
   std::function<base::Status(const std::string&)> on_watch_;

@@ -70,7 +70,7 @@ class Echo final : public Handler {
         const std::lock_guard lock(mutex_);
         changed_.notify_all();
       });
-  foxglove::ChannelId channel_ = 0;
+  foxglove::ChannelId channel_ = 0;  // the channel "/numbers"
   const Router router_{Routes()};
 };
 

@@ -47,6 +47,7 @@ HttpReply Fetch(std::uint16_t port, const std::string& method, const std::string
 // A viewer: a WebSocket that speaks the Foxglove protocol.
 class Viewer {
  public:
+  // A message from the server.
   struct Frame {
     bool is_text = false;
     std::string bytes;
@@ -96,8 +97,8 @@ class Viewer {
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
-  std::map<std::string, foxglove::ChannelId> channels_;
-  std::map<std::string, std::uint32_t> services_;
+  std::map<std::string, foxglove::ChannelId> channels_;  // advertised channels, by topic
+  std::map<std::string, std::uint32_t> services_;        // advertised services, by name
   std::map<foxglove::SubscriptionId, std::deque<ReceivedData>> kept_;
 };
 

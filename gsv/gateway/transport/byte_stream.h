@@ -54,6 +54,7 @@ class ByteStream {
   // Shuts TLS down. Without TLS, calls then() at once.
   void Shutdown(Completion then);
 
+  // These functions read or write some bytes, at least one, and call `then`.
   void ReadSome(boost::asio::mutable_buffer into, Completion then);
   void WriteSome(const Parts& parts, Completion then);
   // Ends the connection of a WebSocket with the closing handshake.
@@ -84,6 +85,7 @@ class ByteStream {
 
  private:
   template <typename Buffers>
+  // Returns the first buffer that is not empty.
   static boost::asio::mutable_buffer FirstOf(const Buffers& buffers) {
     const auto end = boost::asio::buffer_sequence_end(buffers);
     for (auto part = boost::asio::buffer_sequence_begin(buffers); part != end; ++part) {
@@ -93,6 +95,7 @@ class ByteStream {
     return {};
   }
   template <typename Buffers>
+  // Returns the buffers that are not empty, at most as many as Parts can have.
   static Parts PartsOf(const Buffers& buffers) {
     Parts parts;
     const auto end = boost::asio::buffer_sequence_end(buffers);
@@ -105,7 +108,7 @@ class ByteStream {
   }
 
   std::optional<boost::beast::tcp_stream> plain_;  // until StartTls()
-  std::unique_ptr<Tls> tls_;
+  std::unique_ptr<Tls> tls_;                       // since StartTls(); null for plain TCP
 };
 
 }  // namespace gsv::gateway::transport

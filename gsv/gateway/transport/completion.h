@@ -26,6 +26,7 @@ class Completion {
   }
 
  private:
+  // The type-erased handler.
   struct AnyStep {
     virtual ~AnyStep() = default;
     virtual void Take(boost::system::error_code error, std::size_t bytes) = 0;
@@ -44,7 +45,7 @@ class Completion {
     Then then;
   };
 
-  std::unique_ptr<AnyStep> step_;
+  std::unique_ptr<AnyStep> step_;  // null after the call
 };
 
 }  // namespace gsv::gateway::transport

@@ -43,9 +43,9 @@ class UploadFolder {
   const UploadLimits limits_;
   base::Mutex mutex_;
   std::optional<base::TemporaryFolder> folder_ GSV_GUARDED_BY(mutex_);  // created on demand
-  std::uint64_t sets_ GSV_GUARDED_BY(mutex_) = 0;
-  std::size_t files_ GSV_GUARDED_BY(mutex_) = 0;
-  std::uint64_t bytes_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t sets_ GSV_GUARDED_BY(mutex_) = 0;                       // number of sets so far
+  std::size_t files_ GSV_GUARDED_BY(mutex_) = 0;    // number of files in all sets
+  std::uint64_t bytes_ GSV_GUARDED_BY(mutex_) = 0;  // size of all files
 };
 
 }  // namespace gsv::gateway::uploads

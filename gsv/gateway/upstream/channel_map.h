@@ -38,17 +38,19 @@ class ChannelMap {
   void Clear();
 
  private:
+  // A channel of the other instance.
   struct Source {
-    foxglove::ChannelId theirs = 0;
-    std::size_t memory = 1;  // number of kept messages for a new subscriber
-    bool is_subscribed = false;
-    std::deque<Hub::Message> latest;
+    foxglove::ChannelId theirs = 0;   // number of the channel at the other instance
+    std::size_t memory = 1;           // number of kept messages for a new subscriber
+    bool is_subscribed = false;       // whether this program subscribes to it at the other instance
+    std::deque<Hub::Message> latest;  // the kept messages
   };
   // Sends the kept messages to new subscribers of the local channel `ours`.
   void Welcome(foxglove::ChannelId ours, const Source& source);
 
   const std::shared_ptr<Hub> hub_;
   std::map<foxglove::ChannelId, Source> sources_;  // sources by local number
+  // The local number of each channel of the other instance.
   std::map<foxglove::ChannelId, foxglove::ChannelId> ours_by_theirs_;
 };
 

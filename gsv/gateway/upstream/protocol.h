@@ -36,6 +36,7 @@ struct MessageData {
   std::uint64_t time_ns = 0;
   std::string_view payload;
 };
+// The simulated time of the server.
 struct Time {
   std::uint64_t time_ns = 0;
 };

@@ -14,6 +14,7 @@ void StartTls(transport::ByteStream& stream, const Address& address, transport::
 
 // Returns the reason for a failed connection, with advice.
 std::string WhyNotConnected(const boost::system::error_code& error);
+// Advice for the user if no connection can be made.
 inline constexpr char kConnectionHint[] = "check that gsv runs there and that the address is right";
 
 }  // namespace gsv::gateway::upstream
