@@ -50,6 +50,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
                 std::vector<Reading>& readings) override;
   bool IsRunning() const override { return running_; }
   std::string error() const override;
+  // OpenPort() opens a sensor of the robot's model. CreatePort() adds a new sensor and opens it.
   base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
   base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
 

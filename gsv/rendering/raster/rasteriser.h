@@ -23,8 +23,8 @@ struct Drawn {
   const RasterMesh* mesh = nullptr;
   const Level* level = nullptr;
   const DrawGroup* group = nullptr;
-  const SurfaceFactors* factors = nullptr;
-  float rows[3][4];    // relative_from_mesh
+  const SurfaceFactors* factors = nullptr;  // colours and roughness of the item's material
+  float rows[3][4];                         // relative_from_mesh
   float normal[3][3];  // transforms the mesh's normals, which then do not have unit length
 };
 

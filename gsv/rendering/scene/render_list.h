@@ -38,7 +38,8 @@ struct DrawGroup {
   bool ground = false;  // true for a ground plane, which is drawn behind coplanar surfaces
 };
 
-// Linear colours for the shader.
+// The factors of a material (as in glTF): the shader multiplies the values of its textures by them.
+// Colours are linear.
 struct SurfaceFactors {
   std::array<float, 4> base_colour;  // red, green, blue, alpha
   // red, green and blue of the emitted light; then the metalness
