@@ -20,8 +20,8 @@ namespace gsv::campaign {
 
 // The arguments of a queue's constructor. `commands` must outlive the queue.
 struct QueueContext {
-  CommandRunner& commands;
-  std::string program;                                   // the path of gsv on other machines
+  CommandRunner& commands;  // runs the programs of the queue, such as sbatch
+  std::string program;      // the path of gsv on other machines
   std::function<void(const std::string& sentence)> say;  // prints a sentence for the user
   std::function<std::chrono::steady_clock::time_point()> now = &std::chrono::steady_clock::now;
 };

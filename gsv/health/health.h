@@ -63,7 +63,7 @@ struct RobotHealth {
 // The health of all robots of a simulation at one instant.
 struct Report {
   base::SimTime time{0};
-  std::int64_t step = 0;
+  std::int64_t step = 0;         // number of the simulation's step
   base::SimTime stuck_after{0};  // time without motion after which a commanded robot is stuck
   std::array<std::uint32_t, kStates> counts{};  // number of robots in each State
   std::vector<RobotHealth> robots;              // ordered by name; without stations

@@ -55,7 +55,7 @@ class alignas(64) HostedBehaviour final : public simulation::LocalBehaviour {
   std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);
 
   std::unique_ptr<Behaviour> behaviour_ GSV_GUARDED_BY(mutex_);
-  std::shared_ptr<simulation::Agent> agent_ GSV_GUARDED_BY(mutex_);
+  std::shared_ptr<simulation::Agent> agent_ GSV_GUARDED_BY(mutex_);  // the robot in the simulation
   RunFailure failure_ GSV_GUARDED_BY(mutex_);
   const std::string name_, place_;
   const BehaviourFactory factory_;

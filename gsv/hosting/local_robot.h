@@ -101,8 +101,8 @@ class alignas(64) LocalRobot final : public Robot {
   bool is_plan_shared_ = false;                 // whether plan_ is a result of Share()
   std::atomic<bool> is_running_{true};
 
-  const std::shared_ptr<simulation::Agent> agent_;
-  Suspend suspend_;
+  const std::shared_ptr<simulation::Agent> agent_;  // the robot in the simulation
+  Suspend suspend_;              // suspends the behaviour; empty before SetSuspend()
   std::vector<SensorPtr> open_;  // ordered by name
   std::string error_;            // reason for the end of the run; empty if there is none
 };

@@ -18,6 +18,7 @@ struct RecordedDeviceCommand {
   world::DeviceCommand command;
 };
 
+// A message of a radio.
 struct RecordedTransmission {
   std::string radio, receiver, content;
 };

@@ -32,16 +32,17 @@ struct ForwardedQuery {
   std::string preference;
   DesiredProperties desired;  // includes the properties that the preference needs
   std::size_t at_most = 0;    // the maximum number of offers from each trader
+  // The query ends at this time, with or without answers.
   std::chrono::steady_clock::time_point deadline;
 };
 
 // A trader to which a query is forwarded, and the parts of the query that are specific to this
 // trader.
 struct QueryDestination {
-  std::string name;        // the name in messages, such as "link north"
-  std::string target;      // the trader's Lookup: "IOR:…"
-  std::string constraint;  // the constraint for this trader; a proxy's recipe may change it
-  CosTrading::PolicySeq policies;
+  std::string name;                // the name in messages, such as "link north"
+  std::string target;              // the trader's Lookup: "IOR:…"
+  std::string constraint;          // the constraint for this trader; a proxy's recipe may change it
+  CosTrading::PolicySeq policies;  // the policies for this trader
 };
 
 // The answer of one trader.

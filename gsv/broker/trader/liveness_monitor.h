@@ -78,7 +78,7 @@ class LivenessMonitor {
 
   const LivenessOptions options_;
   Trader& trader_;
-  const Ask ask_;
+  const Ask ask_;  // calls a service
 
   base::Mutex mutex_;
   base::ConditionVariable ending_changed_;  // notified when the monitor ends

@@ -205,7 +205,7 @@ class Trader {
   TypeRepository types_ GSV_GUARDED_BY(mutex_);
   mutable OfferStore offers_ GSV_GUARDED_BY(mutex_);  // mutable, because a query may add an index
   LinkTable links_ GSV_GUARDED_BY(mutex_);
-  Journal::ChangeNumber last_change_ GSV_GUARDED_BY(mutex_) = 0;
+  Journal::ChangeNumber last_change_ GSV_GUARDED_BY(mutex_) = 0;  // the last recorded change
 };
 
 // A change is in the data file before its caller gets an answer. No thread holds the lock while it

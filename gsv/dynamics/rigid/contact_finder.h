@@ -62,10 +62,10 @@ class ContactFinder {
  private:
   // All solids of one body. Their pieces are consecutive.
   struct Group {
-    int moving = -1;  // index of the rigid body, or -1 for a planar body
-    int first_collider = 0, collider_count = 0;
-    int first_piece = 0, piece_count = 0;
-    geometry::Vector3 low, high;
+    int moving = -1;                             // index of the rigid body, or -1 for a planar body
+    int first_collider = 0, collider_count = 0;  // range in colliders_
+    int first_piece = 0, piece_count = 0;        // range in pieces_
+    geometry::Vector3 low, high;                 // bounding box in the world
     double reach = 0;  // maximum distance that the body may move in the substep, m
   };
   // A piece of a static body.

@@ -175,7 +175,7 @@ class IslandSolver {
   std::vector<double> start_, free_, momenta_, velocities_;
   std::vector<double> matrix_, unknown_;  // the linear equations for the velocities
   std::vector<double> side_values_[3];  // values of a contact's three rows, before they are stored
-  std::vector<geometry::Vector3> motions_;
+  std::vector<geometry::Vector3> motions_;  // memory for LinkTree::PointMotions()
   ImpulseRows impulse_rows_;
   ContactSweeps sweeps_;
   OverlapRemoval overlaps_;

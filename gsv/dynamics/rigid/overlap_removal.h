@@ -51,7 +51,7 @@ class OverlapRemoval {
   struct Row {
     int first, second;
     geometry::Vector3 normal;
-    double gap;
+    double gap;  // see AddContact(), m
     // Wanted velocity along the normal (m/s), effective mass (kg), and impulse so far (N s).
     double target = 0, mass = 0, impulse = 0;
   };

@@ -31,7 +31,7 @@ class RestingState {
   double seconds_ = 0;         // length of the stored step
   std::vector<double> state_;  // poses, velocities and joints of the rigid bodies
   std::vector<Area> areas_;    // see Remember()
-  std::shared_ptr<const world::EngineState> engine_;
+  std::shared_ptr<const world::EngineState> engine_;  // State::engine after the stored step
 };
 
 }  // namespace gsv::dynamics

@@ -68,7 +68,7 @@ class RigidShapes {
     // NOLINTNEXTLINE(modernize-use-nullptr)
     friend auto operator<=>(const MeshKey&, const MeshKey&) = default;
   };
-  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;  // all shapes of the layout except meshes
   std::map<MeshKey, std::unique_ptr<StandingMesh>> meshes_, used_before_;  // never iterated
 };
 

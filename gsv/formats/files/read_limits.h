@@ -15,12 +15,12 @@ struct ReadLimits {
   int xml_depth = 64;                 // nested elements
   int include_depth = 16;             // files that include each other
   std::size_t models_in_world = 100'000;
-  std::size_t mesh_bytes = 512u << 20;
-  std::size_t mesh_triangles = 5'000'000;
+  std::size_t mesh_bytes = 512u << 20;     // maximum size of a mesh file
+  std::size_t mesh_triangles = 5'000'000;  // maximum number in one mesh, as for vertices
   std::size_t mesh_vertices = 10'000'000;
-  std::size_t texture_bytes = 256u << 20;
-  int texture_side = 8192;   // pixels
-  int heightmap_side = 513;  // vertices per side; larger images are sampled down
+  std::size_t texture_bytes = 256u << 20;  // maximum size of an image file
+  int texture_side = 8192;                 // pixels
+  int heightmap_side = 513;                // vertices per side; larger images are sampled down
   bool operator==(const ReadLimits&) const = default;
 };
 

@@ -21,7 +21,7 @@ namespace gsv::formats {
 // A grid of heights in the file's unit (metres for a digital elevation model), rows from the north.
 // All heights are finite: samples that the file marks as unknown get the lowest height.
 struct HeightGrid {
-  int width = 0, height = 0;
+  int width = 0, height = 0;    // numbers of columns and rows
   std::vector<double> heights;  // width * height
   // Distance between samples in metres, if the file has it.
   std::optional<geometry::Vector2> spacing;

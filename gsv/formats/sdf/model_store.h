@@ -26,8 +26,8 @@ struct StoredFile {
   FramedModel framed;  // its model is null if the file contains a light
   std::optional<model::Light> light;
   geometry::Pose world_from_light;  // pose of the light in the file
-  base::Problems problems;
-  base::Problems broken_rules;  // see ReadOptions::check_rules
+  base::Problems problems;          // problems that were found while the file was read
+  base::Problems broken_rules;      // see ReadOptions::check_rules
 };
 
 // Reads model files, each once.
@@ -80,7 +80,7 @@ class ModelStore {
   SensorCheck check_sensor_;
   TextureReader textures_;
   MeshReader meshes_;
-  base::Problems problems_of_refused_;
+  base::Problems problems_of_refused_;  // see TakeProblemsOfRefused()
   // The files that were read, by path and `plugins`.
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
   // The files of files_ by the names in <uri> elements, so that each name is searched once.

@@ -16,7 +16,7 @@ namespace gsv::formats {
 // models.
 struct FramedModel {
   std::shared_ptr<const model::Model> model;
-  std::map<std::string, geometry::Pose> model_from_frame;
+  std::map<std::string, geometry::Pose> model_from_frame;  // by the frame's name
 };
 
 // Converts a model. Fails if the model has no link, or a link with non-finite values. Appends all

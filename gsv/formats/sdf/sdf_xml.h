@@ -58,7 +58,7 @@ class LineKeepingPrinter {
   void AdvanceTo(int line);
 
   std::string out_;
-  int line_ = 1;
+  int line_ = 1;              // number of the line that is being printed
   bool marks_lines_ = false;  // whether to print kLineAttribute
 };
 

@@ -8,7 +8,7 @@ namespace gsv::formats::xacro {
 
 // A file name, split into the path and the arguments for xacro.
 struct NamedFile {
-  std::string file;
+  std::string file;                              // the path, without arguments
   std::map<std::string, std::string> arguments;  // empty if it is not a xacro file
 };
 

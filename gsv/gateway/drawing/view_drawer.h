@@ -90,7 +90,7 @@ class ViewDrawer {
  private:
   // A world that is drawn: its source, and the newest state of it.
   struct World {
-    std::weak_ptr<const void> identity;
+    std::weak_ptr<const void> identity;  // see SetSource()
     std::shared_ptr<ViewSource> source;
     std::shared_ptr<const world::Snapshot> snapshot;  // newest state seen by the drawer
     std::uint64_t number = 0;                         // number of this state

@@ -132,7 +132,7 @@ class Hub {
 
   foxglove::ServerInfo info_;
   const std::string simulation_;
-  const std::function<void()> on_demand_;
+  const std::function<void()> on_demand_;  // see the constructor
   mutable base::Mutex mutex_;
   foxglove::ChannelId next_channel_ GSV_GUARDED_BY(mutex_) = 1;
   std::map<foxglove::ChannelId, Topic> topics_ GSV_GUARDED_BY(mutex_);
@@ -141,7 +141,7 @@ class Hub {
   std::deque<SharedBytes> statuses_ GSV_GUARDED_BY(mutex_);  // the newest status messages
   bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
   foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // the graph that was last sent
-  ClientRequests requests_;
+  ClientRequests requests_;  // answers requests that do not concern channels
   std::shared_ptr<Views> views_ GSV_GUARDED_BY(mutex_);  // null: the server draws no views
   bool closed_ GSV_GUARDED_BY(mutex_) = false;           // whether Close() was called
   CloseCode close_code_ GSV_GUARDED_BY(mutex_){};

@@ -57,8 +57,8 @@ class Publisher {
   std::vector<Entry> Entries() const;
 
   const std::shared_ptr<SimulationDirectory> directory_;
-  WorkerPool& watchers_;
-  WorkerPool& commanders_;
+  WorkerPool& watchers_;    // reads sensors
+  WorkerPool& commanders_;  // runs commands
   RecordingSwitch* const recordings_;
   access::ViewerRegistry* const registry_;
   mutable base::Mutex mutex_;

@@ -92,13 +92,14 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
 
   const std::shared_ptr<Hub> hub_;
   WorkerPool& workers_;
+  // The topic of all beams, and the topic of the sensors' transforms.
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
   std::optional<sensing::SensorSet> made_;  // set by the first Refresh()
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;  // sensors_, by channel
-  std::size_t topics_ = 0;       // number of channels of sensors that were not requested
-  bool limit_reported_ = false;  // whether the status message about kMaxSensorTopics was sent
-  WantedRobots wanted_;
+  std::size_t topics_ = 0;          // number of channels of sensors that were not requested
+  bool limit_reported_ = false;     // whether the status message about kMaxSensorTopics was sent
+  WantedRobots wanted_;             // robots whose topics were requested
   bool transforms_changed_ = true;  // whether the sensors' transforms must be published again
   std::shared_ptr<const SensorList> beam_sensors_;  // the sensors with beams
   Pacing beams_pacing_;

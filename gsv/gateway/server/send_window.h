@@ -42,6 +42,7 @@ class SendWindow {
   // the minimum delay. A minimum delay that was measured in this way is limited to this value.
   static constexpr std::chrono::milliseconds kMaxMinDelay{500};
   static constexpr std::chrono::seconds kMinDelayAge{30};  // see above
+  // While data are sent, the time between two pings is not much longer than this.
   static constexpr std::chrono::milliseconds kPingPeriod{100};
   // A pong is late if its delay exceeds the minimum delay by more than kMaxDelay. A connection
   // counts as slow after its pongs were late for kSlowAfter. It counts as fast again after no pong
@@ -109,7 +110,7 @@ class SendWindow {
   // Updates the minimum delay with the delay of this pong.
   void TakeMinDelay(const Mark& mark, Time now);
 
-  std::size_t bytes_ = kFirstBytes;
+  std::size_t bytes_ = kFirstBytes;                 // size of the window
   std::size_t sent_ = 0;                            // all bytes that were sent
   std::size_t data_sent_ = 0, data_confirmed_ = 0;  // data bytes that were sent and confirmed
   std::optional<Mark> mark_;                        // the ping without a pong
@@ -121,8 +122,8 @@ class SendWindow {
   Time min_measured_{};                       // when min_delay_ was measured
   bool measures_ = false;                     // whether the minimum delay is being measured again
   bool holds_back_ = false;                   // whether a message had to wait since the last pong
-  bool is_slow_ = false;
-  std::optional<double> rate_;  // bytes/s, measured when the connection was last busy
+  bool is_slow_ = false;                      // see IsSlow()
+  std::optional<double> rate_;                // bytes/s, measured when the connection was last busy
   std::optional<Time> first_late_, last_late_;  // first and last late pong of the present series
 };
 
