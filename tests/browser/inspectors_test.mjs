@@ -66,7 +66,6 @@ before(async () => {
   ({ page, faults } = await openPage(browser, `${server.url}?quality=high#view=${[...EYE, ...TARGET]}`));
   await waitUntilDrawn(page);
   await until(async () => {
-    await settled(page);
     const view = await page.evaluate(() => window.gsv.view);
     return [...EYE, ...TARGET].every((value, i) => Math.abs(view[i] - value) < 0.01);
   }, "the view of the address");
