@@ -193,9 +193,10 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       if (!option.is_list) added->take_last();
     }
   }
-  run->add_option("--runs-per-task,--runs-a-task", engine.runs_per_task,
-                  "runs per task, executed in sequence (default: at most 1,000 tasks are made)\n"
-                  "--runs-a-task is the former name of this option.")
+  run->add_option(
+         "--runs-per-task,--runs-a-task", engine.runs_per_task,
+         "runs per task, executed in sequence (default: the smallest N for at most 1,000 tasks)\n"
+         "--runs-a-task is the former name of this option.")
       ->type_name("N")
       ->check(Between(0, static_cast<int>(campaign::kMaxRuns)))
       ->group("Job queues");

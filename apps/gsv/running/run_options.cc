@@ -33,9 +33,9 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
   command
       .add_option(
           "--place", a.place,
-          "add N robots of the model in --robot without a pose, on a grid or at random places\n"
-          "The grid has cells of 1 m. Random places follow --seed. The model is pebble if "
-          "there is no --robot.")
+          "add N robots: grid:N on a grid, or random:N at random places (default model: pebble)\n"
+          "Give the model as --robot MODEL without a pose. The grid has cells of 1 m. Random "
+          "places follow --seed.")
       ->type_name("WHERE")
       ->group(kGroup);
   command.add_option("--avatar", a.avatars, "add an avatar that people steer from the viewer")

@@ -173,7 +173,7 @@ void Listener::Proceed(PendingHandshake* pending) {
       return;
     case TlsChannel::Step::kWantsToWrite:
       // There is always space for the few bytes of a handshake, unless the peer is malicious.
-      pending->Refuse("it does not read the data that it is sent");
+      pending->Refuse("the peer does not read the data of this server");
       break;
     case TlsChannel::Step::kFailed:
       if (pending->is_refused()) {
@@ -199,7 +199,7 @@ void Listener::Dismiss() {
       return true;
     }
     if (!pending->is_late(now)) return false;
-    if (!pending->is_refused()) pending->Refuse("it did not finish the TLS handshake");
+    if (!pending->is_refused()) pending->Refuse("the peer did not finish the TLS handshake");
     return true;
   });
   if (pending_handshakes_.empty()) alarm_->Set(false);

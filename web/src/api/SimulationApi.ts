@@ -178,7 +178,7 @@ export class SimulationApi {
     return parseStatus(await this.server.post(`${simulationPath(name)}/seek`, { time_s: time }));
   }
 
-  // Moves the replay by a number of recorded poses (negative: backwards), and pauses.
+  // Moves the replay by a number of recorded instants (negative: backwards), and pauses.
   async stepPoses(name: string, poses: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/step`, { poses }));
   }

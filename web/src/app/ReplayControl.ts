@@ -47,7 +47,7 @@ export class ReplayControl {
     return this.move();
   }
 
-  // Moves by a number of recorded poses (negative: backwards), and pauses.
+  // Moves by a number of recorded instants (negative: backwards), and pauses.
   step(poses: number): void {
     if (!this.store.get().replay) return;
     const last = this.moves.at(-1);

@@ -7,7 +7,8 @@ import { OVERLAYS } from "../state/overlays";
 import type { ChangedKeys } from "../state/shortcuts";
 import { originalKey } from "../state/shortcuts";
 
-const MANY_POSES = 10; // number of poses of a step with Shift
+// With Shift, an arrow key moves a recording by this number of recorded instants.
+const MANY_POSES = 10;
 
 // The part of a keyboard event that determines the command.
 export interface Key {

@@ -57,7 +57,7 @@ function stepsPart(app: App): HTMLElement {
     "Take steps",
   );
   const field = numberField(
-    "Single steps, while paused",
+    "Number of steps to take while paused",
     null,
     (value) => {
       count = Math.max(1, Math.round(value ?? FIRST_STEPS));

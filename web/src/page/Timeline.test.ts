@@ -59,8 +59,8 @@ test("the timeline's buttons send their requests", () => {
   const step = vi.spyOn(app.replay, "step").mockImplementation(() => {});
   const toEnd = vi.spyOn(app.replay, "toEnd").mockImplementation(() => {});
   const play = vi.spyOn(app.replay, "playOrPause").mockResolvedValue();
-  named("Previous pose").click();
-  named("Next pose").click();
+  named("Previous recorded instant").click();
+  named("Next recorded instant").click();
   expect(step.mock.calls).toEqual([[-1], [1]]);
   named("Go to the end").click();
   expect(toEnd).toHaveBeenCalledOnce();

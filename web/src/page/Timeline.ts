@@ -17,9 +17,9 @@ export function createTimeline(app: App): HTMLElement {
     "div",
     { class: "timeline-transport", role: "group", "aria-label": "Playback" },
     button(app, "toStart", "Go to the start", "Home", () => app.replay.toStart()),
-    button(app, "stepBack", "Previous pose", "ArrowLeft", () => app.replay.step(-1)),
+    button(app, "stepBack", "Previous recorded instant", "ArrowLeft", () => app.replay.step(-1)),
     playButton(app),
-    button(app, "stepOn", "Next pose", "ArrowRight", () => app.replay.step(1)),
+    button(app, "stepOn", "Next recorded instant", "ArrowRight", () => app.replay.step(1)),
     button(app, "toEnd", "Go to the end", "End", () => app.replay.toEnd()),
   );
   const pace = element("div", { class: "timeline-pace" }, speedChoice(app), loopButton(app));

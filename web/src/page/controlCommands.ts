@@ -105,8 +105,8 @@ function playbackCommands(app: App): Command[] {
   if (setUp !== null) return [];
   const canPlay = replay !== null && connection.phase === "open";
   commands.add(canPlay, "Go to the start", () => app.replay.toStart(), "Home");
-  commands.add(canPlay, "Previous pose", () => app.replay.step(-1), "←");
-  commands.add(canPlay, "Next pose", () => app.replay.step(1), "→");
+  commands.add(canPlay, "Previous recorded instant", () => app.replay.step(-1), "←");
+  commands.add(canPlay, "Next recorded instant", () => app.replay.step(1), "→");
   commands.add(canPlay, "Go to the end", () => app.replay.toEnd(), "End");
   commands.add(canPlay, "Previous event", () => app.replay.toEvent(-1), ",");
   commands.add(canPlay, "Next event", () => app.replay.toEvent(1), ".");
