@@ -43,9 +43,11 @@ struct Attempt {
   std::string job;      // the queue's id of the job; empty if there is no queue
   std::string node;     // the name of the machine
   int at_once = 1;      // maximum number of runs at the same time
-  double submitted = 0, started = 0, ended = 0;  // in s since 1970; `ended` is the last known time
-  std::size_t runs = 0;                          // number of executed runs
-  double run_seconds = 0;                        // sum of the runs' wall-clock times, s
+  // In s since 1970. `ended` is the time of the last line of the journal, so the process ended at
+  // this time or later.
+  double submitted = 0, started = 0, ended = 0;
+  std::size_t runs = 0;    // number of executed runs
+  double run_seconds = 0;  // sum of the runs' wall-clock times, s
 
   friend bool operator==(const Attempt&, const Attempt&) = default;
 };

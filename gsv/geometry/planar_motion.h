@@ -42,8 +42,8 @@ struct SineCosine {
 
 // A position in the plane and a heading. The heading is stored as its cosine and sine.
 struct PlanarPosition {
-  double x = 0, y = 0;
-  double cosine = 1, sine = 0;
+  double x = 0, y = 0;          // m
+  double cosine = 1, sine = 0;  // cosine and sine of the heading, the angle from the x axis
 
   // Scales the heading to length 1. Before the call, its length may differ from 1 only by rounding
   // errors.

@@ -13,7 +13,7 @@
 namespace gsv::geometry {
 
 struct Box {
-  Vector3 size{1, 1, 1};
+  Vector3 size{1, 1, 1};  // lengths of the edges along x, y and z
 };
 struct Sphere {
   double radius = 0.5;
@@ -26,7 +26,7 @@ struct Capsule {
   double radius = 0.5, length = 1;
 };
 struct Ellipsoid {
-  Vector3 radii{0.5, 0.5, 0.5};
+  Vector3 radii{0.5, 0.5, 0.5};  // half of the extents along x, y and z
 };
 // The apex points to +z.
 struct Cone {
@@ -36,12 +36,12 @@ struct Cone {
 // this size.
 struct Plane {
   Vector3 normal{0, 0, 1};  // unit length
-  Vector2 size{1, 1};
+  Vector2 size{1, 1};       // lengths of the rectangle's edges
 };
 // The triangles are shared by their users; the pointer is never null.
 struct Mesh {
   std::shared_ptr<const TriangleMesh> triangles;
-  Vector3 scale{1, 1, 1};
+  Vector3 scale{1, 1, 1};  // factors for the x, y and z coordinates of the triangles
 };
 
 using Shape = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone, Plane, Mesh>;

@@ -9,8 +9,9 @@
 
 namespace gsv::geometry {
 
-// Units  m³, m, m⁵. `xx` is the integral of (x - centroid.x)² over the volume, `xy` is the integral
-//        of (x - centroid.x)(y - centroid.y), and so on.
+// The volume of a shape in m³, its centroid in m, and its second moments in m⁵. `xx` is the
+// integral of (x - centroid.x)² over the volume, `xy` is the integral of (x - centroid.x)(y -
+// centroid.y), and so on.
 struct SolidMoments {
   double volume = 0;
   Vector3 centroid;

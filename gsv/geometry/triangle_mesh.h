@@ -12,8 +12,8 @@ namespace gsv::geometry {
 
 // A range of triangles with the same material slot.
 struct MeshPart {
-  std::string name;  // the submesh's name in its file; may be empty
-  std::uint32_t first_triangle = 0;
+  std::string name;                  // the submesh's name in its file; may be empty
+  std::uint32_t first_triangle = 0;  // index in TriangleMesh::triangles
   std::uint32_t triangle_count = 0;
   std::uint32_t material = 0;  // index into the visual's materials
 };
@@ -23,16 +23,16 @@ struct MeshPart {
 //             finite.
 // Winding     counter-clockwise seen from outside.
 struct TriangleMesh {
-  std::vector<Vector3> positions;            // metres
-  std::vector<Vector3> normals;              // unit length
-  std::vector<Vector2> texture_coordinates;  // (0, 0) is the image's lower left corner
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vector3> positions;                       // metres
+  std::vector<Vector3> normals;                         // unit length
+  std::vector<Vector2> texture_coordinates;             // (0, 0) is the image's lower left corner
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // three indices of vertices each
   std::vector<MeshPart> parts;
 };
 
 // A box whose edges are parallel to the axes.
 struct Bounds {
-  Vector3 min, max;
+  Vector3 min, max;  // the smallest and the largest coordinates, m
 };
 
 // Returns the bounding box. For a mesh without vertices it is the origin.

@@ -30,8 +30,8 @@ class BeamSet {
   // Beams on one link, as a structure of arrays. `link_from_sensor` has its position in x, y, z,
   // and its orientation in qw, qx, qy, qz.
   struct Beams {
-    int link = 0;
-    std::size_t count = 0;
+    int link = 0;           // index of the link in the robot's model
+    std::size_t count = 0;  // number of beams
     alignas(32) RayPacket::Coordinates x{}, y{}, z{}, qw{}, qx{}, qy{}, qz{};
     RayPacket::Coordinates min{}, max{};  // m
   };

@@ -25,11 +25,12 @@
 
 namespace gsv::sensing {
 
-// The parameters of the noise of one quantity.
+// The parameters of the noise of one quantity. All values except the probabilities and `drift_time`
+// have the unit of the quantity.
 struct NoiseModel {
-  double mean = 0, stddev = 0;
-  double bias_mean = 0, bias_stddev = 0;
-  // standard deviation, and correlation time in s (0: no drift)
+  double mean = 0, stddev = 0;            // mean and standard deviation of the white noise
+  double bias_mean = 0, bias_stddev = 0;  // the same for the bias, which is constant
+  // standard deviation of the drift, and its correlation time in s (0: no drift)
   double drift_stddev = 0, drift_time = 0;
   double precision = 0;  // step to which readings are rounded; 0: not rounded
   // fraction of readings; their additional noise
@@ -60,10 +61,10 @@ class NoisyReading {
   // Returns the number of the random stream of a channel for one purpose.
   std::uint64_t StreamOf(std::uint64_t channel, std::uint64_t purpose) const;
 
-  const std::uint64_t seed_;
+  const std::uint64_t seed_;    // seed of the simulation
   const std::uint64_t stream_;  // identifies the robot and the sensor
-  const std::uint64_t step_;
-  const base::SimTime time_;
+  const std::uint64_t step_;    // step of the sampled snapshot
+  const base::SimTime time_;    // time of the sampled snapshot
 };
 
 }  // namespace gsv::sensing

@@ -15,9 +15,9 @@ namespace gsv::sensing {
 
 // A named set of sensor parameters.
 struct Preset {
-  std::string type, name;  // sensor type; name of the preset
-  std::string source;      // a sentence with the source of the numbers
-  model::Parameters parameters;
+  std::string type, name;        // sensor type; name of the preset
+  std::string source;            // a sentence with the source of the numbers
+  model::Parameters parameters;  // used unless the sensor's description sets them
 };
 
 // All presets, ordered by type and then by name.

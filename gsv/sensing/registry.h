@@ -23,8 +23,8 @@ enum class Overlay { kNone, kLines, kPoints, kImage };
 // A second message beside the message of a reading, with the same time, on the topic
 // /ROBOT/SENSOR/`topic`. Sensor::EncodeCompanionOf() creates it.
 struct Companion {
-  std::string topic;  // last part of the topic's name, such as "camera_info"
-  const messages::Schema* schema = nullptr;
+  std::string topic;                         // last part of the topic's name, such as "camera_info"
+  const messages::Schema* schema = nullptr;  // never null
   // Whether this message depends on the reading (the points of a lidar), and not only on the
   // description (the lens of a camera).
   bool of_readings = false;

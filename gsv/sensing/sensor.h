@@ -82,9 +82,9 @@ class Sampling {
 
  private:
   std::shared_ptr<const world::Snapshot> snapshot_;
-  int body_;
-  std::uint64_t seed_;
-  RaySceneCache& rays_;
+  int body_;                                       // index of the robot's body in the layout
+  std::uint64_t seed_;                             // seed of the simulation
+  RaySceneCache& rays_;                            // creates scene_
   mutable std::shared_ptr<const RayScene> scene_;  // null until the first use
   mutable std::size_t expected_rays_ = 0;          // the sum of ExpectRays()
   mutable bool has_gathered_ = false;              // whether candidates_ belong to the present body
@@ -96,7 +96,7 @@ class Sampling {
 
 class Device;
 
-// A line in the sensor's frame, from where the beam starts to where it ends.
+// A line in the sensor's frame (m), from where the beam starts to where it ends.
 struct Segment {
   geometry::Vector3 from, to;
 };
@@ -147,7 +147,8 @@ class Sensor {
                                      const std::string& /*frame_id*/) const {
     return Bytes();
   }
-  // Encodes the companion message, if the type has one.
+  // Encodes the companion message: a second message beside the message of a reading, such as the
+  // camera_info of an image (Companion in registry.h). Returns no bytes if the type has none.
   virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {
     return {};
   }

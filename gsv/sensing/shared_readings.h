@@ -36,10 +36,10 @@ class SharedReadings {
   // A cached reading. The other members are its key.
   struct Entry {
     std::weak_ptr<const world::Snapshot> snapshot;
-    int body;
+    int body;  // index in the layout of the robot's body
     std::uint64_t seed;
     model::SensorDescription description;
-    Taken taken;
+    Taken taken;        // the reading, or an error
     std::size_t bytes;  // size of the reading; 0 until it is finished
   };
 

@@ -19,9 +19,9 @@ struct Part {
   int joint = -1;
   int parent = -1;         // index of the parent part, which precedes this part; -1 for the base
   std::vector<int> links;  // indices of the model's links
-  double mass = 0;
+  double mass = 0;         // kg
   geometry::Pose model_from_part;  // pose of the part's frame, see above
-  geometry::Vector3 inertia;       // principal moments
+  geometry::Vector3 inertia;       // principal moments, about the axes of the part's frame, kg m²
   double heaviness = 1;            // the fraction of the part's mass on which gravity acts
   bool is_kinematic = false;       // forces do not move this part
 };
@@ -33,7 +33,7 @@ struct Articulation {
   // Whether the base is fixed in the world: a joint attaches a link to the world, or the base is
   // kinematic and has child parts.
   bool is_fixed = false;
-  double mass = 0;  // total mass of all parts
+  double mass = 0;  // total mass of all parts, kg
 };
 
 // Links that are not the child of a joint belong to the base, which moves with the model's frame.

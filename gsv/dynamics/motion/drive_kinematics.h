@@ -99,13 +99,13 @@ class DriveKinematics {
   // A wheel rotates by forward * travel.forward + left * travel.left + angle * travel.angle. A
   // wheel in front of the rear axle of an Ackermann base rolls along its own steered path instead.
   struct Wheel {
-    int joint = 0;
+    int joint = 0;                            // index of the wheel's joint in the model
     double forward = 0, left = 0, angle = 0;  // rad/m, rad/m, rad/rad
     double ahead = 0;                         // distance in front of the rear axle, m
   };
   // A joint that steers a wheel.
   struct Steered {
-    int joint = 0;
+    int joint = 0;       // index of the steering joint in the model
     double sign = 1;     // sign of the z component of the joint's axis
     double lateral = 0;  // distance to the left, m
   };

@@ -17,10 +17,10 @@ namespace gsv::dynamics {
 // A body that a link of another body carries, as a gripper carries a grasped body. Bodies are
 // indices in the layout.
 struct Attachment {
-  int holder_body = 0;
-  int holder_link = 0;  // a link of the holder's model
-  int held_body = 0;
-  geometry::Pose link_from_held;  // pose of the held model's frame
+  int holder_body = 0;            // the body that carries
+  int holder_link = 0;            // index of the carrying link in the holder's model
+  int held_body = 0;              // the body that is carried
+  geometry::Pose link_from_held;  // pose of the held model's frame in the frame of this link
 };
 
 // Is notified of the motion of bodies in Engine::StepMany().

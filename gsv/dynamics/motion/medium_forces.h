@@ -37,12 +37,13 @@ struct PartMedium {
 std::vector<PartMedium> MakeMedium(const world::Layout& layout, const world::Body& body,
                                    const Articulation& articulation);
 
-// A force and a torque on a part.
+// A force (N) on a part, and a torque (N m) about the part's centre of mass, in world axes.
 struct Wrench {
   geometry::Vector3 force, torque;
 };
 
-// The pose and velocities of a part.
+// The pose of a part, the velocity of its centre of mass (m/s), and its angular velocity (rad/s).
+// Both velocities are in world axes.
 struct PartMotion {
   geometry::Pose world_from_part;
   geometry::Vector3 velocity, angular_velocity;

@@ -14,8 +14,8 @@ namespace gsv::dynamics {
 
 // A part that rolls as a wheel.
 struct RollingWheel {
-  model::SlippingWheel wheel;
-  geometry::Vector3 axle;  // direction of the axle in the part's frame, unit length
+  model::SlippingWheel wheel;  // radius, normal force and slip
+  geometry::Vector3 axle;      // direction of the axle in the part's frame, unit length
 
   // Returns the slip velocity along the rolling direction for a friction force of 1 N and a wheel
   // rate of 1 rad/s, in m/s. Includes the slip of the ground.

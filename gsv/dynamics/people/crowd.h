@@ -47,15 +47,15 @@ class Crowd {
  private:
   // A pedestrian.
   struct Walker {
-    int body = 0;  // index of the body in the layout
-    const world::Pedestrian* pedestrian = nullptr;
+    int body = 0;                                   // index of the body in the layout
+    const world::Pedestrian* pedestrian = nullptr;  // its settings; never null
     // index in levels_ of the heights at which walls are sliced for this pedestrian
     std::size_t level = 0;
     // The present goal, after `reached` goals have been reached. The goal is stored because it is
     // drawn at random only once.
     bool has_goal = false;
     std::uint32_t reached = 0;
-    Vector2 goal;
+    Vector2 goal;  // in the world, m
   };
   // A body that pedestrians avoid, also a pedestrian itself.
   struct Other {
@@ -71,7 +71,7 @@ class Crowd {
   struct Block {
     // For each walker of the batch: the direction to its goal, and the sum of forces on it.
     std::array<Vector2, kBlock> directions, forces;
-    Repulsions repulsions;
+    Repulsions repulsions;  // the pairs of this batch whose forces are computed together
   };
 
   // Computes the outlines of all walls again (slices of the static bodies) if a static body has
@@ -108,7 +108,7 @@ class Crowd {
   // The grid of others_. A cell is at least as wide as the range of the forces. The entries of a
   // cell are consecutive in sorted_.
   double left_ = 0, bottom_ = 0, per_cell_ = 1;  // minimum x and y, m; number of cells per metre
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0, rows_ = 0;                   // size of the grid in cells
   // The cell of each of others_. For each cell, the start of its entries in sorted_.
   std::vector<std::uint32_t> cell_of_, cell_start_;
   std::vector<Other> sorted_;       // others_, ordered by cell

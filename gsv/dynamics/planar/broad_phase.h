@@ -31,8 +31,8 @@ class BroadPhase {
  private:
   // A disc in a cell of the grid.
   struct Entry {
-    double x, y, radius;
-    std::uint32_t index;
+    double x, y, radius;  // centre and radius of the disc, m
+    std::uint32_t index;  // index of the disc in the arguments of Find()
   };
 
   // Sorts the discs into the cells of the grid.

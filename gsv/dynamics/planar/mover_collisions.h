@@ -91,15 +91,16 @@ class MoverCollisions {
   };
   // The space of a mover that the last FindCandidates() covered, see HasRoom().
   struct Room {
-    Vector2 centre;  // the mover's origin at the search
-    double radius = -1;
+    Vector2 centre;      // the mover's origin at the search
+    double radius = -1;  // m; negative before the first search
   };
   // The result for a mover so far.
   struct Outcome {
     double time;           // time until the mover stops, s
     int since, new_since;  // first iteration that used `time`, and its value for the next iteration
   };
-  // The motions of all movers, as passed to Stop().
+  // The motions of all movers, as passed to Stop(): positions at the start, constant twists in each
+  // mover's frame, and durations in s.
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;
     std::span<const geometry::Twist> twists;

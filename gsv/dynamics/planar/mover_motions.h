@@ -34,7 +34,7 @@ inline double SpeedOf(const geometry::Twist& twist) {
 
 // The sum of a mover's motions over the legs of a step.
 struct Journey {
-  Travel travel;
+  Travel travel;        // of the drive's reference point, in the mover's frame
   double distance = 0;  // length of the path of the model's origin, m
 };
 

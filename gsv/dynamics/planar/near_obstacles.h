@@ -68,8 +68,8 @@ class NearObstacles {
   // Stores that a mover with its origin at `centre`, at any heading, is further than `radius` from
   // every obstacle.
   struct Clearance {
-    Vector2 centre;  // the mover's origin at the search
-    double radius = -1;
+    Vector2 centre;      // the mover's origin at the search
+    double radius = -1;  // m; negative before the first search
   };
   struct alignas(64) Chunk {  // aligned to a cache line, because threads write to adjacent chunks
     std::vector<Near> near;   // obstacles near the chunk's movers in this step

@@ -32,10 +32,10 @@ class PlanarPushes {
  private:
   // A planar body that can push rigid bodies.
   struct Pusher {
-    int body = 0;     // index of the body in the layout
-    double low = 0;   // the robot pushes above this height over the model's origin, m
-    double mass = 0;  // mass of the robot, kg; limits the force of its pushes
-    DriveKinematics kinematics;
+    int body = 0;                // index of the body in the layout
+    double low = 0;              // the robot pushes above this height over the model's origin, m
+    double mass = 0;             // mass of the robot, kg; limits the force of its pushes
+    DriveKinematics kinematics;  // kinematics of the robot's drive
   };
 
   // Returns the pusher of a planar body, by the body's index in the layout.

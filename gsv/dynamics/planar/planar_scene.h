@@ -34,10 +34,11 @@ inline constexpr double kRides = 0.005;  // m, see "Dynamic" above
 
 // The properties that movers of one model share.
 struct MoverKind {
-  DriveKinematics kinematics;
-  Footprint footprint;
-  double climb = 0;        // see ClimbHeight(), m
-  double spin_radius = 0;  // no part of the mover is faster than speed + spin_radius * turning rate
+  DriveKinematics kinematics;  // kinematics of the model's drive
+  Footprint footprint;         // the model's shape as prisms, in the model's frame
+  double climb = 0;            // see ClimbHeight(), m
+  // m: no part of the mover is faster than speed + spin_radius * turning rate
+  double spin_radius = 0;
 };
 
 // A body that the planar mover moves.
@@ -50,8 +51,8 @@ struct Mover {
 
 // A disc of the plane in which a mover looks for obstacles.
 struct Sight {
-  Vector2 centre;
-  double radius = 0;
+  Vector2 centre;     // in the world, m
+  double radius = 0;  // m
 };
 
 // The movers of a layout, and slices of its bodies as obstacles for these movers.

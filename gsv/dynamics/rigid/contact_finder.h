@@ -25,10 +25,11 @@ namespace gsv::dynamics {
 
 // A solid in the world: a part of a rigid body, a static body, or a planar body near rigid bodies.
 struct Collider {
-  const Solid* solid = nullptr;
-  int moving = -1, part = 0;  // index of the rigid body, and its part; -1: none
-  bool bounces = false;       // whether its contacts have no margin, so that it bounces fully
-  // set for planar bodies
+  const Solid* solid = nullptr;  // its shapes; never null
+  int moving = -1, part = 0;     // index of the rigid body, and its part; -1: none
+  bool bounces = false;          // whether its contacts have no margin, so that it bounces fully
+  // Set only for planar bodies, in the world: position (m) and velocity (m/s) of the model's
+  // origin, and angular velocity (rad/s).
   geometry::Vector3 position, velocity, angular_velocity;
 };
 

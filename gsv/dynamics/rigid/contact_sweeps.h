@@ -23,12 +23,11 @@ namespace gsv::dynamics {
 // Solves the contacts of a large island of bodies without joints.
 class ContactSweeps {
  public:
-  // The velocities of a body, which change with each impulse, and its inverse mass and inertia in
-  // the world.
+  // A body. All vectors are in the world's frame. The velocities change with each impulse.
   struct Body {
-    geometry::Vector3 velocity, angular_velocity;
-    double inverse_mass = 0;
-    Matrix3 inverse_inertia;
+    geometry::Vector3 velocity, angular_velocity;  // of its centre of mass, m/s; rad/s
+    double inverse_mass = 0;                       // 1/kg
+    Matrix3 inverse_inertia;                       // about its centre of mass, 1/(kg m²)
   };
   // One of the two bodies at a contact.
   struct Side {
@@ -64,6 +63,7 @@ class ContactSweeps {
   // A contact, with the values that AddContact() computes once.
   struct Contact {
     int first, second;  // bodies; -1 for a fixed body
+    // See Side::arm and the arguments of AddContact(). All vectors are in the world's frame.
     geometry::Vector3 arm_first, arm_second;
     std::array<geometry::Vector3, 3> axes;
     // Changes of the two bodies' angular velocities by a unit impulse along each axis.
@@ -74,13 +74,14 @@ class ContactSweeps {
     // effect of a normal impulse along each friction axis.
     double normal, a, b, c, max;
     std::array<double, 2> coupling;
-    std::array<double, 3> targets;
-    double friction;  // coefficient of friction
-    std::array<double, 2> softness;
-    std::array<double, 3> impulse;  // the present solution, N s
+    std::array<double, 3> targets;   // along the axes, m/s
+    double friction;                 // coefficient of friction
+    std::array<double, 2> softness;  // along the axes of friction, (m/s) / (N s)
+    std::array<double, 3> impulse;   // the present solution, N s
   };
-  // Four contacts, one in each value of a vector. Unused values refer to bodies that no impulse
-  // moves.
+  // Four contacts, one in each value of a vector. The members are those of Contact, and the
+  // reciprocals of `normal`, of `max`, and of the determinant of [[a, c], [c, b]]. Unused values
+  // refer to bodies that no impulse moves.
   struct alignas(sizeof(FourDoubles)) Batch {
     using Vectors = FourDoubles[3];
     Vectors arm_first, arm_second;

@@ -96,6 +96,7 @@ class ImpulseRows {
   // A row, and its state in the iterations.
   struct Row {
     std::array<Block, 2> sides;
+    // See Limits. `impulse` is the present solution.
     double target, softness, lower, upper, impulse;
     double mass_inverse;    // J M⁻¹ Jᵀ + softness; 0 if no impulse can move the row
     double change, search;  // last change of the impulse; direction in which Accelerate() continues
@@ -103,10 +104,10 @@ class ImpulseRows {
   };
   // The friction rows of a contact: `first_row` and the row after it.
   struct Cone {
-    int normal_row, first_row;
-    double friction;
-    Axes axes;
-    double coupling;  // softness that couples its two rows
+    int normal_row, first_row;  // indices of rows; `normal_row` is the normal of the contact
+    double friction;            // coefficient of friction
+    Axes axes;                  // weights of both rows for each axis, see AddCone()
+    double coupling;            // softness that couples its two rows
     // result of the last search for the limiting friction impulse, from which the next search
     // starts (see WithinCircle())
     double shift;

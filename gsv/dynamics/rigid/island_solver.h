@@ -79,24 +79,29 @@ class IslandSolver {
     int begin = 0, count = 0;  // range of its velocities in columns_
     // start of its values in values_: one row after the other, with `count` values each
     int values = 0;
+    // Required velocity (m/s; rad/s for a rotation), velocity per impulse by which the velocity may
+    // differ from it, and bounds of the impulse (N s; N m s for a rotation).
     double target = 0, softness = 0, lower = 0, upper = 0;
     // Used by the iterations: the compliance of an impulse, and the stiffness that converts a
     // velocity error to a guess of the impulse.
     double compliance = 0, stiffness = 0;
-    double impulse = 0;
+    double impulse = 0;      // the present solution, N s or N m s
     bool is_active = false;  // whether the row is in the linear equations
   };
   // The rows of a contact: the normal, and two tangents.
   struct ContactRows {
-    Row normal;     // its values are the values of three rows: normal, then both tangents
-    int index = 0;  // index in `contacts` of Solve()
-    double friction = 0;
+    Row normal;           // its values are the values of three rows: normal, then both tangents
+    int index = 0;        // index in `contacts` of Solve()
+    double friction = 0;  // coefficient of friction
+    // Values along both tangents, as in Row. The targets (m/s) are velocities of the first body
+    // relative to the second. Bodies with a prescribed motion have no row, so their part of the
+    // relative velocity is already subtracted.
     std::array<double, 2> target{}, softness{}, compliance{}, impulse{};
-    double stiffness = 0;  // stiffness of both tangents
+    double stiffness = 0;  // stiffness of both tangents, see Row
     enum class Mode : std::uint8_t { kOpen, kSticks, kSlips } mode = Mode::kOpen;
     std::array<double, 2> direction{};  // direction of friction, if the contact slips
     double turning = 0;                 // stiffness across the direction
-    std::array<double, 3> velocity{};
+    std::array<double, 3> velocity{};   // along the normal and the tangents, m/s; see VelocityAt()
   };
 
   // Adds the rows of all joints.

@@ -100,7 +100,7 @@ class LinkTree {
   // For each velocity of the part's chain: the velocity of a point of the part, and its angular
   // velocity, due to a unit of that velocity.
   struct Motion {
-    geometry::Vector3 turning, moving;
+    geometry::Vector3 turning, moving;  // angular velocity and velocity, in the world
   };
   // Computes the velocity of a point of a part due to a unit of each velocity of the part's chain.
   void PointMotions(int part, const geometry::Vector3& point,
@@ -125,14 +125,14 @@ class LinkTree {
     // the parent's frame.
     geometry::Vector3 axis, pivot_in_parent, arm;
     double pitch = 0, mass = 0, heaviness = 1;  // pitch of a screw joint, m/rad, else 0; see Part
-    geometry::Vector3 inertia;
-    std::vector<int> chain;  // see Chain()
+    geometry::Vector3 inertia;  // principal moments, about the axes of the part's frame, kg m²
+    std::vector<int> chain;     // see Chain()
   };
   // The inertia of a part with all parts below it in the tree.
   struct Inertia {
-    double mass;
-    geometry::Vector3 moment;  // mass times the vector from the base's centre of mass
-    Matrix3 turning;           // inertia about the base's centre of mass
+    double mass;               // kg
+    geometry::Vector3 moment;  // mass times the vector from the base's centre of mass, world, kg m
+    Matrix3 turning;           // inertia about the base's centre of mass, world, kg m²
   };
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
   Link LinkOf(int part) const;

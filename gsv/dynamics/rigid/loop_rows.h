@@ -18,7 +18,7 @@ class LoopJoint {
   // articulation. The joint's axis is the z axis of its frame at each end.
   struct End {
     int part = 0;
-    geometry::Pose part_from_joint;
+    geometry::Pose part_from_joint;  // pose of the joint's frame in the frame of the part
   };
   LoopJoint(const End& first, const End& second, model::JointKind kind)
       : first_(first), second_(second), kind_(kind) {}

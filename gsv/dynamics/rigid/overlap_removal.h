@@ -43,15 +43,17 @@ class OverlapRemoval {
   }
 
  private:
+  // A body that was added.
   struct Body {
-    double inverse_mass = 0;
-    geometry::Vector3 velocity;
+    double inverse_mass = 0;     // 1/kg
+    geometry::Vector3 velocity;  // see velocity(), m/s
   };
   // A contact: the condition that its two bodies separate fast enough.
   struct Row {
+    // The arguments of AddContact(): bodies, normal in the world, and gap (m).
     int first, second;
     geometry::Vector3 normal;
-    double gap;  // see AddContact(), m
+    double gap;
     // Wanted velocity along the normal (m/s), effective mass (kg), and impulse so far (N s).
     double target = 0, mass = 0, impulse = 0;
   };

@@ -10,10 +10,10 @@ namespace gsv::dynamics {
 
 // A piece of a solid with its pose and bounding box in the world.
 struct PlacedPiece {
-  const Piece* piece = nullptr;
-  geometry::Vector3 position;   // origin of the piece's frame, in the world
-  Matrix3 rotation;             // axes of the piece's frame, in the world
-  geometry::Vector3 low, high;  // bounding box
+  const Piece* piece = nullptr;  // never null
+  geometry::Vector3 position;    // origin of the piece's frame, in the world
+  Matrix3 rotation;              // axes of the piece's frame, in the world
+  geometry::Vector3 low, high;   // bounding box along the axes of the world
 };
 
 // Places the piece for a solid at `position` with these axes.
@@ -24,8 +24,8 @@ void SetBoundsOf(PlacedPiece& placed);
 
 // A point at which two pieces touch, or may touch soon.
 struct TouchPoint {
-  geometry::Vector3 on_second;  // world
-  geometry::Vector3 normal;     // unit length, from the second piece to the first
+  geometry::Vector3 on_second;  // the point on the second piece, in the world, m
+  geometry::Vector3 normal;     // unit length, in the world, from the second piece to the first
   double distance = 0;          // m, negative if they overlap
 };
 

@@ -23,16 +23,16 @@ class TriangleSurface;
 struct Piece {
   enum class Kind : std::uint8_t { kSphere, kBox, kCylinder, kCapsule, kPlane, kMesh, kOther };
   Kind kind = Kind::kOther;
-  geometry::Pose solid_from_piece;
-  Matrix3 rotation;  // rotation of solid_from_piece
-  // half extents of a box or cylinder (radius, radius, half length); of a sphere or capsule
-  // (radius, radius, half of its axis)
+  geometry::Pose solid_from_piece;  // pose of the piece's frame in the frame of its solid
+  Matrix3 rotation;                 // rotation of solid_from_piece
+  // m, in the piece's frame. Box: half of its sides. Cylinder: (radius, radius, half length).
+  // Sphere and capsule: (radius, radius, half of the distance between the centres of its ends).
   geometry::Vector3 half;
   geometry::Vector3 normal;           // normal of a plane, which passes through the piece's origin
   geometry::Vector3 middle, box;      // centre of its bounding box, and half of its size
   btCollisionShape* shape = nullptr;  // never null
   const TriangleSurface* triangles = nullptr;  // null except for a static mesh
-  model::Surface surface;
+  model::Surface surface;                      // friction, slip and restitution
 };
 
 // A collision shape with its surface properties.

@@ -25,7 +25,7 @@ class RigidContacts {
   struct Found {
     world::Contact contact;     // the contact at one point in one substep
     geometry::Vector3 impulse;  // impulse on the second body, N s: normal force and friction
-    int substep;
+    int substep;                // number of the substep in its step, from 0
   };
 
   std::vector<Found> found_;        // contacts of all substeps so far

@@ -14,7 +14,7 @@ namespace gsv::dynamics {
 
 // A box around all places that a rigid body may reach within a step.
 struct Area {
-  geometry::Vector3 low, high;
+  geometry::Vector3 low, high;  // smallest and largest coordinates in the world, m
 };
 // Whether a planar body comes near one of the areas while it moves from `before` to `after`.
 bool IsNear(const Solid& planar, const world::State& before, const world::State& after,

@@ -23,9 +23,10 @@ inline constexpr int kMaxPieces = 32;
 // A mesh in the forms of TriangleSurface and Bullet, with the data that Bullet refers to. It takes
 // long to make, so it is kept from one layout to the next.
 struct StandingMesh {
+  // the mesh before it is scaled; MeshKey refers to it
   std::shared_ptr<const geometry::TriangleMesh> source;
-  std::vector<btScalar> positions;
-  std::vector<int> indices;
+  std::vector<btScalar> positions;  // scaled coordinates of the vertices, for Bullet
+  std::vector<int> indices;         // three vertices for each triangle, for Bullet
   std::unique_ptr<btTriangleIndexVertexArray> triangles;
   std::unique_ptr<TriangleSurface> surface;
   std::unique_ptr<btBvhTriangleMeshShape> shape;  // its user pointer points to `surface`

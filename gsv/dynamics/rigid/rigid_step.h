@@ -51,11 +51,11 @@ class RigidStep {
   };
   // A push, with its state during the step.
   struct ActivePush {
-    int push = 0;  // index in the caller's list
-    PushRow row;
+    int push = 0;                     // index in the caller's list
+    PushRow row;                      // the row of the present substep
     geometry::Vector3 point_in_body;  // the pushed point, in the frame of the pushed body's base
-    bool has_started = false;
-    double impulse = 0;  // impulse so far in the step, N s
+    bool has_started = false;         // whether the push acts: its Push::start was reached
+    double impulse = 0;               // impulse so far in the step, N s
   };
 
   // Loads the bodies and finds the planar bodies near them.

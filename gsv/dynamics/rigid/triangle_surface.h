@@ -44,11 +44,11 @@ class TriangleSurface {
   };
   // Edges run from each corner to the next.
   struct Triangle {
-    std::array<int, 3> vertices{};
-    std::array<int, 3> beside{};  // index of the same edge in the neighbour: 3 * triangle + edge,
-                                  // or -1
+    std::array<int, 3> vertices{};  // indices in vertices_
+    std::array<int, 3> beside{};    // index of the same edge in the neighbour: 3 * triangle + edge,
+                                    // or -1
     std::array<Edge, 3> edges{};
-    geometry::Vector3 normal;
+    geometry::Vector3 normal;  // unit length, in the mesh's frame
     // unit vectors in the plane, perpendicular to each edge
     std::array<geometry::Vector3, 3> inwards;
   };

@@ -11,9 +11,9 @@ namespace gsv::dynamics {
 // Finds the boxes that overlap a given box.
 class BoxBvh {
  public:
-  // in the common frame of all boxes
+  // A box whose edges are parallel to the axes of one frame, in which all boxes are given.
   struct Box {
-    geometry::Vector3 low, high;
+    geometry::Vector3 low, high;  // corners with the smallest and the largest coordinates, m
   };
 
   // Builds the tree, and discards an earlier one.
@@ -45,13 +45,14 @@ class BoxBvh {
   }
 
  private:
+  // A box that was passed to Build().
   struct Entry {
     Box box;
     int index;  // index of the box in the argument of Build()
   };
   // The left child is stored directly after its parent.
   struct Node {
-    Box box;
+    Box box;                   // contains all boxes below this node
     int right = -1;            // index of the right child; -1 for a leaf
     int first = 0, count = 0;  // range of a leaf's boxes in entries_
   };

@@ -20,7 +20,7 @@ using geometry::Vector2;
 struct ConvexPiece {
   static constexpr int kMaxVertices = 16;
 
-  double radius = 0;
+  double radius = 0;                           // m
   int vertex_count = 0;                        // at least 1
   std::array<Vector2, kMaxVertices> vertices;  // counter-clockwise, strictly convex
 

@@ -20,12 +20,14 @@ namespace gsv::dynamics {
 struct Footprint {
   static constexpr int kMaxPieces = 8;
 
+  // A prism: the area `shape`, between two heights above the model's origin. Areas are in the
+  // model's frame, seen from above.
   struct Piece {
     ConvexPiece shape;
     Interval heights;
-    Vector2 centre;  // centre and radius of a disc around the piece
+    Vector2 centre;  // centre and radius of a disc around `shape`, m
     double radius = 0;
-    model::CollisionFilter filter{};
+    model::CollisionFilter filter{};  // the bodies with which the piece collides
   };
   std::vector<Piece> pieces;  // empty if the model collides with nothing
   Interval heights;           // range of heights of all pieces

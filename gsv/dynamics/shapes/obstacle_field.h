@@ -15,13 +15,13 @@
 
 namespace gsv::dynamics {
 
-// A piece of a sliced body.
+// A piece of a sliced body: an area of the plane, in the world's frame.
 struct Obstacle {
   ConvexPiece shape;
-  Vector2 centre;  // centre and radius of a disc around the shape
+  Vector2 centre;  // centre and radius of a disc around the shape, m
   double radius = 0;
-  int body = 0;  // index of the body in the layout
-  model::CollisionFilter filter{};
+  int body = 0;                     // index of the body in the layout
+  model::CollisionFilter filter{};  // the bodies with which the piece collides
 };
 
 // A grid that finds the obstacles near a position. See the top of this file for `margin` (m).

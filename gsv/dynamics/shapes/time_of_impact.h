@@ -24,9 +24,9 @@ inline constexpr double kStopGap = 0.5e-6;
 
 // A piece of a base, given in the base's frame, and how the base moves.
 struct MovingPiece {
-  const ConvexPiece* piece = nullptr;
-  geometry::PlanarPosition start;  // pose of the base at time 0
-  geometry::Twist twist;           // constant velocity after time 0
+  const ConvexPiece* piece = nullptr;  // never null
+  geometry::PlanarPosition start;      // pose of the base at time 0
+  geometry::Twist twist;               // constant velocity after time 0
 };
 
 inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,

@@ -38,7 +38,8 @@ inline constexpr std::size_t kMaxViewsOfClient = 4;
 // microseconds since 1970 (8).
 inline constexpr std::size_t kImageHeaderSize = 20;
 
-// Sends images of views to clients over their WebSockets.
+// Sends the images of all views that the clients of one hub have started to these clients, over
+// their WebSockets. Each new image is sent without a request, see above.
 class PushedViews final : public Views, public std::enable_shared_from_this<PushedViews> {
  public:
   // Returns the world of the hub, or an error if it does not exist any more.

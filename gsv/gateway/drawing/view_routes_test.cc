@@ -1,4 +1,5 @@
-// Tests images over HTTP: of a simulation, through another instance, and with tokens.
+// Tests how clients get images of a simulation over HTTP: directly, through a relay (another
+// instance of gsv), and with a token.
 #include "gsv/gateway/drawing/view_routes.h"
 
 #include <arpa/inet.h>

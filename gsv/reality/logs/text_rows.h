@@ -34,11 +34,14 @@ class TextRows {
   // fewer than `count` words, or if a word is not a finite number.
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
-  // Returns whether the caller may use this row. Rows must be in the order of time, so a row is
-  // left out if its time is earlier than the time of the row before it. Exception: at most five of
-  // the rows before this row have later times than this row and the row after it. Then the times of
-  // these rows are wrong. The caller has already used them, so RemoveMisdated() must remove their
-  // values. Reports a gap of more than 10 s.
+  // Returns whether the caller may use this row, whose time is `time`. Times must not decrease. If
+  // rows before this row have later times, either their times or the time of this row are wrong:
+  // - If there are more than five such rows, this row is left out, and the result is false.
+  // - If there are at most five such rows, the result is true, and the row after this row decides.
+  //   If its time is not before the time of this row, but before the latest time so far, the five
+  //   or fewer rows have wrong times. Else this row has a wrong time.
+  // When this is decided, the caller has already used the rows with wrong times. RemoveMisdated()
+  // removes their values. Reports a gap of more than 10 s.
   bool InOrder(double time);
 
   // Removes the values that were made from misdated rows from a series, whose elements have a
@@ -92,7 +95,8 @@ class TextRows {
   std::optional<TimedLine> doubtful_;
   // The time before a gap, and the row after it. Kept until enough rows confirm the gap.
   std::optional<std::pair<double, TimedLine>> gap_;
-  std::vector<double> misdated_;  // times of the rows that were left out after their use
+  // The times of rows for which InOrder() returned true, and whose times turned out to be wrong.
+  std::vector<double> misdated_;
 };
 
 }  // namespace gsv::reality

@@ -29,8 +29,8 @@ class GripperState final : public world::ActuatorState {
  public:
   // An attached body.
   struct Hold {
-    world::Grasp grasp;
-    double width = 0;  // width of the attached body, m
+    world::Grasp grasp;  // the body, and where the gripper holds it
+    double width = 0;    // width of the attached body, m
   };
 
   // `opening_before` is the distance between the fingers at `followed.since`, m.

@@ -12,7 +12,7 @@ namespace gsv::sensing {
 // Evenly spaced angles of beams, from `first` to `last`, both included.
 struct Angles {
   int count = 1;
-  double first = 0, last = 0;
+  double first = 0, last = 0;  // rad
 
   // The angle between two beams, rad.
   double increment() const { return count > 1 ? (last - first) / (count - 1) : 0; }

@@ -10,7 +10,7 @@
 
 namespace gsv::sensing {
 
-// The velocities and accelerations of a link, in world axes.
+// The velocities and accelerations of a link, in world axes. Units are m/s, m/s², rad/s and rad/s².
 struct LinkMotion {
   geometry::Pose world_from_link;
   // `place` is a point of the link; `velocity` and `acceleration` describe the motion of this

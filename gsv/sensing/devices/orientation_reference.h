@@ -27,8 +27,8 @@ class OrientationReference {
   geometry::Quaternion AlongGravity(const geometry::Vector3& gravity) const;
 
   enum class Kind { kCustom, kEnu, kNed, kNwu, kGravityUp, kGravityDown };
-  Kind kind_ = Kind::kCustom;  // where the axes of the reference frame point
-  bool is_world_ = true;
+  Kind kind_ = Kind::kCustom;               // where the axes of the reference frame point
+  bool is_world_ = true;                    // see is_world()
   geometry::Quaternion custom_from_world_;  // only for kCustom
   // for GRAV_UP and GRAV_DOWN: x points along the horizontal part of this vector
   geometry::Vector3 along_x_{1, 0, 0};

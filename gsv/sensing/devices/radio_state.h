@@ -17,9 +17,9 @@ namespace gsv::sensing {
 
 // A received message.
 struct HeardMessage {
-  world::RadioMessagePtr message;
-  std::uint64_t number = 0;  // counts the received messages, from 1
-  double strength = 0;       // dBm
+  world::RadioMessagePtr message;  // never null
+  std::uint64_t number = 0;        // counts the received messages, from 1
+  double strength = 0;             // dBm
 };
 
 // Errors of the radio channel at the receiver. A value of 0 switches an error off.
@@ -65,9 +65,9 @@ class RadioState final : public world::DeviceState {
   std::uint64_t StreamOf(const world::RadioMessage& message) const;
 
   const world::RadioSetupPtr setup_;
-  const RadioErrors errors_;  // errors of the channel, at this receiver
-  std::uint64_t heard_ = 0;
-  std::vector<HeardMessage> inbox_;
+  const RadioErrors errors_;         // errors of the channel, at this receiver
+  std::uint64_t heard_ = 0;          // see heard()
+  std::vector<HeardMessage> inbox_;  // see inbox()
 };
 
 // The antenna of a radio; its body is -1 if the robot is not in the world.

@@ -10,7 +10,7 @@
 
 namespace gsv::sensing {
 
-// The motion of a sensor at one instant.
+// The motion of a sensor at one instant, in world axes.
 struct SensorMotion {
   geometry::Pose world_from_sensor;
   geometry::Vector3 velocity;          // m/s

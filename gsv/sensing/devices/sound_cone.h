@@ -67,8 +67,8 @@ class SoundCone {
 
   // Another sonar that fires at the same time.
   struct Sender {
-    geometry::Pose world_from_sonar;
-    SoundSettings sound;
+    geometry::Pose world_from_sonar;  // the sonar sends along the x axis of its frame
+    SoundSettings sound;              // the parameters of its transducer
   };
   // Returns the distance of the nearest detected echo; infinite if there is none. The sonar points
   // along its x axis. `others` fire at the same time.
@@ -86,7 +86,7 @@ class SoundCone {
   struct Echo {
     double distance = 0, strength = 0;  // m; relative to the strongest echo from straight ahead
     Ray ray;                            // the ray that hits the reflecting surface
-    Hit hit;
+    Hit hit;                            // where `ray` hits this surface
   };
 
   // Returns the strength of the echo of a ray that was sent with `strength`.

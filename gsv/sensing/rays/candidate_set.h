@@ -21,8 +21,8 @@ namespace gsv::sensing {
 
 // A bounding sphere.
 struct BoundingSphere {
-  geometry::Vector3 centre;
-  double radius = 0;
+  geometry::Vector3 centre;  // in the frame of the solids that it bounds, m
+  double radius = 0;         // m
 };
 
 // The solids near a point. Rays from there may hit these solids.
@@ -93,8 +93,8 @@ class CandidateSet {
 
   static __m128 Four(double x) { return _mm_set1_ps(static_cast<float>(x)); }
 
-  geometry::Vector3 place_;
-  double reach_ = -1;  // m; negative before Begin()
+  geometry::Vector3 place_;  // in the world, m
+  double reach_ = -1;        // m; negative before Begin()
   // number of solids; after them there are up to three entries that no ray hits
   std::size_t count_ = 0;
   bool is_overfull_ = false;  // whether a solid had no space

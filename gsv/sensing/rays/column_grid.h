@@ -78,6 +78,7 @@ class ColumnGrid {
   static constexpr std::uint32_t kFirstColumn = 1u << 31, kFirstRow = 1u << 30;
   static constexpr std::uint32_t kBox = kFirstRow - 1;
 
+  // The columns and rows of the grid that a box covers, all four included.
   struct Range {
     std::uint16_t first_column, last_column, first_row, last_row;
   };
@@ -89,10 +90,10 @@ class ColumnGrid {
   // Counts the boxes of each column. Returns false if the total exceeds `limit`.
   bool Count(std::span<const geometry::Bounds> boxes, std::size_t limit);
 
-  double low_x_ = 0, low_y_ = 0;
-  double cell_ = 1, per_metre_ = 1;  // width and depth of a column
-  int columns_ = 0, rows_ = 0;       // number of columns and rows without the ring
-  double occupancy_ = 0;
+  double low_x_ = 0, low_y_ = 0;             // smallest coordinates of the grid without the ring, m
+  double cell_ = 1, per_metre_ = 1;          // width and depth of a column, m; and 1 / cell_
+  int columns_ = 0, rows_ = 0;               // number of columns and rows without the ring
+  double occupancy_ = 0;                     // see occupancy()
   std::vector<Range> ranges_;                // columns and rows of each box
   std::vector<std::uint32_t> starts_{0, 0};  // the start of each column in `entries_`, and the end
   std::vector<std::uint32_t> entries_;       // entries of all columns, one column after the other

@@ -48,7 +48,7 @@ class PacketBounds {
   static constexpr std::size_t kPairs = RayPacket::kMax / 2;
   // The intervals of two rays along an axis.
   struct Span {
-    __m128d low, high;
+    __m128d low, high;  // in the world, m
   };
   using Spans = std::array<Span, kPairs>;
 
@@ -57,7 +57,7 @@ class PacketBounds {
                       _mm_cmple_pd(span.low, _mm_set1_pd(high)));
   }
 
-  Spans x_, y_, z_;
+  Spans x_, y_, z_;  // along the axes of the world
 };
 
 }  // namespace gsv::sensing

@@ -42,8 +42,9 @@ class PlacedSolids final : public RayScene {
   std::optional<Echo> EchoOf(const Ray& ray, int ignored_body) const;
 
  private:
+  // A moving part at its pose in the snapshot.
   struct PlacedPart {
-    geometry::Pose part_from_world;
+    geometry::Pose part_from_world;  // transforms rays to the frame of the part's solids
     const Part* part;
   };
   struct Shadings;  // the solids near a fan, and for each solid the sector of rays that may hit it
@@ -80,9 +81,9 @@ class PlacedSolids final : public RayScene {
   // The next vectors have the order of LayoutSolids::moving. The last two vectors contain only
   // bounded parts.
   std::vector<PlacedPart> parts_;
-  std::vector<BoundingSphere> spheres_;
-  std::vector<geometry::Bounds> boxes_;
-  SphereGrid grid_;  // the grid of spheres_, for packets
+  std::vector<BoundingSphere> spheres_;  // bounding spheres in the world
+  std::vector<geometry::Bounds> boxes_;  // bounding boxes in the world
+  SphereGrid grid_;                      // the grid of spheres_, for packets
 
   // The index of boxes_, for rays outside of packets. The first such ray builds it.
   mutable base::Mutex index_mutex_;

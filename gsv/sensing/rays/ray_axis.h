@@ -8,9 +8,9 @@ namespace gsv::sensing {
 
 // The x, y or z coordinate of a ray as a function of the distance.
 struct RayAxis {
-  double origin, direction;
-  double inverse;  // reciprocal of the direction; finite, because 0 times infinity is undefined
-  bool is_falling;
+  double origin, direction;  // coordinate of the ray's origin, and of its unit direction
+  double inverse;   // reciprocal of the direction; finite, because 0 times infinity is undefined
+  bool is_falling;  // whether the coordinate decreases along the ray
 
   RayAxis(double o, double d)
       : origin(o),

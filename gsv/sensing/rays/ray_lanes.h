@@ -62,6 +62,7 @@ GSV_AVX2_INLINE Spans SlabSpans(__m256d origin, __m256d direction, __m256d half)
   const __m256d is_rising = _mm256_cmp_pd(direction, zero, _CMP_GT_OQ);
   const __m256d is_level = _mm256_cmp_pd(direction, zero, _CMP_EQ_OQ);
   const __m256d is_within = _mm256_cmp_pd(_mm256_andnot_pd(sign, origin), half, _CMP_LE_OQ);
+  // Used if the ray is parallel to the slab's faces: it is between them everywhere or nowhere.
   const __m256d enter_if_level = _mm256_blendv_pd(infinity, minus_infinity, is_within);
   return {_mm256_blendv_pd(_mm256_blendv_pd(to_high, to_low, is_rising), enter_if_level, is_level),
           _mm256_blendv_pd(_mm256_blendv_pd(to_low, to_high, is_rising),
@@ -83,6 +84,7 @@ GSV_AVX2_INLINE Spans PipeSpans(const Vectors& origins, const Vectors& direction
   const __m256d misses = _mm256_cmp_pd(squared, zero, _CMP_LT_OQ);
   const __m256d is_upright = _mm256_cmp_pd(speed, zero, _CMP_EQ_OQ);
   const __m256d is_within = _mm256_cmp_pd(o.x * o.x + o.y * o.y + zero, square, _CMP_LE_OQ);
+  // Used if the ray is parallel to the pipe's axis (z): it is inside everywhere or nowhere.
   const __m256d enter_if_upright = _mm256_blendv_pd(infinity, minus_infinity, is_within);
   return {_mm256_blendv_pd(_mm256_blendv_pd(middle - half, infinity, misses), enter_if_upright,
                            is_upright),

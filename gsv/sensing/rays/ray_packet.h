@@ -15,8 +15,8 @@ struct RayPacket {
   using Coordinates = std::array<double, kMax>;
 
   std::size_t count = 0;
-  alignas(32) Coordinates origin_x{}, origin_y{}, origin_z{};
-  alignas(32) Coordinates direction_x{}, direction_y{}, direction_z{};  // direction of unit length
+  alignas(32) Coordinates origin_x{}, origin_y{}, origin_z{};           // in the world, m
+  alignas(32) Coordinates direction_x{}, direction_y{}, direction_z{};  // in the world, unit length
   alignas(32) Coordinates max_distance{};                               // m
 
   // Adds a ray. The packet must have space for it.

@@ -71,9 +71,9 @@ class RayRow {
   void CastGroupsRotated(const Convex& shape, const ShapeFrame& frame, double nearest,
                          std::size_t first, std::size_t last);
 
-  geometry::Vector3 origin_;
-  double max_distance_;  // length of the rays, m
-  std::size_t size_;
+  geometry::Vector3 origin_;  // in the world
+  double max_distance_;       // length of the rays, m
+  std::size_t size_;          // number of rays
   // after the last ray, the last group is filled with copies of this ray
   std::unique_ptr<Group[]> groups_;
 };

@@ -14,7 +14,7 @@
 
 namespace gsv::sensing {
 
-// A corner and the two edges from it to the other corners.
+// A corner, and the two edges from it to the other corners, in the frame of the ray.
 struct Triangle {
   geometry::Vector3 corner, edge1, edge2;
 };

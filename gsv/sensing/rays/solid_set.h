@@ -132,18 +132,21 @@ class SolidSet {
   float ReflectanceOf(std::uint32_t solid) const;
 
  private:
-  // A triangle of the set, with its primitive index. `body` is not used if the bearer has a body.
+  // A triangle of the set: a corner, and the edges from there to the other corners. All are in the
+  // set's frame.
   struct SolidTriangle {
     geometry::Vector3 corner, edge1, edge2;
-    std::uint32_t primitive;
-    int body;
+    std::uint32_t primitive;  // primitive index, see Nearest
+    int body;                 // index in the layout; not used if the bearer has a body
   };
+  // A shape of the set that is not a mesh.
   struct SolidShape {
     geometry::Shape shape;
-    geometry::Pose shape_from_set;
-    std::uint32_t primitive;
-    int body;
+    geometry::Pose shape_from_set;  // transforms rays to the shape's frame
+    std::uint32_t primitive;        // primitive index, see Nearest
+    int body;                       // index in the layout; not used if the bearer has a body
   };
+  // A plane of the set.
   struct SolidPlane {
     SolidShape solid;
     geometry::Vector3 normal;  // normal in the set's frame
@@ -166,16 +169,16 @@ class SolidSet {
   std::vector<geometry::Bounds> shape_bounds_;      // padded, in the set's frame
   std::vector<BoundingSphere> shape_spheres_;       // padded, in the set's frame
   std::vector<geometry::Bounds> shape_own_bounds_;  // in the frame of each shape
-  BoxIndex shape_index_;
-  SphereGrid shape_grid_;
+  BoxIndex shape_index_;                            // finds the shapes near a ray, by shape_bounds_
+  SphereGrid shape_grid_;  // finds the shapes near a packet of rays, by shape_spheres_
   std::vector<SolidPlane> planes_;
   // in the order of shapes_ and planes_
   std::vector<float> shape_reflectances_, plane_reflectances_;
   // The first triangle of each mesh with the reflectance of the mesh.
   std::vector<std::pair<std::uint32_t, float>> mesh_reflectances_;
   std::uint32_t primitives_ = 0;  // number of primitives that were added
-  geometry::Bounds bounds_;
-  bool bounded_ = false;  // whether bounds_ is valid
+  geometry::Bounds bounds_;       // see bounds()
+  bool bounded_ = false;          // whether bounds_ is valid
 };
 
 }  // namespace gsv::sensing

@@ -25,8 +25,8 @@ namespace gsv::sensing {
 struct TouchedSpheres {
   static constexpr std::size_t kMax = 64;
   struct Touched {
-    std::uint32_t number;
-    unsigned rays;  // bit i: ray i may touch the sphere
+    std::uint32_t number;  // number of the sphere in its grid
+    unsigned rays;         // bit i: ray i may touch the sphere
   };
   std::array<Touched, kMax> touched;
   std::size_t count = 0;
@@ -39,15 +39,15 @@ struct TouchedSpheres {
 struct PacketRays {
   using Floats = std::array<float, RayPacket::kMax>;
 
-  alignas(32) Floats dx, dy, dz;  // directions of the rays
-  alignas(32) Floats ox, oy, oz;  // origins of the rays relative to the place, times -2
-  alignas(32) Floats start;       // scalar product of origin and direction
-  alignas(32) Floats square;      // square of the origin's distance, m²
-  alignas(32) Floats length;      // lengths of the rays, m
-  float place_x, place_y, place_z;
-  float reach;     // largest distance from the place to a point of a ray, m
-  float rounding;  // distance by which spheres are enlarged, m
-  unsigned used;   // bit i: whether ray i exists
+  alignas(32) Floats dx, dy, dz;    // directions of the rays
+  alignas(32) Floats ox, oy, oz;    // origins of the rays relative to the place, times -2
+  alignas(32) Floats start;         // scalar product of origin and direction
+  alignas(32) Floats square;        // square of the origin's distance, m²
+  alignas(32) Floats length;        // lengths of the rays, m
+  float place_x, place_y, place_z;  // in the world, m
+  float reach;                      // largest distance from the place to a point of a ray, m
+  float rounding;                   // distance by which spheres are enlarged, m
+  unsigned used;                    // bit i: whether ray i exists
 };
 
 // The rays of a packet near one place, prepared for searches in several grids.
@@ -59,9 +59,9 @@ class PacketSearch {
  private:
   friend class SphereGrid;
 
-  geometry::Vector3 place_;
-  double reach_;
-  PacketRays rays_;
+  geometry::Vector3 place_;  // in the world, m
+  double reach_;             // see the constructor, m
+  PacketRays rays_;          // the packet in single precision
 };
 
 // Finds the spheres that the rays of a packet may touch.
@@ -77,8 +77,8 @@ class SphereGrid {
  private:
   // A solid that is too large for a cell.
   struct Large {
-    geometry::Bounds box;
-    std::uint32_t number;
+    geometry::Bounds box;  // bounding box of the solid
+    std::uint32_t number;  // as in Build()
   };
 
   // The column and row of a coordinate, which may be outside of the grid.

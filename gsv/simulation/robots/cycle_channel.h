@@ -1,5 +1,6 @@
-// The simulation's side of a slot in shared memory (gsv/exchange/cycle_memory.h). Through the slot,
-// the behaviour of one clock exchanges its control cycles.
+// The simulation's side of a slot in shared memory (gsv/exchange/cycle_memory.h). Each slot belongs
+// to one clock of a robot. In each control cycle, the behaviour that uses this clock writes a
+// command and the next instant to the slot, and the simulation answers with the readings.
 //
 // Threads  Take(), SetDue() and Close() with the simulation's mutex held. Open() from any thread.
 #pragma once
