@@ -30,7 +30,7 @@ class AttachedLayout {
  private:
   // An attachment, with the poses of the held body's links when it was attached.
   struct Held {
-    Attachment attachment;
+    Attachment attachment;                        // see Engine::Attach()
     std::vector<geometry::Pose> held_from_links;  // in the frame of the held model
   };
 

@@ -35,7 +35,7 @@ class BallAngles {
   std::array<double, 3> RatesOf(const geometry::Vector3& angular_velocity) const;
 
  private:
-  std::array<int, 3> joints_;
+  std::array<int, 3> joints_;              // see joints()
   std::array<geometry::Vector3, 3> axes_;  // the three joint axes, in the joint's frame
   geometry::Quaternion part_from_joint_;   // from the joint's frame to the child's part frame
 };

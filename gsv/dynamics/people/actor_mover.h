@@ -31,9 +31,9 @@ class ActorMover {
  private:
   // An actor of the layout, with the data that are computed once from its script.
   struct Actor {
-    int body = 0;  // index of the body in the layout
-    const model::Script* script = nullptr;
-    geometry::Pose world_from_trajectory;
+    int body = 0;                           // index of the body in the layout
+    const model::Script* script = nullptr;  // never null
+    geometry::Pose world_from_trajectory;   // pose of the frame in which waypoints are given
     int first_joint = 0;  // index of the actor's first joint in State::joint_positions
     // for each trajectory: distance from the start to each waypoint, m
     std::vector<std::vector<double>> ways;

@@ -9,8 +9,8 @@ namespace gsv::dynamics {
 
 // A point at which two solids touch, with the inputs and results of the solver.
 struct Contact {
-  int first = 0, second = 0;  // solids: indices in ContactFinder::colliders()
-  TouchPoint point;
+  int first = 0, second = 0;             // solids: indices for ContactFinder::collider()
+  TouchPoint point;                      // where the solids touch, with the normal and the distance
   double friction = 0, restitution = 0;  // coefficients, see SetSurfaces()
   // Friction acts along these two axes, at right angles to the normal. If a surface has two
   // friction coefficients, the axis with the lower coefficient is shorter than 1.

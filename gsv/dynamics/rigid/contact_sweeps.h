@@ -115,8 +115,8 @@ class ContactSweeps {
 
   std::vector<Body> bodies_;
   std::vector<Contact> contacts_;
-  std::vector<Batch> batches_;
-  std::vector<int> open_;  // batches with space for more contacts
+  std::vector<Batch> batches_;  // the contacts, in the order in which Solve() uses them
+  std::vector<int> open_;       // batches with space for more contacts
   // For each body, and for one fixed body: velocity, inverse mass, angular velocity, 0.
   std::vector<double> motions_;
   // The contacts ordered by level, and the level of each body. The other members are memory for

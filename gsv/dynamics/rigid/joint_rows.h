@@ -59,6 +59,8 @@ class JointRows {
 
  private:
   std::vector<JointRow> rows_;
+  // For all rows, one row after the other: indices of the tree's velocities, and the jacobian's
+  // value for each of them.
   std::vector<int> velocities_;
   std::vector<double> values_;
 };

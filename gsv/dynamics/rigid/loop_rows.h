@@ -27,7 +27,7 @@ class LoopJoint {
   void AddRows(const LinkTree& tree, double seconds, JointRows& rows) const;
 
  private:
-  End first_, second_;
+  End first_, second_;  // the joint's frame on each of the two parts that it connects
   model::JointKind kind_;
 };
 

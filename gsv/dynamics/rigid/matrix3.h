@@ -9,7 +9,7 @@ namespace gsv::dynamics {
 
 // A 3x3 matrix, stored by columns. The columns of a rotation are the axes of the rotated frame.
 struct Matrix3 {
-  geometry::Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  geometry::Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // the three columns
 };
 
 inline geometry::Vector3 operator*(const Matrix3& m, const geometry::Vector3& v) {

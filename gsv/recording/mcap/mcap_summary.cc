@@ -168,7 +168,7 @@ base::Result<Summary> LoadSummary(const ByteSource& source, const Limits& limits
   if (scanned) {
     scanned->problems.insert(scanned->problems.begin(),
                              {base::Problem::Severity::kWarning,
-                              "the recording was read from end to end because " + *reason +
+                              "the whole recording was read because " + *reason +
                                   "; 'gsv rec recover' makes an indexed copy",
                               {}});
   }

@@ -127,7 +127,7 @@ TEST_F(RecordingInfoTest, ReportsTheDamageOfATruncatedRecording) {
   const auto info = ReadInfo(Save(bytes, bytes.size() / 2));
   ASSERT_TRUE(info) << info.error().Sentence();
   EXPECT_FALSE(info->indexed);
-  EXPECT_THAT(ToText(*info), HasSubstr("warning: the recording was read from end to end because "
+  EXPECT_THAT(ToText(*info), HasSubstr("warning: the whole recording was read because "
                                        "it was not closed"));
 }
 

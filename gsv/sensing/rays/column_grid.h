@@ -24,7 +24,7 @@ namespace gsv::sensing {
 // The numbers of the boxes near a place.
 struct FoundBoxes {
   static constexpr std::size_t kMax = 256;
-  std::array<std::uint32_t, kMax> boxes;
+  std::array<std::uint32_t, kMax> boxes;  // indices of boxes; only the first `count` are valid
   std::size_t count = 0;
 };
 

@@ -10,7 +10,7 @@ namespace gsv::sensing {
 // Ray i has the azimuth first + i * step about the z axis of the fan's frame, counted from the x
 // axis. All rays have the same elevation over the xy plane.
 struct Fan {
-  geometry::Pose world_from_fan;
+  geometry::Pose world_from_fan;                  // its position is the origin of all rays
   double first = 0, step = 0;                     // rad; step > 0 unless there is only one ray
   double elevation = 0;                           // rad
   double max_distance = 0;                        // m

@@ -87,7 +87,7 @@ class PlacedSolids final : public RayScene {
 
   // The index of boxes_, for rays outside of packets. The first such ray builds it.
   mutable base::Mutex index_mutex_;
-  mutable std::atomic<bool> is_indexed_{false};
+  mutable std::atomic<bool> is_indexed_{false};  // whether index_ is built for the present boxes_
   mutable BoxIndex index_;
 };
 

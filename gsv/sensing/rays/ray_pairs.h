@@ -79,8 +79,8 @@ class RayPairs {
     shapes_.Set(count_, shape_from_set);
   }
 
-  std::size_t count_ = 0;
-  std::array<std::uint8_t, kMax> rays_{};
+  std::size_t count_ = 0;                  // number of pairs
+  std::array<std::uint8_t, kMax> rays_{};  // for each pair, the index of its ray in the packet
   // Lanes beyond the last pair keep the values of earlier pairs, because ordinary values are
   // computed fast.
   alignas(32) Lanes ox_{}, oy_{}, oz_{}, dx_{}, dy_{}, dz_{};  // in the world
