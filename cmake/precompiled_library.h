@@ -30,3 +30,5 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "gsv/base/json_templates.h"

@@ -17,6 +17,11 @@
 
 #include "gsv/base/error.h"
 
+// libfmt exports this function. Without the declaration, all of fmt would be compiled again in each
+// file that logs.
+extern template void fmt::detail::vformat_to<char>(fmt::detail::buffer<char>&, fmt::string_view,
+                                                   fmt::format_args, fmt::detail::locale_ref);
+
 namespace gsv::base {
 
 enum class LogFormat { kText, kJson };
