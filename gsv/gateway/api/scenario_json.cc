@@ -143,11 +143,11 @@ FieldResult<Placement> ParsePlace(std::string_view body) {
   const auto place =
       ValueOrFirstProblem(scenario::ParsePlaceJson(json->dump(), problems), problems);
   if (!place) return tl::make_unexpected(place.error());
-  Placement placement{place->pose(), !place->z.has_value()};
-  if (*roll != 0 || *pitch != 0) {
-    placement.world_from_body.orientation = geometry::FromRollPitchYaw({*roll, *pitch, place->yaw});
-  }
-  return placement;
+  // FromRollPitchYaw() also computes the poses of world files. With any other function, zeros could
+  // have another sign, so a world that was saved and read again would have another hash.
+  return Placement{
+      {place->pose().position, geometry::FromRollPitchYaw({*roll, *pitch, place->yaw})},
+      !place->z.has_value()};
 }
 
 FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body) {

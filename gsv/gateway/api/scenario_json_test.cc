@@ -1,5 +1,7 @@
 #include "gsv/gateway/api/scenario_json.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace gsv::gateway {
@@ -130,6 +132,15 @@ TEST(ScenarioJson, ARobotMayHaveAPoseOrNone) {
   EXPECT_TRUE(robot->is_avatar);
   EXPECT_FALSE(robot->robot.start);
   EXPECT_EQ(ParseRobotRequest(R"({"model": ""})").error().field, "model");
+}
+
+// The hash of a state depends on the signs of zeros.
+TEST(ScenarioJson, ClockwisePosesHaveTheBitsOfPosesInWorldFiles) {
+  const auto place = ParsePlace(R"({"x": 1, "y": 2, "yaw": -0.3})");
+  ASSERT_TRUE(place.has_value());
+  const geometry::Quaternion& q = place->world_from_body.orientation;
+  EXPECT_FALSE(std::signbit(q.x) || std::signbit(q.y));
+  EXPECT_EQ(q, geometry::FromRollPitchYaw({0, 0, -0.3}));
 }
 
 TEST(ScenarioJson, APoseNeedsXAndY) {
