@@ -102,7 +102,7 @@ test("a wall hides the overlays behind it, and not those in front of it", async 
 test("the map of a large world shows it at the right place, and a click on a robot selects it", async () => {
   const { page, faults } = await opened("#view=50,-250,500,50,20,0&show=&layout=view");
   await page.getByRole("button", { name: "Map", exact: true }).click();
-  const bar = page.locator(".scale-bar");
+  const bar = page.locator(".scale-bar[aria-label]");
   await bar.waitFor();
   const [, length] = (await bar.getAttribute("aria-label")).match(/bar stands for ([\d.]+) m/);
   const metresPerPixel = Number(length) / (await page.locator(".scale-line").evaluate((line) => line.getBoundingClientRect().width));

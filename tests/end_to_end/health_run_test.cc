@@ -55,7 +55,7 @@ TEST_F(HealthRun, PsPrintsWhyARobotStandsAndOffersFindsTheBroker) {
 TEST_F(HealthRun, ListingOffersWithoutABrokerIsAnErrorWithAHint) {
   const Outcome offers = Gsv({"offers"});
   EXPECT_EQ(offers.ending, "exit code 5");
-  EXPECT_THAT(offers.err, HasSubstr("give its address with --broker"));
+  EXPECT_THAT(offers.err, HasSubstr("give the address of a broker with --broker"));
 }
 
 TEST_F(HealthRun, ARunReportsTheRobotsThatStoodStill) {
