@@ -10,8 +10,8 @@ export interface Person {
   simulation: string; // the simulation that this viewer sees; empty if there is none
   holds: boolean; // whether this viewer has control of the simulation
   asks: number; // position of this viewer in the queue for control, from 1; 0 if not waiting
-  // Time in s; only for the first viewer in the queue. If the viewer who has control does not
-  // answer within this time, this viewer gets control.
+  // Time in s after which the first viewer in the queue gets control, if the viewer who has control
+  // does not answer. Not used for other viewers.
   passesIn: number;
 }
 
