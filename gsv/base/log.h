@@ -18,9 +18,11 @@
 #include "gsv/base/error.h"
 
 // libfmt exports this function. Without the declaration, all of fmt would be compiled again in each
-// file that logs.
+// file that logs. Clang gives the function another symbol, which libfmt does not export.
+#ifndef __clang__
 extern template void fmt::detail::vformat_to<char>(fmt::detail::buffer<char>&, fmt::string_view,
                                                    fmt::format_args, fmt::detail::locale_ref);
+#endif
 
 namespace gsv::base {
 
