@@ -43,16 +43,11 @@ void RefuseAll(Client& client) {
 }  // namespace
 
 ClientRequests::ClientRequests(std::shared_ptr<Operations> operations)
-    : operations_(std::move(operations)) {
-  if (!operations_) return;
-  sent_ = operations_->parameters();
-  playback_ = operations_->playback().value_or(playback_);
-}
+    : operations_(std::move(operations)) {}
 
 std::vector<std::string> ClientRequests::capabilities() const {
   if (!operations_) return {};
-  const base::MutexLock lock(mutex_);
-  if (sent_.empty()) return {"services"};
+  if (operations_->parameters().empty()) return {"services"};
   return {"services", "parameters", "parametersSubscribe"};
 }
 
@@ -71,7 +66,9 @@ void ClientRequests::Welcome(const std::shared_ptr<Client>& client, bool knows_p
     client->SendBytes(SharedBytes(foxglove::PlaybackStateBytes(*playback)));
   }
   const base::MutexLock lock(mutex_);
-  clients_[client.get()] = ClientState{client, knows_playback};
+  ClientState& state = clients_[client.get()];
+  state = ClientState{client};
+  if (knows_playback) state.playback = playback;
 }
 
 void ClientRequests::Forget(Client* client) {
@@ -118,7 +115,7 @@ void ClientRequests::Handle(const std::shared_ptr<Client>& client,
     if (request.is_end) {
       guest->second.watched.erase(parameter.name);
     } else {
-      guest->second.watched.insert(parameter.name);
+      guest->second.watched.emplace(parameter.name, parameter);
     }
   }
 }
@@ -175,23 +172,18 @@ void ClientRequests::PublishChanges(bool has_jumped) {
 }
 
 void ClientRequests::PublishParameters() {
-  std::vector<Parameter> now = operations_->parameters();
+  const std::vector<Parameter> now = operations_->parameters();
   const base::MutexLock lock(mutex_);
-  std::vector<Parameter> changed;
-  for (const Parameter& parameter : now) {
-    if (std::find(sent_.begin(), sent_.end(), parameter) == sent_.end()) {
+  for (auto& [key, guest] : clients_) {
+    std::vector<Parameter> changed;
+    for (const Parameter& parameter : now) {
+      const auto watched = guest.watched.find(parameter.name);
+      if (watched == guest.watched.end() || watched->second == parameter) continue;
+      watched->second = parameter;
       changed.push_back(parameter);
     }
-  }
-  sent_ = std::move(now);
-  if (changed.empty()) return;
-  for (const auto& [key, guest] : clients_) {
-    std::vector<Parameter> watched = changed;
-    std::erase_if(watched, [&guest = guest](const Parameter& parameter) {
-      return !guest.watched.contains(parameter.name);
-    });
     const std::shared_ptr<Client> client = guest.client.lock();
-    if (client && !watched.empty()) SendParameters(*client, watched, {});
+    if (client && !changed.empty()) SendParameters(*client, changed, {});
   }
 }
 
@@ -199,15 +191,15 @@ void ClientRequests::PublishPlayback(bool has_jumped) {
   auto state = operations_->playback();
   if (!state) return;
   state->did_seek = has_jumped;
-  const base::MutexLock lock(mutex_);
-  const bool is_news =
-      has_jumped || state->status != playback_.status || state->speed != playback_.speed;
-  playback_ = *state;
-  if (!is_news) return;
   const SharedBytes bytes(foxglove::PlaybackStateBytes(*state));
-  for (const auto& [key, guest] : clients_) {
+  const base::MutexLock lock(mutex_);
+  for (auto& [key, guest] : clients_) {
+    if (!guest.playback) continue;
+    const bool is_news = has_jumped || state->status != guest.playback->status ||
+                         state->speed != guest.playback->speed;
+    guest.playback = state;
     const std::shared_ptr<Client> client = guest.client.lock();
-    if (client && guest.knows_playback) client->SendBytes(bytes);
+    if (client && is_news) client->SendBytes(bytes);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +39,10 @@ class ClientRequests {
   void Handle(const std::shared_ptr<Client>& client,
               const foxglove::PlaybackControl& request) const;
 
-  // Sends the parameters that have changed since the last call to the clients that watch them.
-  // Sends the playback state after a seek (`has_jumped`) or a change.
+  // Sends each client the watched parameters whose values differ from those that it has. It has
+  // the values of the time when it began to watch, or those that were sent to it later. Sends the
+  // playback state to the clients that have another one, and to all clients after a seek
+  // (`has_jumped`).
   void PublishChanges(bool has_jumped = false);
 
   // The names of the services that clients can call.
@@ -49,8 +51,10 @@ class ClientRequests {
  private:
   struct ClientState {
     std::weak_ptr<Client> client;
-    bool knows_playback = false;    // whether the client gets the playback state
-    std::set<std::string> watched;  // names of the watched parameters
+    // The playback state that the client has; empty if the client does not get it.
+    std::optional<foxglove::PlaybackState> playback = std::nullopt;
+    // The watched parameters, with the values that the client has, by name.
+    std::map<std::string, foxglove::Parameter> watched = {};
     // The number of pending calls. An answer may arrive after the client or this object was
     // destroyed.
     std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
@@ -65,8 +69,6 @@ class ClientRequests {
   const std::shared_ptr<Operations> operations_;
   mutable base::Mutex mutex_;
   std::map<Client*, ClientState> clients_ GSV_GUARDED_BY(mutex_);
-  std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // the values that were sent last
-  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // the state that was sent last
 };
 
 }  // namespace gsv::gateway

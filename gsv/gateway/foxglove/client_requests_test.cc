@@ -56,7 +56,7 @@ class ClientRequestsTest : public ::testing::Test {
     return client;
   }
 
-  void SetDriveState(RecordingClient& client, const json& text) {
+  void Send(RecordingClient& client, const json& text) {
     EXPECT_TRUE(hub_.Receive(&client, text.dump()));
   }
 
@@ -140,20 +140,19 @@ TEST_F(ClientRequestsTest, AClientCanReadItsDroppedUpdates) {
   const auto client = Join();
   const json request{
       {"op", "getParameters"}, {"parameterNames", {"/gsv/dropped_updates"}}, {"id", "a"}};
-  SetDriveState(*client, request);
+  Send(*client, request);
   EXPECT_EQ(client->texts().back()["parameters"], json::parse(R"([
                 {"name":"/gsv/dropped_updates","value":7.0,"type":"float64"}])"));
 }
 
 TEST_F(ClientRequestsTest, ParametersAreReadSetAndWatched) {
   const auto client = Join(), watcher = Join();
-  SetDriveState(*client, {{"op", "getParameters"}, {"parameterNames", json::array()}, {"id", "a"}});
+  Send(*client, {{"op", "getParameters"}, {"parameterNames", json::array()}, {"id", "a"}});
   EXPECT_EQ(client->texts().back(), json::parse(R"({"op":"parameterValues","id":"a","parameters":[
                 {"name":"/name","value":"arena"},
                 {"name":"/speed","value":1.0,"type":"float64"}]})"));
-  SetDriveState(*watcher,
-                {{"op", "subscribeParameterUpdates"}, {"parameterNames", {"/speed", "/none"}}});
-  SetDriveState(*client, json::parse(R"({"op":"setParameters","id":"b","parameters":[
+  Send(*watcher, {{"op", "subscribeParameterUpdates"}, {"parameterNames", {"/speed", "/none"}}});
+  Send(*client, json::parse(R"({"op":"setParameters","id":"b","parameters":[
                     {"name":"/name","value":"x"},{"name":"/speed","value":3}]})"));
   const auto texts = client->texts();
   EXPECT_EQ(texts[texts.size() - 2]["message"], "/name is fixed");
@@ -165,11 +164,25 @@ TEST_F(ClientRequestsTest, ParametersAreReadSetAndWatched) {
   EXPECT_EQ(watcher->texts().size(), 4u);
   EXPECT_EQ(watcher->texts().back()["parameters"],
             json::parse(R"([{"name":"/speed","value":3.0,"type":"float64"}])"));
-  SetDriveState(*watcher,
-                {{"op", "unsubscribeParameterUpdates"}, {"parameterNames", json::array()}});
+  Send(*watcher, {{"op", "unsubscribeParameterUpdates"}, {"parameterNames", json::array()}});
   operations_->speed = 4;
   hub_.PublishChanges();
   EXPECT_EQ(watcher->texts().size(), 4u);
+}
+
+TEST_F(ClientRequestsTest, AChangeBackToThePublishedValueIsSentToALaterWatcher) {
+  hub_.PublishChanges();  // with speed 1
+  operations_->speed = 2;
+  const auto watcher = Join();  // is sent the playback state with speed 2
+  Send(*watcher, {{"op", "subscribeParameterUpdates"}, {"parameterNames", {"/speed"}}});
+  const std::size_t states = watcher->answers().size();
+  operations_->speed = 1;
+  hub_.PublishChanges();
+  EXPECT_EQ(watcher->texts().back()["parameters"],
+            json::parse(R"([{"name":"/speed","value":1.0,"type":"float64"}])"));
+  EXPECT_EQ(watcher->answers().size(), states + 1);
+  hub_.PublishChanges();
+  EXPECT_EQ(watcher->answers().size(), states + 1);
 }
 
 TEST_F(ClientRequestsTest, ReportsAtMostTenErrorsOfARequest) {
@@ -177,7 +190,7 @@ TEST_F(ClientRequestsTest, ReportsAtMostTenErrorsOfARequest) {
   const std::size_t before = client->texts().size();
   json parameters = json::array();
   for (int i = 0; i < 1000; ++i) parameters.push_back({{"name", "/name"}, {"value", 1}});
-  SetDriveState(*client, {{"op", "setParameters"}, {"parameters", parameters}});
+  Send(*client, {{"op", "setParameters"}, {"parameters", parameters}});
   EXPECT_EQ(client->texts().size(), before + 10);
 }
 
@@ -201,7 +214,7 @@ TEST_F(ClientRequestsTest, TheConnectionGraphListsPublishersSubscribersAndServic
       {{0, "/a", "cdr", "p/msg/N", "ros2msg", ""}, {0, "/b", "cdr", "p/msg/N", "ros2msg", ""}});
   hub_.SetPublishers(channels[1], {"robot"});
   const auto client = Join(), watcher = Join();
-  SetDriveState(*watcher, {{"op", "subscribeConnectionGraph"}});
+  Send(*watcher, {{"op", "subscribeConnectionGraph"}});
   const json whole = watcher->texts().back();
   EXPECT_EQ(whole["publishedTopics"], json::parse(R"([{"name":"/a","publisherIds":["gsv"]},
                             {"name":"/b","publisherIds":["robot"]}])"));
@@ -218,7 +231,7 @@ TEST_F(ClientRequestsTest, TheConnectionGraphListsPublishersSubscribersAndServic
             json::parse(R"([{"name":"/a","subscriberIds":[]}])"));
   EXPECT_EQ(watcher->texts().back()["removedTopics"], json({"/b"}));
   const std::size_t told = watcher->texts().size();
-  SetDriveState(*watcher, {{"op", "unsubscribeConnectionGraph"}});
+  Send(*watcher, {{"op", "unsubscribeConnectionGraph"}});
   hub_.Unadvertise(std::vector{channels[0]});
   hub_.PublishChanges();
   EXPECT_EQ(watcher->texts().size(), told + 1);  // "unadvertise", and no graph update
