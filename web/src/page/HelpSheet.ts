@@ -74,7 +74,7 @@ const GESTURES: [gesture: string, meaning: string][] = [
   ["Right-drag, or drag with two fingers", "Move the view"],
   ["Mouse wheel, or pinch", "Zoom at the pointer"],
   ["Click a robot", "Select the robot"],
-  ["Drag a robot or object, while editing", "Move it over the floor; drag its handles to move or turn it along an axis"],
+  ["Drag a robot or object, while editing", "Move it over the floor. Drag an arrow to move it along an axis, or a ring to turn it about an axis"],
   ["Press Place, then click the floor, while editing", "Place the selected robot or object there"],
   ["Shift and click, or Shift and drag, while editing", "Add to the selection, or select all in a rectangle"],
 ];
@@ -127,7 +127,7 @@ function singleKeysSetting(app: App): HTMLElement {
     element(
       "p",
       { class: "dim" },
-      "Press a key below to change it. Turn single-key shortcuts off if keys are pressed by accident, for example with speech input. Arrow keys, Esc, " +
+      "To change a key, click it in the list, then press the new key. Turn single-key shortcuts off if keys are pressed by accident, for example with speech input. Arrow keys, Esc, " +
         "Delete, Home, End and keys with Ctrl still work then. This browser remembers the choice.",
     ),
   );

@@ -20,7 +20,7 @@ export function createModelForm(app: App, onAdd: () => void): HTMLElement {
   const model = choiceField("Model", () => offerBehaviour());
   const behaviour = choiceField("Behaviour", () => {});
   let driveText = "";
-  const drive = textField("Drive", "drive of the model, else guessed", (text) => (driveText = text));
+  const drive = textField("Drive", "default: drive of the model, else guessed from its wheels", (text) => (driveText = text));
   const [modelSelect, behaviourSelect] = [model, behaviour].map((each) => each.element.querySelector("select")!);
   const add = element("button", { class: "button", type: "button" }, "Add");
   add.addEventListener("click", () => {
@@ -71,7 +71,7 @@ function modelsOf({ editing, scene }: State): Option[] {
   return [
     ...modelsBy(editing, false).map((name) => ({ value: name, label: name, group: "Robots" })),
     ...editing.objects.map((name) => ({ value: OBJECT + name, label: name, group: "Objects" })),
-    ...modelsBy(editing, true).map((name) => ({ value: name, label: name, group: "Avatars, driven by viewers" })),
+    ...modelsBy(editing, true).map((name) => ({ value: name, label: name, group: "Avatars (people whom viewers control)" })),
     ...copiesOf(scene).map((name) => ({ value: COPY + name, label: `like ${name}`, group: "Add another one like this" })),
   ];
 }

@@ -48,7 +48,7 @@ function question(app: App): HTMLElement {
     ({ stopRecordingAsked, recording }) => (stopRecordingAsked ? (recording?.path ?? "") : null),
     (asked) => {
       card.hidden = asked === null;
-      setText(path, `This recording was not started on this page. End the recording to ${asked}?`);
+      setText(path, `This recording was not started on this page. End it? File: ${asked}`);
     },
   );
   return card;
@@ -56,6 +56,6 @@ function question(app: App): HTMLElement {
 
 function titleOf({ isOn, path, droppedMessages }: Recording): string {
   if (!isOn) return path ? `Record (last recording: ${path})` : "Record";
-  const lost = droppedMessages > 0 ? `; the disk was too slow for ${droppedMessages} messages` : "";
+  const lost = droppedMessages > 0 ? `; ${droppedMessages} messages not recorded, because the disk was too slow` : "";
   return `Recording to ${path}${lost}. Press to stop`;
 }

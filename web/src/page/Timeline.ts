@@ -176,7 +176,7 @@ function loopButton(app: App): HTMLElement {
       class: "button plain",
       type: "button",
       "aria-label": "Loop",
-      title: "Loop: start again at the end",
+      title: "Loop: at the end, play again from the start",
       onclick: () => void app.replay.toggleLoop(),
     },
     icon("loop"),

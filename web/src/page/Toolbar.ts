@@ -48,9 +48,9 @@ function transport(app: App): HTMLElement {
     "div",
     { class: "toolbar-transport", role: "group", "aria-label": "Run" },
     mainButton(app),
-    actionButton(app, "step", "step", "Step", "Take one step (paused)"),
+    actionButton(app, "step", "step", "Step", "Take one step (before the start, or while paused)"),
     createPaceMenu(app),
-    actionButton(app, "stop", "stop", "Stop", "Stop the simulation; only Reset starts it again"),
+    actionButton(app, "stop", "stop", "Stop", "Stop the simulation; after that, only Reset is possible"),
     actionButton(app, "reset", "reset", "Reset", "Reset to the start"),
     editButton(app),
     createRecordButton(app),
@@ -78,7 +78,7 @@ function newButton(app: App): HTMLElement {
 
 // A press on this button pauses a running simulation before editing begins.
 function editButton(app: App): HTMLElement {
-  const title = "Move, add and remove robots (paused)";
+  const title = "Move, add and remove robots and objects. A running simulation pauses";
   const button = iconButton({ picture: "edit", label: "Edit", title, onclick: () => void app.edits.toggle() });
   app.store.watch(
     (state) => ({ on: state.editing !== null, able: canEdit(state), shown: state.abilities.creates }),

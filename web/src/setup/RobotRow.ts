@@ -43,7 +43,7 @@ export class RobotRow {
       { value: "planar", label: "Planar: 2D kinematics on level ground" },
       { value: "rigid", label: "Rigid: rigid-body dynamics" },
     ]);
-    this.drive = textField("Drive", "drive of the model, else guessed: diff, skid,radius=0.16, …", (drive) =>
+    this.drive = textField("Drive", "diff, skid,radius=0.16, … (default: drive of the model, else guessed from its wheels)", (drive) =>
       this.change({ drive }),
     );
     this.namespace = textField("ROS 2 namespace", "/NAME of the robot; / for none", (namespace) => this.change({ namespace }));
