@@ -120,7 +120,8 @@ class ParameterReader {
     }
     if (*from > *to) {
       mapping.AddProblem(
-          "from", fmt::format("from must not be larger than to, found {} and {}", *from, *to));
+          "from", fmt::format("\"from\" is {}, but must not be larger than \"to\", which is {}",
+                              *from, *to));
       return;
     }
     if ((*to - *from) / stride >= kMaxValues) {

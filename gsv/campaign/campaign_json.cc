@@ -35,12 +35,12 @@ base::Result<Campaign> CampaignInJson(const std::string& text) {
     for (const auto& parameter : json.at("parameters")) {
       const int kind = parameter.at("kind");
       if (kind < 0 || kind > 2)
-        return base::Fail(base::ErrorCode::kCorrupt, "it is not the plan of a campaign");
+        return base::Fail(base::ErrorCode::kCorrupt, "this file is not the plan of a campaign");
       campaign.parameters.push_back({parameter.at("path"), static_cast<Parameter::Kind>(kind),
                                      parameter.at("values"), parameter.at("a"), parameter.at("b")});
     }
   } catch (const nlohmann::json::exception&) {
-    return base::Fail(base::ErrorCode::kCorrupt, "it is not the plan of a campaign");
+    return base::Fail(base::ErrorCode::kCorrupt, "this file is not the plan of a campaign");
   }
   if (identity != campaign.Identity() || campaign.runs() > kMaxRuns)
     return base::Fail(base::ErrorCode::kCorrupt, "the plan was changed after it was written");

@@ -69,7 +69,8 @@ TEST_F(CampaignTest, ReportsErrorsBeforeAnythingRuns) {
   const std::pair<const char*, const char*> bad[]{
       {"parameters: {seed: [1]}", "the key scenario is required"},
       {"scenario: s.yaml\nparameters: {seed: []}", "c.yaml:2:20: the list is empty"},
-      {"scenario: s.yaml\nparameters: {seed: {from: 3, to: 1}}", "from must not be larger than to"},
+      {"scenario: s.yaml\nparameters: {seed: {from: 3, to: 1}}",
+       "\"from\" is 3, but must not be larger than \"to\", which is 1"},
       {"scenario: s.yaml\nparameters: {seed: {uniform: [1]}}", "uniform must be two numbers"},
       {"scenario: s.yaml\nparameters: {seed: {gauss: [1, 2]}}", "a parameter must be a list"},
       {"scenario: s.yaml\nparameters: {'robots[3].x': [1]}", "the scenario has no such key"},

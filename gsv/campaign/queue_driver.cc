@@ -237,7 +237,7 @@ class Drive {
         spool_.Remove(batch);
         if (tasks_in_queue == 0) return base::Fail(job.error());
         if (!std::exchange(is_waiting_to_submit_, true)) {
-          settings_.say(fmt::format("{}; {} runs are not submitted yet, until the queue is shorter",
+          settings_.say(fmt::format("{}; {} runs will be submitted when the queue is shorter",
                                     job.error().Sentence(), runs.size() - first));
         }
         tasks_at_refusal_ = tasks_in_queue;

@@ -209,7 +209,7 @@ TEST_F(QueueDriverTest, RefusedBatchIsSubmittedAgainWhenTheQueueIsShorter) {
   Then([this] {
     EXPECT_EQ(queue_.submitted.size(), 1u);
     EXPECT_THAT(said_.back(),
-                HasSubstr("it is full; 4 runs are not submitted yet, until the queue is shorter"));
+                HasSubstr("it is full; 4 runs will be submitted when the queue is shorter"));
     Do("batch-0001-task-0000");
   });
   Then([this] {

@@ -104,7 +104,8 @@ base::Result<Spool> Spool::Open(const fs::path& folder) {
   std::error_code error;
   const fs::path file = folder / "plan.json";
   if (!fs::exists(file, error))
-    return base::Fail(base::ErrorCode::kNotFound, "no runs were submitted from here", folder);
+    return base::Fail(base::ErrorCode::kNotFound, "no runs were submitted from this folder",
+                      folder);
   auto campaign = CampaignInJson(base::ReadTextFile(file));
   if (!campaign) return base::Fail(campaign.error().code, campaign.error().message, file);
   return Spool(folder, *std::move(campaign));

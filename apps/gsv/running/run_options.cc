@@ -101,8 +101,9 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
       ->type_name("go_on|fail")
       ->group(kGroup);
   command
-      .add_option("--stuck-after", a.stuck_after,
-                  "simulated time without the commanded motion after which a robot is stuck")
+      .add_option(
+          "--stuck-after", a.stuck_after,
+          "a robot that does not move for this simulated time, despite commands to move, is stuck")
       ->default_str("5")
       ->check(Between(0.1, 1e9))
       ->type_name("SECONDS")

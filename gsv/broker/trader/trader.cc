@@ -142,7 +142,8 @@ TradingResult<std::string> Trader::Store(Offer offer) {
   return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<std::string> {
     if (offers_.size() >= limits_.offers) {
       return Refuse({.refusal = Refusal::kLimit,
-                     .detail = fmt::format("there are {} offers already", limits_.offers)});
+                     .detail = fmt::format("the broker already has {} offers, which is its limit",
+                                           limits_.offers)});
     }
     const std::uint64_t number = offers_.Add(std::move(offer));
     Record(OfferStored{offers_.Find(number)});
@@ -258,19 +259,20 @@ TradingResult<void> Trader::CheckSize(const PropertyList& properties,
                                       const std::string& reference) const {
   if (properties.size() > limits_.properties_per_offer) {
     return Refuse({.refusal = Refusal::kLimit,
-                   .detail = fmt::format("an offer has more than {} properties",
+                   .detail = fmt::format("an offer can have at most {} properties",
                                          limits_.properties_per_offer)});
   }
   const auto values = properties.values();
   if (std::count_if(values.begin(), values.end(), IsDynamic) >
       static_cast<std::ptrdiff_t>(limits_.dynamic.per_offer)) {
     return Refuse({.refusal = Refusal::kLimit,
-                   .detail = fmt::format("an offer has more than {} dynamic properties",
+                   .detail = fmt::format("an offer can have at most {} dynamic properties",
                                          limits_.dynamic.per_offer)});
   }
   if (properties.EncodedSize() + reference.size() / 2 > limits_.offer_bytes) {
-    return Refuse({.refusal = Refusal::kLimit,
-                   .detail = fmt::format("an offer is larger than {} bytes", limits_.offer_bytes)});
+    return Refuse(
+        {.refusal = Refusal::kLimit,
+         .detail = fmt::format("an offer can have at most {} bytes", limits_.offer_bytes)});
   }
   return {};
 }

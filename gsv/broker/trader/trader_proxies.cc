@@ -20,12 +20,12 @@ TradingResult<std::string> Trader::ExportProxy(const std::string& type, std::str
   }
   if (part.recipe.size() > limits_.expression.length) {
     return Refuse({.refusal = Refusal::kLimit,
-                   .detail = fmt::format("the recipe has more than {} characters",
+                   .detail = fmt::format("a recipe can have at most {} characters",
                                          limits_.expression.length)});
   }
   if (part.recipe.size() + part.policies.size() > limits_.offer_bytes) {
     return Refuse({.refusal = Refusal::kLimit,
-                   .detail = fmt::format("recipe and policies have more than {} bytes",
+                   .detail = fmt::format("recipe and policies can have at most {} bytes together",
                                          limits_.offer_bytes)});
   }
   return Store({.type = type,
