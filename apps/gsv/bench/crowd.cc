@@ -249,9 +249,10 @@ void AddCrowdBench(const CommandLine& bench) {
       ->check(Between(0, 256));
   command->add_flag(
       "--verify", arguments->verify,
-      "check overlaps and 1 % of the readings by brute force; exit with code 1 if they differ");
-  command->add_flag("--health", arguments->health,
-                    "compute the health of all robots twice a second, as for a viewer");
+      "recompute overlaps and 1 % of the readings by brute force; exit code 1 if a result differs");
+  command->add_flag(
+      "--health", arguments->health,
+      "compute the health of all robots twice a second, as gsv does for a viewer that shows it");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = Crowd(*arguments); });
 }

@@ -279,8 +279,9 @@ std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> 
       ->capture_default_str()
       ->check(Between(1.0, 3600.0));
   command
-      .add_option("--world", arguments->world,
-                  "world (default: office for up to 20 robots, else the square of bench crowd)")
+      .add_option(
+          "--world", arguments->world,
+          "world (default: office for up to 20 robots, else the square of `gsv bench crowd`)")
       ->type_name("WORLD");
   command.add_option("--model", arguments->model, "model of the robots")
       ->type_name("MODEL")
@@ -294,7 +295,7 @@ std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> 
 void AddTypicalBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
       "typical",
-      "Measure robots with the typical behaviour, in separate processes and in real time");
+      "Measure a typical load: robots with behaviours in separate processes, in real time");
   auto arguments = AddCommon(*command, {1, 2, 3, 4, 5});
   auto* behaviour =
       command->add_option("--behaviour", arguments->behaviour, "behaviour of the robots")
@@ -302,7 +303,7 @@ void AddTypicalBench(const CommandLine& bench) {
           ->capture_default_str();
   command
       ->add_flag("--exchange", arguments->exchange,
-                 "use behaviours with one round trip per cycle and without images")
+                 "use behaviours with one remote call per control cycle and without images")
       ->excludes(behaviour);
   command->add_flag("--in-process", arguments->in_process,
                     "run behaviours inside gsv, as fast as possible");
@@ -315,7 +316,8 @@ void AddTypicalBench(const CommandLine& bench) {
 
 void AddLockstepBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "lockstep", "Compare cycles with separate calls and with one exchange, in lockstep");
+      "lockstep",
+      "Compare behaviours with several calls and with one call per control cycle, in lockstep");
   auto arguments = AddCommon(*command, {5});
   arguments->mode = simulation::Mode::kLockstep;
   command->callback([arguments, bench] { bench.exit_code = Lockstep(*arguments); });

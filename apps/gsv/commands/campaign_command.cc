@@ -193,10 +193,9 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       if (!option.is_list) added->take_last();
     }
   }
-  run->add_option(
-         "--runs-per-task,--runs-a-task", engine.runs_per_task,
-         "runs per task, executed in sequence (default: the smallest N for at most 1,000 tasks)\n"
-         "--runs-a-task is the former name of this option.")
+  run->add_option("--runs-per-task,--runs-a-task", engine.runs_per_task,
+                  "runs per task, executed in sequence (default: chosen for at most 1,000 tasks)\n"
+                  "--runs-a-task is the former name of this option.")
       ->type_name("N")
       ->check(Between(0, static_cast<int>(campaign::kMaxRuns)))
       ->group("Job queues");
@@ -229,8 +228,8 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
   CLI::Option* broker =
       run->add_option("--broker", options.broker,
                       "run on the servers of this broker (default: on this machine)\n"
-                      "The servers are started with `gsv serve --scenarios N`. Form: "
-                      "corbaloc::1.2@HOST:PORT/TradingService.")
+                      "Start each server with `gsv serve --scenarios N`. The address has "
+                      "the form corbaloc::1.2@HOST:PORT/TradingService.")
           ->excludes("--failures")
           ->type_name("ADDRESS");
   run->add_option("--servers", options.servers,
@@ -240,8 +239,8 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
       ->type_name("CONSTRAINT");
   AddEngineOptions(run, arguments)->excludes(broker);
   run->add_option("--shard", arguments->shard,
-                  "run only the I-th of N equal shares of the runs\n`gsv campaign status` collects "
-                  "the results.")
+                  "run only share I (1 to N) of N equal shares of the runs\n`gsv campaign status` "
+                  "collects the results of all shares.")
       ->type_name("I/N");
   run->callback([=] { line.exit_code = RunCampaign(*arguments, line.signals); });
 }

@@ -120,7 +120,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   AddLimitOption(*command, arguments->limits);
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->add_flag("--strict", arguments->strict,
-                    "treat warnings as errors, such as elements that are not supported");
+                    "treat warnings as errors, for example warnings about unsupported elements");
   // This option is only for TryToRead(), and is hidden in the help.
   command->add_option("--confined-memory", arguments->sandbox.memory_bytes)->group("");
   command->add_option("--confined-time", arguments->sandbox_seconds)->group("");
@@ -184,7 +184,7 @@ void AddCheckCommands(const CommandLine& line) {
                        "list the ports of running gsv programs, and who can reach them");
   doctor->add_flag("--json", asked->json, "print one JSON object per program; only with --security")
       ->needs(security);
-  doctor->add_option("--broker", asked->broker, "broker that must respond")
+  doctor->add_option("--broker", asked->broker, "broker to check: it must respond")
       ->type_name("ADDRESS")
       ->envname("GSV_BROKER");
   doctor->callback([asked, line] {

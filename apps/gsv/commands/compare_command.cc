@@ -168,7 +168,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
   auto arguments = std::make_shared<CompareArguments>();
   command
       .add_option("log", arguments->log,
-                  "file of the log; its other files must be in the same folder")
+                  "main file of the log; the log's other files must be in the same folder")
       ->required()
       ->type_name("FILE");
   command

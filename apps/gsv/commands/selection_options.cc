@@ -6,7 +6,7 @@ void AddInstanceOptions(CLI::App& command, Selection& selection) {
   command
       .add_option("--broker", selection.broker,
                   "broker to search for simulations (default: those of your running instances)\n"
-                  "Form: corbaloc::1.2@HOST:PORT/TradingService.")
+                  "The address has the form corbaloc::1.2@HOST:PORT/TradingService.")
       ->type_name("ADDRESS")
       ->envname("GSV_BROKER");
   command

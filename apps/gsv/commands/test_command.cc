@@ -232,7 +232,7 @@ void AddTestCommand(const CommandLine& line) {
       ->group(kRunGroup);
   command
       ->add_option("--shard", arguments->shard,
-                   "run only the I-th of N equal shares of the scenarios")
+                   "run only share I (1 to N) of N equal shares of the scenarios")
       ->capture_default_str()
       ->type_name("I/N")
       ->group(kRunGroup);
