@@ -38,11 +38,11 @@ function summary(times) {
   return { median: sorted[sorted.length >> 1], worst: sorted.at(-1), all: times.map((time) => Math.round(time)) };
 }
 
-// `script` runs in the page before the page's own scripts.
-async function withPage(url, use, script = () => {}) {
+// `script` runs with the argument in the page before the page's own scripts.
+async function withPage(url, use, script = () => {}, argument = undefined) {
   const browser = await openBrowser(SIZE);
   try {
-    await browser.context.addInitScript(script);
+    await browser.context.addInitScript(script, argument);
     const { page } = await openPage(browser, url);
     await waitUntilDrawn(page, 120_000);
     return await use(page);
@@ -283,8 +283,12 @@ const traffic = (robots, off) =>
 
 // The page's memory is measured after a while, in which caches fill. Plots grow with simulated time
 // up to their limit, so none is open.
-// GSV_GROWTH_MIN is the duration of the measurement in minutes.
+// GSV_GROWTH_MIN is the duration of the measurement in minutes. GSV_GROWTH_SPEED makes the time of
+// the page pass faster: with 4, simulations run at four times real time and the page gets each
+// message four times, so 120 minutes have the messages and the simulated time of 8 hours.
 const GROWTH = {
+  speed: Number(process.env.GSV_GROWTH_SPEED ?? 1),
+  size: process.env.GSV_GROWTH_SIZE?.split("x").map(Number), // of the window, such as 640x400
   warmUpS: Number(process.env.GSV_GROWTH_WARM_UP_S ?? 60),
   everyS: 10,
   samples: Math.max(3, 6 * Number(process.env.GSV_GROWTH_MIN ?? 2)),
@@ -298,14 +302,31 @@ function growthOf(samples, name) {
   const third = Math.floor(samples.length / 3);
   const middle = (part, key) => part.map((sample) => sample[key]).sort((a, b) => a - b)[part.length >> 1];
   const [first, last] = [samples.slice(0, third), samples.slice(-third)];
-  const hours = (middle(last, "at_s") - middle(first, "at_s")) / 3600;
+  const hours = (GROWTH.speed * (middle(last, "at_s") - middle(first, "at_s"))) / 3600;
   return Math.round((GROWTH.dayH * (middle(last, name) - middle(first, name))) / hours);
+}
+
+// Runs in the page: the page gets each message of a topic `speed` times.
+function repeatMessages(speed) {
+  const Socket = window.WebSocket;
+  window.testMessages = 0;
+  window.WebSocket = class extends Socket {
+    set onmessage(receive) {
+      super.onmessage = receive && ((event) => {
+        const isData = typeof event.data !== "string" && new DataView(event.data).getUint8(0) === 1;
+        for (let i = 1; isData && i < speed; i++) receive(new MessageEvent("message", { data: event.data.slice(0) }));
+        receive(event);
+        window.testMessages += isData ? speed : 1;
+      });
+    }
+  };
 }
 
 // Measures the page's heap after forced garbage collections, its nodes and its listeners.
 const growth = (name, args) =>
-  withServer(args, (url) =>
+  withServer([...args, "--real-time-factor", `${GROWTH.speed}`], (url) =>
     withPage(url, async (page) => {
+      if (GROWTH.size) await page.setViewportSize({ width: GROWTH.size[0], height: GROWTH.size[1] });
       await page.locator("[data-robot]").first().click();
       const devTools = await page.context().newCDPSession(page);
       await devTools.send("Performance.enable");
@@ -319,18 +340,20 @@ const growth = (name, args) =>
           heap_kB: Math.round(of("JSHeapUsedSize") / 1000),
           nodes: of("Nodes"),
           listeners: of("JSEventListeners"),
+          messages: await page.evaluate(() => window.testMessages),
         };
       };
       await new Promise((resolve) => setTimeout(resolve, 1000 * GROWTH.warmUpS));
       const samples = [];
       while (samples.length < GROWTH.samples) {
         samples.push(await sample());
+        if (process.env.GSV_GROWTH_LOG) fs.appendFileSync(process.env.GSV_GROWTH_LOG, `${JSON.stringify(samples.at(-1))}\n`);
         await new Promise((resolve) => setTimeout(resolve, 1000 * GROWTH.everyS));
       }
       const names = ["heap_kB", "nodes", "listeners"];
       const inADay = Object.fromEntries(names.map((name) => [name, growthOf(samples, name)]));
       return { world: name, growth_in_8_hours: inADay, samples };
-    }),
+    }, repeatMessages, GROWTH.speed),
   );
 
 try {
