@@ -129,7 +129,7 @@ function viewerCommands(app: App): Command[] {
   if (wish) commands.add(true, wish.label, () => app.people.want(wish.wants));
   commands.add(asker(people) !== null, "Give control", () => app.people.answer(true));
   commands.add(asker(people) !== null, "Keep control", () => app.people.answer(false));
-  commands.add(people.viewers.length > 0, "Names of viewers…", () => app.openMenu("viewers"));
+  commands.add(people.viewers.length > 0, "Show the viewers…", () => app.openMenu("viewers"));
   return commands.all;
 }
 

@@ -10,7 +10,9 @@ export interface Expectation {
   yaml: string; // the YAML in the scenario, on one line
   where: string; // file:line:column
   verdict: Verdict;
-  margin: { value: number; unit: string; time: number } | null; // the smallest margin so far, and its time
+  // The smallest distance to the limit so far, and its time. If the condition must become true, it is
+  // the largest distance.
+  margin: { value: number; unit: string; time: number } | null;
   time: number; // simulated time of the verdict, s; 0 while it is pending
   detail: string;
   bodies: readonly string[]; // bodies that the expectation names

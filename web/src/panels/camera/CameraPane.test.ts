@@ -45,7 +45,7 @@ test("the pane does not wait for a recording without images", () => {
   expect(waiting()).toBe("The recording has no image of this camera up to this time.");
   store.set({ inPast: true, replay: { start: 0, end: 11, speed: 1, loop: false } });
   store.set({ simulation: "past" });
-  expect(waiting()).toBe("The stored past has no camera images. Press Live to see the present image.");
+  expect(waiting()).toBe("Camera images of past times are not stored. Press Live to see the present image.");
   store.set({ inPast: false, replay: null });
   expect(waiting()).toBe("Waiting for an image…");
 });

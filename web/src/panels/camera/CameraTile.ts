@@ -75,7 +75,7 @@ export class CameraTile {
     const { view, replay, inPast } = this.ports.state.get();
     // A recording contains only images that were requested during recording. If there is an image
     // for the present instant, the replay sends it at once.
-    const missing = inPast ? "The stored past has no camera images. Press Live to see the present image." : "The recording has no image of this camera up to this time.";
+    const missing = inPast ? "Camera images of past times are not stored. Press Live to see the present image." : "The recording has no image of this camera up to this time.";
     setText(this.waiting, replay ? missing : "Waiting for an image…");
     if (view === "starting") return;
     this.end = this.ports.topics.subscribe<CameraMessage>(this.camera.topic, (image) => this.painter.take(image), { newestOnly: true });

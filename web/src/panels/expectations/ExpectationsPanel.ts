@@ -40,7 +40,7 @@ function row(ports: Ports, expectation: Expectation): HTMLElement {
     { class: "expectation", "data-verdict": verdict },
     element("span", { class: "mark-of", "aria-hidden": "true" }),
     element("span", { class: "expectation-name", title: where }, name || yaml),
-    element("span", { class: "number dim", title: "Smallest distance to the limit, and when" }, margin && `margin ${margin}`),
+    element("span", { class: "number dim", title: "Smallest distance of the value to its limit, and the time of this value. If the condition must become true: the largest distance" }, margin && `margin ${margin}`),
     element("span", { class: "expectation-state" }, verdictWord(verdict), instant(ports, expectation)),
     detail !== "" && element("span", { class: "expectation-text" }, detail),
     element("span", { class: "expectation-text" }, name === yaml ? "" : yaml, ...expectation.bodies.flatMap((body) => [" ", bodyButton(ports, body)])),

@@ -86,7 +86,7 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
 
 function factsOf(status: SimulationStatus, { gravity, step }: World, bodies: number): Fact[] {
   const isRealTime = status.mode === "real_time";
-  const speed = isRealTime ? `${formatFactor(status.realTimeFactor)} of ${formatFactor(status.targetFactor)}` : formatFactor(status.realTimeFactor);
+  const speed = isRealTime ? `${formatFactor(status.realTimeFactor)} (target ${formatFactor(status.targetFactor)})` : formatFactor(status.realTimeFactor);
   const facts: Fact[] = [
     ["mode", isRealTime ? "real time" : "lockstep"],
     ["real-time factor", speed],

@@ -3,11 +3,11 @@ import type { SimulationStatus } from "../../api/status";
 import { formatFactor } from "../../ui/format";
 
 export const PARTS = [
-  { key: "behaviours_s", label: "Behaviours", hint: "turns of behaviours; in lockstep, also the waits for behaviours" },
+  { key: "behaviours_s", label: "Behaviours", hint: "running the code of behaviours; in lockstep, also waiting for behaviours" },
   { key: "devices_s", label: "Devices", hint: "actuators, radios and other devices" },
   { key: "bodies_s", label: "Bodies", hint: "motion and contacts" },
   { key: "observers_s", label: "Observers", hint: "recording and viewers" },
-  { key: "idle_s", label: "Idle", hint: "waits for the next step, in real-time mode" },
+  { key: "idle_s", label: "Idle", hint: "waiting until the next step is due, in real-time mode" },
 ] as const;
 export type Part = (typeof PARTS)[number]["key"];
 
@@ -89,7 +89,7 @@ type Pace = Pick<SimulationStatus, "mode" | "phase" | "targetFactor" | "realTime
 
 // Returns a sentence about what limits the speed of the run, and how the user can change this.
 export function paceSentence({ mode, phase, targetFactor, realTimeFactor }: Pace, costs: StepCosts): string {
-  if (phase !== "running") return "The simulation does not run. Start it to measure its steps.";
+  if (phase !== "running") return "The simulation is not running. Start or resume it to measure its steps.";
   if (costs.steps === 0) return "No step yet.";
   const isSlow = mode === "real_time" && realTimeFactor < SLOW * targetFactor;
   if (mode === "real_time" && !isSlow) return "The simulation runs at its target speed.";
