@@ -35,7 +35,7 @@ base::Result<std::unique_ptr<SharedFile>> SharedFile::Make() {
   if (descriptor < 0) return base::Fail(Unavailable("cannot make a file"));
   std::unique_ptr<SharedFile> file(new SharedFile(descriptor));
   if (fcntl(descriptor, F_ADD_SEALS, F_SEAL_SHRINK) != 0) {
-    return base::Fail(Unavailable("cannot forbid to shrink the file"));
+    return base::Fail(Unavailable("cannot seal the file against shrinking"));
   }
   return file;
 }

@@ -51,7 +51,7 @@ TEST_F(HostileInputTest, EntitiesOfManyBytesAreRefused) {
   }
   text += "]><sdf version='1.9'><model name='&a9;'><link name='l'/></model></sdf>";
   EXPECT_THAT(ProblemsOf("m.sdf", text),
-              Contains(HasSubstr("its entities expand to more than the limit")));
+              Contains(HasSubstr("the entities of the file expand to more than the limit")));
   EXPECT_EQ(model_, nullptr);
 }
 

@@ -35,8 +35,8 @@ std::string WhyNotConnected(const CORBA::SystemException& exception) {
   std::string tls_failure = TakeTlsFailure();
   const bool is_transient = CORBA::TRANSIENT::_downcast(&exception) != nullptr;
   if (is_transient && exception.minor() == omni::TRANSIENT_NoUsableProfile && SpeaksTls()) {
-    return "it does not support TLS, and is not on this machine: start it with a certificate, or "
-           "allow this with --insecure-corba (GSV_INSECURE_CORBA=1)";
+    return "the server does not support TLS, and is not on this machine: start it with a "
+           "certificate, or allow this with --insecure-corba (GSV_INSECURE_CORBA=1)";
   }
   const bool is_about_connection =
       is_transient || CORBA::COMM_FAILURE::_downcast(&exception) != nullptr;

@@ -170,7 +170,7 @@ TEST_F(CorbaTls, ClientWithoutACertificateIsRejected) {
   const Variable without("GSV_CORBA_CERTIFICATE", "");
   const Outcome told = broker.Offers();
   EXPECT_EQ(told.ending, "exit code 5");
-  EXPECT_THAT(told.err, HasSubstr("it requires TLS and a certificate"));
+  EXPECT_THAT(told.err, HasSubstr("the server requires TLS and a certificate"));
   // A client that uses plain TCP although the server requires TLS gets no answer.
   const std::string plain = "corbaloc::1.2@127.0.0.1:" + std::to_string(broker.port());
   const Outcome cut = RunProgram("gsv", {"offers", "--broker", plain + "/TradingService"});
@@ -192,7 +192,7 @@ TEST_F(CorbaTls, PlainClientOfATlsServiceGetsAnExplanation) {
   without.emplace("GSV_CORBA_CERTIFICATE", "");
   const Outcome refused = RunProgram("gsv", run);
   EXPECT_EQ(refused.ending, "exit code 4");
-  EXPECT_THAT(refused.err, HasSubstr("it requires TLS and a certificate"));
+  EXPECT_THAT(refused.err, HasSubstr("the server requires TLS and a certificate"));
 }
 
 // A program with a certificate must not call services without one on other machines.
@@ -207,7 +207,8 @@ TEST_F(CorbaTls, PlainServicesAreCalledOnThisMachineOnly) {
   Running refused("gsv", {"offers", "--broker", reference}, host.wrapper());
   const Outcome outcome = refused.AwaitEnd();
   EXPECT_EQ(outcome.ending, "exit code 5");
-  EXPECT_THAT(outcome.err, HasSubstr("it does not support TLS, and is not on this machine"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("the server does not support TLS, and is not on this machine"));
   Running insecure("gsv", {"--insecure-corba", "offers", "--broker", reference}, host.wrapper());
   EXPECT_EQ(insecure.AwaitEnd().ending, "exit code 0");
   EXPECT_EQ(RunProgram("gsv", {"offers", "--broker", reference}).ending, "exit code 0");

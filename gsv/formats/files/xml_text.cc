@@ -229,8 +229,8 @@ class XmlPreparation {
       }
     }
     if (out_.size() > max_bytes_) {
-      Refuse("its entities expand to more than the limit of " + std::to_string(max_bytes_) +
-             " bytes");
+      Refuse("the entities of the file expand to more than the limit of " +
+             std::to_string(max_bytes_) + " bytes");
     }
   }
 

@@ -176,7 +176,8 @@ base::Status CheckGltf(const std::string& bytes, bool is_binary, const ReadLimit
   std::string_view json = bytes;
   if (is_binary) {
     if (!json.starts_with("glTF")) {
-      return Fail(ErrorCode::kBadModel, "the mesh cannot be read: a .glb begins with glTF", file);
+      return Fail(ErrorCode::kBadModel,
+                  "the mesh cannot be read: a .glb file must begin with the bytes \"glTF\"", file);
     }
     const std::optional<std::string_view> chunk = JsonOf(bytes);
     if (!chunk) {

@@ -127,7 +127,7 @@ class MaterialReader {
   base::Result<std::shared_ptr<const Image>> ReadAny(const aiString& name) {
     if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name.C_Str())) {
       if (embedded->mHeight != 0) {
-        return Fail(base::ErrorCode::kBadModel, "raw pixels inside a mesh are not supported");
+        return Fail(base::ErrorCode::kBadModel, "uncompressed embedded textures are not supported");
       }
       return DecodeImage(reinterpret_cast<const unsigned char*>(embedded->pcData), embedded->mWidth,
                          mesh_.string(), limits_);

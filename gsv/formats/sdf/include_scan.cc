@@ -105,8 +105,8 @@ base::Result<std::string> IncludeScan::TextOf(XmlFile& file) {
     const XMLElement* content = file.root->FirstChildElement();
     return Fail(ErrorCode::kBadModel,
                 content == nullptr ? std::string("the file contains no model")
-                                   : "it contains <" + std::string(content->Name()) +
-                                         ">, but only a model can be part of a model",
+                                   : "the file contains <" + std::string(content->Name()) +
+                                         ">, but a model can include only models",
                 file.path.string());
   }
   RepairValues(*model, file.path, problems_);

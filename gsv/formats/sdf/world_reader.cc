@@ -49,7 +49,7 @@ class WorldReader {
   base::Result<WorldDescription> Read() {
     XMLElement* world = file_.root->FirstChildElement("world");
     if (world == nullptr) {
-      return Fail(ErrorCode::kBadModel, "there is no <world> inside", file_.path.string());
+      return Fail(ErrorCode::kBadModel, "the file contains no <world>", file_.path.string());
     }
     const char* name = world->Attribute("name");
     world_.name = name == nullptr ? "world" : name;

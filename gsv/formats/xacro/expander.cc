@@ -233,7 +233,8 @@ base::Status Expander::OnProperty(const NodePtr& node, Node&, Context& context) 
   }
   const std::string reach = node->attribute("scope") == nullptr ? "" : *node->attribute("scope");
   if (reach != "" && reach != "parent" && reach != "global" && reach != "local") {
-    return InvalidXacro("the scope of a property is parent or global, not \"" + reach + "\"");
+    return InvalidXacro("the scope of a property is local, parent or global, not \"" + reach +
+                        "\"");
   }
   Scope* target = &scope;
   if (reach == "global") target = &scope.outermost();
@@ -281,7 +282,7 @@ base::Status Expander::OnInclude(const NodePtr& node, Node& parent, Context& con
   if (!is_optional) return base::Fail(is_optional.error());
   if (context.includes_left <= 0) {
     return InvalidXacro("files include each other deeper than " +
-                        std::to_string(max_include_depth_));
+                        std::to_string(max_include_depth_) + " levels");
   }
   if (name->find_first_of("*?[") == std::string::npos) {
     return Include(*name, *is_optional, node, parent, context);
@@ -468,7 +469,7 @@ base::Status Expander::BindBlocks(const Macro& macro, const NodePtr& node, Conte
                    {is_whole ? std::vector<NodePtr>{element} : element->children, true});
   }
   if (block == holder.children.end()) return {};
-  return InvalidXacro("the macro takes no block <" + (*block)->text + ">");
+  return InvalidXacro("the macro has no block parameter for the element <" + (*block)->text + ">");
 }
 
 base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, Scope& scope) {

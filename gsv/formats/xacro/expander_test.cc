@@ -95,7 +95,7 @@ TEST_F(ExpanderTest, InsertsBlocks) {
   EXPECT_THAT(Expanded("<xacro:macro name='m' params='*b'/><xacro:m/>"),
               HasSubstr("lacks an element for the block \"b\""));
   EXPECT_THAT(Expanded("<xacro:macro name='m'/><xacro:m><x/></xacro:m>"),
-              HasSubstr("the macro takes no block <x>"));
+              HasSubstr("the macro has no block parameter for the element <x>"));
 }
 
 TEST_F(ExpanderTest, ForwardsPropertiesOfTheCaller) {

@@ -304,7 +304,7 @@ base::Result<Value> TextMethod(const std::string& text, const std::string& name,
   if (name == "strip" && a.empty()) return Value{WithoutBlanks(text)};
   if (name == "split" && a.size() <= 1) {
     if (a.size() == 1 && a[0].as<std::string>()->empty())
-      return InvalidCall("split() takes a separator");
+      return InvalidCall("the separator of split() must not be empty");
     return MakeList(Split(text, a.empty() ? "" : *a[0].as<std::string>()));
   }
   if (name == "startswith" && a.size() == 1)

@@ -56,7 +56,7 @@ base::Result<std::shared_ptr<ViewDrawer::Seat>> ViewDrawer::Take(const ViewReque
   if (!is_shared && views.size() >= limits_.views) {
     return Fail(ErrorCode::kUnavailable,
                 fmt::format("the server already draws {} views, which is the limit; close one of "
-                            "them, or use the same camera as another one",
+                            "them, or request a view that is already drawn",
                             limits_.views));
   }
   auto seat = std::make_shared<Seat>(request);

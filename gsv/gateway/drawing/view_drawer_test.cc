@@ -106,8 +106,8 @@ TEST_F(ViewDrawerTest, LimitsTheNumberOfViewsAndViewers) {
   const auto third_view = drawer_.Take(Request(34));
   ASSERT_FALSE(third_view);
   EXPECT_EQ(third_view.error().message,
-            "the server already draws 2 views, which is the limit; close one of them, or use the "
-            "same camera as another one");
+            "the server already draws 2 views, which is the limit; close one of them, or "
+            "request a view that is already drawn");
   {
     const auto shared = drawer_.Take(Request(33));
     ASSERT_TRUE(shared);

@@ -229,9 +229,10 @@ base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream) {
     const int samples = rendering::DepthSamples(camera.width, spacing) *
                         rendering::DepthSamples(camera.height, spacing);
     if (samples > rendering::kMaxDepthSamples) {
-      return Fail(ErrorCode::kInvalidArgument,
-                  fmt::format("depth={} gives {} depths, but the limit is {}; use a larger number",
-                              spacing, samples, rendering::kMaxDepthSamples));
+      return Fail(
+          ErrorCode::kInvalidArgument,
+          fmt::format("depth={} gives {} depth values, but the limit is {}; use a larger spacing",
+                      spacing, samples, rendering::kMaxDepthSamples));
     }
   }
   return query;

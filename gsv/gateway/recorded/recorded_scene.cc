@@ -79,8 +79,8 @@ base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
   const Json scene = Json::parse(text, nullptr, false);
   const Json& version = MemberOf(scene, "layout_version");
   if (!version.is_number_unsigned()) {
-    return base::Fail(base::ErrorCode::kCorrupt, "it is not a scene: layout_version is missing",
-                      index.name);
+    return base::Fail(base::ErrorCode::kCorrupt,
+                      "this attachment is not a scene: layout_version is missing", index.name);
   }
   AddRobotsOf(scene, robots_);
   scenes_[version.get<std::uint32_t>()] = {SharedBytes(std::string(text)), BodyPosesOf(scene)};

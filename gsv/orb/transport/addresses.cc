@@ -61,7 +61,8 @@ omni::giopActiveConnection* TlsAddress::Connect(const omni_time_t& deadline, COR
                                                 CORBA::Boolean& timed_out) const {
   if (address_.port == 0) return nullptr;
   if (context_ == nullptr) {
-    NoteTlsFailure("it requires TLS and a certificate: set yours with GSV_CORBA_CERTIFICATE");
+    NoteTlsFailure(
+        "the server requires TLS and a certificate: set yours with GSV_CORBA_CERTIFICATE");
     return nullptr;
   }
   const int socket = ConnectSocket(address_, deadline, flags, timed_out);
