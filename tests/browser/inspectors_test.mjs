@@ -125,7 +125,7 @@ test("an object of the list is shown in the inspector and in the tree", async ()
 
 test("a sensor of the world is chosen in the tree: parameters, transform and the newest value with its age", async () => {
   const tree = page.getByRole("region", { name: "World", exact: true });
-  await tree.getByLabel("Name in the world").fill("post");
+  await tree.getByLabel("Search the world by name").fill("post");
   await tree.locator('[data-node="post::sensor::height"]').click();
   const shown = page.getByRole("region", { name: "Selected part", exact: true });
   await shown.getByRole("heading", { name: "Sensor height", exact: true }).waitFor();

@@ -115,7 +115,7 @@ test("the panel Physics says why a run is slower than its target", async () => {
 test("the tree of the panel World contains links, joints, sensors and transforms", async () => {
   await press("World");
   const world = panel("World");
-  await world.getByLabel("Name in the world").fill("pebble");
+  await world.getByLabel("Search the world by name").fill("pebble");
   await world.locator('[data-node="pebble"]').click();
   const part = world.getByRole("region", { name: "Selected part" });
   await part.getByText(/^-?[\d.]+, -?[\d.]+, -?[\d.]+ m$/).waitFor();

@@ -327,7 +327,7 @@ test("topics are listed with types and rates, and a field of any message is read
   const bytes = (1000 * (await bandwidth())) / (await rate());
   assert.ok(bytes > 50 && bytes < 5000, `${bytes} bytes for each message`);
   const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
-  await press("Hold this message");
+  await press("Freeze this message");
   await press("Copy mode");
   await until(async () => (await clipboard()) === "real_time", "the copied field");
   await press("Copy the message as JSON");

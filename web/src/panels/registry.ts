@@ -42,7 +42,7 @@ export const PANELS: readonly Panel[] = [
     key: "J",
     place: "side",
     isAvailable: ({ replay }) => replay === null,
-    absence: "A recording cannot be driven. Open a running simulation.",
+    absence: "Robots in a recording cannot be driven. Open a running simulation.",
     load: () => import("./teleoperation/TeleoperationPanel"),
   },
   {
@@ -53,7 +53,7 @@ export const PANELS: readonly Panel[] = [
     group: "Control",
     place: "side",
     isAvailable: ({ replay }) => replay === null,
-    absence: "The joints of a recording cannot be moved. Open a running simulation.",
+    absence: "Joints in a recording cannot be moved. Open a running simulation.",
     load: () => import("./joints/JointsPanel"),
   },
   {

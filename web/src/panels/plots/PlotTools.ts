@@ -85,7 +85,7 @@ export function eventsCheck({ state, plots }: Ports): HTMLElement {
     (known) => known.plots.events,
     (isOn) => (box.checked = isOn),
   );
-  return element("label", { class: "check-line", title: "Mark events such as pauses and dead behaviours" }, box, "Events");
+  return element("label", { class: "check-line", title: "Mark events, for example pauses and behaviours that crash" }, box, "Events");
 }
 
 // Adds an expression of fields as a curve. Returns the button that opens the form, and the form.

@@ -17,7 +17,7 @@ import { GamepadReader } from "./GamepadReader";
 
 type Ports = Pick<PanelPorts, "state" | "control">;
 
-const NONE = "No robot can be driven: each has no drive, or is controlled by its behaviour. To add a robot that you can drive: press Edit, choose a model, leave Behaviour at None, press Add, then Resume.";
+const NONE = "No robot can be driven. You can drive avatars, and robots that have a drive and no running behaviour. To add a robot that you can drive: press Edit, choose a model, leave Behaviour at None, press Add, then Resume.";
 const HINT = "Press the pad, then hold W A S D or the arrow keys (Q and E: sideways). Or drag on the pad. Or use a gamepad.";
 const MAX_LISTED = 200;
 

@@ -36,7 +36,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
   };
   const title = element("h2", { class: "tree-title", hidden: "" });
   const note = element("p", { class: "dim", role: "status" });
-  const pause = button("pause", "Hold this message", () => {
+  const pause = button("pause", "Freeze this message", () => {
     isPaused = !isPaused;
     pause.setAttribute("aria-pressed", String(isPaused));
     if (!isPaused) draw();

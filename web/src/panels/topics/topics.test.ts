@@ -71,11 +71,11 @@ test("a frozen message stays while others arrive", () => {
   choose("/gsv/status");
   topics.send("/gsv/status", { step: 1 });
   vi.advanceTimersByTime(250);
-  press("Hold this message");
+  press("Freeze this message");
   topics.send("/gsv/status", { step: 2 });
   vi.advanceTimersByTime(250);
   expect(lines()).toEqual(["step1"]);
-  press("Hold this message");
+  press("Freeze this message");
   expect(lines()).toEqual(["step2"]);
 });
 

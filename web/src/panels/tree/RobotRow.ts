@@ -98,6 +98,6 @@ export class RobotRow {
     if (kind === "robot") return behaviour;
     // A recorded avatar cannot be driven, so its keys are not shown.
     if (kind === "avatar") return this.ports.state.get().replay ? "avatar" : "avatar · W A S D";
-    return status.behaviour ? `station · ${behaviour}` : "station";
+    return status.behaviour ? `sensor station · ${behaviour}` : "sensor station";
   }
 }

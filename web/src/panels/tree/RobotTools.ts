@@ -12,7 +12,7 @@ type Ports = Pick<PanelPorts, "state" | "robots">;
 const FEWEST_ROBOTS = 6;
 
 const SORTING_LABELS: Record<Sorting, string> = {
-  worst: "Worst first",
+  worst: "Worst state first",
   name: "Sort by name",
   distance: "Longest distance first",
   collisions: "Most collisions first",

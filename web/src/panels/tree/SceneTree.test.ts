@@ -19,9 +19,9 @@ test("a station is listed as such and counted separately from robots", () => {
     status: { robots } as unknown as SimulationStatus,
   });
   const tree = createSceneTree(ports, document.createElement("div"));
-  expect(tree.querySelector("h2")!.textContent).toBe("1 robot, 2 stations");
+  expect(tree.querySelector("h2")!.textContent).toBe("1 robot, 2 sensor stations");
   const rows = [...tree.querySelectorAll(".robot")].map((row) => row.querySelector(".robot-behaviour")!.textContent);
-  expect(rows).toEqual(["wander", "station", "station · watch"]);
+  expect(rows).toEqual(["wander", "sensor station", "sensor station · watch"]);
 });
 
 function health(...robots: object[]): Health {

@@ -72,11 +72,11 @@ function stationsOf(scene: SceneDescription | null): Set<string> {
   return new Set(robotsOf(scene).flatMap(({ name, isStation }) => (isStation ? [name] : [])));
 }
 
-// Returns a text such as "3 robots", "1 robot, 2 stations", or "Robots".
+// Returns a text such as "3 robots", "1 robot, 2 sensor stations", or "Robots".
 function headingFor(statuses: RobotStatus[], stations: Set<string>): string {
   const fixed = statuses.filter(({ name }) => stations.has(name)).length;
   const robots = statuses.length - fixed;
-  const parts = [robots > 0 ? count(robots, "robot") : "", fixed > 0 ? count(fixed, "station") : ""];
+  const parts = [robots > 0 ? count(robots, "robot") : "", fixed > 0 ? count(fixed, "sensor station") : ""];
   return parts.filter((part) => part !== "").join(", ") || "Robots";
 }
 

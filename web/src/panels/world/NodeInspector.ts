@@ -127,7 +127,7 @@ export class NodeInspector {
     const facts: Line[] = [
       ["Of", body.name],
       ["Kind", kind],
-      ["Child link", link ?? "fixed to the model"],
+      ["Child link", link ?? "does not move relative to the model"],
     ];
     this.show(facts);
     let isOn = true;
@@ -154,7 +154,7 @@ export class NodeInspector {
 
   private transformLines(child: string): Line[] {
     const frame = this.transforms.get(child);
-    if (!frame) return [["", "No message has this transform yet. Keep Transforms open in the tree."]];
+    if (!frame) return [["", "Waiting for this transform. The page reads transforms only while Transforms is open in the tree."]];
     return [
       ["Parent", frame.parent],
       ["Translation", positionText(frame.position)],

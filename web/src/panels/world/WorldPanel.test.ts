@@ -63,7 +63,7 @@ test("an object and a moving link have their pose and its age", () => {
   vi.advanceTimersByTime(250);
   expect(facts()).toMatchObject({ Of: "b", Position: "5.000, 0.000, 0.000 m", Orientation: "0.0, 0.0, 90.0 ° (roll, pitch, yaw)" });
   choose("b::link::base");
-  expect(facts()).toMatchObject({ Moves: "with its model" });
+  expect(facts()).toMatchObject({ Pose: "does not move relative to the model" });
   end();
   expect(topics.read).toEqual([]);
 });

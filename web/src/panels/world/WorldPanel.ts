@@ -16,7 +16,7 @@ const UPDATE_MS = 500;
 
 export function mount(ports: Ports): MountedPanel {
   const { state, topics, robots } = ports;
-  const filter = element("input", { type: "search", class: "log-filter", placeholder: "Name…", "aria-label": "Name in the world", autocomplete: "off", spellcheck: "false" });
+  const filter = element("input", { type: "search", class: "log-filter", placeholder: "Name…", "aria-label": "Search the world by name", autocomplete: "off", spellcheck: "false" });
   const transforms = new Transforms();
   const inspector = new NodeInspector(ports, transforms);
   let chosen: WorldNode | null = null;

@@ -35,7 +35,7 @@ export function factsOf(body: SceneBody, link: string | null): Line[] {
 export function poseLines(scene: SceneDescription | null, message: PosesMessage | null, body: SceneBody, link: string | null, now: number): Line[] {
   const entry = scene?.poses.findIndex((each) => scene.bodies[each.body]?.name === body.name && each.link === link) ?? -1;
   const isFresh = message !== null && scene?.layoutVersion === message.layout_version && entry >= 0;
-  if (link !== null && entry < 0) return [["Moves", "with its model"]];
+  if (link !== null && entry < 0) return [["Pose", "does not move relative to the model"]];
   const pose = isFresh ? Array.from(message.poses.subarray(7 * entry, 7 * entry + 7)) : link === null ? body.pose : null;
   if (!pose || pose.length < 7) return [];
   const [x, y, z, qx, qy, qz, qw] = pose as [number, number, number, number, number, number, number];
