@@ -209,7 +209,7 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
 std::shared_ptr<Arguments> AddSelection(CLI::App& command) {
   auto arguments = std::make_shared<Arguments>();
   AddInstanceOptions(command, arguments->selection);
-  command.add_flag("--json", arguments->json, "print one JSON object per simulation and line");
+  command.add_flag("--json", arguments->json, "print one line per simulation, each a JSON object");
   return arguments;
 }
 

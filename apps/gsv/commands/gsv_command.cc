@@ -47,8 +47,9 @@ void AddLogOptions(CLI::App& app, LogArguments& log) {
       ->type_name("text|json")
       ->check(ReadableBy(&base::ParseLogFormat))
       ->envname("GSV_LOG_FORMAT");
-  app.add_option("--log-rate", log.lines,
-                 "average log lines per second; more lines are suppressed and counted")
+  app.add_option(
+         "--log-rate", log.lines,
+         "maximum average of log lines per second; lines above it are suppressed and counted")
       ->type_name("N")
       ->check(Between(1, 1'000'000))
       ->capture_default_str();
@@ -60,11 +61,10 @@ struct CorbaArguments {
 };
 
 void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
-  app.add_option(
-         "--corba-certificate", corba.certificate,
-         "certificate (PEM), with which CORBA uses TLS\n"
-         "Both sides need a certificate of the same authority. `gsv certificates make` makes "
-         "one.")
+  app.add_option("--corba-certificate", corba.certificate,
+                 "certificate (PEM) of this program; with it, CORBA uses TLS\n"
+                 "Both programs of a connection need a certificate from the same authority. `gsv "
+                 "certificates make` makes one.")
       ->type_name("FILE")
       ->envname("GSV_CORBA_CERTIFICATE");
   app.add_option("--corba-key", corba.key, "private key (default: NAME-key.pem beside NAME.pem)")
@@ -76,7 +76,7 @@ void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
       ->envname("GSV_CORBA_AUTHORITY");
   app.add_flag("--insecure-corba", corba.is_insecure,
                "accept CORBA calls without certificates\n"
-               "Everyone who can reach this machine may then control it. GSV_INSECURE_CORBA=1 has "
+               "Everyone who can reach this machine may then control gsv. GSV_INSECURE_CORBA=1 has "
                "the same effect.");
 }
 
@@ -217,8 +217,8 @@ int RunGsv(int argc, char** argv) {
   Signals signals;
   int exit_code = kOk;
   CLI::App app(
-      "GSV simulates robots in 3D worlds. Behaviours are separate programs, found\nthrough a "
-      "broker.",
+      "GSV simulates robots in 3D worlds. Behaviours are separate programs. GSV finds "
+      "them\nthrough a broker.",
       "gsv");
   UseHelpFormatter(app);
   app.set_version_flag("--version", "gsv " GSV_VERSION, "print the version");

@@ -63,8 +63,9 @@ void AddListCommand(const CommandLine& line) {
   command
       ->add_option(
           "kind", arguments->kind,
-          "kind of names to list\nModels are those of gsv and of the model path. Behaviours are "
-          "the programs that gsv can start; `gsv offers` lists running ones.")
+          "kind of names to list\nThe models are those that gsv contains and those in the model "
+          "path. The behaviours are the programs that gsv can start. `gsv offers` lists the "
+          "behaviours that run.")
       ->required()
       ->check(OneOf({"worlds", "models", "behaviours", "sensors"}))
       ->type_name("worlds|models|behaviours|sensors");

@@ -367,7 +367,7 @@ void AddReplayCommand(const CommandLine& line) {
           ->check(Between(0.0, 1e9));
   command
       ->add_option("--select", arguments->select,
-                   "robot that the viewer selects first; only with --at")
+                   "robot that is selected when the viewer opens; only with --at")
       ->type_name("ROBOT")
       ->needs(at);
   command->add_flag("--open", arguments->open, "open the viewer in a browser");
@@ -472,7 +472,7 @@ void AddRecordingCommands(const CommandLine& line) {
         add("extract", "Write an attachment, such as scenario.yaml, unchanged", Extract);
     command
         ->add_option("attachment", arguments->other,
-                     "name of the attachment, as gsv rec info lists it")
+                     "name of the attachment, as `gsv rec info` prints it")
         ->required();
     command->add_option("-o,--output", arguments->output, "new file to write (default: stdout)")
         ->type_name("FILE");
@@ -480,7 +480,7 @@ void AddRecordingCommands(const CommandLine& line) {
   {
     const auto [command, arguments] =
         add("diff", "Print where two recordings first differ; exit code 1 if they do", Diff);
-    command->add_option("other", arguments->other, "recording to compare with the file")
+    command->add_option("other", arguments->other, "second recording, to compare with the first")
         ->required();
     command->add_flag("--json", arguments->json, "print one JSON object");
   }

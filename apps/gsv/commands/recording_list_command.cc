@@ -98,9 +98,10 @@ void AddRecordingListCommand(const CommandLine& line, CLI::App& rec) {
       rec.add_subcommand("list", "List recordings, with world, robots and verdict, newest first");
   auto arguments = std::make_shared<RecordingListArguments>();
   command
-      ->add_option("folder", arguments->folder,
-                   "folder of recordings (default: current folder)\n"
-                   "Recordings of failed tests in its folder gsv-failures are listed as well.")
+      ->add_option(
+          "folder", arguments->folder,
+          "folder of recordings (default: current folder)\n"
+          "The list includes the recordings of failed tests in the subfolder gsv-failures.")
       ->type_name("FOLDER");
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->callback([arguments, line] { line.exit_code = ListRecordings(*arguments); });

@@ -292,7 +292,8 @@ void AddRos2Commands(const CommandLine& line) {
          &Topics);
   AddOne(*ros2, line, arguments, "nodes", "List nodes", false, &Nodes);
   AddOne(*ros2, line, arguments, "echo", "Print the messages of a topic as JSON", true, &Echo)
-      ->add_option("--count", arguments->count, "messages to print (default: until Ctrl-C)")
+      ->add_option("--count", arguments->count,
+                   "number of messages to print (default: print until Ctrl-C)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   AddOne(*ros2, line, arguments, "hz", "Measure the rate of a topic", true, &Hz);

@@ -236,7 +236,8 @@ void AddTestCommand(const CommandLine& line) {
       ->capture_default_str()
       ->type_name("I/N")
       ->group(kRunGroup);
-  command->add_option("--timeout", arguments->options.timeout, "wall-clock time of a run")
+  command
+      ->add_option("--timeout", arguments->options.timeout, "limit of the wall-clock time of a run")
       ->check(Between(1.0, 1e6))
       ->capture_default_str()
       ->type_name("SECONDS")
@@ -250,7 +251,9 @@ void AddTestCommand(const CommandLine& line) {
   command->add_option("--junit", arguments->junit, "write the results as JUnit XML")
       ->type_name("FILE")
       ->group(kResultGroup);
-  command->add_option("--failures", arguments->failures, "folder for failed tests")
+  command
+      ->add_option("--failures", arguments->failures,
+                   "folder for the recordings, images and output of failed tests")
       ->capture_default_str()
       ->type_name("FOLDER")
       ->group(kResultGroup);
