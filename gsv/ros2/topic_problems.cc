@@ -39,10 +39,10 @@ void Compare(const std::string& topic, const Side& writer, const Side& reader,
     return;
   }
   if (!writer.hash.empty() && !reader.hash.empty() && writer.hash != reader.hash) {
-    problems.insert(
-        fmt::format("{}: two nodes have different definitions of {}, {} and {}. Build both with "
-                    "the same version of its package",
-                    topic, writer.type, writer.hash, reader.hash));
+    problems.insert(fmt::format(
+        "{}: two nodes have different definitions of {}; the type hashes are {} and {}. "
+        "Build both nodes with the same version of its package",
+        topic, writer.type, writer.hash, reader.hash));
   }
   if (reader.is_reliable && !writer.is_reliable) {
     problems.insert(

@@ -115,7 +115,8 @@ class CarmenReader {
     if (count == 0 || !rows_.Numbers(9, count + 1, v)) return;
     const double remissions = v[count];
     if (!(remissions >= 0 && remissions <= double{kMaxBeams})) {
-      rows_.LeaveOut(fmt::format("the scan has {} remissions", remissions));
+      rows_.LeaveOut(
+          fmt::format("the scan has {} remissions; it must have 0 to {}", remissions, kMaxBeams));
       return;
     }
     std::vector<double> pose;
@@ -166,16 +167,18 @@ class CarmenReader {
         static_cast<double>(without) > kMaxFractionWithoutEcho * static_cast<double>(readings)) {
       return base::Fail(
           base::ErrorCode::kCorrupt,
-          fmt::format("{:.0f} % of the ranges are 0, or {} m or more; CARMEN's ranges are in m",
+          fmt::format("{:.0f} % of the ranges are 0, or {} m or more, so their unit is probably "
+                      "wrong; convert the ranges to metres",
                       100 * static_cast<double>(without) / static_cast<double>(readings),
                       log_.max_range),
           rows_.path().string());
     }
     if (largest_heading_ > kMaxHeading) {
-      return base::Fail(
-          base::ErrorCode::kCorrupt,
-          fmt::format("a heading is {:.0f}; CARMEN's headings are in rad", largest_heading_),
-          rows_.path().string());
+      return base::Fail(base::ErrorCode::kCorrupt,
+                        fmt::format("a heading is {:.0f} rad, so its unit is probably wrong; "
+                                    "convert the headings to radians",
+                                    largest_heading_),
+                        rows_.path().string());
     }
     return {};
   }

@@ -106,9 +106,10 @@ TEST_F(LogReaderTest, RefusesACarmenLogInOtherUnits) {
     degrees += "ODOM 0 0 " + std::to_string(20 * i) + " 0 0 0 9 host " + time;
   }
   EXPECT_THAT(Refusal(folder_.Write("a.log", centimetres), "carmen"),
-              HasSubstr("CARMEN's ranges are in m"));
-  EXPECT_THAT(Refusal(folder_.Write("b.log", degrees), "carmen"),
-              HasSubstr("a heading is 180; CARMEN's headings are in rad"));
+              HasSubstr("so their unit is probably wrong; convert the ranges to metres"));
+  EXPECT_THAT(
+      Refusal(folder_.Write("b.log", degrees), "carmen"),
+      HasSubstr("a heading is 180 rad, so its unit is probably wrong; convert the headings"));
 }
 
 TEST_F(LogReaderTest, TakesTheMountOfTheScannerFromACarmenLog) {
@@ -209,7 +210,7 @@ TEST_F(LogReaderTest, NamesTheRowWhoseTimeIsAhead) {
   ASSERT_THAT(problems_, SizeIs(1));
   EXPECT_EQ(Problem(0),
             path.string() +
-                ":22: its time, 7000 s, is ahead of that of the rows after it, 20 s; the "
+                ":22: its time, 7000 s, is later than the time of a row after it, 20 s; the "
                 "row is ignored");
 }
 
@@ -319,8 +320,10 @@ TEST_F(LogReaderTest, ReadsASonarRing) {
 
 TEST_F(LogReaderTest, RefusesASonarRingInMetres) {
   folder_.Write("poses.txt", "1000 0 0 0\n");
-  EXPECT_THAT(Refusal(folder_.Write("measurement.txt", "1000 1 5.11 1 1 1 1 1 2\n"), "sonar-ring"),
-              HasSubstr("the largest range is 5.11; this format counts millimetres"));
+  EXPECT_THAT(
+      Refusal(folder_.Write("measurement.txt", "1000 1 5.11 1 1 1 1 1 2\n"), "sonar-ring"),
+      HasSubstr("the largest range is 5.11, so the unit is probably wrong; convert the ranges "
+                "to millimetres"));
 }
 
 TEST_F(LogReaderTest, ReadsMotionCaptureBesideCommands) {

@@ -203,7 +203,7 @@ class McapLog {
       return Warn(Where(time) + "the scan has no ranges");
     }
     if (ranges->size() > kMaxScanBeams) {
-      return Warn(Where(time) + fmt::format("the scan has {} ranges; at most {} are read",
+      return Warn(Where(time) + fmt::format("the scan has {} ranges; the limit is {}",
                                             ranges->size(), kMaxScanBeams));
     }
     const double first = NumberIn(scan, "angle_min"), step = NumberIn(scan, "angle_increment");

@@ -27,10 +27,12 @@ fs::path Companion(const fs::path& path, const std::string& ending) {
 base::Status CheckUnit(double largest, double least_credible, const char* unit,
                        const fs::path& path) {
   if (largest >= least_credible) return {};
-  return base::Fail(base::ErrorCode::kCorrupt,
-                    fmt::format("the largest range is {}; this format counts {}. Convert the file",
-                                largest, unit),
-                    path.string());
+  return base::Fail(
+      base::ErrorCode::kCorrupt,
+      fmt::format(
+          "the largest range is {}, so the unit is probably wrong; convert the ranges to {}",
+          largest, unit),
+      path.string());
 }
 
 // Reads rows of the word `first`, time, x and y. `units` converts them to s and m.

@@ -27,10 +27,9 @@ base::Result<TextRows> TextRows::Open(const std::filesystem::path& path, base::P
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size > kMaxBytes) {
-    return base::Fail(
-        base::ErrorCode::kCorrupt,
-        fmt::format("the file has {} bytes; logs of up to {} are read", size, kMaxBytes),
-        path.string());
+    return base::Fail(base::ErrorCode::kCorrupt,
+                      fmt::format("the file has {} bytes; the limit is {} bytes", size, kMaxBytes),
+                      path.string());
   }
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -49,8 +48,7 @@ bool TextRows::Next() {
     words_.clear();
     if (whole.size() > kMaxLine) {
       ++rows_;
-      LeaveOut(
-          fmt::format("the line has {} characters; up to {} are read", whole.size(), kMaxLine));
+      LeaveOut(fmt::format("the line has {} characters; the limit is {}", whole.size(), kMaxLine));
       continue;
     }
     for (std::size_t i = 0; i < whole.size();) {
@@ -123,7 +121,7 @@ void TextRows::DecideOn(double time) {
     const TimedLine wrong = recent_.back();
     recent_.pop_back();
     LeaveOutAsMisdated(wrong,
-                       fmt::format("its time, {} s, is ahead of that of the rows after it, {} s",
+                       fmt::format("its time, {} s, is later than the time of a row after it, {} s",
                                    wrong.time, row.time));
   }
   if (gap_ && gap_->second.time > row.time) gap_.reset();

@@ -28,7 +28,7 @@ base::Result<std::string> Contents(const fs::path& path, std::uintmax_t limit) {
   const auto size = fs::file_size(path, error);
   if (error || size > limit) {
     return base::Fail(base::ErrorCode::kBadModel,
-                      fmt::format("the file has {} bytes; at most {} are read", size, limit),
+                      fmt::format("the file has {} bytes; the limit is {} bytes", size, limit),
                       path.string());
   }
   std::ifstream file(path, std::ios::binary);
@@ -46,11 +46,12 @@ base::Status CheckSize(double width, double height, const fs::path& path) {
       width * height <= kMaxMapCells) {
     return {};
   }
-  return base::Fail(base::ErrorCode::kBadModel,
-                    fmt::format("the image has {} by {} pixels; it must have 1 to {} a side and at "
-                                "most {} million",
-                                width, height, kMaxSide, kMaxMapCells / 1e6),
-                    path.string());
+  return base::Fail(
+      base::ErrorCode::kBadModel,
+      fmt::format("the image has {} by {} pixels; each side must have 1 to {} pixels, "
+                  "and the image at most {} million",
+                  width, height, kMaxSide, kMaxMapCells / 1e6),
+      path.string());
 }
 
 // Reads the formats P2 and P5 of Netpbm (https://netpbm.sourceforge.net/doc/pgm.html).
@@ -201,7 +202,8 @@ base::Result<MapSettings> ReadSettings(const fs::path& path) {
   }
   if (!(settings.free >= 0 && settings.free <= settings.occupied && settings.occupied <= 1)) {
     return fail(
-        fmt::format("free_thresh is {} and occupied_thresh {}; they must ascend within 0 and 1",
+        fmt::format("free_thresh is {} and occupied_thresh is {}; 0 <= free_thresh <= "
+                    "occupied_thresh <= 1 is required",
                     settings.free, settings.occupied));
   }
   for (const double each : settings.origin) {

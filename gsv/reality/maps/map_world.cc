@@ -142,7 +142,7 @@ base::Result<std::string> WorldOfMap(const OccupancyMap& map, const std::string&
   if (boxes.size() > kMaxBoxes) {
     return base::Fail(
         base::ErrorCode::kInvalidArgument,
-        fmt::format("the map's walls are {} boxes; at most {} make a world. Smooth or "
+        fmt::format("the walls of the map need {} boxes; a world can have at most {}. Smooth or "
                     "scale down the image",
                     boxes.size(), kMaxBoxes));
   }

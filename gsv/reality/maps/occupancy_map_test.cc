@@ -54,12 +54,14 @@ TEST_F(OccupancyMapTest, RejectsFilesThatAreNotMaps) {
   EXPECT_THAT(Refusal(kYaml, ""), HasSubstr("map.pgm: no such file"));
   EXPECT_THAT(Refusal(kYaml, "P5\n3 2\n255\nab"),
               HasSubstr("the PGM is cut off: it has 2 of 6 pixels"));
-  EXPECT_THAT(Refusal(kYaml, "P5 1000000 1000000 255 "), HasSubstr("it must have 1 to 16384"));
+  EXPECT_THAT(Refusal(kYaml, "P5 1000000 1000000 255 "),
+              HasSubstr("each side must have 1 to 16384"));
   EXPECT_THAT(Refusal("P5\n3 2\n255\n", "P5"), HasSubstr("name its YAML file instead"));
   EXPECT_THAT(Refusal("image: map.pgm\nresolution: 0\n", "P2 1 1 255 0"),
               HasSubstr("resolution is 0"));
   EXPECT_THAT(Refusal(std::string(kYaml) + "free_thresh: 0.9\n", "P2 1 1 255 0"),
-              HasSubstr("free_thresh is 0.9 and occupied_thresh 0.65; they must ascend"));
+              HasSubstr("free_thresh is 0.9 and occupied_thresh is 0.65; 0 <= free_thresh <= "
+                        "occupied_thresh <= 1 is required"));
   EXPECT_THAT(Refusal(std::string(kYaml) + "occupied_thresh: many\n", "P2 1 1 255 0"),
               HasSubstr("occupied_thresh must be a number"));
   EXPECT_THAT(Refusal("image: [\n", "P2 1 1 255 0"), HasSubstr("map.yaml: line "));

@@ -92,7 +92,8 @@ base::Result<Bytes> ZstdDecompress(std::span<const std::byte> bytes, std::size_t
   // allocated.
   const unsigned long long claimed = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   if (claimed != size && claimed != ZSTD_CONTENTSIZE_UNKNOWN) {
-    return base::Fail(base::ErrorCode::kCorrupt, "its zstd frame and its size disagree");
+    return base::Fail(base::ErrorCode::kCorrupt,
+                      "its zstd frame declares another size than its header");
   }
   Bytes out(size);
   const std::size_t actual = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());

@@ -83,7 +83,7 @@ base::Result<std::unique_ptr<FileSource>> FileSource::Open(std::string path) {
   }
   struct stat status {};
   if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
-    return Fail(ErrorCode::kInvalidArgument, "expected a recording (.mcap), found no regular file",
+    return Fail(ErrorCode::kInvalidArgument, "a recording (.mcap) must be a regular file",
                 std::move(path));
   }
   return std::unique_ptr<FileSource>(

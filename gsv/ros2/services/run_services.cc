@@ -132,7 +132,7 @@ interfaces::Result EnterState(Simulation& simulation, std::uint8_t state) {
         std::string("the simulation is ") + ToString(phase) + ". Reset it, or set STATE_STOPPED");
   }
   if (StateOfPhase(phase) == state) {
-    return Failed(SetResponse::kAlreadyInTargetState, "the simulation is in this state");
+    return Failed(SetResponse::kAlreadyInTargetState, "the simulation is already in this state");
   }
   if (state == State::kStateStopped) return Changed(ResetToStart(simulation, false));
   return Changed(state == State::kStatePlaying ? Play(simulation, phase) : Hold(simulation, phase));

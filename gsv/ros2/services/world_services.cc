@@ -67,7 +67,8 @@ LoadResponse LoadWorld(const ServedSimulation& served,
     if (!request.resource_string.empty()) {
       return {NotSupported("a resource_string is not supported. Give a uri"), {}};
     }
-    return {Failed(LoadResponse::kNoResource, "there is no uri. GetAvailableWorlds lists worlds"),
+    return {Failed(LoadResponse::kNoResource,
+                   "the request has no uri. GetAvailableWorlds lists worlds"),
             {}};
   }
   const auto loaded = served.spawner->LoadWorld(request.uri, request.fail_on_unsupported_element);

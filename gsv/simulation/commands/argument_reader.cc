@@ -102,8 +102,8 @@ class ArgumentReader {
       if (former.empty()) continue;
       former.key() = parameter.name;
       if (!given.insert(std::move(former)).inserted) {
-        return Wrong(parameter,
-                     fmt::format("it is also set by its former name '{}'", parameter.former_name));
+        return Wrong(parameter, fmt::format("must not be set again by its former name '{}'",
+                                            parameter.former_name));
       }
     }
     for (const Parameter& parameter : command_.parameters) {
