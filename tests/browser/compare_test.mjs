@@ -129,7 +129,7 @@ test("the first difference is a mark that names the topic that differs", async (
   await mark.waitFor();
   await mark.click();
   await page.getByRole("button", { name: "Compare with…" }).click();
-  await page.locator(".compare-verdict").getByText("yesterday.mcap first differs at").waitFor();
+  await page.locator(".compare-verdict").getByText("First difference from yesterday.mcap at").waitFor();
   assert.match(await page.locator(".compare-verdict").textContent(), /yaw[^]*pebble/);
   await page.keyboard.press("Escape");
 });

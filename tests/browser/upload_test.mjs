@@ -125,7 +125,7 @@ test("another of several worlds in a folder is chosen and shown", async () => {
 
 test("a truncated archive, or one with names outside of it, is rejected with a sentence", async () => {
   await choose(zipped({ "room.world": WORLD, "../../evil.sh": "x" }));
-  await objection().filter({ hasText: 'lab.zip cannot be used: the name "../../evil.sh" leads out of the archive.' }).waitFor();
+  await objection().filter({ hasText: 'lab.zip cannot be used: the name "../../evil.sh" must be a relative path without "..", ":" or backslashes.' }).waitFor();
   await choose(zipped({ "room.world": WORLD }).subarray(0, -5));
   await objection().filter({ hasText: "lab.zip cannot be used: its list of files is missing or damaged" }).waitFor();
   assert.deepEqual(faults, []);

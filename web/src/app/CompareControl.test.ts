@@ -43,7 +43,7 @@ test("the second recording is opened at the same time, and the first difference 
   expect(client.connect).toHaveBeenCalledOnce();
   expect(difference).toHaveBeenCalledWith("today.mcap", "yesterday.mcap");
   expect(store.get().comparison?.difference?.time).toBe(3);
-  expect(store.get().notices.at(-1)?.sentence).toBe("yesterday.mcap first differs at 0:03.00: differs");
+  expect(store.get().notices.at(-1)?.sentence).toBe("First difference from yesterday.mcap at 0:03.00: differs");
   await vi.waitFor(() => expect(other.seek).toHaveBeenLastCalledWith("house", 12));
   store.set({ time: 20 });
   await vi.waitFor(() => expect(other.seek).toHaveBeenLastCalledWith("house", 20));

@@ -209,7 +209,7 @@ test("the menu shows where two recordings differ, and goes there", () => {
     comparison: { recording: "old.mcap", simulation: "x", scene: null, difference, problem: "" },
   });
   expect(bar.querySelector(".compare-verdict")!.textContent).toBe(
-    "old.mcap first differs at 0:03.20:\npebble: at 3.2 s /gsv/poses differs",
+    "First difference from old.mcap at 0:03.20:\npebble: at 3.2 s /gsv/poses differs",
   );
   const lookAt = vi.spyOn(app.past, "lookAt").mockResolvedValue();
   [...bar.querySelectorAll("button")].find(({ textContent }) => textContent === "Go to the first difference")!.click();

@@ -63,7 +63,7 @@ export function drawJoint(
   }
 }
 
-// Draws a cross at the centre of mass, and the box with the same inertia.
+// Draws a cross at the centre of mass of a link, and the box that has the link's inertia.
 export function drawMass(lines: LineLayer, worldFromInertia: Matrix4, { frameFromBox, half }: EquivalentBox): void {
   const [x, y, z] = half;
   const size = Math.min(CROSS, Math.max(...half) || CROSS);

@@ -7,7 +7,7 @@ import type { Field } from "../ui/fields";
 import { numberField, textField } from "../ui/fields";
 import { icon } from "../ui/icons";
 
-const ROUTE_FORM = "x,y[,radius] in metres, at least one; more after colons: -4,0,1:4,0,1";
+const ROUTE_FORM = "one or more places x,y[,radius] in metres, separated by colons, for example -4,0,1:4,0,1";
 
 export class PedestrianRow {
   readonly element: HTMLLIElement;
@@ -19,7 +19,7 @@ export class PedestrianRow {
   constructor(app: App, index: number) {
     const change = (patch: Partial<PedestrianSetUp>) => app.setUp.changePedestrians(index, patch);
     this.count = numberField("Number", 1, (count) => change({ count: count ?? 1 }), { step: "1", least: "1" });
-    this.route = textField("Walk between", "-4,0,1:4,0,1", (text) => {
+    this.route = textField("Walk between", "places x,y[,radius]:…, for example -4,0,1:4,0,1", (text) => {
       const route = parseRoute(text);
       this.route.refuse(route ? "" : `expected ${ROUTE_FORM}`);
       if (route) change({ route });

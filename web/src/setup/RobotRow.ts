@@ -32,7 +32,7 @@ export class RobotRow {
     private readonly list: RobotList,
     private readonly index: number,
   ) {
-    this.name = textField("Name", "same as the model", (name) => this.change({ name }));
+    this.name = textField("Name", "default: name of the model", (name) => this.change({ name }));
     this.model = choiceOrText("Model", BY_PATH, (model) => this.change({ model }));
     this.behaviour = choiceOrText("Behaviour", BY_CONSTRAINT, (value) => this.changeBehaviour(value));
     this.movement = choiceField("Moves", (value) =>
@@ -46,7 +46,7 @@ export class RobotRow {
     this.drive = textField("Drive", "diff, skid,radius=0.16, … (default: drive of the model, else guessed from its wheels)", (drive) =>
       this.change({ drive }),
     );
-    this.namespace = textField("ROS 2 namespace", "/NAME of the robot; / for none", (namespace) => this.change({ namespace }));
+    this.namespace = textField("ROS 2 namespace", "default: /NAME of the robot; /: no namespace", (namespace) => this.change({ namespace }));
     this.fields = new Map<string, Field<never>>([
       ["name", this.name],
       ["model", this.model],
@@ -175,5 +175,5 @@ function behaviourOptions({ behaviours }: SetUp, { behaviour }: RobotSetUp) {
   if (behaviour && !names.includes(behaviour)) {
     options.push({ value: behaviour, label: `${behaviour} (not offered now)` });
   }
-  return [{ value: "", label: "None: the robot stands still" }, ...options];
+  return [{ value: "", label: "None: the robot moves only if you or ROS 2 nodes drive it" }, ...options];
 }

@@ -23,7 +23,7 @@ export function createRos2Part(app: App): Ros2Part {
     { value: "", label: "Twist" },
     { value: "twist_stamped", label: "TwistStamped (Nav2 of Kilted and later)" },
   ]);
-  const distro = choiceField("Distribution of the other nodes", (name) => change({ distro: name }));
+  const distro = choiceField("ROS 2 distribution of the other nodes", (name) => change({ distro: name }));
   distro.offer([
     { value: "", label: "Jazzy" },
     { value: "humble", label: "Humble" },

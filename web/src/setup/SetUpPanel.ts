@@ -209,7 +209,7 @@ function parameterFields(app: App) {
   const take = (key: keyof Scenario) => (value: unknown) => app.setUp.change({ [key]: value });
   const mode = choiceField("Pace", take("mode"));
   mode.offer([
-    { value: "real_time", label: "Real time, at the real-time factor" },
+    { value: "real_time", label: "Real time: the real-time factor sets the speed" },
     { value: "lockstep", label: "Lockstep: as fast as possible, same result each time" },
   ]);
   return new Map<keyof Scenario, { element: HTMLElement; show(value: never): void; refuse(sentence: string): void }>([

@@ -19,5 +19,5 @@ export function resultOf({ recording, difference, problem }: Comparison): { sent
   const details = difference.text.trim();
   if (difference.isEqual) return { sentence: `${recording} has the same messages.`, details };
   const when = difference.time === null ? "" : ` at ${formatTime(difference.time)}`;
-  return { sentence: `${recording} first differs${when}:`, details };
+  return { sentence: `First difference from ${recording}${when}:`, details };
 }

@@ -82,7 +82,7 @@ class Reader {
   }
 
   private part(depth: number): Part {
-    if (depth > MAX_DEPTH) throw new Error(`it is divided more than ${MAX_DEPTH} times`);
+    if (depth > MAX_DEPTH) throw new Error(`its rows and columns are nested more than ${MAX_DEPTH} levels deep`);
     return /^[rc]\(/.test(this.text.slice(this.at, this.at + 2)) ? this.split(depth) : this.tabs();
   }
 

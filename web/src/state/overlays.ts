@@ -38,7 +38,7 @@ export const OVERLAYS: readonly OverlayKind[] = [
   { name: "grid", label: "Grid", key: "8", hint: "Grid with 1 m cells" },
   { name: "collisions", label: "Collision shapes", key: "9", hint: "Collision shapes used by the physics" },
   { name: "joints", label: "Joints", key: "0", hint: "Axes of the joints" },
-  { name: "masses", label: "Masses", key: "B", hint: "Centres of mass, and boxes with the same inertia" },
+  { name: "masses", label: "Masses", key: "B", hint: "Centre of mass of each link, and a box that has the link's inertia" },
   { name: "actuators", label: "Actuators and radio", key: "-", hint: "State of lamps, speakers, grippers and radios" },
   { name: "sound", label: "Sound", key: "=", hint: "Play the sound of the robots' loudspeakers" },
 ];

@@ -73,11 +73,11 @@ test("an archive is recognised by its first bytes", async () => {
 });
 
 test.each([
-  ["../a.world", "leads out of the archive"],
-  ["a/../../b", "leads out of the archive"],
-  ["/etc/passwd", "leads out of the archive"],
-  ["C:\\b", "leads out of the archive"],
-  ["a\\b", "leads out of the archive"],
+  ["../a.world", 'must be a relative path without "..", ":" or backslashes'],
+  ["a/../../b", 'must be a relative path without "..", ":" or backslashes'],
+  ["/etc/passwd", 'must be a relative path without "..", ":" or backslashes'],
+  ["C:\\b", 'must be a relative path without "..", ":" or backslashes'],
+  ["a\\b", 'must be a relative path without "..", ":" or backslashes'],
 ])("the name %s is refused", async (path, reason) => {
   await expect(read(zipped({ path: "w.world" }, { path }))).rejects.toThrow(`my.zip cannot be used: the name ${JSON.stringify(path)} ${reason}.`);
 });

@@ -61,7 +61,7 @@ function mebibytes(bytes: number): string {
 }
 
 function check({ filename, encrypted, compressionMethod, uncompressedSize, externalFileAttributes }: Entry, refuse: Refuse): void {
-  if (leadsOut(filename)) refuse(`the name ${JSON.stringify(filename.slice(0, 80))} leads out of the archive`);
+  if (leadsOut(filename)) refuse(`the name ${JSON.stringify(filename.slice(0, 80))} must be a relative path without "..", ":" or backslashes`);
   const unixMode = externalFileAttributes >>> 16;
   if ((unixMode & FILE_TYPE) === SYMBOLIC_LINK) refuse(`${filename} in the archive is a symbolic link`);
   if (encrypted) refuse(`${filename} in the archive is encrypted`);

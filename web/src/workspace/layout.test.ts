@@ -43,7 +43,7 @@ test.each([
   ["r(view~5)x", 'expected the end at character 10, found "x"'],
   ["r(view~5,view~5)", "the panel view occurs twice"],
   ["r(view~5,r(log~1)~5)", "a row is nested directly in a row"],
-  [`${"r(c(".repeat(20)}view`, "it is divided more than 12 times"],
+  [`${"r(c(".repeat(20)}view`, "its rows and columns are nested more than 12 levels deep"],
   ["x".repeat(MAX_LAYOUT_CHARACTERS + 1), "the limit is 4000"],
   [Array.from({ length: 101 }, (_, i) => `p${i}`).join("."), "more than 100 panels"],
   ["__proto__", "expected a panel at character 1"],
