@@ -34,24 +34,26 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       .add_option(
           "--place", a.place,
           "add N robots: grid:N on a grid, or random:N at random places (default model: pebble)\n"
-          "Give the model as --robot MODEL without a pose. The grid has cells of 1 m. Random "
-          "places follow --seed.")
+          "For another model, add --robot MODEL without a pose. The grid has cells of 1 m. "
+          "--seed determines the random places.")
       ->type_name("WHERE")
       ->group(kGroup);
   command.add_option("--avatar", a.avatars, "add an avatar that people steer from the viewer")
       ->type_name("MODEL[@X,Y[,YAW]]")
       ->group(kGroup);
   command
-      .add_option("--pedestrians", a.pedestrians,
-                  "add pedestrians who walk from place to place\n"
-                  "Places are separated by colons, such as 20@-4,0,1:4,0,1.")
+      .add_option(
+          "--pedestrians", a.pedestrians,
+          "add pedestrians who walk from place to place\n"
+          "Separate places by colons. For example, 20@-4,0,1:4,0,1 means 20 pedestrians and two "
+          "places with a radius of 1 m.")
       ->type_name("COUNT@X,Y[,RADIUS]...")
       ->group(kGroup);
   command
       .add_option("--movement", a.movements,
                   "rigid-body dynamics, or 2D kinematics on level ground (default: by the model)\n"
-                  "A model without this setting is planar. ROBOT is the name of a robot, or a "
-                  "model of --robot.")
+                  "If the model file does not set the movement, the robot is planar. ROBOT is the "
+                  "name of a robot, or a model of --robot.")
       ->type_name("ROBOT=rigid|planar")
       ->group(kGroup);
   command
@@ -110,7 +112,8 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--deadline", a.deadline,
-                  "maximum wall-clock time between two waits of a behaviour")
+                  "maximum wall-clock time that a behaviour may take between two waits\n"
+                  "A wait is a call that waits for an instant of simulated time.")
       ->default_str("10")
       ->type_name("SECONDS")
       ->group(kGroup);
@@ -178,8 +181,9 @@ void AddRecordOptions(CLI::App& command, RunArguments& a) {
       ->type_name("jpeg|png")
       ->group(kGroup);
   command
-      .add_option("--failure-picture", a.failure_image,
-                  "write an image of the first violated expectation (.jpg, .png)")
+      .add_option(
+          "--failure-picture", a.failure_image,
+          "write an image of the world at the first violation of an expectation (.jpg, .png)")
       ->type_name("FILE")
       ->group(kGroup);
 }

@@ -23,9 +23,9 @@ std::function<void(const std::string&)> TakeToken(std::string& token) {
 
 void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
   command
-      .add_option(
-          "--port", options.port,
-          "port of the viewer (default: 8080, or a free port)\nWith 0, gsv chooses any free port.")
+      .add_option("--port", options.port,
+                  "port of the viewer (default: 8080, or a free port if 8080 is in use)\nWith 0, "
+                  "gsv chooses a free port.")
       ->check(Between(0, 65535))
       ->type_name("PORT")
       ->group(kViewerGroup);
@@ -37,7 +37,9 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
       ->capture_default_str()
       ->type_name("ADDRESS")
       ->group(kNetworkGroup);
-  command.add_option("--allow-host", options.names, "further host name that browsers may use")
+  command
+      .add_option("--allow-host", options.names,
+                  "additional host name that browsers may use for the viewer; repeatable")
       ->type_name("NAME")
       ->group(kNetworkGroup);
   command
@@ -50,8 +52,8 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
   command
       .add_option_function<std::string>(
           "--watch-token", TakeToken(options.tokens.watch),
-          "token that allows watching (default: not required)\nBeyond this machine, watching "
-          "requires this token or the control token.")
+          "token that allows watching (default: everybody on this machine can watch)\nFrom other "
+          "machines, watching always requires this token or the control token.")
       ->type_name("TOKEN")
       ->envname("GSV_WATCH_TOKEN")
       ->group(kNetworkGroup);
@@ -79,7 +81,7 @@ void AddRecordingsOption(CLI::App& command, ViewerOptions& options) {
       ->group(kViewerGroup);
   command
       .add_option("--history", options.history_mib,
-                  "memory for the past of each simulation, in MiB; 0 keeps none")
+                  "memory for the history of each simulation, in MiB; 0 keeps no history")
       ->check(Between(0, 65536))
       ->capture_default_str()
       ->type_name("MIB")
