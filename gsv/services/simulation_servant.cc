@@ -366,7 +366,7 @@ void SimulationServiceServant::RunJanitor() {
       const Phase phase = simulation->status().phase;
       if (phase == Phase::kStopped || phase == Phase::kFinished || phase == Phase::kFailed)
         continue;
-      spdlog::warn("{}: stopped, since its creator has not called for too long",
+      spdlog::warn("{}: stopped, because no client has called it for too long",
                    simulation->specification().name);
       (void)simulation->Stop();
     }
