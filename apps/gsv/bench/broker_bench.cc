@@ -40,7 +40,7 @@ using nlohmann::ordered_json;
 constexpr int kClients = 64;
 constexpr const char* kType = "BenchRobot";
 constexpr const char* kScan = "floor > 2 and battery >= 0.25 and speed < 4.5";
-constexpr std::size_t kShown = 10;  // number of offers that a client reads of each query
+constexpr std::size_t kShown = 10;  // maximum number of offers in the result of a query
 
 // Returns the ten properties of offer `n`, which depend on `n` only.
 std::vector<Property> PropertiesOf(std::uint32_t n) {

@@ -72,7 +72,8 @@ class SnapshotWatch final : public simulation::Observer {
   std::vector<double> intervals_ GSV_GUARDED_BY(mutex_);
 };
 
-// Fails for blank images, and for images that are equal to earlier images.
+// Checks the images of all cameras at one snapshot. Fails if all images are blank, if an image
+// equals the previous image of its camera, or if two neighbouring cameras have equal images.
 class ImageCheck {
  public:
   base::Status Check(const Images& images) {
@@ -89,8 +90,8 @@ class ImageCheck {
   }
 
  private:
-  // Whether the image has fewer than eight different pixel values. The search stops at the eighth,
-  // because the time of this check counts as rendering time.
+  // Returns whether the image has fewer than eight different pixel values. The search stops at the
+  // eighth value, because the measured time of a batch of images includes this check.
   static bool IsBlank(const std::shared_ptr<const model::Image>& image) {
     constexpr int kMinImages = 8;
     std::bitset<256> seen;

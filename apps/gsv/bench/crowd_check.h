@@ -32,7 +32,7 @@ class CrowdCheck final : public simulation::Observer {
   std::string first_mismatch() const;
 
  private:
-  // Counts a difference, and stores the first sentence.
+  // Counts a difference. Stores the sentence if this is the first difference.
   void Report(std::string sentence);
 
   std::atomic<std::uint64_t> readings_checked_{0}, pairs_checked_{0}, mismatches_{0};

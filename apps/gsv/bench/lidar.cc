@@ -73,8 +73,8 @@ struct ScanFigures {
   Solids solids;
   std::int64_t scans = 0, rays = 0;
   double wall = 0, processor = 0;  // time of all readings and of building the ray scenes, s
-  double least_processor = 1e9;    // smallest processor time of an instant, s
-  std::vector<double> instants;    // time of the readings of one instant, ms
+  double least_processor = 1e9;    // smallest processor time for all robots at one snapshot, s
+  std::vector<double> instants;    // wall-clock times for all robots at one snapshot, ms
 };
 
 base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simulation& simulation,
@@ -88,7 +88,7 @@ base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simul
   return simulation.sensor_types().Find("lidar")->create(description);
 }
 
-// Takes the readings of all robots at one instant, in the same way as the behaviours' `exchange`
+// Takes the readings of all robots at one snapshot, in the same way as the behaviours' `exchange`
 // calls.
 class Scanning {
  public:

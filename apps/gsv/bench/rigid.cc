@@ -64,7 +64,8 @@ int Rigid(RigidArguments arguments) {
   const auto snapshot = (*simulation)->snapshot();
   for (const world::Contact& contact : snapshot->contacts) points += contact.points.size();
   const auto body = static_cast<std::size_t>(snapshot->layout->Find(kFirstRigidBody));
-  // The base of an arm does not move, so the figure of an arm is the position of its last link.
+  // The position of the first body is printed. The base of an arm does not move, so the position of
+  // the arm's last link is printed instead.
   geometry::Pose first = snapshot->state.bodies[body].world_from_model;
   if (arguments.scene == "arms") {
     first = world::LinkPoses(*snapshot, static_cast<int>(body)).back();

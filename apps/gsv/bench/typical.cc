@@ -56,7 +56,7 @@ class Durations {
   std::vector<double> values_ GSV_GUARDED_BY(mutex_);
 };
 
-// Measures the intervals between state updates. It is read after the run.
+// Measures the intervals between state updates. Read its results only after the run.
 class UpdateTimer final : public simulation::Observer {
  public:
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override {
@@ -70,8 +70,8 @@ class UpdateTimer final : public simulation::Observer {
   }
   void OnEvent(const simulation::Event&) override {}
 
-  // Returns the real-time factor after the first second of simulated time, in which all behaviours
-  // start at once; 0 if the run is not longer.
+  // Returns the real-time factor without the first second of simulated time, in which all
+  // behaviours start at once. Returns 0 if the run is not longer than this second.
   double factor_after_start() const {
     const double wall = Seconds(last_ - started_);
     return wall > 0 ? base::ToSeconds(last_time_ - started_time_) / wall : 0;

@@ -12,8 +12,7 @@
 
 namespace gsv::app {
 
-// Executes single runs. Any number of threads may call Execute() at once; each must live until its
-// call returns.
+// Executes single runs. Any number of threads may call Execute() at once.
 class RunExecutor {
  public:
   // `folder` is for temporary files. `failures` is a folder for the recordings of failed runs, or

@@ -37,7 +37,7 @@ struct Actions {
   std::function<base::Status()> remove;
 };
 
-// Sets `broker` to the broker of this user's newest instance, unless `broker` is set already.
+// If `broker` is empty, sets it to the broker of this user's newest instance of gsv.
 base::Status FindBroker(std::string& broker) {
   if (!broker.empty()) return {};
   const std::vector<Instance> instances = RunningInstances();

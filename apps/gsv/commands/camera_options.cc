@@ -7,7 +7,8 @@
 namespace gsv::app {
 namespace {
 
-// Throws the sentence of an error, so that CLI11 prints it with the option's name.
+// Returns the value of the result. If the result is an error, throws an exception of CLI11, which
+// prints the option's name and the error.
 template <typename T>
 T OrInvalidOption(base::Result<T> result, const char* option) {
   if (!result) throw CLI::ValidationError(option, result.error().Sentence());

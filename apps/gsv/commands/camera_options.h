@@ -11,8 +11,8 @@ namespace gsv::app {
 // line.
 void AddCameraOptions(CLI::App& command, view::Camera& camera);
 
-// Prints the error and returns its exit code. A missing recording, robot or camera has the exit
-// code of a missing file, and not the exit code of a bad model.
+// Prints the error and returns the exit code. If a recording, robot or camera is missing, the exit
+// code is kInfrastructure. (PrintError() returns kBadModel in this case.)
 int RefuseImage(const base::Error& error);
 
 }  // namespace gsv::app

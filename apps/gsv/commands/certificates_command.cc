@@ -24,7 +24,7 @@ tls::Validity ValidityOf(int days) {
   return validity;
 }
 
-// Returns the names of a server that has no --host option.
+// Returns the default of --host: the names and addresses of this machine.
 std::vector<std::string> UsualHosts() {
   std::vector<std::string> hosts{"localhost", "127.0.0.1", "::1"};
   if (const std::string name = base::HostName(); name != hosts.front()) hosts.push_back(name);

@@ -38,8 +38,8 @@ std::string Listed(const std::vector<std::string>& names) {
   return list.empty() ? "none" : list;
 }
 
-// Returns one note about the drive that the model has as a robot, and one for each joint in
-// <ros2_control>.
+// Returns one note about the drive of the robot that has this model, and one note for each joint
+// in <ros2_control>.
 Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   Notes notes;
   if (const auto robot = model::AsRobot(model, "")) {

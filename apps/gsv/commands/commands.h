@@ -1,5 +1,6 @@
-// The subcommands of gsv. Each function adds the subcommands that the comment beside it lists, or
-// the subcommand in its own name. The callback of a subcommand sets the exit code.
+// The subcommands of gsv. Each function adds the subcommands that the comment beside it lists.
+// A function without a comment adds the subcommand in its name, such as `run` for AddRunCommand().
+// The callback of a subcommand sets the exit code.
 //
 // AddCheckCommands() creates `world` and `model`, and AddRecordingCommands() creates `rec`. Call
 // these two before the functions that add subcommands to `world`, `model` and `rec`.

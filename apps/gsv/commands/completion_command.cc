@@ -97,12 +97,12 @@ std::vector<std::string> NamesOf(const CompletedCommand& command) {
   return names;
 }
 
-// The options whose values the script gets from `gsv list`, with the kind of names.
+// The options whose values the script gets from `gsv list KIND`, each with its KIND.
 const std::array<std::pair<const char*, const char*>, 3> kListed{
     {{"--behaviour", "behaviours"}, {"--robot", "models"}, {"--avatar", "models"}}};
 
-// Returns the part of the script that bash and zsh share. This part sets $words_found from $so_far
-// (the command so far), $prev and the values of options.
+// Returns the part of the script that bash and zsh share. This part sets $words_found, the possible
+// words, from $so_far (the command so far) and $prev (the previous word).
 std::string Cases(const std::vector<CompletedCommand>& commands) {
   std::string text = "  case \"$so_far $prev\" in\n";
   for (const CompletedCommand& command : commands) {
@@ -129,7 +129,8 @@ std::string Cases(const std::vector<CompletedCommand>& commands) {
   return text;
 }
 
-// Sets $so_far from the words before the word that is being completed.
+// Returns the part of the bash or zsh script that adds $word to $so_far if this gives a command.
+// The script executes this part for each word before the word that is being completed.
 std::string PathCases(const std::vector<CompletedCommand>& commands) {
   std::string text = "    case \"$so_far/$word\" in\n";
   for (const CompletedCommand& command : commands) {
