@@ -39,7 +39,7 @@ base::Result<std::uint64_t> FramesOf(const FilmArguments& arguments, base::SimTi
                     "--to, or use a smaller --fps");
 }
 
-// Frame i shows the recorded time from + i * speed / frames_a_second.
+// Frame number i shows the recorded time `from + i * speed / frames_a_second`.
 int MakeFilm(const FilmArguments& arguments, Signals& signals) {
   if (auto ok = view::Check(arguments.camera); !ok) return RefuseImage(ok.error());
   const auto images = RecordedImages::Open(arguments.file);

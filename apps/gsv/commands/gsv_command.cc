@@ -80,7 +80,7 @@ void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
                "the same effect.");
 }
 
-// Sets the variables for orb::PrepareAccess(), and for programs that this process starts.
+// Sets environment variables for orb::PrepareAccess(), and for programs that this process starts.
 void UseCorbaOptions(const CorbaArguments& corba) {
   const auto set = [](const char* name, const std::string& path) {
     if (!path.empty()) setenv(name, std::filesystem::absolute(path).c_str(), 1);
@@ -102,8 +102,8 @@ void StartLog(const LogArguments& log, bool verbose) {
   base::InitLogging(options);
 }
 
-// Returns the first unknown option, or else the first unknown word. `words` are the words that the
-// command does not know, at least one word.
+// Returns the error message about the first unknown option, or about the first unknown word if there
+// is no unknown option. `words` are the words that the command does not know, at least one word.
 std::string UnknownWord(const CLI::App& command, const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const auto& word) { return word.starts_with('-'); });
@@ -147,7 +147,8 @@ std::string MissingSentence(const CLI::App& command, const std::string& what) {
   return what;
 }
 
-// Returns the error message as one sentence. CLI11 reports an unknown command as a missing command.
+// Returns the error message: one sentence, and a hint at --help. If the user typed an unknown
+// command, CLI11 reports a missing command, so this function finds the unknown word.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   const CLI::App* typed = app;  // the command that the user typed
   std::string words = app->get_name();
@@ -194,8 +195,9 @@ void GroupCommands(CLI::App& app) {
   }
 }
 
-// Returns the arguments in reverse order, as CLI11 requires. `gsv help run` is `gsv run --help`.
-// Without "--help", an unknown command is an error.
+// Returns the arguments in reverse order, as CLI11 requires. Converts `gsv help run` to
+// `gsv run --help`. If the word after `help` is no command, "--help" is not added, so that CLI11
+// reports the unknown command.
 std::vector<std::string> WordsOf(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == "help") {

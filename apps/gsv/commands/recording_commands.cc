@@ -47,8 +47,8 @@ struct RecordingArguments {
   }
 };
 
-// Prints the error and returns its exit code. A missing recording has the exit code of a missing
-// file, and not the exit code of a bad model.
+// Prints the error and returns the exit code. If the recording is missing, the exit code is
+// kInfrastructure. (PrintError() returns kBadModel in this case.)
 int Refuse(const base::Error& error) {
   const int code = PrintError(error);
   return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;
@@ -134,7 +134,8 @@ int Cat(const RecordingArguments& arguments) {
         {"type", (*message)->type},
         {"message", recording::WithInfinitiesAsText(std::move((*message)->content))}};
     std::puts(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    if (std::ferror(stdout) != 0) return kInfrastructure;  // the reader of the pipe has ended
+    if (std::ferror(stdout) != 0)
+      return kInfrastructure;  // such as when the pipe's reader has ended
   }
 }
 
@@ -286,7 +287,8 @@ base::Result<std::unique_ptr<gateway::Gateway>> StartGateway(const ReplayArgumen
   options.web_root = ShareFolder() / "web";
   options.docs_root = ShareFolder() / "docs";
   std::error_code error;
-  // The file could be opened, so it exists and has a name.
+  // The file exists, because the player has opened it. So canonical() returns a path with a file
+  // name.
   const std::filesystem::path file = std::filesystem::canonical(arguments.file, error);
   options.recordings_folder = file.parent_path();
   options.only_recording = file.filename();

@@ -226,7 +226,8 @@ int Hz(const Ros2CommandArguments& arguments, Signals& signals) {
   return kOk;
 }
 
-// Prints the size of the domain, and why publishers and subscriptions do not match.
+// Prints the number of participants, topics and endpoints in the domain, and the reasons why
+// publishers and subscriptions do not match.
 int Examine(const Ros2CommandArguments& arguments, Signals& signals) {
   const auto reach = Reach(arguments);
   if (!reach) return PrintError(reach.error());

@@ -87,7 +87,8 @@ bool IsEndByFault(const Simulation& simulation, const std::string& robot) {
   });
 }
 
-// Prints how behaviours ended, and returns the exit code for that.
+// Prints a line for each behaviour that has failed. Returns kBehaviourFailed if `exit_code` is kOk
+// and a behaviour has failed, else `exit_code`.
 int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   const auto status = simulation.status();
   for (const auto& robot : status.robots) {

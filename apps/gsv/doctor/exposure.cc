@@ -25,7 +25,7 @@ constexpr timeval kAnswerTimeout{2, 0};
 class Connection {
  public:
   explicit Connection(const Listener& listener) {
-    // A socket on all addresses is tested on loopback.
+    // If the socket listens on all addresses, connects to the loopback address.
     const bool is_ipv6 = listener.address.find(':') != std::string::npos;
     descriptor_ = socket(is_ipv6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &kAnswerTimeout, sizeof kAnswerTimeout);

@@ -1,8 +1,9 @@
 // `gsv doctor --security`: lists the open ports of GSV on this machine, and the credentials that
 // they require.
 //
-// Each listening socket is tested by a connection without credentials, as an unknown client would
-// make. The options of the process are not used. The tests change nothing.
+// Each TCP socket is tested by a connection without credentials, as an unknown client would make.
+// The tests change nothing. Unix domain sockets and the UDP sockets of ROS 2 are not tested. The
+// environment variables of the process show whether ROS 2 uses keys.
 #pragma once
 
 #include <string>

@@ -60,7 +60,7 @@ class LostSimulations {
   void WatchOver(const std::stop_token& stop);
   // Writes the note of this server.
   void Write();
-  // Returns the simulations that this server runs now, as they are noted.
+  // Returns the simulations that this server runs now, in the form for its note.
   std::vector<LostSimulation> Running() const;
 
   services::SimulationHost& host_;

@@ -50,7 +50,7 @@ NoteJson ToJson(const std::vector<LostSimulation>& simulations) {
   return list;
 }
 
-// Reads the fields that exist. Ok() returns whether all had the right type.
+// Reads fields of a JSON object. After a field is missing or has the wrong type, ok() returns false.
 class Fields {
  public:
   explicit Fields(const NoteJson& object) : object_(object), ok_(object.is_object()) {}
