@@ -112,7 +112,7 @@ test("layout files of another version and broken ones are refused with the reaso
 
 for (const [what, layout, sentence] of [
   ["that is broken", "r(view", /^The last layout of this browser cannot be shown: .* The page shows the standard layout\.$/],
-  ["of another version", "r(view~700,radar~300)", "The last layout of this browser is of another version of GSV: it has panels that this page lacks (radar)."],
+  ["of another version", "r(view~700,radar~300)", "The last layout of this browser is from another version of GSV. It has panels that this page does not know and leaves out: radar."],
 ]) {
   test(`a layout ${what}, which the browser kept, is reported, and the page works`, async () => {
     await page.evaluate((text) => addEventListener("pagehide", () => localStorage.setItem("gsv.layout", text)), layout);

@@ -71,7 +71,7 @@ test("the element shows the world, and a drag and the keys turn the view", async
   assert.ok((await view.evaluate((element) => element.view.zoom)) > 1.1);
   await page.keyboard.press("Home");
   assert.equal((await view.evaluate((element) => element.view.azimuth)), 135);
-  assert.match(await view.locator("[role=img]").getAttribute("aria-label"), /Arrow keys turn it/);
+  assert.match(await view.locator("[role=img]").getAttribute("aria-label"), /Arrow keys turn the view/);
   assert.deepEqual(faults, []);
   await page.close();
 });

@@ -67,7 +67,7 @@ test("a video that reaches the size limit ends and is saved", () => {
   FakeRecorder.newest.ondataavailable({ data: large });
   vi.unstubAllGlobals();
   expect(store.get().filming).toBe(false);
-  expect(store.get().notices[0]?.sentence).toMatch(/longest possible length/);
+  expect(store.get().notices[0]?.sentence).toMatch(/reached its maximum size/);
   expect(save).toHaveBeenCalledOnce();
 });
 

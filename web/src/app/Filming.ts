@@ -34,7 +34,7 @@ export class Filming {
     const recorder = new MediaRecorder(stream, { mimeType: type });
     this.recorder = recorder;
     recorder.ondataavailable = ({ data }) => this.take(recorder, data);
-    recorder.onerror = () => notify(this.store, "error", "The video stopped because of an error.");
+    recorder.onerror = () => notify(this.store, "error", "The recording of the video stopped because of an error.");
     recorder.onstop = () => {
       for (const track of stream.getTracks()) track.stop();
       this.finish(fileName(simulation, time, "video", "webm"));
@@ -47,7 +47,7 @@ export class Filming {
     this.pieces.push(piece);
     this.bytes += piece.size;
     if (this.bytes < LARGEST_BYTES || recorder.state !== "recording") return;
-    notify(this.store, "note", "The video reached the longest possible length and stopped.");
+    notify(this.store, "note", "The recording of the video stopped because the video has reached its maximum size.");
     recorder.stop();
   }
 

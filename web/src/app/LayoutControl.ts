@@ -68,7 +68,7 @@ export class LayoutControl {
       return false;
     }
     if (read.unknown.length > 0) {
-      notify(this.store, "note", `${what} is of another version of GSV: it has panels that this page lacks (${read.unknown.slice(0, 5).join(", ")}).`);
+      notify(this.store, "note", `${what} is from another version of GSV. It has panels that this page does not know and leaves out: ${read.unknown.slice(0, 5).join(", ")}.`);
     }
     this.host?.show(read.layout);
     return true;
@@ -119,7 +119,7 @@ export class LayoutControl {
   private keep(layouts: SavedLayout[]): void {
     this.store.set({ layouts });
     if (!keepLayouts(this.storage, layouts)) {
-      notify(this.store, "error", "This browser does not keep layouts. Export the layout to a file instead.");
+      notify(this.store, "error", "This browser cannot store the layouts. Export the layout to a file instead.");
     }
   }
 }

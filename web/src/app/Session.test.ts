@@ -142,7 +142,7 @@ test("it joins the simulation in the address, or else the first one", async () =
   expect((await joined(named)).state.simulation).toBe("yard");
   const other = await joined(new Fixture("gone"));
   expect(other.state.simulation).toBe("house");
-  expect(other.state.notices[0]?.sentence).toBe("There is no simulation gone here; this is house.");
+  expect(other.state.notices[0]?.sentence).toBe("This server has no simulation gone. The page shows house instead.");
 });
 
 test("it loads the scene, and shows a robot's camera rather than an avatar's", async () => {

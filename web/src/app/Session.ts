@@ -59,7 +59,7 @@ const NOTHING_WATCHED: Partial<State> = {
   topics: [],
 };
 
-const SLOW_PAGE = "This page is slow: the browser is busy, so the page leaves out older updates. Close panels, or let the server draw the view.";
+const SLOW_PAGE = "This page is slow: the browser is busy, so older updates are left out. Close panels, or let the server draw the view.";
 const NO_COUNTS: ReadonlyMap<string, TopicCount> = new Map();
 
 // The requests in the page's address.
@@ -242,7 +242,7 @@ export class Session implements TopicSource, LiveViewSource {
       if (chosen) {
         const { simulation: wanted } = this.wanted;
         if (wanted && chosen.name !== wanted) {
-          notify(this.store, "note", `There is no simulation ${wanted} here; this is ${chosen.name}.`);
+          notify(this.store, "note", `This server has no simulation ${wanted}. The page shows ${chosen.name} instead.`);
         }
         this.join(chosen.name);
         return;
@@ -370,7 +370,7 @@ export class Session implements TopicSource, LiveViewSource {
       if (!(error instanceof ApiError && error.httpStatus === 404)) return;
       if (this.store.get().simulation !== name) return;
       if (this.store.get().inPast) {
-        notify(this.store, "note", "The past is no longer open. This is the running simulation.");
+        notify(this.store, "note", "The server has closed the view of the past. The page shows the running simulation again.");
         return this.goLive();
       }
       this.leave();

@@ -8,7 +8,7 @@ export function offerList({ offers, isCut }: Answer, constraint: string): HTMLEl
   const found = `${matching} of ${countOf(offers.length)} ${offers.length === 1 ? "matches" : "match"}`;
   const summary = constraint === "" || offers.length === 0 ? countOf(offers.length) : found;
   return [
-    element("p", { class: "summary", role: "status" }, isCut ? `${summary}; there may be more` : summary),
+    element("p", { class: "summary", role: "status" }, isCut ? `${summary}; there may be more offers` : summary),
     element("ul", { class: "offers" }, ...offers.map((offer) => offerRow(offer, constraint !== ""))),
   ];
 }

@@ -120,7 +120,7 @@ export class GsvView extends HTMLElement {
   private refresh(): void {
     clearTimeout(this.retry);
     const label = this.getAttribute("label") || "View of the simulation";
-    this.frame.setAttribute("aria-label", this.isFixed ? label : `${label}. Arrow keys turn it, plus and minus zoom.`);
+    this.frame.setAttribute("aria-label", this.isFixed ? label : `${label}. Arrow keys turn the view, plus and minus zoom.`);
     this.frame.classList.toggle("fixed", this.isFixed);
     this.isLoading = false;
     this.show("view.mjpeg");

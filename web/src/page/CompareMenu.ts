@@ -34,7 +34,7 @@ export function createCompareMenu(app: App): HTMLElement {
     ({ comparison }) => {
       menu.button.setAttribute("aria-pressed", String(comparison !== null));
       const { sentence = "", details = "" } = comparison ? resultOf(comparison) : {};
-      setText(verdict, comparison ? `${sentence}\n${details}`.trim() : "Choose a recording. Its robots are shown as ghosts, its curves dashed.");
+      setText(verdict, comparison ? `${sentence}\n${details}`.trim() : "Choose a recording. Its robots are shown as ghosts, and its curves are dashed.");
       end.hidden = comparison === null;
       goTo.hidden = comparison?.difference?.time == null;
     },

@@ -105,7 +105,7 @@ function saveMenu(app: App): HTMLElement {
   const menu: Menu = createWordedMenu(
     { label: "Save", picture: "save", word: "Save", title: "Save the edited world as a file" },
     line("Save world", "An SDFormat file of all bodies at their present poses, for Gazebo and GSV.", false),
-    line("Save scenario", "The same file, and a scenario (YAML) with the behaviours of the robots. gsv run starts it.", true),
+    line("Save scenario", "The same file, and a scenario (YAML) with the behaviours of the robots. Run the scenario with gsv run.", true),
   );
   return menu.element;
 }

@@ -17,7 +17,7 @@ const KEYS: [heading: string, lines: Line[]][] = [
     [
       [["Space"], "Start, pause or resume"],
       [["N"], "Take one step while paused (in a recording: go to the next recorded instant)"],
-      [["W", "A", "S", "D"], "Drive the avatar, a person whom you control. The arrow keys also work; Q and E move sideways, Shift is faster"],
+      [["W", "A", "S", "D"], "Drive the avatar, a person whom you control. The arrow keys also work. Q and E move sideways; with Shift, the avatar is faster"],
     ],
   ],
   [
