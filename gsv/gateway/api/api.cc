@@ -49,7 +49,7 @@ std::vector<Route> Api::Routes() {
       {"GET", "/api/server", kWatch, false, kReaders, [this](const Request&) { return Server(); },
        "List the capabilities of the server"},
       {"GET", "/api/simulations", kWatch, false, kReaders,
-       [this](const Request&) { return List(); }, "The simulations"},
+       [this](const Request&) { return List(); }, "List the simulations"},
       {"GET", "/api/models/{id}.glb", kWatch, false, kReaders,
        [this](const Request& request) { return Model(request); }, "Get a model as glTF"},
       {"GET", simulation, kWatch, false, kReaders, of([](const auto& of_name, const Request&) {

@@ -237,7 +237,7 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
                       std::string(summary)});
   };
   read("/api/server", &ServerOf, "List the capabilities of the server");
-  read("/api/simulations", &ListOf, "The simulations");
+  read("/api/simulations", &ListOf, "List the simulations");
   read("/api/models/{id}.glb", &ModelOf, "Get a model as glTF");
   read(simulation, &StatusOf, "Get the status of a simulation");
   read(simulation + "/scene", &SceneOf,
