@@ -102,8 +102,8 @@ void StartLog(const LogArguments& log, bool verbose) {
   base::InitLogging(options);
 }
 
-// Returns the error message about the first unknown option, or about the first unknown word if there
-// is no unknown option. `words` are the words that the command does not know, at least one word.
+// Returns the error message about the first unknown option or, without an unknown option, about the
+// first unknown word. `words` are the words that the command does not know, at least one word.
 std::string UnknownWord(const CLI::App& command, const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const auto& word) { return word.starts_with('-'); });

@@ -134,8 +134,7 @@ int Cat(const RecordingArguments& arguments) {
         {"type", (*message)->type},
         {"message", recording::WithInfinitiesAsText(std::move((*message)->content))}};
     std::puts(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    if (std::ferror(stdout) != 0)
-      return kInfrastructure;  // such as when the pipe's reader has ended
+    if (std::ferror(stdout) != 0) return kInfrastructure;  // for example, the pipe is closed
   }
 }
 

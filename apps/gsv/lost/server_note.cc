@@ -50,7 +50,7 @@ NoteJson ToJson(const std::vector<LostSimulation>& simulations) {
   return list;
 }
 
-// Reads fields of a JSON object. After a field is missing or has the wrong type, ok() returns false.
+// Reads fields of a JSON object. If a field is missing or has the wrong type, ok() returns false.
 class Fields {
  public:
   explicit Fields(const NoteJson& object) : object_(object), ok_(object.is_object()) {}

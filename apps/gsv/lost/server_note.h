@@ -58,7 +58,7 @@ ServerNote NewNote();
 // Whether the process that wrote the note still runs. A process of another host counts as running.
 bool IsProcessRunning(const ServerNote& note);
 
-// Returns the folder, and creates it if it does not exist.
+// Returns the folder of the notes, and creates it if it does not exist.
 base::Result<std::filesystem::path> NotesFolder();
 // Returns the path of this process's note.
 std::filesystem::path NoteFile(const std::filesystem::path& folder, const ServerNote& note);

@@ -18,7 +18,9 @@ namespace {
 constexpr std::size_t kMaxLine = 64 * 1024;
 
 struct Ends {
-  int input = -1, output = -1, errors = -1;  // descriptors of the child; -1: none, or the parent's
+  // descriptors for the child's stdin, stdout and stderr; -1: stdin is /dev/null, stderr is that of
+  // the parent
+  int input = -1, output = -1, errors = -1;
 };
 
 // Runs in the child and never returns. During the fork, another thread may have held malloc's
@@ -39,8 +41,8 @@ struct Ends {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  // Closes all other files in the new program. An inherited socket of a library would keep its port
-  // in use after the end of the parent.
+  // The kernel closes all other files when the new program starts. Otherwise, an inherited socket
+  // of a library would keep its port in use after the end of the parent.
   close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   execve(arguments[0], arguments, environment);
   _exit(127);

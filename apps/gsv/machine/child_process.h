@@ -1,7 +1,7 @@
 // A child process that ends with this process.
 //
-// Threads  one at a time. The thread that starts the child must live as long as this process,
-//          because the kernel ends the child when that thread ends.
+// Threads  one at a time. The thread that starts the child must live as long as the child, because
+//          the kernel ends the child when that thread ends.
 #pragma once
 
 #include <sys/types.h>
@@ -42,7 +42,7 @@ class ChildProcess {
   int output() const { return output_; }
   int errors() const { return errors_; }
   int pid_descriptor() const { return pid_descriptor_; }
-  // Returns and clears the output that ReadLine() has read beyond its lines.
+  // Returns and clears the output that was read from the child, but not yet returned by ReadLine().
   std::string TakeBuffer() { return std::exchange(buffer_, {}); }
   // Writes to the child's stdin, which must be kOpen. Returns kUnavailable if the child has ended
   // or closed its stdin.
@@ -74,7 +74,7 @@ class ChildProcess {
   const int output_;
   const int errors_;           // -1 if there is none
   int pid_descriptor_ = -1;    // becomes readable when the child ends
-  std::string buffer_;         // output that was read beyond the last line of ReadLine()
+  std::string buffer_;         // output that ReadLine() has read, but not yet returned
   std::optional<int> status_;  // the status from waitpid()
 };
 

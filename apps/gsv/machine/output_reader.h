@@ -36,9 +36,10 @@ class OutputReader {
   OutputReader(const OutputReader&) = delete;
   OutputReader& operator=(const OutputReader&) = delete;
 
-  // Starts to read stderr. The child must be captured, and outlive this object.
+  // Starts to read the child's stderr. The child must have been started by StartCaptured(). It must
+  // outlive this object.
   void AddErrors(const ChildProcess& child);
-  // Starts to read stdout too; the caller must no longer read it.
+  // Starts to read the child's stdout too. From then on, the caller must not read the stdout.
   void AddOutput(ChildProcess& child);
   // Waits until all output so far was read, for at most half a second.
   void WaitForOutput();

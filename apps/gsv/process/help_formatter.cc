@@ -70,8 +70,8 @@ std::pair<std::string, std::string> TypeAndRange(const CLI::Option& option) {
   return {name, range};
 }
 
-// Returns a short and a long name. A second long name is deprecated, and only the details mention
-// it.
+// Returns the option's first short name and first long name. A second long name is deprecated, so
+// it is not returned.
 std::string NamesOf(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true);
   const auto& short_names = option.get_snames();

@@ -9,9 +9,9 @@
 
 namespace gsv::app {
 
-// Sets the drives of --drive in the scenario's robots. If --drive names a model of the world, reads
-// `world` into the specification, and the model becomes a robot. Returns kInvalidArgument if there
-// is no robot with a given name.
+// Gives the scenario's robots the drives that --drive sets. If --drive names a model of the world,
+// reads `world` into the specification, and the model becomes a robot. Returns kInvalidArgument if
+// --drive names neither a robot nor a model of the world.
 base::Status PrepareDrives(const std::string& world, formats::ModelLibrary& library,
                            RunOptions& options, base::Problems& problems);
 

@@ -28,7 +28,8 @@ std::string AtInstant(base::SimTime time) {
   return fmt::format("at {:.3f} s", base::ToSeconds(time));
 }
 
-// Whether the event is about an edit. Older versions recorded this event, but not the edit itself.
+// Returns whether the event reports an edit. A recording of an older version has such events, but
+// not the edits themselves, so its edits cannot be repeated.
 bool IsEdit(const std::string& event) {
   return event == "body_placed" || event == "robot_removed" || event == "robot_added" ||
          event == "avatar_added";
@@ -135,7 +136,7 @@ class EditMaker {
   const RunOptions& options_;
 };
 
-// Returns false after a signal.
+// Waits until the simulation neither starts nor runs. Returns false if a signal ended the wait.
 bool AwaitHalt(Simulation& simulation, Signals& signals) {
   for (;;) {
     const Phase phase = simulation.WaitForPhase({Phase::kPaused, Phase::kFinished, Phase::kFailed},
