@@ -13,8 +13,9 @@ namespace gsv::app {
 // The actions of users in a recording.
 struct RecordedUserActions {
   std::vector<simulation::Edit> edits;  // in the order in which they were made
-  bool was_interrupted = false;  // whether the run was paused, resumed, ended early, or slowed
-  bool has_verdicts = false;     // whether there are events about expectations
+  // whether the run was paused or resumed, ended early, or got another real-time factor
+  bool was_interrupted = false;
+  bool has_verdicts = false;  // whether there are events about expectations
 };
 
 // Reads the actions of users from a recording. Fails if the recording does not contain the edits,

@@ -52,7 +52,7 @@ base::Result<std::unique_ptr<Ffmpeg>> Ffmpeg::Start(const std::string& program,
 }
 
 Ffmpeg::Ffmpeg(pid_t pid, int input) : pid_(pid), input_(input) {
-  // If ffmpeg ends early, write() then returns an error, and no signal ends this process.
+  // Ignores SIGPIPE. If ffmpeg ends early, write() returns an error, and this process continues.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

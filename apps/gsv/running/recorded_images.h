@@ -26,8 +26,8 @@ class RecordedImages {
   // Returns kInvalidArgument, with the recorded range, if the time is outside the recording.
   base::Status Check(base::SimTime time) const;
 
-  // Renders the recorded world at a time. The pose of a camera that follows no robot is computed at
-  // the first call, and stays the same.
+  // Renders the recorded world at a time. If the camera follows no robot and is no robot's sensor,
+  // its pose is computed at the first call with this camera. Later calls use the same pose.
   base::Result<std::shared_ptr<const model::Image>> Draw(base::SimTime time,
                                                          const view::Camera& camera);
 
@@ -45,7 +45,7 @@ class RecordedImages {
   const std::shared_ptr<rendering::Renderer> renderer_;
   const gateway::RecordedScene scene_;
   gateway::RecordedView view_;
-  // The last camera that follows no robot, and its computed view.
+  // The last camera that follows no robot and is no robot's sensor, and its computed view.
   std::optional<std::pair<view::Camera, rendering::CameraView>> fixed_;
 };
 

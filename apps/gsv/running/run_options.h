@@ -38,8 +38,8 @@ struct RunOptions {
   std::map<std::string, std::string> drive_of;         // drives by robot, see model/drive_choice.h
   bool in_process = false;  // whether behaviours are plug-ins, and not programs
   Placing placing;          // how to place robots without a pose
-  // If it is set, it makes the behaviour of each robot, and programs of the name `behaviour` are
-  // not used. `from` is the time at which the robot is added.
+  // If this function is set, it makes the behaviour of each robot, and programs of the name
+  // `behaviour` are not used. `from` is the time at which the robot is added.
   std::function<std::shared_ptr<simulation::BehaviourPort>(
       const std::string& robot, const std::string& behaviour, base::SimTime from)>
       make_behaviour;

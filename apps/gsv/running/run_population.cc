@@ -88,7 +88,8 @@ base::Status CheckNamespaces(const RunOptions& options, const Simulation& simula
   return {};
 }
 
-// Adds the robots of the world file that have no entry, because they may still get a behaviour.
+// Adds the robots of the world file (`of_world`) to `robots` if they are not in it yet, because
+// --behaviour also applies to these robots.
 void AddRobotsOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
                          const std::vector<std::string>& of_world) {
   for (const std::string& name : of_world) {
@@ -215,8 +216,8 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
   formats::ModelLibrary& library = runtime.host().library();
   std::vector<std::string> of_world;
   for (const auto& robot : simulation.status().robots) {
-    // The behaviour for all robots does not apply to stations. A station gets a behaviour only by
-    // its name.
+    // --behaviour NAME does not apply to stations. A station gets a behaviour only if the user gives
+    // the station's name: --behaviour STATION=NAME.
     if (!robot.is_station || options.behaviour_of.contains(robot.name)) {
       of_world.push_back(robot.name);
     }

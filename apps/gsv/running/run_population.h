@@ -12,7 +12,7 @@ namespace gsv::app {
 base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, simulation::Simulation& simulation,
                                              const RunOptions& options, base::Problems& problems);
 
-// Returns the behaviour of a robot that is added at that time, or null if the robot has none.
+// Returns the behaviour of a robot that is added at the time `from`, or null if the robot has none.
 // Starts the behaviour's program if necessary.
 base::Result<std::shared_ptr<simulation::BehaviourPort>> LateBehaviour(
     Runtime& runtime, const RunOptions& options, const scenario::RobotEntry& robot,

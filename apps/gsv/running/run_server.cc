@@ -73,9 +73,9 @@ Result<RunOptions> OptionsOf(const RunRequest& request) {
   return ParseArguments(arguments);
 }
 
-// A run needs no broker if its behaviours run in this process or if its robots have none. Other
-// programs need not find the run through a broker, because it is a child process of `gsv test` or
-// of a campaign.
+// Returns whether a run needs a broker. It needs none if its behaviours run in this process, or if
+// its robots have no behaviours. Other programs need not find the run through a broker, because it
+// is a child process of `gsv test` or of a campaign.
 bool NeedsBroker(const RunOptions& options) {
   if (!options.edits.empty() || options.runtime.viewer) return true;
   const bool has_option = !options.behaviour.empty() || !options.behaviour_of.empty();
@@ -130,9 +130,9 @@ std::vector<std::string> CommandLineOf(const RunRequest& request) {
   return arguments;
 }
 
-// Executes the run after a fork. If a process has several threads, only the calling thread survives
-// fork(), and locks that other threads hold stay locked. GSV itself starts no threads before a run,
-// but a plug-in may.
+// Starts the program again for the run (execv), because the run server had several threads at the
+// fork. Only the calling thread survives fork(), and locks that other threads hold stay locked. GSV
+// itself starts no threads before a run, but a plug-in may.
 [[noreturn]] void ExecuteRun(const RunRequest& request) {
   std::vector<std::string> arguments = CommandLineOf(request);
   std::vector<char*> argv;
@@ -163,7 +163,8 @@ std::vector<std::string> CommandLineOf(const RunRequest& request) {
   }
   exit_code = EndProgram(exit_code);
   std::fflush(nullptr);
-  // Static destructors would copy memory that this process shares with the run server.
+  // Ends without static destructors. They would write to memory that this process shares with the
+  // run server, so the kernel would have to copy it.
   std::_Exit(exit_code);
 }
 
@@ -250,7 +251,7 @@ class RunServer {
 }  // namespace
 
 int ServeRuns(Signals& signals) {
-  unsetenv("GSV_BROKER");  // each run has its own broker, so this must not select another one
+  unsetenv("GSV_BROKER");  // because each run has its own broker
   ShowAs({ProgramPath().string(), "run-server"});
   return RunServer(signals).Serve();
 }

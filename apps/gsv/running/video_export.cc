@@ -17,7 +17,7 @@ using base::ErrorCode;
 using base::Fail;
 using messages::sensor_msgs::CompressedImage;
 
-// Limits the video of a recording with wrong time stamps.
+// Limits the length of the video, because a recording may have wrong time stamps.
 constexpr std::uint64_t kMaxFrames = 10'000'000;
 
 class Exporter {
