@@ -48,7 +48,7 @@ test("a broken layout shows an error and the standard layout", () => {
 test("a layout with panels of another version is shown without them", () => {
   const { host, notices } = fixture({}, "r(view~600,log.hologram~400)");
   expect(host.layout).toBe("r(view~600,log~400)");
-  expect(notices()[0]).toContain("it has panels that this page lacks (hologram)");
+  expect(notices()[0]).toContain("It has panels that this page does not know and leaves out: hologram.");
 });
 
 test("a link contains a preset's name or a layout's text, and nothing for the standard layout", () => {
