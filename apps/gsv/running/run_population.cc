@@ -216,8 +216,8 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
   formats::ModelLibrary& library = runtime.host().library();
   std::vector<std::string> of_world;
   for (const auto& robot : simulation.status().robots) {
-    // --behaviour NAME does not apply to stations. A station gets a behaviour only if the user gives
-    // the station's name: --behaviour STATION=NAME.
+    // --behaviour NAME does not apply to stations. A station gets a behaviour only if the option
+    // contains the station's name: --behaviour STATION=NAME.
     if (!robot.is_station || options.behaviour_of.contains(robot.name)) {
       of_world.push_back(robot.name);
     }

@@ -18,7 +18,7 @@ struct VideoOptions {
 };
 
 // Exports the video and returns the number of frames. One second of the video shows one second of
-// simulated time: each frame shows the newest image at its instant.
+// simulated time. Each frame shows the newest image that was recorded at or before its time.
 base::Result<std::uint64_t> ExportVideo(const recording::McapReader& reader,
                                         const recording::Selection& selection,
                                         const VideoOptions& options);

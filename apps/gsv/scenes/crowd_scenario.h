@@ -1,5 +1,6 @@
-// The scene of `gsv bench crowd`, in which other simulators were measured too. Robots wander on a
-// walled square with 10 m² per robot. For every four robots there is a box of 1 m.
+// The scene of `gsv bench crowd`. The speed of other simulators was measured in the same scene.
+// Robots wander on a walled square with 10 m² per robot. For every four robots there is a box of
+// 1 m.
 #pragma once
 
 #include <memory>

@@ -59,7 +59,9 @@ void CollideWithVisuals(model::WorldDescription& world) {
     if (!placed.is_static) continue;
     auto model = std::make_shared<model::Model>(*placed.model);
     for (model::Link& link : model->links) {
-      // Removes infinite shapes, which would be drawn at their full size and collide everywhere.
+      // Replaces the collision shapes by the visuals, but keeps the planes among the collision
+      // shapes. A visual that is a plane is skipped. It is a rectangle, but as a collision shape it
+      // would be an infinite half-space.
       std::erase_if(link.collisions, [](const model::Collision& collision) {
         return !std::holds_alternative<geometry::Plane>(collision.shape);
       });

@@ -21,7 +21,7 @@ constexpr std::size_t kMaxScenarioServers = 1000;
 // after each loss.
 constexpr int kMaxLostServers = 5;
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
-// The server answers a wait for the end of a run after at most two seconds.
+// Longer than the call that waits for the end of a run: the server answers it within two seconds.
 constexpr milliseconds kServerCallTimeout{5000};
 
 base::Error NoServers(const std::string& broker, const std::string& constraint) {

@@ -29,14 +29,14 @@ class ScenarioServers {
                                                              const std::string& constraint);
   ~ScenarioServers();
 
-  // Runs the scenario on the server with most free slots; waits until a slot is free. Returns the
+  // Waits until a slot is free, and runs the scenario on the least loaded server. Returns the
   // outcome: status, message, report, wall-clock time. Returns kInterrupted if the run was
   // cancelled or no servers are left.
   TestResult Run(const std::string& scenario, double timeout,
                  const std::atomic<bool>& is_cancelled);
 
-  // If there was no server for a minute, this object has given up. Then returns a sentence about
-  // this, else an empty text.
+  // Returns an error sentence if no server was available for a minute. Run() then starts no more
+  // runs. Otherwise, returns an empty text.
   std::string failure() const;
 
  private:
@@ -61,11 +61,13 @@ class ScenarioServers {
   base::Status Refresh();
   // Updates servers_ with the offers of the broker.
   void Merge(const std::vector<broker::FoundOffer>& offers) GSV_REQUIRES(mutex_);
-  // Waits for a server with a free slot, and counts the run. Null if cancelled, or without servers.
+  // Waits for a server with a free slot, and increments its number of runs (`given`). Returns null
+  // if the run is cancelled, or if no server was available for a minute.
   std::shared_ptr<Server> Acquire(const std::atomic<bool>& is_cancelled);
-  // Returns the server with most free slots, or null if none has a free slot.
+  // Returns the server with the smallest ratio of given / slots, or null if none has a free slot.
   std::shared_ptr<Server> ServerWithMostFreeSlots() GSV_REQUIRES(mutex_);
-  // Ends the count of a run. A lost or full server gets no runs for a while.
+  // Decrements the server's number of runs after a run. A lost server gets no runs for 30 s, and a
+  // full server for 1 s.
   void Release(Server& server, Ending ending);
   // Runs a scenario on a server. Sets `result` if the ending is kDone.
   Ending RunAt(Server& server, const std::string& scenario, double timeout,
@@ -81,7 +83,7 @@ class ScenarioServers {
   // Whether a thread is in Refresh().
   bool is_refreshing_ GSV_GUARDED_BY(mutex_) = false;
   Clock::time_point refreshed_ GSV_GUARDED_BY(mutex_){},
-      served_{};  // the last time at which a server existed
+      served_{};  // the last time at which a server was available
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 

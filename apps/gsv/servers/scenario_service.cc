@@ -119,8 +119,8 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
     if (result_->status == TestResult::Status::kInterrupted)
       throw sba::Ended("the server aborted the scenario");
   }
-  // Notes the time of a call. Until destroy() has returned, the object adapter still delivers
-  // calls; these fail.
+  // Stores the time of a call. Throws if destroy() was called, because the object adapter still
+  // delivers calls until destroy() has returned.
   void NoteCall() {
     if (is_destroyed_) throw CORBA::OBJECT_NOT_EXIST();
     last_call_ = RunClock::now().time_since_epoch();

@@ -31,7 +31,7 @@ class BehaviourOutput {
  public:
   using ListSimulations = std::function<std::vector<std::shared_ptr<simulation::Simulation>>()>;
 
-  // `list` returns the simulations of this process; any thread calls it.
+  // `list` returns the simulations of this process. It is called from any thread.
   explicit BehaviourOutput(ListSimulations list);
   ~BehaviourOutput();
 

@@ -110,7 +110,7 @@ std::vector<Listener> ListenersOf(const fs::path& process) {
   return listeners;
 }
 
-// Returns the sockets of a state in a table of TCP or UDP, by inode.
+// Returns the sockets in a table of TCP or UDP whose state is `wanted`, by inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseInternetTable(std::string_view table,
                                                                    std::string_view wanted) {
   std::vector<std::pair<std::uint64_t, Listener>> sockets;
