@@ -45,7 +45,7 @@ std::string AddressText(std::string_view hex) {
   return text.data();
 }
 
-// Adds the listening Unix domain sockets in a table of the form of /proc/net/unix.
+// Adds the listening Unix domain sockets in a table in the format of /proc/net/unix.
 void AddUnixSockets(std::string_view table, SocketsByInode& sockets) {
   constexpr std::string_view kAcceptsConnections = "00010000";
   std::istringstream lines{std::string(table)};
@@ -110,7 +110,7 @@ std::vector<Listener> ListenersOf(const fs::path& process) {
   return listeners;
 }
 
-// Returns the sockets in a table of TCP or UDP whose state is `wanted`, by inode.
+// Returns the sockets in a table of TCP or UDP whose state is `wanted`, each with its inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseInternetTable(std::string_view table,
                                                                    std::string_view wanted) {
   std::vector<std::pair<std::uint64_t, Listener>> sockets;

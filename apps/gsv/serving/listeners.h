@@ -17,7 +17,7 @@ struct Listener {
   std::string address;
   std::uint16_t port = 0;   // 0 for a Unix domain socket
   bool is_dds = false;      // whether it is a UDP socket of ROS 2
-  bool takes_keys = false;  // whether its process uses DDS Security
+  bool takes_keys = false;  // whether its process enforces DDS Security
 
   bool IsLocal() const;  // Whether only programs on this machine can connect to the socket.
 };
@@ -30,14 +30,15 @@ struct ListeningProcess {
   std::vector<Listener> listeners;
 };
 
-// Returns the processes by pid. Processes of other users, and processes that end during the search,
-// are not found.
+// Returns the processes that have sockets, ordered by pid. This process, processes of other users,
+// and processes that end during the search are not found.
 std::vector<ListeningProcess> FindListeningProcesses();
 
-// Returns the listening sockets in a table of the form of /proc/net/tcp and tcp6, by inode.
+// Parses a table in the format of /proc/net/tcp and tcp6. Returns the listening sockets, each with
+// its inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_view table);
-// Returns the sockets at the ports of a DDS domain in a table of the form of /proc/net/udp, by
-// inode.
+// Parses a table in the format of /proc/net/udp. Returns the sockets at the ports of a DDS domain,
+// each with its inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table,
                                                                 std::uint32_t domain);
 

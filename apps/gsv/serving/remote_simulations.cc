@@ -17,7 +17,8 @@ namespace gsv::app {
 namespace {
 
 constexpr std::chrono::milliseconds kBrokerTimeout{3000};
-// Stopping and resetting wait for behaviours, which have 10 s for each call.
+// Longer than other time limits: a server that stops or resets a simulation calls its behaviours,
+// and each of these calls may take 10 s.
 constexpr std::chrono::milliseconds kCallTimeout{30'000};
 constexpr std::size_t kMaxOfferedServers = 1000;
 // maximum number of instances that are called at the same time

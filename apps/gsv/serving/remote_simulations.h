@@ -45,7 +45,7 @@ base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& sele
                                                            std::vector<std::string>& silent);
 
 // Returns the selected simulation. If nothing is selected, returns the simulation of this user's
-// newest instance.
+// newest instance. Fails if several simulations match.
 base::Result<FoundSimulation> FindOneSimulation(const Selection& selection);
 
 // Returns the selected instance, even if it runs no simulation. If nothing is selected, it is this

@@ -95,8 +95,8 @@ class Ros2Access final : public Ros2Publisher {
   std::string Exposure() const;
   // Publishes the simulation of `gsv run`.
   void Publish(const SimulationPointer& simulation);
-  // Publishes the first simulation in the list. When that simulation has ended, publishes the next
-  // one. ROS 2 nodes may load another world.
+  // Publishes the first simulation in the list. When that simulation has ended, publishes the first
+  // of the other simulations. Also allows ROS 2 nodes to load another world.
   void Follow();
 
   gateway::SimulationFactory::Ros2Support Support() override;
@@ -117,7 +117,8 @@ class Ros2Access final : public Ros2Publisher {
   // Removes a published simulation that has ended. If follows_ is true, publishes the first
   // simulation in the list.
   void Update() GSV_REQUIRES(publishing_);
-  // Publishes `next`, if it is not null, and removes the published simulation.
+  // Publishes `next` if it is not null. Then ends the simulation that was published before. Fails
+  // with kNotFound if there is neither.
   base::Status Replace(const SimulationPointer& next);
   // Returns the currently published simulation, or null.
   SimulationPointer Published() GSV_REQUIRES(publishing_);
@@ -134,8 +135,9 @@ class Ros2Access final : public Ros2Publisher {
   std::unique_ptr<Ros2Spawner> spawner_ GSV_GUARDED_BY(publishing_);
   // The published simulation; expired or null if there is none.
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(publishing_);
-  // With --ros2, services_ and bridge_ exist until this object ends. Without --ros2, they end with
-  // the published simulation.
+  // bridge_ ends with the published simulation. After Follow(), another bridge replaces it, with or
+  // without a simulation. With --ros2, services_ exists until this object ends. Without --ros2, it
+  // ends with the published simulation.
   std::unique_ptr<ros2::SimulationServices> services_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<ros2::Bridge> bridge_ GSV_GUARDED_BY(publishing_);
   bool follows_ GSV_GUARDED_BY(publishing_) = false;    // whether Follow() was called

@@ -21,8 +21,8 @@ class Ros2Spawner final : public ros2::Spawner {
   Ros2Spawner(gateway::SimulationFactory& factory, formats::ModelLibrary& library, bool reads_files)
       : factory_(factory), library_(library), reads_files_(reads_files) {}
 
-  // Ends the published simulation. Publishes the argument instead, or no simulation if the argument
-  // is null. Fails with kNotFound if no simulation is published.
+  // Publishes the argument if it is not null. Then ends the simulation that was published before.
+  // Fails with kNotFound if there is neither.
   using Replace = std::function<base::Status(const std::shared_ptr<simulation::Simulation>&)>;
   // Lets clients load worlds. Call it before there are clients.
   void AllowLoadingWorlds(Replace replace) { replace_ = std::move(replace); }

@@ -124,7 +124,8 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
   if (!normalised) return base::Fail(normalised.error());
   orb::OrbOptions orb_options;
   orb_options.local_socket = true;
-  // Removes invalid arguments from calls of evalDP, with which brokers request this server's load.
+  // Checks calls of evalDP, with which brokers request this server's load. Invalid arguments are
+  // removed before they can crash omniORB.
   orb_options.check_request = &broker::CheckRequest;
   if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
     auto local = orb::LocalAddressTowards(host);

@@ -68,8 +68,8 @@ class Runtime {
   const std::string& viewer_url() const { return viewer_url_; }  // Empty if there is no viewer.
 
   // Registers sba::SimulationService, with the existing simulations, at the broker for the lifetime
-  // of this object. Writes a note for this user's other commands. If `scenarios` > 0, it also
-  // registers sba::ScenarioService for that number of concurrent scenarios.
+  // of this object. Writes the file by which this user's other commands find this process. If
+  // `scenarios` > 0, also registers sba::ScenarioService for that number of concurrent scenarios.
   base::Status OfferService(const std::string& name, int scenarios = 0);
 
   // Call this when the process must end soon. From now on, all calls that stop behaviours have one
