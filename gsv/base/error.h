@@ -18,7 +18,7 @@ enum class ErrorCode {
   kInvalidArgument,  // a request that cannot succeed without a change (exit code 2)
   kBadModel,         // a world, robot, mesh or texture that cannot be used (3)
   kBehaviour,        // a behaviour that threw, crashed or hung (4)
-  kNotFound,         // a name, file or offer that does not exist (5 unless it is a model: 3)
+  kNotFound,         // a name, file or offer that does not exist (3; commands for recordings: 5)
   kUnavailable,      // a peer, port, display or disk that does not answer (5)
   kTimeout,          // an operation that took longer than its time limit (5)
   kNotRunning,       // a call that is not allowed in the current state (5)

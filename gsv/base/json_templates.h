@@ -1,8 +1,8 @@
-// The large templates of the JSON library, compiled once (json_templates.cc) and not again in each
-// file that uses JSON, where they took a third of the time.
+// Declares the large templates of the JSON library, so that they are compiled only once, in
+// json_templates.cc. Without these declarations, each file that uses JSON compiles the templates
+// itself, which takes a third of its compile time.
 //
-// The precompiled header (cmake/precompiled_library.h) gives these declarations to all files. A file
-// without them compiles the templates itself.
+// All files get these declarations from the precompiled header (cmake/precompiled_library.h).
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace gsv::base::json_templates {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-// The input of nlohmann::json::parse(): a std::string, or a std::string_view or literal.
+// The input of nlohmann::json::parse() is a String for a std::string, and Characters for a
+// std::string_view or a literal.
 using String = nlohmann::detail::iterator_input_adapter<std::string::const_iterator>;
 using Characters = nlohmann::detail::iterator_input_adapter<const char*>;
 

@@ -66,7 +66,7 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    // Errors are written even if the rate limit is exceeded.
+    // Errors have a rate limit of their own, so that other lines never suppress an error.
     const bool is_error = message.level >= spdlog::level::err;
     LogRateLimiter& budget = is_error ? errors_ : others_;
     if (!budget.Take(message.time.time_since_epoch())) {
@@ -78,7 +78,8 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
                            Secrets()));
   }
 
-  // Logs the number of suppressed lines as a separate warning that is itself never suppressed.
+  // Logs the number of suppressed lines as a separate warning, which the rate limit never
+  // suppresses.
   void LogSuppressed(spdlog::log_clock::time_point time) {
     if (time < next_report_) return;
     const std::uint64_t lines = errors_.TakeSuppressed() + others_.TakeSuppressed();

@@ -33,7 +33,7 @@ class Noise {
 
  private:
   std::array<std::uint32_t, 2> key_;  // a hash of the seed and the stream
-  // Number of draws in this step (the low half), and the step.
+  // Words 0 and 1: the number of draws in this step. Words 2 and 3: the step.
   std::array<std::uint32_t, 4> counter_;
 };
 

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 64;
 constexpr std::size_t kMinNameLength = 3;
-// Names with at least this many letters may differ by two letters.
+// If the written name and the known name have at least this many letters, they may differ by two
+// letters, else by one.
 constexpr std::size_t kLongName = 8;
 
 // Returns the only known name that begins with `written` ("comple": completion), or that is

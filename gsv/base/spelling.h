@@ -12,15 +12,16 @@ namespace gsv::base {
 // letters. Names of more than 64 bytes have the distance `limit` + 1.
 int SpellingDistance(std::string_view a, std::string_view b, int limit);
 
-// Whether `written` looks like a misspelling of `known`: they differ by one letter, or by two if
-// both have eight letters or more. False for equal names, and for names of fewer than three
-// letters.
+// Returns whether `written` looks like a misspelling of `known`: their distance is 1, or at most 2
+// if both have eight letters or more. Two names of three letters must have the same letters.
+// Returns false for equal names, and for names of fewer than three letters.
 bool LooksLike(std::string_view written, std::string_view known);
 
-// Returns the known name that `written` looks like. If several names look alike, the name with the
-// smallest distance is returned, and of equal distances the first in the list. If `written` looks
-// like no name, returns the only known name that begins with `written` ("comple": completion), or
-// that is `written` without its last letter ("pss": ps). Otherwise returns an empty text.
+// Returns the known name that `written` looks like. If `written` looks like several names, returns
+// the name with the smallest distance, and of equal distances the first in the list. If `written`
+// looks like no name, returns the only known name that begins with `written` ("comple":
+// completion), or that is `written` without its last letter ("pss": ps). Otherwise returns an empty
+// text.
 std::string ClosestName(std::string_view written, const std::vector<std::string>& known);
 
 // The end of an error message about an unknown name: ". Did you mean NAME?", or empty.

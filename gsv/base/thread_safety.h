@@ -20,7 +20,7 @@
 #define GSV_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(guarded_by(mutex))
 #define GSV_PT_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(pt_guarded_by(mutex))
 
-// Declares the order in which a thread locks mutexes.
+// Declares that a thread must lock this mutex after the given mutexes.
 #define GSV_ACQUIRED_AFTER(...) GSV_THREAD_ATTRIBUTE(acquired_after(__VA_ARGS__))
 
 // Marks functions that require their caller to hold the mutex, or not to hold it, and functions

@@ -9,9 +9,10 @@
 namespace gsv::base {
 namespace {
 
-// The number of checks for a new job that an idle worker makes before it yields its processor: some
-// microseconds. Jobs often follow each other quickly, and waking a worker takes longer than these
-// checks. A caller that waits for its workers also makes this number of checks before it sleeps.
+// An idle worker checks this number of times whether there is a new job, before it yields its
+// processor. These checks take some microseconds. Waking a worker takes longer, and jobs often
+// follow each other quickly. A caller that waits for its workers also makes this number of checks
+// before it sleeps.
 constexpr int kPolls = 400;
 
 // A caller that waits for its workers pauses between its first checks. After this number of checks,

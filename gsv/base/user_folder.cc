@@ -21,7 +21,8 @@ std::filesystem::path Place() {
 
 Result<std::filesystem::path> UserFolder() {
   std::filesystem::path folder = Place();
-  // Fails if the folder exists already; the check below detects all other problems.
+  // The result is ignored: mkdir() fails if the folder exists already, and the checks below detect
+  // all other problems.
   mkdir(folder.c_str(), 0700);
   struct stat status {};
   if (lstat(folder.c_str(), &status) != 0)
