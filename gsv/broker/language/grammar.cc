@@ -347,7 +347,8 @@ struct Action<StringText> {
   template <typename Input>
   static void apply(const Input& in, Building& building) {
     building.AddLiteral(in, Unescaped(in.string_view()));
-    --building.expression.nodes.back().position;  // the position of the opening quote
+    // `in` begins after the opening quote. The position of the literal is that of the quote.
+    --building.expression.nodes.back().position;
   }
 };
 

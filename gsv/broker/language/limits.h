@@ -33,12 +33,13 @@ struct FederationLimits {
   std::size_t links = 100;       // maximum number of links of a trader
   std::size_t proxies = 16;      // maximum number of proxies that one query uses
   std::size_t trader_name = 32;  // maximum number of links named in one starting_trader or resolve
-  std::size_t calls = 32;        // maximum number of calls in progress, of all queries
+  std::size_t calls = 32;        // maximum number of calls in progress, summed over all queries
   std::size_t offers_per_answer = 20'000;    // maximum number of offers from one trader
   std::size_t bytes_per_answer = 16u << 20;  // maximum size of the offers from one trader
-  // number of remembered requests, so that no request is answered twice
+  // maximum number of remembered request ids; a query with a remembered id has come by another path
+  // before, so its answer is empty
   std::size_t requests = 10'000;
-  std::chrono::seconds request_lifetime{60};  // a remembered request is forgotten after this time
+  std::chrono::seconds request_lifetime{60};  // a request id is forgotten after this time
 };
 
 // The limits of a trader.
@@ -46,10 +47,10 @@ struct TraderLimits {
   ExpressionLimits expression;
   DynamicLimits dynamic{};
   FederationLimits federation{};
-  std::size_t offers = 200'000;  // maximum number of offers in the trader, with proxies
+  std::size_t offers = 200'000;  // maximum number of offers in the trader, including proxy offers
   std::size_t properties_per_offer = 128;
   std::size_t offer_bytes = 32 * 1024;  // maximum size of encoded properties and reference
-  // total length of all type names, so that the answer of list_types fits into a message
+  // maximum total length of all type names, so that the answer of list_types fits into a message
   std::size_t type_names_bytes = 32 * 1024;
   std::size_t type_bytes = 32 * 1024;           // maximum size of a type with all that it inherits
   std::size_t super_types = 64;                 // maximum number of direct and indirect super types

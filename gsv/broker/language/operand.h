@@ -37,9 +37,9 @@ Operand Compare(Operator op, const Operand& left, const Operand& right);
 Operand Calculate(Operator op, const Operand& left, const Operand& right);
 // Calculate() for two real numbers, without the check for a divisor of 0.
 double RealResult(Operator op, double left, double right);
-// Returns whether `sequence` has an element that is equal to `element`. Returns kNoOperand if the
-// sequence is null, or if an element before the equal one cannot be compared. `element` must not be
-// kNoOperand.
+// Returns whether `sequence` has an element that is equal to `element`. Compares in order and stops
+// at the first equal element. Returns kNoOperand if the sequence is null, or if one of the compared
+// elements cannot be compared with `element`. `element` must not be kNoOperand.
 Operand Contains(const Value::Sequence* sequence, const Operand& element);
 // Returns whether `part` is contained in `whole`, or kNoOperand if one of them is not a text.
 Operand Substring(const Operand& part, const Operand& whole);

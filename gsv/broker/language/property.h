@@ -17,11 +17,12 @@ struct Property {
 };
 
 // The source from which an evaluator gets properties: the offer itself, or another service for a
-// dynamic property. The pointer is valid until the next call.
+// dynamic property.
 class PropertySource {
  public:
   virtual ~PropertySource() = default;
-  // Returns null if the offer has no such property, or if its value is not available.
+  // Returns null if the offer has no such property, or if its value is not available. The returned
+  // pointer is valid until the next call of Find().
   virtual const Value* Find(std::string_view name) const = 0;
 };
 

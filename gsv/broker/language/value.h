@@ -35,7 +35,7 @@ enum class Scalar : std::uint8_t {
 // An int64 represents integers of every width, a double both float types, and a string also a char.
 using ScalarValue = std::variant<bool, std::int64_t, double, std::string>;
 
-// The type of a property. Two types are equal when their scalar, sequence and name are.
+// The type of a property. Two types are equal if `scalar`, `sequence` and `name` are equal.
 struct PropertyType {
   Scalar scalar = Scalar::kOther;  // the type, or the type of a sequence's elements
   bool sequence = false;           // whether the type is a sequence
@@ -55,7 +55,8 @@ struct PropertyType {
 struct OtherValue {
   std::string type_name;  // spelling of the value's type
   std::string encoded;    // the `any` as a CDR encapsulation
-  // The declared type of a dynamic property's value. Null if the property is not dynamic.
+  // For a dynamic property, `encoded` refers to the service that computes the value, and this is
+  // the declared type of the computed value. Null if the property is not dynamic.
   std::shared_ptr<const PropertyType> promised_type{};
 };
 
@@ -116,7 +117,7 @@ class Value {
     kBoolean = kInlineText + 1,
     kInteger,
     kReal,
-    kLongText,  // the following forms are pointers to shared content
+    kLongText,  // for this form and the next two, `content_` is a pointer to shared content
     kSequence,
     kOther,
   };

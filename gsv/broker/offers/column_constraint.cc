@@ -63,7 +63,8 @@ struct ManyNumbers {
 };
 
 // Calls `use` with the numbers of type T (std::int64_t or double). Returns false if an operand is
-// not of type T. A literal of the other type is accepted if T can represent its value exactly.
+// not of type T. A literal of the other type is converted if its magnitude is at most 2^53 and T
+// can represent it exactly.
 template <typename T, typename Use>
 bool WithNumbers(const Operands& operands, const Use& use) {
   constexpr bool kReals = std::is_same_v<T, double>;
@@ -352,7 +353,8 @@ void MarkUnknown(const PropertyColumn& column, std::vector<Choice>& choices) {
   }
 }
 
-// Restricts the choices by a term: each choice becomes the result of `choice and term`.
+// Combines the choices so far with those of one more term. For each offer, the choice becomes that
+// of `choice and term`, which is the smaller one.
 void Restrict(const std::vector<Choice>& term, std::vector<Choice>& choices) {
   std::transform(term.begin(), term.end(), choices.begin(), choices.begin(),
                  [](Choice a, Choice b) { return std::min(a, b); });

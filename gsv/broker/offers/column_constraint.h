@@ -1,5 +1,6 @@
-// Evaluates a constraint for many offers at once, operator by operator over the columns of its
-// properties. The result is the same as that of Matches() for each offer.
+// Evaluates a constraint for many offers at once. Each property of the constraint has a column with
+// the values of all offers, and each operator processes whole columns. For each offer, the result
+// is the same as that of Matches().
 //
 // Threads  any thread may call const members.
 #pragma once
