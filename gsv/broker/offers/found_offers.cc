@@ -6,8 +6,8 @@ namespace gsv::broker {
 namespace {
 
 // A list keeps its views alive if the views have at most this number of offers for each offer of
-// the list. Otherwise ReleaseViews() copies the offers of the list, so that the memory of all other
-// offers can be freed.
+// the list. Otherwise ReleaseViews() copies the shared pointers to the offers of the list and gives
+// up the views, so that the memory of all other offers can be freed.
 constexpr std::size_t kKeptForOne = 4;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The offers that a query found, in order. The list has plain pointers to offers in views, and
-// keeps the views alive. With a shared pointer for each offer, a query would have to write the
-// reference count of each found offer.
+// The offers that a query found, in order. The list has plain pointers to the offers and keeps the
+// views alive that contain them. With a shared pointer for each offer, a query would have to write
+// the reference count of each found offer.
 //
 // Threads  not safe. The memory of KeptOffers may be released by any thread.
 #pragma once
@@ -19,10 +19,10 @@ namespace gsv::broker {
 // Keeps found offers alive. Several lists may share one KeptOffers.
 struct KeptOffers {
   std::vector<OfferView> views{};
-  std::deque<OfferPtr> others{};  // offers that are not in a view, at constant addresses
+  std::deque<OfferPtr> others{};  // offers that are in no view; their addresses never change
 };
 
-// The list of found offers. Its elements point into views of KeptOffers.
+// The list of found offers. Its elements point to offers in `views` or `others` of KeptOffers.
 class FoundOffers {
  public:
   class Iterator {
@@ -39,7 +39,7 @@ class FoundOffers {
     const OfferPtr* const* place_;
   };
 
-  // Makes an empty list. `views` must contain the offers that will be added.
+  // Makes an empty list. `views` must contain the offers that Add() will add.
   explicit FoundOffers(std::vector<OfferView> views = {});
 
   std::size_t size() const { return places_.size(); }
@@ -51,21 +51,22 @@ class FoundOffers {
   Iterator end() const { return Iterator(places_.data() + places_.size()); }
 
   const std::vector<OfferView>& views() const { return kept_->views; }
-  // Pointers to the offers in the views, valid as long as kept().
+  // Pointers to the found offers, valid as long as kept().
   const std::vector<const OfferPtr*>& places() const { return places_; }
   std::shared_ptr<const KeptOffers> kept() const { return kept_; }
 
   // `offer` is an element of one of the views.
   void Add(const OfferPtr& offer) { places_.push_back(&offer); }
-  // Adds the offers at these indices of a chunk of one of the views.
+  // Adds the offers of `chunk` that have these indices. The chunk belongs to one of the views.
   void Add(const Offers& chunk, std::span<const std::uint32_t> indices);
+  // Adds an offer that is in none of the views.
   void AddOther(OfferPtr offer);
-  // Replaces the list by these offers, which are elements of the views.
+  // Replaces places(). kept() must contain the offers.
   void SetPlaces(std::vector<const OfferPtr*> places) { places_ = std::move(places); }
   void Truncate(std::size_t size);
-  // If the offers of this list are only a small part of the views' offers,
-  // keeps only these offers alive, and not the views. Earlier pointers to the
-  // offers are then invalid.
+  // If the offers of this list are only a small part of the views' offers, copies the shared
+  // pointers to them and gives up the views, so that other offers can be freed. Then pointers that
+  // places() returned before are invalid.
   void ReleaseViews();
 
  private:

@@ -38,7 +38,7 @@ struct TraderAttributes {
   bool supports_modifiable_properties = true;
   bool supports_dynamic_properties = true;
   bool supports_proxy_offers = true;
-  std::string request_id_stem{};  // octets that no other trader uses
+  std::string request_id_stem{};  // begins each request id of this trader; unique to the trader
 };
 
 // The policies of one query. For an absent policy, the trader's default applies.
@@ -48,8 +48,8 @@ struct ImportPolicies {
   std::optional<std::uint32_t> match_card{};
   std::optional<std::uint32_t> return_card{};
   bool exact_type_match = false;  // whether offers of sub types are ignored
-  // If one of these is false, the query ignores the offers in question: offers with properties that
-  // can be modified, offers with dynamic properties, or proxy offers.
+  // One member for each kind of offers: offers with properties that can be modified, offers with
+  // dynamic properties, and proxy offers. If it is false, the query ignores these offers.
   bool use_modifiable_properties = true;
   bool use_dynamic_properties = true;
   bool use_proxy_offers = true;

@@ -109,7 +109,8 @@ std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers, std::
   std::uint64_t bound = std::numeric_limits<std::uint64_t>::max();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::uint64_t key = KeyOf(numbers[i]);
-    // A later number that equals the bound comes after the number of the bound.
+    // `first` has at least `count` numbers whose keys are at most `bound`. Equal keys keep their
+    // order, so a later number with the key `bound` or a larger key is not among the first `count`.
     if (key >= bound && first.size() >= count) continue;
     first.push_back({key, static_cast<std::uint32_t>(i)});
     if (first.size() == 2 * count) bound = remove_larger();

@@ -41,7 +41,7 @@ class OfferChunk {
   std::atomic<int> readers_ = 0;
 };
 
-// The content of the column at the time at which the view was made.
+// The content of an OfferColumn at the time at which the view was made.
 class OfferView {
  public:
   using Chunks = std::vector<std::shared_ptr<OfferChunk>>;

@@ -45,8 +45,8 @@ class OfferStore {
   // offers. Returns nullopt if a type with offers has no index for any of the terms.
   std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
                                                     const std::vector<EqualityTerm>& terms) const;
-  // Makes indices for the first few of `terms`. Each type stores a few indices. The oldest index is
-  // removed first.
+  // For each type, makes indices for the first few of `terms`. A type has only a few indices: if
+  // there are too many, the oldest index is removed.
   void Index(const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms);
 
  private:

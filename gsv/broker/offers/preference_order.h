@@ -51,8 +51,8 @@ class RankedOffers {
 };
 
 // Orders `offers`. `seed` is the seed of the preference `random`. If min or max orders by a
-// property, `known` has the numbers of the first known.size() offers. The number of an offer
-// without a number is NaN.
+// property, `known` has the property's value for each of the first known.size() offers. It is NaN
+// for an offer without a number.
 RankedOffers Rank(const Preference& preference, std::uint64_t seed, std::vector<double> known,
                   DynamicValues& values, FoundOffers offers);
 

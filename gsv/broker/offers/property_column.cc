@@ -13,8 +13,8 @@ constexpr std::size_t kColumns = 16;
 // The maximum length of a text that is copied to the column, bytes.
 constexpr std::size_t kShortText = 64;
 
-// A cell of a sequence has the index of its first element in its upper half, and the number of its
-// elements in its lower half.
+// The 64-bit content of a sequence's cell: the upper half is the index of the sequence's first
+// element, and the lower half is the number of its elements.
 constexpr int kHalf = 32;
 constexpr std::uint64_t kLowerHalf = 0xFFFFFFFF;
 

@@ -41,16 +41,16 @@ class PropertyColumn {
   // kind is kNone if there are no such cells.
   std::optional<CellKind> sole_kind() const;
   // The contents of the cells. A cell's kind determines its content: 0 or 1 for a boolean, an
-  // integer, the bits of a real number, the index of a text in texts(), or a sequence for
-  // ElementsOf(). The content is 0 for all other kinds.
+  // integer, the bits of a real number, the index of a text in texts(), or the place of a sequence
+  // for ContainsAt(). The content is 0 for all other kinds.
   std::span<const std::uint64_t> bits() const { return bits_; }
   // The different texts of the column.
   std::span<const std::string_view> texts() const { return texts_; }
 
   // Returns the value of a cell as an operand of the constraint language.
   Operand At(std::size_t index) const { return ToOperand(kinds_[index], bits_[index]); }
-  // Whether the sequence of the cell contains `element`, see Contains(). `element_text` is the
-  // index of `element` in texts() if it is a text; see IndexOf().
+  // Whether the sequence of the cell contains `element`, see Contains(). If `element` is a text,
+  // `element_text` is its index in texts(), as IndexOf() returns it.
   Operand ContainsAt(std::size_t index, const Operand& element,
                      std::optional<std::size_t> element_text) const;
   // The index of the text in texts(), or texts().size() if no cell has it.

@@ -60,8 +60,8 @@ const Offers& PropertyIndex::Equal(const ScalarValue& value) const {
   return found != by_value_.end() ? found->second : none;
 }
 
-// A long double represents every int64 and double exactly. So keys are equal exactly when values
-// are equal.
+// A long double represents every int64 and double exactly. So two numbers have the same key only if
+// they are equal.
 std::optional<PropertyIndex::Key> PropertyIndex::KeyOf(const ScalarValue& value) {
   if (const auto* truth = std::get_if<bool>(&value)) return *truth;
   if (const auto* integer = std::get_if<std::int64_t>(&value)) {
