@@ -19,8 +19,8 @@ namespace gsv::broker {
 // language. For a dynamic property, its declared type is checked.
 bool IsRecipe(std::string_view recipe, const PropertyList& properties);
 
-// Returns the constraint for the target, or nullopt if a property has no value, or a value that is
-// not a literal.
+// Returns the constraint for the target. Returns nullopt if a property of the recipe has no value,
+// or a value that cannot be written as a literal.
 std::optional<std::string> FollowRecipe(std::string_view recipe, const PropertySource& properties,
                                         std::string_view constraint);
 

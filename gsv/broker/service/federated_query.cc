@@ -34,7 +34,7 @@ void AddLimit(std::string_view name, MatchingOffers& matches) {
 
 struct Destinations {
   std::vector<QueryDestination> all{};
-  // the policy to report if the trader does not answer, by destination
+  // for each element of `all`, the policy to report if that trader does not answer
   std::vector<std::string_view> policies{};
 
   void Add(QueryDestination destination, std::string_view policy) {
@@ -62,8 +62,9 @@ void AddLinks(TradingObjects& objects, const FederatedQuery& query,
   }
 }
 
-// Adds a destination for each proxy offer. The call of a proxy's target is possible even if no hops
-// remain. The target gets one hop less, so that it answers within the remaining time.
+// Adds a destination for each proxy offer. A proxy's target is called even if no hops remain; then
+// its hop_count is 0, too. Otherwise the target gets one hop less, so that it waits a shorter time
+// for other traders than this trader waits for the target.
 void AddProxies(TradingObjects& objects, const FederatedQuery& query, std::uint32_t hops,
                 MatchingOffers& matches, DynamicValues& values, Destinations& destinations) {
   const std::size_t most = objects.trader.limits().federation.proxies;

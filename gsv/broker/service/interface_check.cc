@@ -26,8 +26,9 @@ std::string PathOfScopedName(std::string_view name) {
   return path;
 }
 
-// Whether the last parts of `path` are `end`. A scoped name lacks the prefix ("omg.org") that an
-// identifier has.
+// Whether `path` ends with the parts of `end`: "omg.org/CosTrading/Lookup" ends with
+// "CosTrading/Lookup". A scoped name lacks the prefix ("omg.org") of a repository identifier, so
+// the two are compared without the prefix.
 bool EndsWithPath(std::string_view path, std::string_view end) {
   return path == end || (path.size() > end.size() && path.ends_with(end) &&
                          path[path.size() - end.size() - 1] == '/');

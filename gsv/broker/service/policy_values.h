@@ -29,12 +29,13 @@ struct PassedPolicies {
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   std::optional<std::string> request_id{};
-  // Policies that replace the importer's policies with the same names, and come last. They do not
-  // replace the members above.
+  // Policies that replace the importer's policies with the same names. A member above that has a
+  // value takes precedence over a fixed policy with its name.
   CosTrading::PolicySeq fixed{};
 };
 
-// starting_trader comes first, as the standard recommends.
+// Returns the policies for another trader. starting_trader comes first in them, as the standard
+// recommends, and passed.fixed comes last.
 CosTrading::PolicySeq PoliciesToPassOn(const CosTrading::PolicySeq& policies,
                                        const PassedPolicies& passed);
 

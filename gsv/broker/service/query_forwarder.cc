@@ -44,7 +44,9 @@ Lookup::SpecifiedProps ToCorba(const DesiredProperties& desired) {
   return props;
 }
 
-// Another trader might send a name twice; the last value applies. Dynamic values are evaluated.
+// Converts properties from another trader, which may send a name twice: then the last value
+// applies. The other trader has already evaluated dynamic properties. A property that is still
+// dynamic is omitted.
 PropertyList PropertiesOf(const CosTrading::PropertySeq& properties) {
   std::vector<Property> taken = ToProperties(properties);
   std::erase_if(taken, [](const Property& property) { return IsDynamic(property.value); });

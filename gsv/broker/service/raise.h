@@ -5,7 +5,8 @@
 
 namespace gsv::broker {
 
-// Throws the exception of CosTrading or CosTradingRepos, or CORBA::IMP_LIMIT.
+// Throws the exception of CosTrading or CosTradingRepos that belongs to `error.refusal`. Throws
+// CORBA::IMP_LIMIT for kLimit, and CORBA::PERSIST_STORE for kNotStored.
 [[noreturn]] void Raise(const TradingError& error);
 
 // Returns the value of `traded`, or throws its error with Raise().

@@ -11,8 +11,8 @@
 namespace gsv::broker {
 namespace {
 
-// Checks that the service can be called. The standard has no exception for this, so such a
-// reference counts as invalid.
+// Checks that the service has the interface of the service type. If the service cannot be called to
+// check it, the reference counts as invalid, because the standard has no exception for this case.
 void CheckService(CORBA::Object_ptr reference, const std::string& ior, const ServiceType& type) {
   if (type.interface_name.empty()) return;
   const auto parts = ReadReference(ior);
