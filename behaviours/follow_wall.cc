@@ -36,7 +36,7 @@ class FollowWall final : public Behaviour {
     const double ahead_right = Nearest(echoes, kRight / 2, kHalfSector);
     const double right = Nearest(echoes, kRight, kHalfSector);
     if (ahead < radius + 0.4 || ahead_right < radius + 0.25) return {0.0, 0.8};
-    // The wall on the right has ended, so the robot turns right, around its corner.
+    // The wall on the right has ended, so the robot turns right, around the corner of the wall.
     if (right > 3 * wanted && ahead_right > 3 * wanted) return {0.25, -0.5};
     return {0.25, std::clamp(1.2 * (wanted - std::min(right, ahead_right * 0.8)), -0.6, 0.6)};
   }

@@ -70,7 +70,7 @@ class Porter(gsv.Behaviour):
         return robot.is_running
 
     def take(self, robot):
-        """Drives until the fingers hold a body or are closed."""
+        """Closes the fingers, and waits until they hold a body or are completely closed."""
         self.gripper.grasp()
         while robot.sleep_for(0.05):
             state = self.gripper.read()

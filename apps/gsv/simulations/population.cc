@@ -182,8 +182,8 @@ class ListPlacing {
     return {};
   }
 
-  // Returns the error with the name of the robot. A robot that will be named after its model has no
-  // name yet.
+  // Returns the error with the entry of the robot that `error.where` names. If an entry has no name
+  // (its robot would get the name of the model), returns the error with the name of the list.
   FieldError BlameFor(const base::Error& error) const {
     for (const Waiting& each : with_place_) {
       if (each.placed.entry.name != error.where) continue;
@@ -286,8 +286,8 @@ FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibr
     auto name = simulation.AddObject(object);
     if (name) return *std::move(name);
     refusal = name.error();
-    // Another place would not help, because the error is about the name or the model, or the
-    // simulation runs.
+    // Only kBadModel means that the place is taken. Any other error would occur at each place: a
+    // wrong name, a wrong model, or a simulation that is not paused.
     if (refusal.code != base::ErrorCode::kBadModel) break;
   }
   return WrongField("", refusal);

@@ -79,7 +79,8 @@ recording::RecorderOptions Options(const RecordingChoice& choice, bool is_of_com
 
 constexpr double kMinRate = 0.001, kMaxRate = 10'000;
 
-// Whether an existing path is a file or a device, and not a folder.
+// Whether a recording to this path is a single file: the path ends in ".mcap", or is an existing
+// file or device.
 bool NamesAFile(const std::string& path) {
   std::error_code ignored;
   return path.ends_with(".mcap") ||
@@ -93,7 +94,7 @@ std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
   constexpr std::size_t kMaxListed = 24;
   std::vector<std::string> sentences;
   for (const std::string& pattern : recording::UnmatchedPatterns(topics, choice.topics)) {
-    // Whether there are topics below the name, as for the name of a robot and for /gsv.
+    // True for "/gsv", for example: there is no such topic, but there are topics below it.
     const bool is_folder = recording::UnmatchedPatterns(topics, {pattern + "/"}).empty();
     const std::size_t listed = std::min(topics.size(), kMaxListed);
     std::string there = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + listed, ", "));
@@ -244,8 +245,8 @@ Recordings::Totals Recordings::totals() {
   const base::MutexLock lock(mutex_);
   Totals totals = ended_;
   for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
-  // A recording that is being finished is in neither of the two totals for a moment, but the
-  // reported totals must not decrease.
+  // While Finish() runs, a recording is neither in recordings_ nor counted in ended_. The maximum
+  // with the totals of the previous call ensures that the returned totals never decrease.
   reported_ = {totals.under_way, std::max(totals.messages, reported_.messages),
                std::max(totals.dropped, reported_.dropped),
                std::max(totals.bytes, reported_.bytes)};

@@ -46,7 +46,7 @@ std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments);
 std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
                                     const std::vector<std::string>& topics);
 
-// Sets one rate, from "KIND=HZ". KIND is poses, readings, images or beams.
+// Sets one rate, from "KIND=HZ". KIND is poses, readings, pictures or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
 // Returns the absolute path of a folder. An empty path stands for the current folder. Returns
@@ -60,8 +60,8 @@ class Recordings final : public gateway::RecordingSwitch {
   explicit Recordings(std::filesystem::path folder);
   ~Recordings() override;
 
-  // Sets the simulation of the `gsv run` command. Only its recordings contain the arguments of this
-  // process, with which the recording can be simulated again.
+  // Sets the simulation that the command `gsv run` itself created. Only recordings of this
+  // simulation contain the process's arguments (kArgumentsKey), so only they can be run again.
   void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
 
   // Sets the ROS 2 settings of the scenario that is attached to this simulation's recordings. These
@@ -102,11 +102,12 @@ class Recordings final : public gateway::RecordingSwitch {
   static base::Status Finish(Recording& recording);
   // Returns the state of a recording, for viewers.
   static State StateOf(const Recording& recording);
-  // Adds the numbers of a recording to totals.
+  // Adds the messages, dropped messages and bytes of one recording to `totals`.
   static void Add(const State& state, Totals& totals);
-  // Adds the numbers of an ended recording to ended_.
+  // Adds the messages, dropped messages and bytes of an ended recording to ended_.
   void CountEnded(const Recording& recording);
-  // Stores the state of a recording that ends, so that RecordingOf() always returns its path.
+  // Stores the state of a recording that ends. RecordingOf() returns this state from then on, so
+  // that the path remains known.
   void SetLast(const std::string& simulation, const Recording& recording) GSV_REQUIRES(mutex_);
 
   const std::filesystem::path folder_;

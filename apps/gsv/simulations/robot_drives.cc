@@ -27,7 +27,8 @@ base::Result<std::shared_ptr<const WorldDescription>> WithDrives(
     if (placed == nullptr || placed->is_static || placed->model->is_static) continue;
     if (placed->model->drive && robot.drive.empty()) continue;
     auto model = model::AsRobot(placed->model, robot.drive);
-    // a robot whose model has no drive is refused later, when it gets a behaviour
+    // If no drive can be guessed, the model stays without one. Populate() refuses the entry later,
+    // unless it names a station (world/station.h).
     if (!model && robot.drive.empty()) continue;
     if (!model) return base::Fail(model.error());
     if (changed == nullptr) changed = std::make_shared<WorldDescription>(*world);

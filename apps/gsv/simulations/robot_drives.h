@@ -19,10 +19,13 @@ namespace gsv::app {
 base::Result<std::shared_ptr<const model::WorldDescription>> WithDrives(
     std::shared_ptr<const model::WorldDescription> world, const scenario::Scenario& scenario);
 
-// Parses --drive, ROBOT=KIND[,KEY=VALUE]…, by robot. Returns kInvalidArgument with the option.
+// Parses values of --drive, which have the form ROBOT=KIND[,KEY=VALUE]…. Returns a map from ROBOT
+// to the text after "=". Returns kInvalidArgument, with the wrong option, if a value cannot be
+// parsed.
 base::Result<std::map<std::string, std::string>> ParseDrives(const std::vector<std::string>& texts);
 
-// Returns "NAME: drive: …" once for each model of a robot whose file defines no drive.
+// Returns a line "NAME: drive: …" for robots whose model file defines no drive. Robots with the
+// same model share one line, with the name of the first robot.
 std::vector<std::string> DriveNotes(const simulation::Simulation& simulation);
 
 }  // namespace gsv::app

@@ -30,7 +30,8 @@ struct SensorTypeOptions {
 base::Result<std::shared_ptr<const sensing::SensorRegistry>> MakeSensorTypes(
     const SensorTypeOptions& options, base::Result<std::shared_ptr<rendering::Renderer>> renderer);
 
-// Returns a check of sensors by these types, for formats::ReadOptions.
+// Returns the function that checks, while a file is read (formats::ReadOptions), whether a sensor
+// of the file can be made with these types.
 formats::SensorCheck CheckBy(std::shared_ptr<const sensing::SensorRegistry> types);
 
 // Adds --sensor-plugin to a command that uses sensors. `plugins` must outlive the parsing.

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kWorldsKept = 4;
 constexpr std::size_t kMaxOffers = 200;
 
-// Adds each sentence once, in order, even if it is about several places.
+// Adds the errors and then the warnings to `sentences`, without sentences that are there already.
 void AddSentences(const base::Problems& problems, std::vector<std::string>& sentences) {
   for (const auto severity : {base::Problem::Severity::kError, base::Problem::Severity::kWarning}) {
     for (std::string& sentence : GroupedSentences(problems, severity)) {
@@ -257,7 +257,8 @@ FieldResult<std::string> SimulationBuilder::AddRobot(const std::shared_ptr<Simul
                                                      bool is_avatar) {
   base::Problems problems;
   const bool is_published = Ros2().published == simulation->specification().name;
-  // These options have no `steps`, because only the robots of the scenario wait for ROS 2 nodes.
+  // `steps` stays null, because a robot that is added later does not wait for the commands of a ROS
+  // 2 node. Only the robots of the scenario do.
   const ros2::Options options;
   return AddOne(*simulation, host_.library(), robot, is_avatar,
                 BehaviourChoice(is_published ? &options : nullptr), problems);

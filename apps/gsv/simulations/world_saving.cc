@@ -27,8 +27,8 @@ const PlacedModel* FindOriginal(const model::WorldDescription& world, const std:
   return found == world.models.end() ? nullptr : &*found;
 }
 
-// Whether a world file can express how the body moves. The movement of an original model stays as
-// in the file.
+// Whether the saved world file can express how the body moves. It always can if `is_original`: the
+// body comes from the simulation's world file, and the saved file takes its movement from there.
 bool FitsInWorld(const world::Body& body, const PlacedModel& placed, bool is_original) {
   if (body.is_avatar()) return false;
   if (is_original) return true;
@@ -43,7 +43,8 @@ Standing StandingNow(const world::Snapshot& snapshot, const model::WorldDescript
     const world::Body& body = bodies[i];
     const geometry::Pose& pose = snapshot.state.bodies[i].world_from_model;
     standing.poses[body.name] = pose;
-    if (body.is_pedestrian()) continue;  // the scenario or the world defines groups of pedestrians
+    // Pedestrians are not saved as models, because the scenario or the world file has their groups.
+    if (body.is_pedestrian()) continue;
     const PlacedModel placed{body.name, body.model, pose, body.is_static()};
     if (!FitsInWorld(body, placed, FindOriginal(original, body.name) != nullptr)) continue;
     standing.models.push_back(placed);

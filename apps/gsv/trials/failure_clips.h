@@ -23,8 +23,9 @@ inline constexpr std::size_t kMaxClips = 5;
 // none, returns the time at which the run ended.
 std::vector<double> ViolationTimes(const nlohmann::ordered_json& report);
 
-// Returns clips that span the violations, with `before` and `after` seconds around them. Violations
-// that are at most kMaxClipSpan apart share a clip. `times` must be in ascending order.
+// Returns clips that contain the violations. A clip begins `before` seconds before its first
+// violation, and contains all violations until kMaxClipSpan after the first. It ends `after`
+// seconds after its last violation. `times` must be in ascending order.
 std::vector<Clip> ClipsOf(const std::vector<double>& times, double before, double after);
 
 }  // namespace gsv::app
