@@ -48,15 +48,16 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
       {"threadPerConnectionLowerLimit", "200"},
       {"maxServerThreadPerConnection", "2"},
       {"maxServerThreadPoolSize", "32"},
-      // The threads of the pool do not wait for the next request of one connection, because this
-      // would delay other connections.
+      // After a request, a thread of the pool serves the next waiting connection at once. With "1",
+      // it would wait for a further request on its connection and so delay the others.
       {"threadPoolWatchConnection", "0"},
       {"inConScanPeriod", "180"},
       {"outConScanPeriod", "60"},
       {"scanGranularity", "5"},
       {"serverCallTimeOutPeriod", "3000"},
       {"clientCallTimeOutPeriod", "2000"},
-      // A separate connect timeout would replace the timeout of the call.
+      // "0" means no separate time limit for connecting. If a call has to connect first, such a
+      // limit would replace the limit of the call.
       {"clientConnectTimeOutPeriod", "0"},
       {"supportPerThreadTimeOut", "1"},
       {"verifyObjectExistsAndType", "0"},

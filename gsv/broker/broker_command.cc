@@ -20,7 +20,8 @@ int PrintError(const base::Error& error) {
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
-// Makes this process end with `parent`. Returns false if the parent has already ended.
+// Makes the kernel send SIGTERM to this process when the process `parent` ends. Returns false if
+// `parent` has already ended.
 bool EndWith(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   return getppid() == parent;
@@ -31,7 +32,8 @@ bool EndWith(pid_t parent) {
 // or coverage the ORB is destroyed, so that leaks and executed lines are reported.
 int End(Broker& broker, int exit_code) {
   broker.Close();
-  // The reference goes to stdout. If writing fails, no client has received it.
+  // If writing the broker's reference to stdout failed, nobody knows the broker's address, so the
+  // exit code reports an error.
   const bool is_lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (is_lost && exit_code == kOk) exit_code = kInfrastructure;
 #if !defined(GSV_SANITIZED) && !defined(GSV_COVERAGE)

@@ -50,8 +50,8 @@ class BrokerClient {
 
   // Adds the type. If the broker already has an equal type, this succeeds.
   [[nodiscard]] base::Status EnsureServiceType(const ServiceType& type);
-  // Exports a service and returns the offer's id. Rejects a service that listens on loopback while
-  // the broker is on another host, because no client there could call it.
+  // Exports a service and returns the offer's id. Returns kInvalidArgument if the service listens
+  // on loopback and the broker is on another host, because the broker could not call the service.
   [[nodiscard]] base::Result<std::string> Export(const std::string& type, CORBA::Object_ptr object,
                                                  const std::vector<Property>& properties);
   // Removes the offer with this id from the broker.

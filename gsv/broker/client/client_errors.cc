@@ -19,8 +19,8 @@ constexpr ErrorCode kWrong = ErrorCode::kInvalidArgument;
 constexpr ErrorCode kMissing = ErrorCode::kNotFound;
 
 // Returns the reason why the broker rejected a constraint or preference. The broker's exception
-// contains only the text, so the caller parses the text here again. `parsed` is the result. If
-// parsing succeeded, an operand has the wrong type.
+// contains only the text, without the reason. So this client parses the text again, and `parsed` is
+// the result. If parsing succeeded, an operand has the wrong type.
 std::string WhyRefused(const base::Status& parsed) {
   return parsed ? "its operands do not have the types that the service type declares"
                 : parsed.error().Sentence();

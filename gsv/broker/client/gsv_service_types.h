@@ -22,7 +22,8 @@ struct BehaviourOffer {
   std::string description;
   std::string host;
   std::int32_t pid = 0;  // id of the process that serves the behaviour
-  // whether the behaviour uses the robot's clock, so that the simulation may wait for it
+  // True if the behaviour uses only the simulation's clock. In lockstep, the simulation waits for
+  // such a behaviour. A behaviour that uses the wall clock cannot run in lockstep.
   bool time_managed = true;
 };
 std::vector<Property> PropertiesOf(const BehaviourOffer& offer);

@@ -67,7 +67,8 @@ void CollectMissing(const Expression& expression, std::size_t index, const Prope
 TermOutcome OutcomeOf(const Expression& constraint, std::size_t index,
                       const PropertySource& offer) {
   TermOutcome outcome{.term = TextOf(constraint, index)};
-  // Operands come before their operators, so this part of the list is an expression.
+  // The nodes from the first to `index` are an expression for the term: its operands come before
+  // `index`, and the last node of an expression is its root.
   Expression term{{constraint.nodes.begin(),
                    constraint.nodes.begin() + static_cast<std::ptrdiff_t>(index) + 1}};
   if (Matches(term, offer)) {

@@ -17,8 +17,8 @@ struct TermOutcome {
   std::vector<std::string> missing{};  // properties in the term that the offer lacks
 };
 
-// Returns the terms in the order of the constraint, which matches if all are TRUE. Terms after a
-// term that is not TRUE are evaluated as well, although a query would stop there.
+// Returns the terms in the order of the constraint. The constraint matches if all terms are TRUE.
+// Terms after a term that is not TRUE are evaluated as well, although a query would stop there.
 std::vector<TermOutcome> Explain(const Expression& constraint, const PropertySource& offer);
 
 }  // namespace gsv::broker

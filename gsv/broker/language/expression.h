@@ -41,7 +41,8 @@ struct Node {
   Operator op = Operator::kLiteral;
   std::size_t position = 0;  // position in the text, from 0
   ScalarValue literal{};     // for kLiteral
-  std::string property{};    // for kProperty and kExist; for kIn the sequence
+  // name of the property for kProperty and kExist; for kIn, the property of sequence type
+  std::string property{};
   // index of the operand of kNot, or of the first operand of a binary operator
   std::size_t left = 0;
   std::size_t right = 0;  // index of the second operand, for binary operators except kIn

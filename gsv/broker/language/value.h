@@ -39,8 +39,9 @@ using ScalarValue = std::variant<bool, std::int64_t, double, std::string>;
 struct PropertyType {
   Scalar scalar = Scalar::kOther;  // the type, or the type of a sequence's elements
   bool sequence = false;           // whether the type is a sequence
-  std::string name{};     // for a kOther type, its IDL spelling with aliases resolved; else empty
-  std::string encoded{};  // for a kOther type, its TypeCode as a CDR encapsulation; else empty
+  std::string name{};  // for a kOther type, its IDL spelling with aliases resolved; else empty
+  // the TypeCode as a CDR encapsulation, for a kOther type and for an alias; else empty
+  std::string encoded{};
 
   // Returns a text such as "unsigned long", "sequence<string>" or "struct IDL:acme/Place:1.0".
   std::string Spelling() const;
