@@ -46,7 +46,8 @@ std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments);
 std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
                                     const std::vector<std::string>& topics);
 
-// Sets one rate, from "KIND=HZ". KIND is poses, readings, pictures or beams.
+// Sets one rate, from "KIND=HZ", such as "poses=10". The page docs/formats/recording.md lists the
+// kinds at --record-rate.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
 // Returns the absolute path of a folder. An empty path stands for the current folder. Returns
