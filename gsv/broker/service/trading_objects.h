@@ -35,7 +35,7 @@ class RemainingOffers {
 
   std::size_t size() const { return size_; }
   const OfferPtr* operator[](std::size_t index) const { return Sorted().places()[first_ + index]; }
-  // Sorts the offers, if it has not been done.
+  // Returns all offers of the query, sorted. The first call sorts them.
   const FoundOffers& Sorted() const;
 
  private:
@@ -58,7 +58,8 @@ struct NoContext {};
 using OfferIdCursors = CursorTable<std::vector<std::string>, NoContext>;
 
 struct TradingObjects {
-  // `stem` and `seed` are those of Trader. `seed` also makes the ids of requests unique.
+  // `stem` and `seed` are arguments of the constructor of Trader. `seed` also makes the ids of
+  // requests unique.
   explicit TradingObjects(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
   Trader trader;

@@ -29,12 +29,12 @@ class OfferFile : public Journal {
                                                                      std::uint32_t stem);
   ~OfferFile() override { Close(); }
 
-  // Returns the content of the file when it was opened. Call it before the first Append().
+  // Reads the stored state from the file and returns it. Call it before the first Append().
   // Errors  kCorrupt.
   [[nodiscard]] base::Result<TraderState> Load();
 
-  // Limits the file to `pages` of 4 KiB. Changes that need more are not stored. Call it before the
-  // first Append().
+  // Limits the file to `pages` pages of 4 KiB each. A change that does not fit is not stored.
+  // Call it before the first Append().
   [[nodiscard]] base::Status LimitPages(int pages);
 
   bool works() const override;
@@ -52,8 +52,8 @@ class OfferFile : public Journal {
   };
 
   OfferFile(std::string path, Database database, Statements statements);
-  // Each function reads one part of the state. Numbers are the rows of the table `broker`: the
-  // stem, and the numbers of the next offer and the next type.
+  // Each function reads one part of the state. LoadNumbers() reads the table `broker`, which stores
+  // the stem, the number of the next offer and the incarnation of the next type.
   base::Status LoadNumbers(TraderState& state);
   base::Status LoadTypes(TraderState& state);
   base::Status LoadOffers(TraderState& state);
@@ -83,14 +83,14 @@ class OfferFile : public Journal {
   Statements statements_;
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable appended_;  // notified when waiting_ gets a change, and at the end
-  base::ConditionVariable written_;   // notified when changes have been written, or cannot be
+  base::ConditionVariable appended_;  // notified by Append() and Close()
+  base::ConditionVariable written_;   // notified after a write, a failed write, and Close()
   std::vector<StateChange> waiting_ GSV_GUARDED_BY(mutex_);  // changes that are not written yet
   ChangeNumber last_appended_ GSV_GUARDED_BY(mutex_) = 0;
   ChangeNumber last_written_ GSV_GUARDED_BY(mutex_) = 0;
-  bool works_ GSV_GUARDED_BY(mutex_) = true;  // false once a change could not be written
+  bool works_ GSV_GUARDED_BY(mutex_) = true;  // false after a failed write, and after Close()
   bool ending_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread writer_;  // destroyed first, because it uses the other members
+  std::thread writer_;  // declared last, because the thread uses the other members when it starts
 };
 
 }  // namespace gsv::broker

@@ -63,7 +63,7 @@ class Journal {
   using ChangeNumber = std::uint64_t;  // the number of a change; increases by one
 
   virtual ~Journal() = default;
-  // Returns false once a change could not be written.
+  // Returns false after a change could not be stored, and after Close().
   virtual bool works() const = 0;
   // Queues the change without waiting. A caller must wait for the change before appending another
   // change. So there are at most as many queued changes as callers.

@@ -17,7 +17,8 @@ namespace gsv::broker {
 struct TraderLink {
   std::string name{};
   std::string target{};  // the reference of the other trader's Lookup: "IOR:…"
-  // The link_follow_rule for the other trader if the importer sets none.
+  // The policy link_follow_rule of a query that is forwarded over this link, if the importer's
+  // query does not set this policy.
   FollowOption def_pass_on = FollowOption::kAlways;
   // The most permissive rule that is allowed for this link.
   FollowOption limiting = FollowOption::kAlways;
@@ -34,7 +35,7 @@ class LinkTable {
                              FollowOption limiting, FollowOption bound);
   TradingResult<void> Remove(const std::string& name);
   TradingResult<TraderLink> Describe(const std::string& name) const;
-  // Returns the links by name.
+  // Returns all links, sorted by name.
   std::vector<TraderLink> All() const;
   // Adds a stored link without checks.
   void Restore(TraderLink link);

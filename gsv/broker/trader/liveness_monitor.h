@@ -27,7 +27,7 @@
 namespace gsv::broker {
 
 struct LivenessOptions {
-  std::chrono::milliseconds period{60'000};  // zero if no service is checked
+  std::chrono::milliseconds period{60'000};  // time between two calls of a service; 0: no calls
   // time without an answer after which a service counts as dead
   std::chrono::milliseconds max_silence{600'000};
   std::chrono::milliseconds timeout{1'000};  // time limit of one call
@@ -67,7 +67,7 @@ class LivenessMonitor {
   void Work();  // the function of each thread
   // Calls services when they are due, one after the other, until the monitor ends.
   void AskDueServices();
-  // Waits for the next service that is due. Returns null at the end.
+  // Waits until the next service is due, and returns it. Returns null when the monitor ends.
   std::shared_ptr<const Service> Next(base::MutexLock& lock) GSV_REQUIRES(mutex_);
   // Begins to check all offered services again.
   void StartRound() GSV_REQUIRES(mutex_);
@@ -90,7 +90,7 @@ class LivenessMonitor {
   // addresses that did not answer since the last StartRound()
   std::set<std::string> silent_addresses_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, Clock::time_point> silent_since_ GSV_GUARDED_BY(mutex_);  // by reference
-  std::vector<std::thread> workers_;  // destroyed first, because they use the other members
+  std::vector<std::thread> workers_;  // joined by the destructor
 };
 
 }  // namespace gsv::broker
