@@ -19,8 +19,8 @@ namespace gsv::campaign {
 struct QueueDriver {
   JobQueue& queue;    // the queue to which the driver submits batches
   std::string title;  // the name of the queue in messages
-  // number of runs per task; 0 means that the driver chooses a number that gives at most 1,000
-  // tasks, or fewer for a small queue
+  // Number of runs per task. If it is 0, the driver chooses it. It divides the runs among at most
+  // 1,000 tasks, and at most JobQueue::MaxTasks() tasks.
   std::size_t runs_per_task = 0;
   double timeout = 300;  // wall-clock time limit of a run, s
   // folder for the files of failed runs, as a path on the nodes; may be empty
@@ -32,8 +32,8 @@ struct QueueDriver {
   // Waits for the given time. Returns true at once if the user interrupts.
   std::function<bool(std::chrono::milliseconds)> is_interrupted;
 
-  // Blocks until the results contain all runs, or until the user interrupts it. After an interrupt
-  // the tasks in the queue continue.
+  // Submits the runs. Then, if `waits` is true, blocks until the results contain all runs, or until
+  // the user interrupts it. After an interrupt, the tasks in the queue continue.
   base::Status Run(Spool& spool, Results& results) const;
 };
 

@@ -21,7 +21,7 @@
 namespace gsv::campaign {
 
 // Runs that were submitted together as tasks. The tasks are numbered from 0 and have the same
-// number of runs each.
+// number of runs each; the last task may have fewer.
 struct Batch {
   int number = 1;        // number of the batch in the campaign, from 1
   std::string name;      // the unique name of the job in the queue
@@ -34,7 +34,7 @@ struct Batch {
 
   std::size_t tasks() const { return (runs.size() + runs_per_task - 1) / runs_per_task; }
   std::vector<std::int64_t> RunsOf(std::size_t task) const;  // the runs of a task
-  // Returns the name of a task's share, which journals contain.
+  // Returns the name of a task's share of the runs. The journals of the task contain this name.
   std::string ShareOf(std::size_t task) const;
 };
 
@@ -60,14 +60,14 @@ class Spool {
   std::filesystem::path LogOf(const Batch& batch, const std::string& task) const;
 
   base::Result<std::vector<Batch>> Batches() const;  // Returns the batches, ordered by number.
-  // Writes the batch to its file, which may exist.
+  // Writes the batch to its file, and overwrites an existing file.
   base::Status Put(const Batch& batch) const;
   void Remove(const Batch& batch) const;
 
-  // Reads the journals and returns the results since the last call: the results of all attempts, or
-  // of the attempts that executed the share `share`.
+  // Reads what was added to the journals since the last call, and returns these results. If `share`
+  // is not empty, opens only the journals of the attempts that executed this share.
   base::Result<std::vector<RunResult>> Collect(const std::string& share = "");
-  // Returns the readers of all journals, by file name.
+  // Returns the readers of the journals that Collect() has opened, by file name.
   const std::map<std::string, JournalReader>& read() const { return readers_; }
   // Returns the attempts of all journals that Collect() has read.
   std::vector<Attempt> Attempts() const;

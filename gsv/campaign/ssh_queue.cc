@@ -95,7 +95,7 @@ class SshQueue final : public JobQueue {
   struct Host {
     SshOptions::Host settings;
     std::size_t running = 0,
-                connecting = 0;  // number of all tasks, and number of tasks that have not begun
+                connecting = 0;  // started tasks, and those of them that have not begun on the host
     int failures = 0;            // consecutive failures
     SshClock::time_point rests_until{};
     std::string reason;
@@ -154,7 +154,8 @@ class SshQueue final : public JobQueue {
     if (!running.has_begun) waiting_.push_back(std::move(running.task));
   }
 
-  // Marks a host as failed. All its tasks fail together, and count as one failure.
+  // Marks a host as failed. If several tasks of a host fail at about the same time, they count as
+  // one failure: a failure during the pause after another failure is not counted.
   void Fail(Host& host, const std::string& reason) {
     host.reason = reason;
     if (context_.now() < host.rests_until) return;

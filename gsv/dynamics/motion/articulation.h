@@ -37,8 +37,9 @@ struct Articulation {
 };
 
 // Links that are not the child of a joint belong to the base, which moves with the model's frame.
-// Links that are attached to the world by a movable joint also belong to the base. Links within a
-// ball joint belong to its parent.
+// If a movable joint attaches a link to the world, the link is a part of its own, and its parent is
+// the base. The links between the three joints of a ball joint belong to the part of the ball
+// joint's parent link.
 Articulation MakeArticulation(const model::Model& model);
 
 // The three joints of the model that form the ball joint above a part, from parent to child.
