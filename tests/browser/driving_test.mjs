@@ -117,19 +117,99 @@ test("the pad is dragged by a finger, and lifting it stops the robot", async () 
   await touches.detach();
 });
 
-test("a gamepad drives the robot, which stops when the window loses the focus or the gamepad is disconnected", async () => {
-  const tilt = (ahead) => page.evaluate((y) => (window.pads = [{ index: 0, id: "Test pad", connected: true, axes: [0, y, 0, 0] }]), -ahead);
-  const stopped = panel("Teleoperation").getByText("Stopped", { exact: true });
-  await tilt(1);
+// Ways to take the focus from the window of the page, and to give it back. The events are those of
+// Chromium: Playwright's emulation, in which each page has the focus, is off meanwhile.
+const WAYS_TO_LEAVE = {
+  "another tab is brought to the front": async () => {
+    const other = await page.context().newPage();
+    await other.bringToFront();
+    return async () => {
+      await other.close();
+      await page.bringToFront();
+    };
+  },
+  "the window is minimised": async (devtools) => {
+    const { windowId } = await devtools.send("Browser.getWindowForTarget");
+    const set = (windowState) => devtools.send("Browser.setWindowBounds", { windowId, bounds: { windowState } });
+    await set("minimized");
+    return () => set("normal");
+  },
+};
+
+// Leaves the page in this way, calls `look`, and returns to the page.
+async function whileLeft(leave, look) {
+  const devtools = await page.context().newCDPSession(page);
+  const hasFocus = (isWanted) => page.waitForFunction((wanted) => document.hasFocus() === wanted, isWanted, { polling: 50 });
+  await devtools.send("Emulation.setFocusEmulationEnabled", { enabled: false });
+  await page.bringToFront();
+  await hasFocus(true);
+  const comeBack = await leave(devtools);
+  try {
+    await hasFocus(false);
+    await look();
+  } finally {
+    await comeBack();
+    await hasFocus(true);
+    await devtools.send("Emulation.setFocusEmulationEnabled", { enabled: true });
+    await devtools.detach();
+  }
+}
+
+// The command of a robot, as the server reports it.
+async function commandOf(robot) {
+  const [{ name }] = await (await fetch(new URL("api/simulations", server.url))).json();
+  const { robots } = await (await fetch(new URL(`api/simulations/${encodeURIComponent(name)}/health`, server.url))).json();
+  return robots.find((each) => each.name === robot).command;
+}
+const drives = (robot) => until(async () => (await commandOf(robot)).linear_m_s !== 0, `a command to ${robot}`);
+// The page repeats its command several times a second, so a command of 0 that stays is the page's.
+async function isStopped(robot) {
+  await until(async () => (await commandOf(robot)).linear_m_s === 0, `a command of 0 to ${robot}`);
+  const then = await placeOf(robot);
+  while ((await placeOf(robot)).time < then.time + 0.5) assert.equal((await commandOf(robot)).linear_m_s, 0);
+}
+
+for (const [way, leave] of Object.entries(WAYS_TO_LEAVE)) {
+  test(`the robot stops if ${way} while a key is held`, async () => {
+    await pad().focus();
+    await page.keyboard.down("s");
+    await drives("pebble");
+    await whileLeft(leave, () => isStopped("pebble"));
+    // The key is still held. It must be released and pressed again.
+    await page.keyboard.down("s");
+    await isStopped("pebble");
+    await page.keyboard.up("s");
+    await page.keyboard.down("s");
+    await drives("pebble");
+    await page.keyboard.up("s");
+    await isStopped("pebble");
+  });
+
+  test(`the robot stops if ${way} while the stick of a gamepad is pushed`, async () => {
+    const tilt = (ahead) => page.evaluate((y) => (window.pads = [{ index: 0, id: "Test pad", connected: true, axes: [0, y, 0, 0] }]), -ahead);
+    const read = async () => {
+      const then = await page.evaluate(() => window.padReads);
+      await page.waitForFunction((reads) => window.padReads > reads + 1, then);
+    };
+    await tilt(1);
+    await panel("Teleoperation").getByText(/Gamepad connected: Test pad/).waitFor();
+    await drives("pebble");
+    await whileLeft(leave, () => isStopped("pebble"));
+    await isStopped("pebble"); // although the stick is still pushed
+    await tilt(0);
+    await read();
+    await tilt(1);
+    await drives("pebble");
+    await tilt(0);
+    await isStopped("pebble");
+    await page.evaluate(() => (window.pads = []));
+    await read();
+  });
+}
+
+test("a gamepad drives the robot, which stops when the gamepad is disconnected", async () => {
+  await page.evaluate(() => (window.pads = [{ index: 0, id: "Test pad", connected: true, axes: [0, -1, 0, 0] }]));
   await panel("Teleoperation").getByText(/Gamepad connected: Test pad/).waitFor();
-  await movesOn("pebble", 0.1);
-  await page.evaluate(() => window.dispatchEvent(new Event("blur"))); // a window of headless Chromium keeps its focus
-  await stopped.waitFor();
-  await standsStill("pebble"); // although the stick is still pushed
-  await tilt(0);
-  const then = await page.evaluate(() => window.padReads);
-  await page.waitForFunction((reads) => window.padReads > reads, then);
-  await tilt(1);
   await movesOn("pebble", 0.1);
   await page.evaluate(() => (window.pads = [null]));
   await panel("Teleoperation").getByText("The gamepad was disconnected. The robot stops.").waitFor();
