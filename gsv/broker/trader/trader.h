@@ -122,7 +122,7 @@ class Trader {
   Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
-  // ---- Proxy offers. The members for offers above do not find or change them.
+  // ---- Proxy offers. The functions in the section "Offers" neither find nor change them.
 
   // Exports a proxy offer without checking `target`, the Lookup of another trader. Returns the
   // proxy's id.
@@ -160,8 +160,8 @@ class Trader {
 
  private:
   // Calls `apply` with the lock held. Returns when the changes that `apply` has recorded are
-  // durable. Fails with kNotStored if the changes cannot be stored. Only the first failed change
-  // remains in memory; later calls change nothing.
+  // durable. Fails with kNotStored if the changes cannot be stored. Then they remain in memory, and
+  // all later calls fail without calling `apply`.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
   // Appends a change to the journal, if there is one.
@@ -180,12 +180,13 @@ class Trader {
   // Makes indices for a query with these terms, see OfferStore::Index().
   void MakeIndex(const std::vector<std::string>& types,
                  const std::vector<EqualityTerm>& terms) const;
-  // Returns the number in an offer's id. Fails if the text is no id, or has another stem.
+  // Returns the number in an offer's id. Fails if the text is not an id, or if its stem is that of
+  // another trader.
   TradingResult<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
   // Finds an offer or a proxy.
   TradingResult<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
-  // These functions find an offer that is no proxy, or only a proxy.
+  // FindOffer() fails if the offer is a proxy, and FindProxy() fails if it is not.
   TradingResult<OfferPtr> FindOffer(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   TradingResult<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   // Checks the size, sets the offer's number, and stores it.

@@ -17,7 +17,8 @@
 namespace gsv::broker {
 namespace {
 
-// A search with fewer steps is short and needs no slot (scan_slots.h).
+// One step is the evaluation of one node of the constraint for one offer. A search of at most this
+// many steps is short and needs no slot (scan_slots.h).
 constexpr std::size_t kMinStepsForSlot = 20'000;
 
 // With fewer offers, a scan is as fast as an index.
@@ -59,10 +60,10 @@ struct Trader::Candidates {
   bool with_proxies = true;
   bool with_dynamic = true;
   bool with_modifiable = true;
-  // the types; with their descriptions if with_modifiable is false
+  // if with_modifiable is false: the service types to search, by name; else empty
   std::map<std::string, ServiceType> types{};
 
-  // Estimates the number of steps of the search.
+  // Returns the maximum number of steps of the search, see kMinStepsForSlot.
   std::size_t Steps(const Expression& constraint) const;
   bool Admit(const Offer& offer) const {
     return (with_proxies || offer.proxy == nullptr) &&
@@ -134,7 +135,8 @@ class Trader::Search {
                   const PropertyColumn* order) {
     chosen_.resize(choices.size());
     std::size_t count = 0;
-    for (std::size_t i = 0; i < choices.size(); ++i) {  // no branch: it is unpredictable
+    // The loop has no branch on the choice, because the processor could not predict it.
+    for (std::size_t i = 0; i < choices.size(); ++i) {
       chosen_[count] = static_cast<std::uint32_t>(i);
       count += choices[i] == Choice::kYes ? 1 : 0;
     }
@@ -170,8 +172,8 @@ class Trader::Search {
     }
   }
 
-  // If the number of one offer is unknown, the numbers of all later offers are computed by
-  // evaluation, too.
+  // Adds a number to `known`, unless it or the number of an earlier offer is unknown. Rank()
+  // evaluates the preference for all offers after the last known number.
   void TakeNumber(std::optional<double> number) {
     if (number && matches_.known.size() == matches_.offers.size()) {
       matches_.known.push_back(*number);

@@ -21,7 +21,8 @@ const PropertyDefinition* FindDefinition(const std::vector<PropertyDefinition>& 
   return found != definitions.end() ? &*found : nullptr;
 }
 
-// Returns the first of `names` that also occurs earlier in the list.
+// Returns the first name that an earlier entry of `range` has, too, or null if all names differ.
+// `name` returns the name of an entry.
 template <typename Range, typename Name>
 const std::string* FirstDuplicate(const Range& range, Name name) {
   std::set<std::string_view> seen;

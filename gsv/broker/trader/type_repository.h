@@ -48,7 +48,8 @@ class TypeRepository {
   TradingResult<std::vector<std::string>> WithSubTypes(const std::string& name) const;
 
  private:
-  // Returns the type as it was added. Fails if the name is not a type's name, or unknown.
+  // Returns the type as it was added. Fails if `name` is not a legal name of a service type, or if
+  // no type has this name.
   TradingResult<const ServiceType*> Find(const std::string& name) const;
   // Checks the names in a new type, and that no type has its name.
   TradingResult<void> CheckNew(const ServiceType& type) const;

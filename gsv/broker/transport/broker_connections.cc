@@ -21,10 +21,10 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kMessageBytes = 65'536;  // the value of giopMaxMsgSize, without the header
 constexpr std::chrono::seconds kMessageTime{3};
 
-// Limits the number of requests in progress to about the number of processors. Dozens of threads
-// that wait for the ORB's lock and the trader's lock would switch at each lock. A request waits at
-// most a millisecond for a slot, and then continues without a slot. So a request that holds a slot
-// while it waits for another broker does not delay others.
+// Limits the number of requests in progress to about the number of processors. If dozens of threads
+// competed for the ORB's lock and the trader's lock, each acquisition would cost a switch of
+// threads. A request waits at most a millisecond for a slot, and then continues without a slot. So
+// a request that holds a slot while it waits for another broker delays others only briefly.
 //
 // Threads  any.
 class RequestSlots {
@@ -80,7 +80,8 @@ class ClientConnection final : public orb::ConnectionHooks {
     table_->Remove(&control_);
   }
 
-  // The ORB waits for the next request. A previous request without a reply still has its slot.
+  // The ORB waits for the next request. If the previous request had no reply (oneway), OnSend() was
+  // not called. So its slot is released here.
   void OnWait() override { ReleaseSlot(); }
   void OnBytes() override { NoteActivity(); }
   void OnMessage(std::string& message) override {
