@@ -21,7 +21,8 @@ Quaternion BallAngles::Turn(const std::array<double, 3>& angles) const {
 std::array<double, 3> BallAngles::AnglesOf(const Quaternion& turn) const {
   const Quaternion q = Inverse(part_from_joint_) * turn * part_from_joint_;
   const Vector3 v{q.x, q.y, q.z};
-  // If the last joint axis is x and the first is z, the three angles are yaw, pitch and roll.
+  // With the axes renamed so that the first is z, the second y and the third x, the three angles
+  // are yaw, pitch and roll.
   const auto angles =
       geometry::ToRollPitchYaw({q.w, Dot(v, axes_[2]), Dot(v, axes_[1]), Dot(v, axes_[0])});
   return {angles.yaw, angles.pitch, angles.roll};

@@ -2,8 +2,8 @@
 // three joints that form it.
 //
 // Frames  the child is rotated by Rot(a1, q1) Rot(a2, q2) Rot(a3, q3) in the joint's frame, where
-//         a1, a2, a3 are the axes. Solvers use this product as one rotation in the child's part
-//         frame.
+//         a1, a2, a3 are the axes. Solvers use the product of the three rotations as a single
+//         rotation, expressed in the child's part frame.
 #pragma once
 
 #include <array>

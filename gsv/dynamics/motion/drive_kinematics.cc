@@ -90,9 +90,9 @@ double ReferenceX(const model::Model& model) {
 }
 
 // Returns the mean slip of the drive's wheels, as if each wheel carried an equal share of the
-// weight. A wheel with its own slip (Gazebo's WheelSlip) has a compliance for a constant load and
-// for its own radius. This compliance is converted to the equal share of the weight and to the
-// drive's wheel radius.
+// weight. The compliance of a wheel with its own slip (Gazebo's WheelSlip) refers to the wheel's
+// normal_force and radius. It is converted to the equal share of the weight and to the drive's
+// wheel radius.
 model::Slip MeanSlip(const model::Model& model) {
   const model::Drive& drive = *model.drive;
   const auto has_own = [](const model::Link& link) { return link.wheel.has_value(); };
@@ -200,9 +200,8 @@ world::DriveCommand DriveKinematics::TrueMotion(const world::DriveCommand& motio
   world::DriveCommand moves = wheels_are_as_believed_ ? motion : RolledMotion(motion);
   if (!slips_) return moves;
   moves.angular *= turn_share_;
-  const double side_force = moves.linear * moves.angular / kStandardGravity;  // the side force
-                                                                              // divided by the
-                                                                              // weight
+  // the side force divided by the weight
+  const double side_force = moves.linear * moves.angular / kStandardGravity;
   moves.lateral -= drive_.slip.lateral * side_force * std::abs(moves.linear);
   return moves;
 }
@@ -221,8 +220,9 @@ DriveKinematics::Speeds DriveKinematics::MaxSpeeds(const world::DriveState& stat
   most.angular = std::max(std::abs(state.actual.angular),
                           target(state.command.angular, drive_.angular_velocity, kMaxAngularSpeed));
   if (can_move_sideways()) {
-    // A slide changes the direction of the velocity. Then each of its two components may increase
-    // to that of the target, once in each step.
+    // A slide along an obstacle changes the direction of the velocity. After it, FollowSpeed() may
+    // raise each component up to that of the target. So each step may add at most the target's
+    // squared speed to the squared speed.
     const double lateral = target(state.command.lateral, drive_.linear_velocity, kMaxLinearSpeed);
     const double square = linear * linear + lateral * lateral;
     const world::DriveCommand& now = state.actual;

@@ -4,9 +4,9 @@
 // Frames   the model's frame. A command is the velocity of the drive's reference point. This point
 //          is halfway between the wheels along x, or on the rear axle for Ackermann steering. For a
 //          base without wheels, it is the model's origin.
-// Slip     with a drive's slip (model::Slip) the forces follow from the motion at a constant speed.
-//          On an arc, the side force m v w makes the base drift outwards at lateral * v w / g *
-//          |v|. The base rotates by only a fraction of the rotation that the wheels command: b² /
+// Slip     the slip of a drive (model::Slip) is computed from the forces at a constant speed. On an
+//          arc, the side force m v w makes the base drift outwards at lateral * v w / g * |v|. The
+//          base rotates by only a fraction of the rotation that the wheels command: b² /
 //          (b² + longitudinal / lateral * x²). Here b is half of the wheel separation, and x² is
 //          the mean square of the wheels' distances along x from the reference point. This applies
 //          if both compliances are above 0. Slip during acceleration is not modelled.
@@ -107,7 +107,7 @@ class DriveKinematics {
   struct Steered {
     int joint = 0;       // index of the steering joint in the model
     double sign = 1;     // sign of the z component of the joint's axis
-    double lateral = 0;  // distance to the left, m
+    double lateral = 0;  // y coordinate of the joint in the model's frame, m; left is positive
   };
 
   // Whether the command is older than the drive's timeout.
@@ -132,7 +132,7 @@ class DriveKinematics {
   double reference_x_ = 0;              // see reference_x()
   bool wheels_are_as_believed_ = true;  // whether the wheels have the radii that the drive assumes
   bool slips_ = false;                  // whether the drive's wheels slip, see "Slip" above
-  double turn_share_ = 1;  // fraction of the wheels' rotation that the base performs, in (0, 1]
+  double turn_share_ = 1;  // the base's turn rate divided by its turn rate without slip, in (0, 1]
   std::vector<Wheel> wheels_;
   std::vector<Steered> steered_;
 };

@@ -5,8 +5,8 @@
 //         term. The effort is computed with the velocity at the end of a substep, so that large
 //         gains on light links stay stable. For a position command, the damping d is at least p
 //         times the substep.
-// Source  gz::math::PID, whose integral term is limited, and whose derivative acts on the error of
-//         a constant command.
+// Source  gz::math::PID, whose integral term is limited. Its derivative term acts on the error; the
+//         equations above assume a constant command.
 #pragma once
 
 #include "gsv/world/state.h"

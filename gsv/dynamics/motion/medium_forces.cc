@@ -14,8 +14,8 @@ using geometry::Vector3;
 
 constexpr int kSegmentsAround = 24;
 
-// The fluid that a body displaces below a height: its mass (kg), and its first moment (the integral
-// of the position over the mass, kg m).
+// The fluid that a body displaces: its mass (kg), and its first moment (the integral of the
+// position over the mass, kg m).
 struct Displaced {
   double mass = 0;
   Vector3 moment;
@@ -68,8 +68,8 @@ geometry::VolumeBelow DisplacedBelow(const Displacer& displacer, const Pose& wor
   return below;
 }
 
-// Fluids are added from the lowest layer upwards: everything above a layer's boundary has the
-// density of the upper layer.
+// Begins as if the top layer's fluid were everywhere. Then adds, for each boundary between two
+// layers, the difference of their densities times the volume below the boundary.
 Displaced DisplacedBy(const Displacer& displacer, const Pose& world_from_part,
                       const model::Fluid& fluid) {
   const Vector3 centre = world_from_part * displacer.centre;

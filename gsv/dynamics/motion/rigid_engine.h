@@ -49,15 +49,16 @@ class RigidEngine {
   virtual bool has_bodies() const = 0;
 
   // Moves the rigid bodies from before.time to before.time + step: poses, velocities, joints,
-  // drives, distances. When the caller passes `state`, its rigid bodies equal those in `before`.
-  // The poses of planar bodies are in `before` for the start of the step, and in `state` for its
-  // end. Sets the results of `pushes`.
+  // drives, distances. On entry, the rigid bodies in `state` must equal those in `before`. The
+  // poses of planar bodies are in `before` for the start of the step, and in `state` for its end.
+  // Sets the results of `pushes`.
   //
   // Replaces `contacts` by the contacts of rigid bodies in this step, in any order. The first body
-  // of a contact is rigid. Each contact has its points, its impulse, and the impulse at each point
-  // with friction. `began` means that the two bodies did not touch at the start of the step. A pair
-  // has at most two contacts. One of them may have `supports`: at its points, the second body
-  // carries the first from below, as the ground does. The second body is then static or planar.
+  // of a contact is rigid. Each contact has its points, its impulse along the normal, and for each
+  // point the impulse of normal force and friction. `began` means that the two bodies did not touch
+  // at the start of the step. A pair has at most two contacts. One of them may have `supports`: at
+  // its points, the second body carries the first from below, as the ground does. The second body
+  // is then static or planar.
   virtual void Step(base::SimTime step, const world::State& before, std::span<Push> pushes,
                     world::State& state, std::vector<world::Contact>& contacts) = 0;
 
