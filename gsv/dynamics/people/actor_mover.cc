@@ -19,10 +19,10 @@ Vector3 RateBetween(const geometry::Quaternion& from, const geometry::Quaternion
   return axis * (2 * std::atan2(sine, turn.w) / (sine * seconds));
 }
 
-// Returns the distances (m) from the start of a trajectory to kSamples points between each two
-// waypoints, and to the last waypoint.
 constexpr int kSamples = 32;
 
+// Divides each section between two waypoints into kSamples intervals of equal time. Returns the
+// distance (m) from the start of the trajectory to the start, and to the end of each interval.
 std::vector<double> WaysAlong(const model::Trajectory& trajectory) {
   std::vector<double> ways{0};
   Vector3 last = trajectory.waypoints[0].pose.position;
@@ -51,7 +51,8 @@ double WayAt(const model::Trajectory& trajectory, const std::vector<double>& way
   return ways[at] + (part - whole) * (ways[std::min(at + 1, ways.size() - 1)] - ways[at]);
 }
 
-// Returns the current frame of an animation, counted from 0.
+// Returns the index of an animation's frame. `share` is the number of times that the animation has
+// run: 1.5 is the middle of the second time.
 int FrameAt(const model::Animation& animation, double share) {
   const int count = animation.frame_count();
   return std::min(count - 1, static_cast<int>((share - std::floor(share)) * count));

@@ -24,8 +24,8 @@ class ActorMover {
   void SetLayout(const std::shared_ptr<const world::Layout>& layout);
 
   // Writes the poses and velocities of the actors at state.time + step. `before` is the state
-  // at the start of the step, or null. In `before`, actors that jump get their pose after the
-  // jump.
+  // at the start of the step, or null. An actor that jumps gets its pose after the jump in
+  // `before`, too, so that it touches nothing between the two places.
   void Move(base::SimTime step, world::State& state, world::State* before) const;
 
  private:

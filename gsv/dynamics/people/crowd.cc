@@ -230,8 +230,8 @@ void Crowd::Command(const Walker& walker, Vector2 direction, Vector2 force, doub
     const double error = geometry::WrapAngle(std::atan2(velocity.y, velocity.x) - yaw);
     turn = std::clamp(error / std::max(kTurningTime, seconds), -kMaxTurnRate, kMaxTurnRate);
   }
-  // The command is in the body's frame, which rotates during the step. At the end of the step, the
-  // command equals the desired velocity.
+  // The command is in the body's frame, which rotates by turn * seconds during the step. The
+  // velocity is converted to this frame's orientation at the end of the step.
   const double cosine = std::cos(yaw + turn * seconds), sine = std::sin(yaw + turn * seconds);
   body.drive.command = {cosine * velocity.x + sine * velocity.y,
                         cosine * velocity.y - sine * velocity.x, turn};

@@ -61,7 +61,7 @@ class Crowd {
   struct Other {
     int body = 0;                   // index of the body in the layout
     int walker = -1;                // index of the walker; -1 for a body that is not a pedestrian
-    double radius = 0, height = 0;  // of the disc and of the body, m
+    double radius = 0, height = 0;  // radius of the disc, height of the body, m
     Vector2 at, velocity;  // position and velocity of the body's origin in the plane, world frame
     double z = 0;          // height of the body's origin, m
   };

@@ -33,12 +33,13 @@ inline constexpr double kMaxSpeedFactor = 1.3;  // maximum speed as a multiple o
 // Maximum distances, in m, at which a pedestrian (from centre to centre) and a wall exert a force.
 inline constexpr double kOthersReach = 3, kWallsReach = 1.2;
 
-// The vector from another pedestrian to this pedestrian. `between` is the vector from centre to
-// centre. The result is shorter than `between`, because these pedestrians are wider than the
-// paper's pedestrians, but its length is at least 5 cm. The paper's pedestrians are points, but
-// their driving force balances the repulsion at a distance of 0.29 m. So they behave like discs
-// with a radius of about 0.14 m. kPaperRadius is smaller than 0.14 m, so that people of any size
-// keep about 10 cm between them.
+// The vector r = x - x_other for the model, from another pedestrian to this pedestrian. `between`
+// is the vector from centre to centre. The result is shorter by the sum of the radii minus
+// 2 kPaperRadius, but its length is at least kClosest.
+//
+// The paper's pedestrians are points. Two of them stop at a distance of 0.29 m, where the driving
+// force balances the repulsion. So they behave like discs with a radius of about 0.14 m.
+// kPaperRadius is smaller than 0.14 m, so that people of any size keep about 10 cm between them.
 geometry::Vector2 Apart(geometry::Vector2 between, double radius, double other_radius);
 
 // The acceleration due to one other pedestrian, without the weight w. `apart` is not zero.

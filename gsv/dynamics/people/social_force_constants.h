@@ -15,7 +15,7 @@ inline constexpr double kStride = 2;  // s
 // The largest angle between e and the direction to another pedestrian who is seen.
 inline constexpr double kHalfSight = 1.7453292519943295;  // rad: 100 degrees
 inline constexpr double kUnseen = 0.5;  // the weight w of others behind the pedestrian
-// Minimum distance, m; smaller distances are replaced by it.
+// The minimum length of Apart(), m.
 inline constexpr double kClosest = 0.05;
 inline constexpr double kMinSquare = 4e-6;  // m²: minimum of (2 b)²
 // Shorter vectors have no direction.
