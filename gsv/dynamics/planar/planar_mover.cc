@@ -275,7 +275,8 @@ void TeamMover::TurnOnTheSpot() {
   for (const Stopped& stopped : stopped_) {
     world::DriveCommand& motion = motions_.drives[stopped.mover];
     const double time = motions_.times[stopped.mover];
-    // A slide keeps its direction in the world, although the base has rotated.
+    // A base that slides along an obstacle keeps the direction of its velocity in the world. So the
+    // velocity is converted to the frame of the rotated base.
     const double angle = motion.angular * time;
     motion = {motion.linear * std::cos(angle) + motion.lateral * std::sin(angle),
               motion.lateral * std::cos(angle) - motion.linear * std::sin(angle), motion.angular};
@@ -395,7 +396,7 @@ void TeamMover::FindNearChunk(std::size_t index, const world::State& state, doub
     motions_.SetReach(m, state, seconds, steps);
     const double reach = motions_.reaches[m];
     geometry::PlanarPosition& at = motions_.positions[m];
-    at.x = origin.x, at.y = origin.y;  // the heading is needed only for a search
+    at.x = origin.x, at.y = origin.y;  // Load() sets the heading if obstacles_.Find() needs it
     if (!scene_.IsSlicedAtHeight(m, origin.z)) chunk.is_as_sliced = false;
     if (!pairs_.HasRoom(m, at, reach)) chunk.has_room = false;
     if (!obstacles_.IsClear(m, at, reach)) {
@@ -404,7 +405,7 @@ void TeamMover::FindNearChunk(std::size_t index, const world::State& state, doub
     }
     is_near_[m] = body.in_contact || !obstacles_.IsClear(m, at, reach) ? 1 : 0;
   }
-  obstacles_.Clear(index);  // StepNear() lists the obstacles again, for each of its steps
+  obstacles_.Clear(index);  // StepNear() calls obstacles_.Find() again in each of its steps
 }
 
 [[gnu::flatten]] void TeamMover::MoveFreely(std::uint32_t m, base::SimTime step, int steps,
@@ -415,7 +416,8 @@ void TeamMover::FindNearChunk(std::size_t index, const world::State& state, doub
   base::SimTime now = state.time;
   for (int left = steps - 1; left >= 0; --left, now += step) {
     const world::DriveCommand before = drive.actual;
-    // Without a rotation, the heading is that of the step before.
+    // If the base did not rotate in the previous step, its position is already what Load() would
+    // compute from the state.
     if (left == steps - 1 || motions_.twists[m].angular != 0) motions_.Load(m, state);
     motions_.FollowCommand(m, state, now, seconds);
     Journey journey;

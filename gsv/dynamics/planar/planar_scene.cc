@@ -70,8 +70,9 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   std::vector<MoverKind> kinds;
   std::vector<Mover> movers;
   std::vector<int> static_bodies, dynamic;
-  std::map<const model::Model*, std::uint32_t> known;  // footprints of upright models; used only
-                                                       // for lookups
+  // For each model with an upright body, the index in `kinds`. Never iterated, because the order of
+  // pointers is not deterministic.
+  std::map<const model::Model*, std::uint32_t> known;
   std::uint32_t pieces = 0;
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
     const world::Body& body = layout->bodies[i];

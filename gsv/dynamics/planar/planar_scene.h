@@ -63,7 +63,7 @@ class PlanarScene {
   // Returns an error for invalid drives and for poses that are not finite.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
 
-  // Slices the obstacles of `state` for movers at their heights.
+  // Slices the static bodies at the poses in `state`, for movers at the heights in `state`.
   void Slice(const world::State& state);
   // Slices the dynamic obstacles that reach into one of the sights, if that is not yet done. The
   // levels are those of the last Slice().

@@ -55,7 +55,7 @@ Polygon Clip(const Polygon& polygon, double sign, double half) {
 // corner farthest from it. The other two are the corners farthest from the line between the first
 // two, one on each side. If the depths of several corners differ by less than a millimetre per
 // metre of their distance, their positions decide. So the same corners are chosen from step to
-// step, and each corner starts from its impulse of the previous step.
+// step, and the solver can start at each corner with the impulse of the previous step.
 Polygon ChooseFour(const Polygon& all) {
   constexpr double kSteady = 1e-3, kGolden = 0.618;
   if (all.count <= 4) return all;

@@ -7,7 +7,8 @@ namespace {
 
 using geometry::Vector3;
 
-// Contacts begin at this distance (m), plus the distance by which both bodies may approach.
+// Contacts begin at this distance (m), plus the distances that the two bodies may move in the
+// substep.
 constexpr double kContactMargin = 1e-3;
 // A body carries another from below if the normal is within 45° of the vertical (its cosine).
 constexpr double kCarries = 0.70710678118654757;
@@ -182,7 +183,7 @@ Vector3 ContactFinder::PointOnFirst(const Contact& contact) const {
 }
 
 // Whether one body is a base without wheels, and the other body carries the base. The drive moves a
-// base without wheels directly.
+// base without wheels directly, so there must be no friction between the two bodies.
 bool ContactFinder::GlidesOn(const Collider& first, const Collider& second,
                              const Vector3& normal) const {
   const auto is_held = [&](const Collider& collider) {
@@ -191,7 +192,7 @@ bool ContactFinder::GlidesOn(const Collider& first, const Collider& second,
   return (is_held(first) && normal.z > kCarries) || (is_held(second) && normal.z < -kCarries);
 }
 
-// Returns the collider as a wheel that slips on this ground; null if it does not slip.
+// Returns the collider as a wheel that slips on this ground, or nullopt if it does not slip.
 std::optional<SlippingContact> ContactFinder::SlippingOf(const Collider& collider,
                                                          const model::Surface& ground,
                                                          const Vector3& normal) const {
@@ -205,7 +206,8 @@ std::optional<SlippingContact> ContactFinder::SlippingOf(const Collider& collide
                          rate * wheel->PerRateAcross(ground.wheel_slip)};
 }
 
-// The slip belongs to the whole force between two solids, which all their contact points share.
+// Contact::slip refers to the sum of the friction forces at all contact points of two solids. Each
+// point has only a part of this force, so its softness is multiplied by the number of points.
 void ContactFinder::SetSoftness(double substep) {
   slipping_.clear();
   const auto slips = [](const Contact& contact) {

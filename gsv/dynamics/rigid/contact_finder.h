@@ -88,7 +88,7 @@ class ContactFinder {
   // Adds the contacts of two pieces.
   void AddPair(int first, const PlacedPiece& first_piece, int second,
                const PlacedPiece& second_piece, double margin);
-  // Returns the collider as a wheel that slips on this ground; null if it does not slip.
+  // Returns the collider as a wheel that slips on this ground, or nullopt if it does not slip.
   std::optional<SlippingContact> SlippingOf(const Collider& collider, const model::Surface& ground,
                                             const geometry::Vector3& normal) const;
   // Converts the slip of each contact to the softness of its friction in this substep.
