@@ -210,8 +210,9 @@ __attribute__((always_inline)) inline double ContactSweeps::Solve(Batch& batch, 
   const FourDoubles normal = wanted > zero ? wanted : zero;
   change[0] = normal - impulse[0];
   const FourDoubles radius = batch.friction * normal;
-  // Computes the friction that stops the slip. If it exceeds the limit, a gradient step against the
-  // slip replaces it, shortened to the limit.
+  // Computes the friction that stops the slip. If this friction exceeds its limit (`radius`),
+  // replaces it by one gradient step: the previous friction plus an impulse against the slip,
+  // shortened to the limit.
   const FourDoubles slip_a =
       missing[1] - batch.coupling[0] * change[0] - batch.softness[0] * impulse[1];
   const FourDoubles slip_b =
@@ -279,7 +280,8 @@ double ContactSweeps::Sweep(std::vector<Batch>& batches, bool is_forwards, doubl
   return max;
 }
 
-// Orders the contacts by the number of contacts between each and a fixed body.
+// Computes the levels of the bodies by a breadth-first search from the fixed bodies. Then orders
+// the contacts by level.
 void ContactSweeps::Order() {
   const int count = static_cast<int>(contacts_.size());
   constexpr int kFar = 1 << 30;

@@ -6,8 +6,8 @@
 // Order    level by level, from contacts with fixed bodies upwards, and in every second sweep
 //          downwards. The lowest contacts of a heap must carry the weight of all bodies above.
 // Start    from the impulses that AddContact() is given, such as those of the previous step.
-// Cone     friction of a contact is at most its coefficient times the normal impulse, and is
-//          opposite to the slip where it is that large.
+// Cone     the friction of a contact is at most its coefficient times the normal impulse. Friction
+//          that reaches this limit is opposite to the slip.
 // Threads  one thread at a time for each object.
 // Determinism  Solve() is a function of the added bodies and contacts, in their order.
 #pragma once
@@ -100,7 +100,7 @@ class ContactSweeps {
   // Orders the contacts by their level, see LevelOf().
   void Order();
   // Returns -1 for a contact with a fixed body, else the larger level of its two bodies. The level
-  // of a body is the number of bodies between it and a fixed body.
+  // of a body is the smallest number of bodies between it and a fixed body.
   int LevelOf(int contact) const;
   // Puts the contacts into batches of four.
   void MakeBatches();

@@ -25,11 +25,11 @@ std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double me
   // steps. OverlapRemoval removes an overlap of bodies without joints.
   const double gap = contact.point.distance + kRestingDepth;
   wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
-  // The fraction of the slip that friction removes in this substep. If the bodies still have a gap,
-  // they close the gap in this substep. They lose the rest of their closing speed in the next
-  // substep. Of the slip, friction removes in this substep only the fraction that is also removed
-  // of the closing speed. Otherwise a body that lands on two edges at once would be thrown to one
-  // side.
+  // `share` is the fraction of the slip that friction removes in this substep. If the bodies still
+  // have a gap, they close it in this substep at the speed `kept`, and lose this speed in the next
+  // substep. In this substep they lose only the speed `taken`. So friction removes the same
+  // fraction of the slip as the contact removes of the closing speed. Otherwise a body that lands
+  // on two edges at once would be thrown to one side.
   const double kept = gap / substep, taken = wanted - free[0];
   const double share = kept > kImpact && taken > 0 ? taken / (taken + kept) : 1;
   return {wanted, (1 - share) * free[1], (1 - share) * free[2]};

@@ -137,7 +137,8 @@ void ImpulseRows::WriteSlip(const Cone& cone) {
 // Writes the velocity error of each free row, and how much each impulse changes it. The friction of
 // a contact that slips grows with its normal impulse.
 void ImpulseRows::WriteEquations(bool shares_loads) {
-  // A box has four contacts, one more than needed. Springs of this softness distribute the load.
+  // A box on the ground has four contacts, although three already determine its motion. Springs of
+  // this softness (relative to mass_inverse) distribute the load among them.
   constexpr double kRidge = 1e-9;
   const std::size_t n = free_.size(), count = rows_.size();
   matrix_.resize(n * n);
@@ -223,8 +224,9 @@ bool ImpulseRows::SolveFree(bool shares_loads) {
   return true;
 }
 
-// Lists the rows that may have any impulse, the contacts that close, and the friction of contacts
-// that do not slip. Returns whether there are few enough of them and none has an impulse yet.
+// Lists the rows that may have impulses of both signs, the contacts that close, and the friction
+// rows of contacts that do not slip. Returns false if the list is empty or has more than kMaxGuess
+// rows, or if any row has an impulse already.
 bool ImpulseRows::ChooseLikely() {
   constexpr double kSlips = 1e-3;  // m/s
   constexpr std::size_t kMaxGuess = 60;

@@ -153,8 +153,8 @@ int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const A
                          const std::array<double, 2>& softness) {
   Combine(first_row, axes);
   const Row &a = At(first_row), &b = At(first_row + 1);
-  // Rotates both rows to the principal axes of J M⁻¹ Jᵀ + softness. In these axes, the couplings by
-  // the bodies and by the softness cancel.
+  // Rotates both rows to the principal axes of J M⁻¹ Jᵀ + softness. In these axes, the matrix is
+  // diagonal: the rows' coupling by the bodies and their coupling by the softness add up to 0.
   const Axes principal =
       PrincipalAxesOf(Coupling(a, a) + softness[0], Coupling(b, b) + softness[1], Coupling(a, b));
   Combine(first_row, principal);
@@ -279,10 +279,11 @@ double ImpulseRows::ChangeOfEnergy() const {
 }
 
 int ImpulseRows::Solve(int max_iterations, double tolerance) {
-  // With at most kFew rows, a direct solution is cheap, so it follows each iteration. With more
-  // rows, it follows every sixth iteration. If a direct solution makes other rows reach their
-  // bounds, it may lead away from the result. Then it is undone, and the next direct solution is
-  // tried later. The first direct solution distributes loads.
+  // With at most kFew rows, a direct solution is cheap, so it follows every second iteration. With
+  // more rows, it follows every seventh iteration. If a direct solution makes other rows reach
+  // their bounds, it may lead away from the result. Then it is undone, and the number of iterations
+  // before the next one is about tripled. Only the first direct solution, which may be that of
+  // Guess(), distributes loads; see "Loads" in the header.
   constexpr std::size_t kFew = 60;
   const int sweeps = rows_.size() <= kFew ? 1 : 6;
   Trim();
