@@ -212,7 +212,8 @@ void MovingBody::AddPush(const Motor& motor, double force, double seconds) {
   if (force != 0) tree_.AddEffort(motor.velocity, std::clamp(force, -effort, effort));
 }
 
-// Applies the joint's controller. Returns the sign of its effort.
+// Adds the row of the joint's controller. Returns a number with the sign of the controller's effort
+// at the start of the substep.
 double MovingBody::AddControl(const Motor& motor, const world::JointCommand& command,
                               double seconds) {
   const double integral =
@@ -241,7 +242,8 @@ void MovingBody::AddVelocityLimit(const Motor& motor, double force, double secon
   row.upper = is_upper ? 0 : most;
 }
 
-// Adds rows that stop the joint at its limits. It may reach a limit only at the end of the substep.
+// Adds rows that stop the joint at its limits. They limit the joint's velocity, so that the joint
+// reaches a limit at the end of the substep at the earliest.
 void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
   const model::Joint& joint = JointOf(motor);
   if (joint.kind == model::JointKind::kContinuous) return;
@@ -264,7 +266,7 @@ void MovingBody::AddPositionLimits(const Motor& motor, double seconds) {
 void MovingBody::Follow(const Motor& motor, const model::Mimic& mimic, double seconds) {
   const auto leader = std::find_if(motors_.begin(), motors_.end(),
                                    [&](const Motor& other) { return other.joint == mimic.leader; });
-  // A leader that does not move is at 0.
+  // A leader without a motor, such as a fixed joint, has position 0.
   const double position = leader == motors_.end() ? 0 : tree_.joint_position(leader->part);
   const double wanted = mimic.multiplier * (position - mimic.reference) + mimic.offset;
   AddRow(motor, kServoGain * (wanted - tree_.joint_position(motor.part)), kNoLimit * seconds);

@@ -20,10 +20,11 @@ class MovingBody {
   void Load(const world::State& state);
   // Computes the poses of the parts.
   void Place();
-  // Applies commands in the next substep: sets forces, rows and the velocities without impulses.
+  // Prepares a substep: applies commands, sets the forces and the rows of the joints (rows()), and
+  // computes the velocities that the body would have without impulses.
   void BeforeSubstep(double seconds);
-  // Sets the velocities at the end of the substep, and moves the body. A body without contacts
-  // follows a parabola.
+  // Sets the velocities at the end of the substep, and moves the body. A body with one part and
+  // without contacts follows a parabola.
   void AfterSubstep(std::span<const double> velocities, bool is_touched, double seconds);
   // Moves by this velocity in this substep only. Call it after AfterSubstep().
   void Separate(const geometry::Vector3& velocity, double seconds);
@@ -43,7 +44,7 @@ class MovingBody {
   const JointRows& rows() const { return rows_; }
   // Whether the body moves at its own velocity, and contacts have no effect on it.
   bool is_kinematic() const { return is_kinematic_; }
-  // Whether the body's drive controls the base directly.
+  // Whether the body's drive sets the velocity of the base directly, without forces of the wheels.
   bool is_held() const { return servo_.has_value() && !rolls_; }
   // Returns the velocity of a point of a part, in the world.
   geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
@@ -76,7 +77,7 @@ class MovingBody {
   void AddMotor(const Motor& motor, double seconds);
   // Adds an effort of the joint, and its friction.
   void AddPush(const Motor& motor, double force, double seconds);
-  // Adds the row of a joint's controller. Returns the sign of its effort.
+  // Adds the row of a joint's controller. Returns a number with the sign of its effort.
   double AddControl(const Motor& motor, const world::JointCommand& command, double seconds);
   // Adds a row that keeps a joint within its velocity limit.
   void AddVelocityLimit(const Motor& motor, double force, double seconds);
@@ -114,7 +115,7 @@ class MovingBody {
   geometry::Vector3 outer_acceleration_;  // m/s²: acceleration of a single body due to outer forces
   double resting_speed_before_ = 0;       // RestingSpeed() at the start of the step
   double separating_speed_ = 0;  // m/s: the greatest speed given to Separate() in this step
-  // whether something can hold the body in this step, so that it may rest (kResting)
+  // whether something can keep the body at rest in this step (kResting); unrelated to is_held()
   bool is_held_ = false;
 };
 

@@ -23,8 +23,8 @@ namespace gsv::dynamics {
 // Computes velocities that separate overlapping bodies.
 class OverlapRemoval {
  public:
-  static constexpr double kShare = 0.2;     // fraction of an overlap
-  static constexpr double kMaxSpeed = 0.5;  // m/s
+  static constexpr double kShare = 0.2;     // fraction of an overlap that one substep removes
+  static constexpr double kMaxSpeed = 0.5;  // maximum of the computed velocities, m/s
 
   // Removes all bodies and contacts.
   void Clear();

@@ -5,7 +5,7 @@
 namespace gsv::dynamics {
 namespace {
 
-// The complete state of a rigid body that a step reads or changes.
+// Appends the state of the body to `values`: all numbers that a step reads or changes.
 void Append(const RigidBody& body, const world::State& state, std::vector<double>& values) {
   const world::BodyState& s = state.bodies[body.body];
   const auto& [p, q] = s.world_from_model;
@@ -34,7 +34,7 @@ bool AnyNear(const RigidScene& scene, const world::State& before, const world::S
 void RestingState::Remember(const RigidScene& scene, const world::State& before,
                             const world::State& after, double seconds, std::vector<Area> areas) {
   state_ = ValuesOf(scene, after);
-  // A body with commands may move for reasons other than its pose.
+  // Commands may move a body with a drive, even if its state has not changed.
   const bool commanded =
       std::any_of(scene.bodies().begin(), scene.bodies().end(),
                   [](const RigidBody& body) { return body.kinematics.has_value(); });

@@ -55,7 +55,7 @@ struct RigidBody {
   Articulation articulation;
   std::vector<Solid> solids;      // the solids of its parts
   std::vector<PartMedium> media;  // one for each part; empty if no medium exerts a force
-  std::optional<DriveKinematics> kinematics;  // of its drive; nullopt if it has none
+  std::optional<DriveKinematics> kinematics;  // nullopt if the body has no drive
   int first_joint = 0;                        // index of the body's first joint in the state
   // Whether the body has parts that joints connect.
   bool is_jointed() const { return articulation.parts.size() > 1; }
