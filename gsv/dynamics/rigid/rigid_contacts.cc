@@ -8,7 +8,8 @@ namespace {
 
 // m: bodies that are closer than this touch
 constexpr double kTouchingDistance = 1e-4;
-// A body carries another from below if the normal is within 45° of the vertical (its cosine).
+// Cosine of 45°. A body that rigid-body dynamics does not move carries another body from below if
+// the normal is within 45° of the vertical.
 constexpr double kSupports = 0.70710678118654757;
 
 // Distributes among the points the impulses of earlier substeps between the two bodies. Each point

@@ -16,9 +16,10 @@ class RigidContacts {
   void Clear();
   // Adds the contacts of a substep, with their impulses.
   void Add(const ContactFinder& finder, const std::vector<Contact>& contacts);
-  // `contacts` becomes the list for the step: for each pair of bodies, one contact that supports
-  // and one that does not. Each contact has the depth of its deepest point, the total impulse, and
-  // the points of the last substep with contact.
+  // Sets `contacts` to the contacts of the step. A pair of bodies has at most two: one contact by
+  // which the second body carries the first (`supports`), and one other contact. Each contact has
+  // the depth of its deepest point, the total impulse, and the points of the last substep with
+  // contact.
   void Store(std::vector<world::Contact>& contacts);
 
  private:

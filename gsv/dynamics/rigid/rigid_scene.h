@@ -29,10 +29,10 @@ class RigidScene {
   bool has_bodies() const { return !bodies_.empty(); }
   const world::Layout& layout() const { return *layout_; }
   const std::vector<RigidBody>& bodies() const { return bodies_; }
-  // Bodies whose poses in the state do not change, in the frames of their models.
+  // The solids of bodies that do not move. The frame of a solid is the frame of its model.
   const std::vector<Solid>& standing() const { return standing_; }
-  // Bodies that planar kinematics and scripts move. They are obstacles to others, with the shapes
-  // of their footprints (of actors: of their collisions).
+  // The solids of bodies that planar kinematics and scripts move. They are obstacles for rigid
+  // bodies. A planar body has the shape of its footprint, and an actor has its collision shapes.
   const std::vector<Solid>& planar() const { return planar_; }
 
  private:

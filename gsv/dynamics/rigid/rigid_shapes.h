@@ -70,7 +70,9 @@ class RigidShapes {
     friend auto operator<=>(const MeshKey&, const MeshKey&) = default;
   };
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;  // all shapes of the layout except meshes
-  std::map<MeshKey, std::unique_ptr<StandingMesh>> meshes_, used_before_;  // never iterated
+  // Meshes of this layout, and unused meshes of the previous layout. The order depends on pointers,
+  // so no result may depend on it.
+  std::map<MeshKey, std::unique_ptr<StandingMesh>> meshes_, used_before_;
 };
 
 }  // namespace gsv::dynamics

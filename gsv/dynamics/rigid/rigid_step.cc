@@ -120,14 +120,15 @@ void RigidStep::AddPushes(std::span<const Push> pushes) {
     push.row.speed = pushes[i].speed;
     Vector3 low, high;
     finder_.Bounds(push.row.moving, low, high);
-    // The point at which a tipping body leans on the robot: the lowest height that both have.
+    // The push acts where a tipping body leans on the robot. This is at the lowest height at which
+    // the body and the pushing part of the robot overlap.
     Vector3 point = pushes[i].point;
     point.z = std::max(pushes[i].low, low.z);
     push.point_in_body = Inverse((*found)->tree().pose(0)) * point;
   }
 }
 
-// A push applies from the time at which its robot arrives.
+// A push acts from the time at which its robot reaches the body.
 void RigidStep::StartPushes(std::span<const Push> pushes, double time, double substep) {
   push_rows_.clear();
   for (ActivePush& push : pushes_) {
@@ -313,7 +314,7 @@ std::vector<world::Contact> RigidStep::OverlapsOf(const world::State& state, int
 void RigidStep::Store(world::State& state) const {
   bool all_rest = true;
   for (const auto& body : bodies_) all_rest = body->Store(seconds_, state) && all_rest;
-  // If all bodies are at rest, a step changes nothing.
+  // If all bodies are at rest, the stored impulses stay, because RestingState compares them.
   if (!all_rest || kept_ == nullptr || state.engine == nullptr) state.engine = kept_;
 }
 

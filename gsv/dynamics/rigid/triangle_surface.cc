@@ -354,7 +354,7 @@ class TriangleSurface::CylinderContacts {
       }
       return;
     }
-    // The part of the edge that is above the rims, if there is one.
+    // Seen along the axis, a rim is a circle. Finds the points at which the edge crosses it.
     const double middle = -(a.x * along.x + a.y * along.y) / square;
     const double x = a.x + middle * along.x, y = a.y + middle * along.y;
     const double room = radius_ * radius_ - x * x - y * y;
@@ -379,7 +379,7 @@ class TriangleSurface::CylinderContacts {
   // Adds the contact of the rim at height `end` with the edge, near the point `at`. The normal is
   // at right angles to the rim and the edge.
   void AddRim(const Triangle& triangle, std::size_t edge, const Vector3& at, double end) {
-    // Uses the part of the normal that points away from the rim.
+    // Drops a contact whose normal points out of the cylinder by more than this component.
     constexpr double kAway = 0.1;
     const double from_axis = std::sqrt(at.x * at.x + at.y * at.y);
     if (!(from_axis > 0)) return;

@@ -30,8 +30,9 @@ class TriangleSurface {
   // returns false if they may touch.
   //
   // Sphere    the nearest point of each face, edge or vertex.
-  // Cylinder  for a face, the lowest points of the cylinder's rims; for an edge, the point nearest
-  //           to its axis and the points at its rims; all vertices.
+  // Cylinder  for a face, the points of the cylinder's rims that are nearest to the face; for an
+  //           edge, its point nearest to the cylinder's axis, and its points at the rims; all
+  //           vertices.
   bool AddPoints(const PlacedPiece& piece, const PlacedPiece& mesh, double margin,
                  std::vector<TouchPoint>& points) const;
 
