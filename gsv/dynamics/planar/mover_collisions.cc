@@ -9,10 +9,11 @@ namespace {
 // may move further. With a larger value, each step has more candidates to check.
 constexpr double kRoom = 0.25;
 
-// Number of pairs that one thread checks at a time. With fewer pairs, another thread saves no time.
+// Number of pairs that one thread checks at a time. If there are no more pairs than this, one
+// thread checks them all, because a second thread would save no time.
 constexpr std::size_t kPairsAtOnce = 32;
 
-// Pieces whose height ranges overlap by no more than this do not touch.
+// Pieces whose height ranges overlap by no more than this (m) do not touch.
 constexpr double kSameHeight = 1e-9;
 
 // Margin for rounding errors, m: far larger than these errors, and far smaller than distances that

@@ -57,8 +57,8 @@ class MoverCollisions {
   // As Find(), but only for the pairs that the last MarkNear() has found.
   void FindMarked(std::span<const geometry::PlanarPosition> starts,
                   std::span<const double> travels);
-  // Lists the pairs of one mover with `others`, in ascending order, at their positions. HasRoom()
-  // is not required.
+  // Lists the pairs of `mover` and one of `others` that touch with all movers at `starts`. `others`
+  // must be in ascending order. HasRoom() need not be true.
   void FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
               std::span<const geometry::PlanarPosition> starts);
 
@@ -69,7 +69,8 @@ class MoverCollisions {
             std::span<const geometry::Twist> twists, std::span<double> times,
             std::span<Vector2> normals);
 
-  // Appends to `touching` the pairs that touched when they were found.
+  // Appends to `touching` the listed pairs that touched at the `starts` of the last Find(),
+  // FindMarked() or FindOf().
   void AddTouching(std::vector<BodyPair>& touching) const;
   // Passes the contacts of movers at `positions` to the collector.
   void Collect(std::span<const geometry::PlanarPosition> positions,
@@ -97,7 +98,7 @@ class MoverCollisions {
   // The result for a mover so far.
   struct Outcome {
     double time;           // time until the mover stops, s
-    int since, new_since;  // first iteration that used `time`, and its value for the next iteration
+    int since, new_since;  // first iteration with this `time`; `since` for the next iteration
   };
   // The motions of all movers, as passed to Stop(): positions at the start, constant twists in each
   // mover's frame, and durations in s.

@@ -2,7 +2,7 @@
 // body that planar kinematics moves. A leg is a part of the step with a constant twist.
 //
 // Units    metres, radians, seconds; positions in the world frame, motions in the frame of each
-//          base.
+//          mover.
 // Threads  calls for different movers may run concurrently.
 #pragma once
 
@@ -48,19 +48,21 @@ class MoverMotions {
 
   // Sets a mover's position from `state`.
   void Load(std::uint32_t mover, const world::State& state);
-  // Starts the first leg of a step, which takes `seconds` from the time `now`. The mover follows its
-  // command. With 0 s, it does not move.
+  // Starts the first leg of a step. The step takes `seconds` from the time `now`. The mover follows
+  // its command. With 0 s, it does not move.
   void FollowCommand(std::uint32_t mover, const world::State& state, base::SimTime now,
                      double seconds);
-  // Sets reaches[mover] to an upper bound for all of the next `steps` steps of `seconds`.
+  // Sets reaches[mover] to an upper bound of the distance that any part of the mover moves in the
+  // next `steps` steps together. Each step takes `seconds`.
   void SetReach(std::uint32_t mover, const world::State& state, double seconds, int steps);
   // Starts a leg with this twist.
   void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);
   // Moves the mover to the end of its leg.
   void RunLeg(std::uint32_t mover, Journey& journey);
-  // Whether the next step of a mover equals its last step: Store() has been called, the drive's
-  // velocity was `before` in the step before, and the base neither rotates nor moves joints. This
-  // assumes that its command remains in effect.
+  // Whether the next step of a mover will equal its last step, if its command remains in effect.
+  // This is so if the last step neither rotated the mover nor changed the drive's velocity, and the
+  // drive turns no joints. `before` is the drive's velocity before the last step. Call after
+  // Store().
   bool IsStraightAndSteady(std::uint32_t mover, const world::DriveCommand& before) const;
   // Moves a mover by further steps which equal its last step. `journey` is that of the last step.
   void Repeat(std::uint32_t mover, const Journey& journey, int steps, world::State& state);
@@ -76,8 +78,9 @@ class MoverMotions {
   std::vector<geometry::PlanarPosition> positions;
   std::vector<world::DriveCommand> drives;  // motion of the drive, updated after each leg
   std::vector<geometry::Twist> twists;      // twist in this leg
-  std::vector<double> times;                // duration in this leg; 0 at rest
-  std::vector<double> reaches;              // maximum distance that any part moves in this step, m
+  std::vector<double> times;                // duration of the motion in this leg, s; 0 at rest
+  std::vector<double> reaches;              // maximum distance that any part moves in this step, or
+                                            // in the steps of SetReach(), m
   std::vector<Vector2> normals;  // direction towards the obstacle that has stopped the mover
 
  private:
@@ -131,12 +134,14 @@ inline void MoverMotions::SetReach(std::uint32_t m, const world::State& state, d
 
 [[gnu::always_inline]] inline bool MoverMotions::IsStraightAndSteady(
     std::uint32_t m, const world::DriveCommand& before) const {
-  // The bits are compared, because then the next velocity is the same function of the same values.
+  // Compares the bits, not the values: only from equal bits does the next step surely compute the
+  // same velocity again.
   return twists[m].angular == 0 && std::memcmp(&before, &drives[m], sizeof before) == 0 &&
          !kinematics(m).turns_joints();
 }
 
-// The same operations as in RunLeg() and Store(). All other values that they write do not change.
+// Does the same operations as RunLeg() and Store() in each step. It omits the values that these
+// functions would write unchanged.
 [[gnu::always_inline]] inline void MoverMotions::Repeat(std::uint32_t m, const Journey& journey,
                                                         int steps, world::State& state) {
   if (times[m] <= 0) return;

@@ -31,7 +31,8 @@ void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const geometry:
     Search(chunks_[chunk], mover, at, within, radius + within + kRounding, true);
   }
   if (IsClear(mover, at, travel)) return;
-  // IsClear() is then true if nothing is found within this distance.
+  // This distance is large enough: if the search finds no obstacle within it, IsClear() is true
+  // after the search.
   const double look = radius + std::max(within + 2 * kRounding, kLookAround);
   const double nearest = Search(chunks_[chunk], mover, at, within, look, false);
   clearances_[mover] = {{at.x, at.y}, nearest - radius - kRounding};

@@ -1,9 +1,9 @@
-// Finds the static obstacles that movers may run into, and the times of the contacts.
+// Finds the obstacles that movers may run into, and the times of the contacts.
 //
-// Clearance    for each mover, the free distance around it at the last search is stored. While the
-//              mover stays within that distance, no search is needed. This skips only searches that
-//              would find nothing, so no result depends on it. Dynamic obstacles are searched for
-//              in each step.
+// Clearance    for each mover, the distance to the nearest static obstacle at the last search is
+//              stored. While the mover stays within that distance, no search for static obstacles
+//              is needed. Only searches that would find nothing are skipped, so the results are the
+//              same as without the clearance. Dynamic obstacles are searched for in each step.
 // Threads      Find() and Stop() may run concurrently for different chunks of movers.
 // Units        metres, seconds, world frame.
 #pragma once
@@ -49,7 +49,8 @@ class NearObstacles {
             std::span<const geometry::Twist> twists, std::span<double> times,
             std::span<Vector2> normals) const;
 
-  // Appends to `touching` the pairs that touched when they were found.
+  // Appends to `touching` the pairs of a mover and an obstacle that touched at the mover's position
+  // in Find().
   void AddTouching(std::vector<BodyPair>& touching) const;
   // Passes the contacts of all movers at `positions` with the found obstacles to the collector.
   void Collect(std::span<const geometry::PlanarPosition> positions,
@@ -66,7 +67,7 @@ class NearObstacles {
     Separation separation;  // separation of the piece from the obstacle, with the mover at found_at
   };
   // Stores that a mover with its origin at `centre`, at any heading, is further than `radius` from
-  // every obstacle.
+  // every static obstacle.
   struct Clearance {
     Vector2 centre;      // the mover's origin at the search
     double radius = -1;  // m; negative before the first search
@@ -83,8 +84,8 @@ class NearObstacles {
   // Returns the separation of the piece from the obstacle if the mover is at `at`.
   Separation SeparationAt(const Near& near, const geometry::PlanarPosition& at) const;
   // Lists the dynamic obstacles (if `dynamic`) or the static obstacles (if not) within `within` of
-  // the mover. Returns the distance from the mover's origin to the nearest obstacle within `look`.
-  // `look` must be at least the mover's radius and `within`.
+  // the mover. Returns the distance from the mover's origin to the nearest of these obstacles, or
+  // `look` if none is nearer. `look` must be at least the footprint's radius plus `within`.
   double Search(Chunk& chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
                 double within, double look, bool dynamic) const;
 

@@ -1,4 +1,5 @@
-// Moves the joints of planar robots that are not wheels, for example of a lift or a pan-tilt head.
+// Moves the joints of planar robots that do not belong to the drive (wheels and steering), for
+// example the joints of a lift or a pan-tilt head.
 //
 // How          A joint with a position command moves to this position at its velocity limit and
 //              stops. Without a velocity limit, it is at the position at once. A joint with a

@@ -15,13 +15,13 @@ namespace {
 // Movers are processed in chunks with their own lists, so that results do not depend on the number
 // of threads.
 constexpr std::size_t kChunk = 32;
-// The number of chunks that one thread processes at a time, and the minimum number for which another
-// thread saves time.
+// The number of chunks that one thread processes at a time, and the minimum number of chunks for
+// which a second thread saves time.
 constexpr std::size_t kChunksAtOnce = 2, kMinChunks = 8;
 
-// If more than 1 / kMaxNearShare of the movers may touch something in StepMany(), single steps are
-// taken, because they divide these movers among the threads. StepMany() then tries again after
-// kPatience calls.
+// StepMany() moves the movers that may touch something in one thread, but Step() divides all movers
+// among the threads. So StepMany() returns false if more than 1 / kMaxNearShare of the movers may
+// touch something. Its next kPatience calls return false without a check.
 constexpr std::size_t kMaxNearShare = 4;
 constexpr int kPatience = 16;
 
@@ -75,10 +75,10 @@ class TeamMover final : public PlanarMover {
   // Moves the stopped movers in the rest of the step, and computes the contacts.
   void Finish(double seconds, world::State& state, std::vector<world::Contact>& contacts);
   // Lists in near_ the movers that may touch something in the next `count` steps. Returns false if
-  // StepMany() should not be used.
+  // StepMany() must return false.
   bool FindNear(const world::State& state, double seconds, int count);
   void FindNearChunk(std::size_t index, const world::State& state, double seconds, int count);
-  // Moves a mover that touches nothing.
+  // Moves a mover by `count` steps in which it touches nothing.
   void MoveFreely(std::uint32_t mover, base::SimTime step, int count, world::State& state,
                   MotionFollower& follower);
   // Moves the movers of near_ by one step from the time `now`.
@@ -109,7 +109,7 @@ class TeamMover final : public PlanarMover {
   // Used by StepMany().
   std::vector<std::uint8_t> is_near_;  // for each mover, whether it may touch something
   std::vector<std::uint32_t> near_;    // these movers, in ascending order
-  int patience_ = 0;                   // the number of calls that return false at once
+  int patience_ = 0;  // number of further calls of StepMany() that return false at once
 };
 
 base::Status TeamMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
