@@ -67,11 +67,11 @@ class ImpulseRows {
   // that AddRow() has set.
   double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
 
-  // Makes a cone of two rows that were added one after the other. The rows are first converted to
-  // `axes`: each axis gives the weights of the two rows.
+  // Two axes. Each has the weights of two rows: the row along an axis is the weighted sum of both.
   using Axes = std::array<std::array<double, 2>, 2>;
-  // Along each axis, the velocity may differ from its target by the softness times the impulse.
-  // Returns the cone.
+  // Makes a friction cone of `first_row` and the row after it, along the `axes`. Along each axis,
+  // the velocity may differ from its target by the softness times the impulse. Returns the index of
+  // the cone. Read the impulses with ConeImpulse(), because AddCone() changes both rows.
   int AddCone(int normal_row, int first_row, double friction, const Axes& axes,
               const std::array<double, 2>& softness = {});
 
@@ -81,14 +81,15 @@ class ImpulseRows {
   // iterations.
   int Solve(int max_iterations, double tolerance);
 
-  // The impulses of a friction cone, along the axes with which its rows were added. These axes must
+  // The impulses of a friction cone, along the axes that were passed to AddCone(). These axes must
   // be orthonormal.
   std::array<double, 2> ConeImpulse(int cone) const;
 
  private:
-  // All lengths are multiples of four. Elements beyond a body's degrees of freedom are zero.
+  // The part of a row that acts on one body. `first`, `count` and `start` are multiples of four.
+  // Elements beyond the body's degrees of freedom are zero.
   struct Block {
-    // start in velocities_; start in jacobians_ and responses_
+    // first element in velocities_, number of elements, first element in jacobians_ and responses_
     int first = 0, count = 0, start = 0;
     int begin = 0, end = 0;  // range in which the jacobian is not zero, from `start`
     int next = -1;           // the next block on the same body (CoupleAll())
@@ -106,8 +107,9 @@ class ImpulseRows {
   struct Cone {
     int normal_row, first_row;  // indices of rows; `normal_row` is the normal of the contact
     double friction;            // coefficient of friction
-    Axes axes;                  // weights of both rows for each axis, see AddCone()
-    double coupling;            // softness that couples its two rows
+    Axes axes;                  // axes of its two rows, relative to the axes passed to AddCone()
+    double coupling;            // softness between its two rows: velocity of one row for a unit
+                                // impulse of the other
     // result of the last search for the limiting friction impulse, from which the next search
     // starts (see WithinCircle())
     double shift;
@@ -158,7 +160,8 @@ class ImpulseRows {
   // Solves the linear equations of the rows in free_, whose impulses are not at a bound. Returns
   // false if this fails.
   bool SolveFree(bool shares_loads);
-  // Lists in free_ the rows that probably have an impulse.
+  // Lists in free_ the rows that probably get an impulse. Returns false if Guess() cannot use them:
+  // there are none or too many, or a row already has an impulse.
   bool ChooseLikely();
   // Tries to find the solution from the velocities alone. Returns false, and changes nothing, if
   // this fails.

@@ -14,8 +14,9 @@ std::size_t Of(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-// Lists the rows that may have any impulse, the contacts that close, and the friction of contacts
-// that do not slip.
+// Rows are active if their impulse may have both signs, or if their bounds allow an impulse towards
+// their target velocity. Contacts that close stick if they have friction and their tangential speed
+// is at most kSlips. Otherwise, they slip. All other contacts are open.
 void IslandSolver::Guess() {
   constexpr double kSlips = 1e-3;  // m/s
   for (Row& row : rows_) {
@@ -59,8 +60,9 @@ void IslandSolver::AddRow(const Row& row) {
   for (int i = 0; i < row.count; ++i) unknown_[Of(columns[i])] += values[i] * known;
 }
 
-// The velocity, across the direction of a contact that slips, that its softness permits for a unit
-// impulse along the normal.
+// If a contact slips, a unit impulse along the normal causes a friction impulse along the direction
+// of slip. If the softness differs between the tangents, this friction impulse also permits a
+// velocity across that direction, which is returned.
 double IslandSolver::CouplingOf(const ContactRows& rows) {
   const auto [x, y] = rows.direction;
   return rows.friction * x * y * (rows.softness[1] - rows.softness[0]);
@@ -149,8 +151,8 @@ void IslandSolver::TakeImpulses() {
   }
 }
 
-// Chooses whether the contact is open, sticks or slips. Returns by how much the contact violates
-// its law, in m/s.
+// Chooses whether the contact is open, sticks or slips. Returns the error of its impulses,
+// converted to a velocity, m/s.
 double IslandSolver::ChooseMode(ContactRows& rows) const {
   Row& normal = rows.normal;
   const double wanted = normal.impulse + normal.stiffness * (normal.target - rows.velocity[0] -
@@ -187,7 +189,7 @@ double IslandSolver::ChooseMode(ContactRows& rows) const {
     rows.direction = {x / length, y / length};
     const double turning = std::min(scale / (1 - scale) * rows.stiffness,
                                     1 / std::max(rows.compliance[0], rows.compliance[1]));
-    // The softness also permits a velocity for the impulse across the direction.
+    // The softness across the direction makes the contact less stiff across the direction.
     const auto [a, b] = rows.direction;
     rows.turning = turning / (1 + turning * (rows.softness[0] * b * b + rows.softness[1] * a * a));
   }

@@ -106,7 +106,8 @@ void IslandSolver::AddPushRow(std::span<const std::unique_ptr<MovingBody>> bodie
   row.stiffness = moved > 0 ? 1 / moved : 0;
 }
 
-// Adds the velocities of one side. Returns the side's part of J M⁻¹ Jᵀ along the normal.
+// Appends the velocities of one body of a contact to columns_, and their values for the contact's
+// three rows to side_values_. Returns the body's part of J M⁻¹ Jᵀ along the normal.
 double IslandSolver::AddSide(const MovingBody& body, const Collider& collider, const Vector3& point,
                              double sign, const Contact& contact) {
   const LinkTree& tree = body.tree();
@@ -287,7 +288,7 @@ bool IslandSolver::CanSweep(std::span<const std::unique_ptr<MovingBody>> bodies)
 void IslandSolver::SolveBySweeps(const ContactFinder& finder,
                                  std::span<const std::unique_ptr<MovingBody>> bodies,
                                  std::vector<Contact>& contacts, double substep) {
-  // An island of few bodies has time for many sweeps, which a tower needs.
+  // The fewer bodies an island has, the more sweeps are allowed. A stack of bodies needs many.
   constexpr int kMaxSweeps = 300, kMinSweeps = 30, kSweepsOfAll = 4800;
   constexpr double kTolerance = 1e-5;  // m/s
   sweeps_.Clear();

@@ -11,8 +11,8 @@
 // Loads    each iteration gives impulses a small compliance, in proportion to the inverse mass; the
 //          following iterations remove its effect. So redundant contacts share the load as equal
 //          springs would.
-// Heaps    ContactSweeps solves islands of more than kMaxHeap velocities in which no body has joints,
-//          because Newton's method takes many iterations where such islands collide.
+// Heaps    ContactSweeps solves islands of more than kMaxHeap velocities in which no body has
+//          joints, because Newton's method takes many iterations where such islands collide.
 // Others   ImpulseRows solves all other islands of more than kMaxVelocities, and the few for which
 //          Newton's method does not converge.
 // Overlaps of bodies without joints: see OverlapRemoval.
@@ -66,8 +66,8 @@ class IslandSolver {
              std::vector<Contact>& contacts, std::vector<PushRow>& pushes,
              std::span<const int> starts, std::span<double> velocities, double substep);
 
-  // Call it after Solve(). For each body that overlaps another, writes the velocity by which it
-  // also moves in this substep to `shifts` (m/s, by moving body).
+  // Writes to `shifts` (by moving body) the velocities that push overlapping bodies apart, m/s. A
+  // body moves with this additional velocity in this substep only. Call it after Solve().
   void RemoveOverlaps(const ContactFinder& finder,
                       std::span<const std::unique_ptr<MovingBody>> bodies,
                       const std::vector<Contact>& contacts, double substep,
@@ -79,8 +79,9 @@ class IslandSolver {
     int begin = 0, count = 0;  // range of its velocities in columns_
     // start of its values in values_: one row after the other, with `count` values each
     int values = 0;
-    // Required velocity (m/s; rad/s for a rotation), velocity per impulse by which the velocity may
-    // differ from it, and bounds of the impulse (N s; N m s for a rotation).
+    // `target` is the required velocity (m/s; rad/s for a rotation). The velocity may differ from
+    // it by `softness` times the impulse. The impulse (N s; N m s for a rotation) is between
+    // `lower` and `upper`.
     double target = 0, softness = 0, lower = 0, upper = 0;
     // Used by the iterations: the compliance of an impulse, and the stiffness that converts a
     // velocity error to a guess of the impulse.
@@ -112,14 +113,16 @@ class IslandSolver {
   void AddContactRows(const ContactFinder& finder,
                       std::span<const std::unique_ptr<MovingBody>> bodies, const Contact& contact,
                       int index, double substep);
-  // Adds the velocities of one body of a contact. Returns its part of J M⁻¹ Jᵀ along the normal.
+  // Appends the velocities of one body of a contact to columns_, and their values for the contact's
+  // three rows to side_values_. Returns the body's part of J M⁻¹ Jᵀ along the normal.
   double AddSide(const MovingBody& body, const Collider& collider, const geometry::Vector3& point,
                  double sign, const Contact& contact);
   // Sets the target velocities of a contact. `known` is the velocity due to bodies with a
   // prescribed motion.
   void SetTargets(const Contact& contact, bool has_tree, const std::array<double, 3>& known,
                   double substep, ContactRows& rows) const;
-  // Returns the velocity at a contact or of a row, for the velocities `v` of the island.
+  // Returns the relative velocity of the bodies of a contact, along its normal and its tangents.
+  // `v` are the velocities of the island.
   std::array<double, 3> VelocityAt(const ContactRows& rows, const std::vector<double>& v) const;
   // Returns the velocity of a row, for the velocities `v` of the island.
   double VelocityOf(const Row& row, const std::vector<double>& v) const;
@@ -143,8 +146,8 @@ class IslandSolver {
   double ChooseModes();
   // Chooses whether a contact is open, sticks or slips. Returns its error, m/s.
   double ChooseMode(ContactRows& rows) const;
-  // Returns the velocity across the direction of slip that the softness permits for a unit normal
-  // impulse.
+  // Returns the velocity across the direction of slip which the contact's softness permits if the
+  // normal impulse is 1.
   static double CouplingOf(const ContactRows& rows);
 
   // Whether no body of the island has joints or is pushed.
