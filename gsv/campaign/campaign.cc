@@ -23,8 +23,8 @@ using scenario::YamlPlace;
 constexpr double kMaxNumber = 1e9;
 constexpr std::size_t kMaxParameters = 64, kMaxValues = 100'000;
 
-// Sets the value at a path such as "robots[0].x". The last key of the path may be new in its
-// mapping.
+// Sets the value at a path such as "robots[0].x". If only the last key of the path does not exist,
+// adds it. Returns false if any other part of the path does not exist.
 bool SetAt(YAML::Node node, const std::string& path, const std::string& value) {
   std::size_t at = 0;
   for (;;) {

@@ -33,13 +33,14 @@ struct Parameter {
 struct Campaign {
   std::string scenario;  // the scenario that the runs vary, as YAML with absolute paths
   std::vector<Parameter> parameters;
-  // how many times the random parameters are drawn for each point of the grid
+  // number of runs for each combination of the values in the lists
   std::size_t draws = 1;
   std::uint64_t draw_seed = 0;  // seed of the random parameters
 
   std::size_t runs() const;  // The number of runs, at most kMaxRuns.
-  // Returns the values of run `run` in the order of the parameters. Runs are counted from 0. From
-  // run to run, the number of the draw changes fastest, then the value of the last list.
+  // Returns the values of run `run` in the order of the parameters. Runs are counted from 0. The
+  // runs go through all combinations of the lists, and do so `draws` times. The value of the last
+  // list changes with each run. Each run has its own random values.
   std::vector<std::string> ValuesOf(std::size_t run) const;
   // Returns the scenario with these values, as YAML. Fails if the scenario does not have the path
   // of a parameter.

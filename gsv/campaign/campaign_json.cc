@@ -1,5 +1,5 @@
-// Converts a campaign to JSON, the plan of a queued campaign. Later changes of the campaign's file
-// do not affect the plan.
+// Converts a campaign to JSON and back. A campaign that is submitted to a job queue is stored so in
+// the spool. Later changes of the campaign's file do not affect this copy.
 #include <nlohmann/json.hpp>
 
 #include "gsv/campaign/campaign.h"

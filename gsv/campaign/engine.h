@@ -44,7 +44,8 @@ struct EngineType {
   std::string help;   // the engine's text in --help
   std::vector<EngineOption> options;
   std::chrono::milliseconds poll_period{10'000};  // time between queries of the queue
-  bool outlives_driver = true;                    // whether tasks continue without the driver
+  // whether tasks continue if the driver ends, the process of `gsv campaign run` (queue_driver.h)
+  bool outlives_driver = true;
   std::string after_interrupt;  // a clause that says what happens to the tasks after an interrupt
   // Reads the engine's mapping and reports its errors, without contacting the queue. If the
   // function is empty, this process executes the runs itself, and there is no mapping.
@@ -65,7 +66,7 @@ struct EngineRequest {
 // The engine that a campaign uses.
 struct Engine {
   const EngineType* type = nullptr;
-  std::size_t runs_per_task = 0;  // 0 if the driver chooses the number
+  std::size_t runs_per_task = 0;  // 0 if the driver (queue_driver.h) chooses the number
   MakeQueue make_queue;           // empty if this process executes the runs
 };
 

@@ -29,8 +29,9 @@ class JobQueue {
   // Submits a batch, whose file must already be in the spool. Returns the job's name in the queue.
   // Returns kNotRunning if the queue refuses the batch; nothing is queued then.
   virtual base::Result<std::string> Submit(const Spool& spool, const Batch& batch) = 0;
-  // Returns the waiting and running tasks of these batches, by their names from ShareOf(). Returns
-  // kNotFound if the queue will never run a task again. Any other error may be temporary.
+  // Returns the waiting and running tasks of these batches. The keys of the map are the names that
+  // Batch::ShareOf() returns. Returns kNotFound if the queue will never run a task again. Any other
+  // error may be temporary.
   virtual base::Result<std::map<std::string, QueuedTask>> TasksOf(
       const std::vector<Batch>& batches) = 0;
 };
@@ -48,8 +49,8 @@ struct TaskCommand {
   std::string Text() const;
 };
 
-// When a task's journal exists, and before the first run, the task prints this text and the
-// journal's name.
+// A task prints this text and the name of its share on stderr when its journal exists, before its
+// first run. A queue that reads the task's output thereby knows that the task has begun.
 inline constexpr std::string_view kTaskBegins = "gsv campaign task: begins ";
 
 }  // namespace gsv::campaign

@@ -26,7 +26,8 @@ double UnixSeconds();
 // Writes the journal of one attempt. Any thread may call it.
 class JournalWriter {
  public:
-  // Creates a file in the folder, named after the attempt's share, the machine and the process.
+  // Creates a file in the folder. Its name has the attempt's share (results.h), the machine, the id
+  // of the process, and the time.
   static base::Result<std::unique_ptr<JournalWriter>> Create(const std::filesystem::path& folder,
                                                              const Attempt& attempt);
   ~JournalWriter();

@@ -11,7 +11,8 @@ namespace gsv::campaign {
 // The progress of a campaign.
 struct Progress {
   // Numbers of runs: of the whole campaign, with a result, and with a result that is not "passed".
-  std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes runs of earlier drivers
+  // `done` includes the runs that earlier processes have executed for this campaign.
+  std::size_t planned = 0, done = 0, not_passed = 0;
   // estimated wall-clock time to the end; 0 if unknown
   double seconds_left = 0;
 };
@@ -28,8 +29,8 @@ struct LocalEngine {
   // Blocks until the results contain all runs, or until the user interrupts it. An interrupt
   // cancels the runs in progress and keeps the results. Fails if the results cannot be written.
   base::Status Run(Results& results) const;
-  // Executes these runs, and calls `keep` once for each. `progress` is the progress of the campaign
-  // before these runs.
+  // Executes these runs. Calls `keep` with the results that are new since the previous call, so
+  // each result is passed once. `progress` is the progress of the campaign before these runs.
   base::Status Execute(
       std::vector<std::int64_t> runs, Progress progress,
       const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;

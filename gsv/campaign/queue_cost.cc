@@ -11,8 +11,9 @@ namespace gsv::campaign {
 std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
   QueueCost cost;
   std::set<std::string> nodes;
-  std::map<std::string, double> waits;  // longest waiting time of each share
-  std::multimap<double, int> changes;   // changes of the number of used slots, by time
+  // time from the submission of each share to its first start, s
+  std::map<std::string, double> waits;
+  std::multimap<double, int> changes;  // changes of the number of used slots, by time
   double submitted = 0, first = 0, last = 0;
   for (const Attempt& attempt : attempts) {
     if (attempt.job.empty()) continue;

@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kGatherPeriod{500};
 // if there is no progress for this time, the driver prints why the tasks wait
 constexpr auto kSilence = std::chrono::seconds(30);
 constexpr std::size_t kFewTasks = 1000;
-// a run becomes an error after tasks have ended this many times during the run
+// a run gets the result "error" after this number of tasks have ended without finishing it
 constexpr std::size_t kMaxAttempts = 3;
 // a task counts as lost if this number of consecutive queries did not list it
 constexpr int kMissedQueriesUntilGone = 2;
@@ -175,8 +175,9 @@ class Drive {
     return false;
   }
 
-  // Returns the runs that are neither done nor in the queue. Runs during which a task ended come
-  // last. A run during which tasks have ended too often becomes an error.
+  // Returns the runs that are neither done nor in the queue. If tasks have begun a run but ended
+  // without its result, the run comes later in the list. After kMaxAttempts such tasks, it gets the
+  // result "error".
   base::Result<std::vector<std::int64_t>> MissingRuns() {
     std::set<std::int64_t> queued;
     for (const Batch& batch : OpenBatches()) {

@@ -2,9 +2,9 @@
 // and resubmits lost runs.
 //
 // Each run counts once: tasks append only to their own journals (spool.h), and the results keep the
-// first result of a run. All state is in the spool and the queue, so another driver can continue.
-// Runs that are still in the queue are not submitted again, because a batch is recorded under a
-// unique name before it is submitted.
+// first result of a run. All state is in the spool and the queue. So if the driver, this process,
+// ends, a driver that the user starts later can continue. It does not submit runs that are still in
+// the queue, because a batch is recorded under a unique name before it is submitted.
 #pragma once
 
 #include <chrono>
