@@ -198,10 +198,13 @@ class IslandSolver {
     std::array<double, 3> impulse;
   };
   std::vector<Pending> pending_;  // contacts, before they are added to sweeps_
-  std::vector<int> place_of_;     // index in bodies_, by the index of the moving body
+  // for each moving body, indexed as in the argument of Solve(): its index in bodies_
+  std::vector<int> place_of_;
   // for each body, the index at which its velocities begin in the rows
   std::vector<int> columns_of_rows_;
-  std::vector<double> jacobian_[2], response_[2];  // the two sides of a row for impulse_rows_
+  // A row of impulse_rows_ acts on at most two bodies, its sides. For each side, the row's jacobian
+  // J for the body's velocities, and M⁻¹ Jᵀ.
+  std::vector<double> jacobian_[2], response_[2];
 };
 
 }  // namespace gsv::dynamics

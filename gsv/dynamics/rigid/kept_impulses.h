@@ -14,9 +14,9 @@ namespace gsv::dynamics {
 // The impulses of a substep, from which the next substep starts.
 class KeptImpulses final : public world::EngineState {
  public:
-  // The impulse at one contact point.
+  // The impulse at one contact point, stored as the mean force during the substep.
   struct Entry {
-    BodyPair bodies;          // indices in the layout, in the order of the contact
+    BodyPair bodies;          // indices in the layout: of the contact's first and second body
     geometry::Vector3 point;  // contact point, in the frame of the first body's part
     geometry::Vector3 force;  // force on the first body, N, in the world
     friend bool operator==(const Entry&, const Entry&) = default;

@@ -41,7 +41,8 @@ bool SolveLinear(std::span<double> a, std::span<double> b) {
     for (std::size_t row = column + 1; row < n; ++row) {
       const double factor = a[row * n + column] * inverse;
       if (factor == 0) continue;
-      // Starts at the last multiple of four, because the rest of the column is not read again.
+      // Rounds the first column down to a multiple of four, so that four values are computed at
+      // once. This changes values left of the diagonal too. Only LargestOf() reads them later.
       double* const changed = a.data() + row * n;
       const double* const taken = a.data() + column * n;
       std::size_t k = (column + 1) / kFour * kFour;

@@ -11,8 +11,8 @@ using geometry::Quaternion;
 using geometry::Vector3;
 using model::JointKind;
 
-// The smallest pivot of the factorised mass matrix (kg or kg m²), and its smallest fraction of the
-// diagonal.
+// A pivot of the factorised mass matrix is at least kMinPivot (kg or kg m²), and at least
+// kMinPivotShare times the diagonal value of the mass matrix.
 constexpr double kMinPivot = 1e-100, kMinPivotShare = 1e-12;
 
 Matrix3 Outer(const Vector3& a, const Vector3& b) { return {b.x * a, b.y * a, b.z * a}; }
@@ -248,10 +248,11 @@ void LinkTree::WriteMassesOf(int part, int velocity) {
   }
 }
 
-// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. D contains only
-// rounding errors if two velocities move all parts alike, as with parallel axes of a universal
-// joint. The same happens if masses differ by more digits than a double has. A minimum pivot then
-// acts like the inertia of a motor: the velocities stay finite, and all others keep their accuracy.
+// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. In two cases, a pivot
+// (a value of D) would consist of rounding errors only: if two velocities move all parts alike, as
+// with parallel axes of a universal joint, or if masses differ by more digits than a double has.
+// Then the minimum pivot is used instead. It acts like the inertia of a motor at the joint: the
+// joint's velocity stays finite, and the other velocities keep their accuracy.
 void LinkTree::Factorise() {
   factors_ = masses_;
   const auto at = [&](int row, int column) -> double& {
@@ -350,7 +351,8 @@ void LinkTree::AccelerateSingle(double seconds) {
   std::copy(std::begin(momenta), std::end(momenta), free_momenta_.begin());
 }
 
-// Subtracts the efforts that the motion itself requires, and adds the forces on the parts.
+// Adds the forces on the parts, and subtracts the efforts of centrifugal, Coriolis and gyroscopic
+// effects.
 void LinkTree::AddBias() {
   const std::size_t count = links_.size();
   spins_[0] = base_size_ > 0 ? base_angular_velocity() : Vector3{};

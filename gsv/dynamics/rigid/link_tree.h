@@ -40,9 +40,9 @@ class LinkTree {
   void AddForce(int part, const geometry::Vector3& force, const geometry::Vector3& torque);
   // Adds an effort (N or N m) to one velocity of a joint.
   void AddEffort(int velocity, double effort) { efforts_[Index(velocity)] += effort; }
-  // Computes free(), the velocities after `seconds` of these forces and of the motion itself,
-  // without any impulse. Also computes free_momenta(), the mass matrix times these velocities. Call
-  // it after WriteMass().
+  // Computes free(): the velocities after `seconds` under the added forces and efforts, and under
+  // centrifugal, Coriolis and gyroscopic effects, but without impulses of constraints. Also
+  // computes free_momenta(), the mass matrix times these velocities. Call it after WriteMass().
   void Accelerate(double seconds);
 
   // Moves the tree by `velocities` for `seconds`.
@@ -64,7 +64,8 @@ class LinkTree {
   std::span<const double> free() const { return free_; }
   // The mass matrix times free().
   std::span<const double> free_momenta() const { return free_momenta_; }
-  // The lower triangle of the mass matrix, row by row.
+  // Returns a value of the mass matrix. `column` must not exceed `row`, because only the lower
+  // triangle is valid.
   double mass(int row, int column) const { return masses_[Index(row * size_ + column)]; }
 
   double part_mass(int part) const { return links_[Index(part)].mass; }
@@ -75,7 +76,7 @@ class LinkTree {
   const geometry::Vector3& position(int part) const { return positions_[Index(part)]; }
   // The axes of a part's frame, in the world.
   const Matrix3& rotation(int part) const { return rotations_[Index(part)]; }
-  // Returns the pose of a part's centre of mass, and its angular velocity, in the world.
+  // Returns the pose of a part's frame in the world.
   geometry::Pose pose(int part) const;
   // Returns the angular velocity of a part, in the world.
   geometry::Vector3 angular_velocity(int part) const;
@@ -97,15 +98,16 @@ class LinkTree {
   // Returns the indices of the velocities that move a part: first the velocities of its own joint,
   // and last the velocities of the base.
   std::span<const int> Chain(int part) const { return links_[Index(part)].chain; }
-  // For each velocity of the part's chain: the velocity of a point of the part, and its angular
-  // velocity, due to a unit of that velocity.
+  // How a part moves if one velocity of the tree is 1 and all others are 0: the angular velocity of
+  // the part, and the velocity of a point of the part.
   struct Motion {
     geometry::Vector3 turning, moving;  // angular velocity and velocity, in the world
   };
-  // Computes the velocity of a point of a part due to a unit of each velocity of the part's chain.
+  // For each velocity in the part's chain, computes the velocity of a point of the part if that
+  // velocity is 1 and all others are 0.
   void PointMotions(int part, const geometry::Vector3& point,
                     std::vector<geometry::Vector3>& motions) const;
-  // The angular velocity due to a unit of this velocity, in the world.
+  // The angular velocity (in the world) of the moved parts if `velocity` is 1 and all others are 0.
   const geometry::Vector3& turning(int velocity) const { return motions_[Index(velocity)].turning; }
 
   // Returns J M⁻¹ Jᵀ of a row with values for the velocities of a part's chain.
@@ -121,8 +123,8 @@ class LinkTree {
     model::JointKind kind = model::JointKind::kFixed;
     // orientation in the parent's frame with the joint at zero
     geometry::Quaternion parent_from_part;
-    // The axis, and the vector from the pivot to the part, in the part's frame, and the pivot in
-    // the parent's frame.
+    // The axis of the joint, in the part's frame. The pivot (the joint's origin), in the parent's
+    // frame. The vector from the pivot to the part's centre of mass, in the part's frame.
     geometry::Vector3 axis, pivot_in_parent, arm;
     double pitch = 0, mass = 0, heaviness = 1;  // pitch of a screw joint, m/rad, else 0; see Part
     geometry::Vector3 inertia;  // principal moments, about the axes of the part's frame, kg m²
@@ -146,7 +148,8 @@ class LinkTree {
   void Factorise();
   // Accelerates a body without joints.
   void AccelerateSingle(double seconds);
-  // Adds the forces, and subtracts the efforts that the motion itself requires.
+  // Adds the forces on the parts, and subtracts the efforts of centrifugal, Coriolis and gyroscopic
+  // effects.
   void AddBias();
   double& MassAt(int row, int column) { return masses_[Index(row * size_ + column)]; }
 
@@ -155,7 +158,8 @@ class LinkTree {
   std::vector<BallAngles> balls_;  // one for each ball joint
   std::vector<int> ball_of_;       // index in balls_ for each part; -1: none
   int size_ = 0, base_size_ = 6;   // numbers of velocities: of the tree, and of its base (6 or 0)
-  std::vector<int> parents_;       // for each velocity, the index of its parent; -1: none
+  // for each velocity, the index of the next velocity on the chain to the base; -1: none
+  std::vector<int> parents_;
 
   geometry::Quaternion base_;                // orientation of the base
   std::vector<geometry::Quaternion> turns_;  // rotation of the ball joint of each part
@@ -166,7 +170,8 @@ class LinkTree {
   std::vector<geometry::Vector3> positions_;
   std::vector<double> velocities_, free_, free_momenta_, efforts_;  // one for each velocity
   std::vector<geometry::Vector3> forces_, torques_;  // added forces and torques, one for each part
-  // One for each velocity. `moving` is the velocity of the point at the base's centre of mass.
+  // One for each velocity. `moving` is the velocity of the point that is fixed to the moved part
+  // and coincides with the base's centre of mass.
   std::vector<Motion> motions_;
   std::vector<Inertia> inertias_;         // one for each part
   std::vector<Matrix3> own_inertias_;     // inertia of each part about its centre of mass

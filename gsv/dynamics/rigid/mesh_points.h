@@ -14,10 +14,11 @@ namespace gsv::dynamics {
 // Fine meshes  For a wheel with a radius of 0.1 m, about 3 cm of the ground are within a
 //              millimetre. This part of the ground may have thousands of triangles. At most
 //              kMaxPoints points are chosen: first the deepest point, then repeatedly the point
-//              that is farthest from the points chosen before. The distance of a point with a gap
-//              is reduced by s = √(2 radius gap): at this distance from its contact, a cylinder of
-//              this radius on a plane has this gap. So on a plane a sphere keeps one point, and a
-//              cylinder keeps both ends. A bump is left out if it is lower than 1 % of its distance
+//              that is farthest from the points chosen before. The gap of a point is its distance
+//              minus that of the deepest point. A point with a gap counts as nearer to the chosen
+//              points by s = √(2 radius gap), because a cylinder of this radius on a plane has this
+//              gap at the distance s from its contact. So on a plane a sphere keeps one point, and
+//              a cylinder keeps both ends. A bump is left out if it is lower than 1 % of its distance
 //              from a chosen point, unless it is the deepest point.
 // Determinism  the chosen points depend on the added points, not on their order.
 class MeshPoints {
