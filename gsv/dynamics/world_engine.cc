@@ -87,8 +87,9 @@ class WorldEngine final : public Engine {
   }
 
   // Actors move first, because nothing stops them. Then planar bodies move, with the rigid bodies
-  // as static obstacles. Planar bodies that rigid bodies have stopped push these rigid bodies.
-  // After the rigid bodies have moved, the planar bodies move again from the start of the step.
+  // as static obstacles. Then rigid bodies move. A planar body that a rigid body has stopped pushes
+  // it. If there are such pushes, all planar bodies go back to the start of the step and move
+  // again, with the rigid bodies at their new poses.
   void MoveAll(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     before_ = state;
     actors_.Move(step, state, &before_);

@@ -18,8 +18,8 @@ namespace gsv::dynamics {
 //              minus that of the deepest point. A point with a gap counts as nearer to the chosen
 //              points by s = √(2 radius gap), because a cylinder of this radius on a plane has this
 //              gap at the distance s from its contact. So on a plane a sphere keeps one point, and
-//              a cylinder keeps both ends. A bump is left out if it is lower than 1 % of its distance
-//              from a chosen point, unless it is the deepest point.
+//              a cylinder keeps both ends. A bump is left out if it is lower than 1 % of its
+//              distance from a chosen point, unless it is the deepest point.
 // Determinism  the chosen points depend on the added points, not on their order.
 class MeshPoints {
  public:

@@ -7,8 +7,9 @@
 
 namespace gsv::dynamics {
 
-// Returns the scaled vertices of each set of triangles that share vertex positions, in the order of
-// the triangles. If there are more than `max_pieces` sets, returns one set of all vertices.
+// Two triangles belong to one piece if they have a vertex at the same position, or if a chain of
+// such triangles connects them. Returns the scaled vertices of each piece, in the order of the
+// mesh's triangles. If there are more than `max_pieces` pieces, returns all vertices as one piece.
 std::vector<std::vector<geometry::Vector3>> ConnectedPieces(const geometry::Mesh& mesh,
                                                             int max_pieces);
 

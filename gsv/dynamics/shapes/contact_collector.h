@@ -24,7 +24,7 @@ class ContactCollector {
 
   // Passes the separation of a piece of the first body from a piece of the second body. A pair of
   // bodies gets the contact of its deepest piece. Among equally deep pieces, it is the contact of
-  // the piece that was passed first. All pieces of a first body must be passed one after the other.
+  // the piece that was passed first. Pass all pieces of one first body before those of the next.
   void Offer(const BodyPair& bodies, const Separation& separation, double height);
 
   // Sorts the contacts and sets `began` for pairs that are not in `touching`. `touching` must be in

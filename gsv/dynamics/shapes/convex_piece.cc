@@ -147,7 +147,8 @@ Separation Separate(const ConvexPiece& a, const ConvexPiece& b) {
   bool apart = gap > 0;
   if (apart) {
     result.normal = GapDirection(closest, gap);
-    // If the pieces overlap, the closest vertex and edge do not separate them.
+    // If the pieces overlap, the gap between the closest vertex and edge is positive too. So the
+    // pieces are apart only if they do not overlap in the direction of the gap.
     apart = (a.vertex_count == 1 && b.vertex_count <= 2) ||
             Lowest(b, result.normal) - Highest(a, result.normal) > 0;
     result.distance = gap;

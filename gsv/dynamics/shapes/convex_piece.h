@@ -34,9 +34,10 @@ ConvexPiece Disc(Vector2 centre, double radius);
 // the smallest polygon around it whose edges have kMaxVertices evenly spread directions.
 ConvexPiece Hull(std::vector<Vector2> points);
 
-// Returns the polygon around a shape whose edges face `angle`, `angle` + 1/kMaxVertices of a turn,
-// and so on. `support` returns the extent of the shape in a direction of unit length. The result is
-// exact for polygons whose edges have these directions.
+// Returns the smallest polygon that contains a shape, with at most kMaxVertices edges in fixed
+// directions. The outward normals of the edges have the angles (rad) `angle` + 2π k / kMaxVertices.
+// `support` returns the extent of the shape along a unit vector. If the shape is a polygon whose
+// edges have these normals, the result is exact.
 ConvexPiece PolygonAround(const std::function<double(Vector2)>& support, double angle);
 
 // The piece, rotated by the angle with the given cosine and sine, then translated.

@@ -34,7 +34,8 @@ struct Footprint {
   double radius = 0;          // radius about the model's origin that contains all pieces
 };
 
-// `tilt` rotates the model's frame into a frame whose z axis is up (normally the identity).
+// `tilt` rotates the model's frame into a frame whose z axis is up. The footprint is in this frame.
+// `tilt` is the identity for a model that stands upright.
 Footprint MakeFootprint(const model::Model& model, const geometry::Quaternion& tilt);
 
 // The height of an edge that the model can drive over: half a wheel's radius, between 1 and 5 cm,

@@ -13,7 +13,8 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// A half-space is represented by a square of this side length behind its edge, m.
+// Seen from above, the slice of a half-space is a half-plane. A square of this side length (m)
+// inside the half-plane, at its edge, represents it.
 constexpr double kEndless = 20000;
 
 void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights,
@@ -23,7 +24,7 @@ void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights
   if (std::abs(normal.z) > level) return;
   const Vector2 out{normal.x / level, normal.y / level};
   const Vector2 along{-out.y, out.x};
-  // The edge is at the height at which the half-space extends furthest.
+  // Between the two heights, the half-space extends furthest in the direction `out` at one of them.
   const double height = normal.z > 0 ? heights.low : heights.high;
   const double shift = -normal.z * (height - pose.position.z) / level;
   const Vector2 edge = Vector2{pose.position.x, pose.position.y} + shift * out;

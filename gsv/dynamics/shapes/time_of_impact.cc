@@ -55,11 +55,12 @@ double TimeToClose(double gap, double speed, double acceleration) {
   return acceleration > 0 ? (root - speed) / acceleration : std::numeric_limits<double>::infinity();
 }
 
-// The first time at which some pair of corners may have come within `keep` of each other.
+// A lower bound of the time at which a corner of one piece comes within `keep` of a corner of the
+// other, along the axis. For that pair of corners: the gap (less `keep`) and the speed.
 struct FirstMeeting {
   double time;
-  double gap = 0;    // the present gap between these corners
-  double speed = 0;  // the present speed at which this gap closes
+  double gap = 0;    // at the present time, m
+  double speed = 0;  // at which the gap closes at the present time, m/s
 };
 
 FirstMeeting MeetAtTheEarliest(const MovingCorners& a, const MovingCorners& b, double keep,

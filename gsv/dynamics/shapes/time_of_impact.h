@@ -22,7 +22,7 @@ namespace gsv::dynamics {
 inline constexpr double kTouchGap = 1e-6;
 inline constexpr double kStopGap = 0.5e-6;
 
-// A piece of a base, given in the base's frame, and how the base moves.
+// A piece of a planar body's base, given in the frame of the base, and how the base moves.
 struct MovingPiece {
   const ConvexPiece* piece = nullptr;  // never null
   geometry::PlanarPosition start;      // pose of the base at time 0
