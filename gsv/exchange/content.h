@@ -1,6 +1,6 @@
-// Writes and reads the variable part of a cycle: names of sensors, and their readings. Numbers are
-// stored as in memory, because both sides are on one host. Each item starts at a multiple of 8
-// bytes.
+// Writes and reads the part of a control cycle whose size varies (CycleSlot::content): names of
+// sensors, and their readings. Numbers have the byte order of the host, because both processes are
+// on one host. Each item starts at a multiple of 8 bytes.
 //
 // Threads  any.
 #pragma once

@@ -27,7 +27,9 @@ struct Bell {
   Word posted;                       // number of requests that clients have posted
   Word wanted;                       // a client rings if `posted` has reached this number
   std::atomic<std::int64_t> now_ns;  // simulated time
-  std::atomic<std::uint64_t> key;    // the same number as in the reply of share_memory()
+  // The key that share_memory() returns. If a client finds another key here, it has opened a wrong
+  // file and does not use it.
+  std::atomic<std::uint64_t> key;
 };
 
 // Returns whether `posted` has reached `wanted`. Both wrap around.
@@ -41,8 +43,9 @@ inline void Ring(Bell& bell) {
   if (bell.sleepers.load() > 0) FutexWake(bell.rings);
 }
 
-// The state of a slot. The word CycleSlot::state contains a state and, above it, the number of the
-// request, so that a late change of an earlier request fails.
+// The state of a slot. The word CycleSlot::state contains a state in its lowest kStateBits bits and
+// the number of the request in the other bits. Each side changes the word by compare-and-swap. So a
+// late change that belongs to an earlier request fails.
 enum class CycleState : std::uint32_t {
   kNew,       // no client uses the slot yet
   kIdle,      // the client may write a request

@@ -17,8 +17,8 @@ using base::ErrorCode;
 
 constexpr int kParentsSearched = 5;
 constexpr std::size_t kMaxNameLength = 4096;
-// The ROS package of a file is searched in kPackageParents folders above the file. In each of these
-// folders, at most kMaxGroups subfolders are searched.
+// A ROS package is searched in kPackageParents folders: the folder of the naming file, and the
+// folders above it. In each of these folders, at most kMaxGroups subfolders are searched.
 constexpr int kPackageParents = 4;
 constexpr std::size_t kMaxGroups = 200;
 constexpr std::uintmax_t kMaxPackageFileBytes = 1u << 20;
@@ -151,8 +151,9 @@ std::string PackageName(const fs::path& folder) {
 }
 
 // Finds "PACKAGE/REST" in a ROS package near the naming file. Searches the naming file's folder and
-// the folders above it. Such a folder is the package if its package.xml names PACKAGE, whatever the
-// folder's own name is. A folder PACKAGE in one of its subfolders is also accepted.
+// the folders above it. Such a folder is the package if its package.xml names PACKAGE. The name of
+// the folder itself does not matter. If FOLDER is one of the searched folders, a folder
+// FOLDER/ANY/PACKAGE is also accepted, even without a package.xml.
 std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& naming_file) {
   if (naming_file.empty() || path.empty()) return std::nullopt;
   const fs::path package = *path.begin();

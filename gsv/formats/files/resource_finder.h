@@ -36,7 +36,8 @@ class ResourceFinder {
   explicit ResourceFinder(std::vector<std::filesystem::path> search_path = {},
                           bool allow_absolute_paths = true);
 
-  // Finds a file. `naming_file` is the file that contains the name; empty: the current folder.
+  // Finds a file. `naming_file` is the file that contains the name. If it is empty, the file is
+  // searched as if the name were in a file of the current folder.
   base::Result<std::filesystem::path> Find(std::string_view name,
                                            const std::filesystem::path& naming_file = {}) const;
   // Returns the names of the built-in models and the models on the search path, at most 10,000.
@@ -68,8 +69,9 @@ base::Result<std::filesystem::path> FindBeside(const std::string& name,
 // Whether the name begins with http:// or https://.
 bool IsWebAddress(std::string_view name);
 
-// Returns the model file in `folder`. If its model.config lists several files, this is the newest
-// file with an SDFormat version up to 1.9. If it lists no files, this is model.sdf.
+// Returns the model file in `folder`. If its model.config lists several files, this is the file
+// with the newest SDFormat version from 1.3 to 1.9. If there is none, this is a file with a version
+// above 1.9, or else model.sdf.
 base::Result<std::filesystem::path> ModelFileIn(const std::filesystem::path& folder);
 
 }  // namespace gsv::formats

@@ -51,7 +51,7 @@ class FaultFinder {
     fault_ = XmlFault{static_cast<int>(line), static_cast<int>(column), std::move(sentence)};
   }
 
-  // Outside of the root element there are only blanks.
+  // Reports an error if `between`, which is outside of the root element, has anything but blanks.
   void CheckOutside(std::string_view between) {
     const std::size_t found = between.find_first_not_of(kXmlBlanks);
     if (found == std::string_view::npos || (!has_root_ && at_ == 0)) return;

@@ -99,8 +99,8 @@ class XmlPreparation {
     return text_.substr(at).starts_with(with);
   }
 
-  // Returns the index after the next `end`, or npos if there is none. The rest of the text then
-  // stays as it is, so that the parser reports the error.
+  // Returns the index after the next `end`, or npos if there is none. In the second case the
+  // callers keep the rest of the text as it is, so that the parser reports the error.
   std::size_t After(std::size_t at, std::string_view end) const {
     const std::size_t found = text_.find(end, at);
     return found == std::string_view::npos ? std::string_view::npos : found + end.size();
@@ -165,8 +165,8 @@ class XmlPreparation {
     return Remove(at, doctype_.end);
   }
 
-  // XML allows its declaration <?xml …?> only at the beginning of a file. Parsers refuse a file
-  // that has anything before the declaration.
+  // Removes a processing instruction. Keeps the declaration <?xml …?> if it is at the beginning of
+  // the file. At any other place, parsers would refuse the file because of the declaration.
   std::size_t TakeInstruction(std::size_t at) {
     const std::size_t end = After(at, "?>");
     if (end == std::string_view::npos) return KeepRest(at);

@@ -27,7 +27,8 @@ class GlbBuffer {
 
   std::size_t size() const { return bytes_.size(); }
 
-  // Completes `document` with the added parts and joins both into one file.
+  // Adds the buffer, its views and the accessors to `document`, glTF's JSON. Returns the GLB file:
+  // the JSON, then the binary part.
   std::vector<std::uint8_t> Finish(Json document) const;
 
  private:

@@ -188,7 +188,8 @@ class GlbModelReader {
     const GlbJson& primitives = Member(EntryOf(document_, "meshes", index), "primitives");
     if (!primitives.is_array() || primitives.empty()) throw Flaw{"a mesh has no parts"};
     auto mesh = std::make_shared<geometry::TriangleMesh>();
-    std::map<VertexKey, std::uint32_t> first_vertex;  // by the accessors of the vertices
+    // for each combination of accessors that a primitive uses: the index of the first vertex
+    std::map<VertexKey, std::uint32_t> first_vertex;
     for (const GlbJson& primitive : primitives) {
       geometry::MeshPart part;
       part.first_triangle = static_cast<std::uint32_t>(mesh->triangles.size());
@@ -205,6 +206,7 @@ class GlbModelReader {
 
   using VertexKey = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
+  // Adds the vertices of a primitive to `mesh`, unless an earlier primitive had the same accessors.
   // Returns the index of the primitive's first vertex.
   std::uint32_t AddVertices(const GlbJson& primitive, std::map<VertexKey, std::uint32_t>& known,
                             geometry::TriangleMesh& mesh) {
