@@ -44,8 +44,8 @@ inline void Ring(Bell& bell) {
 }
 
 // The state of a slot. The word CycleSlot::state contains a state in its lowest kStateBits bits and
-// the number of the request in the other bits. Each side changes the word by compare-and-swap. So a
-// late change that belongs to an earlier request fails.
+// the number of the request in the other bits. Each side changes the state by compare-and-swap
+// (except to kClosed). So a late change that belongs to an earlier request fails.
 enum class CycleState : std::uint32_t {
   kNew,       // no client uses the slot yet
   kIdle,      // the client may write a request

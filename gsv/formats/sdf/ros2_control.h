@@ -21,7 +21,8 @@ std::vector<model::ControlSystem> ReadControlSystems(const tinyxml2::XMLElement&
                                                      const model::Model& model,
                                                      base::Problems& problems);
 
-// Returns the model with these control systems, or the same model if there are no control systems.
+// Returns a copy of `model` with the control systems that ReadControlSystems() reads from
+// `element`. If there are none, returns `model` itself.
 std::shared_ptr<const model::Model> WithControlSystems(const tinyxml2::XMLElement& element,
                                                        const std::filesystem::path& file,
                                                        std::shared_ptr<const model::Model> model,

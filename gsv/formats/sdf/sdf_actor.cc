@@ -305,9 +305,10 @@ double LowestOf(const SkinnedMesh& skin) {
   return lowest;
 }
 
-// Returns the animation of the joints. Along a trajectory, the root bone stays at the actor's
-// frame. Some skins and their waypoints have the origin at the feet. So the height of the root bone
-// is kept if the feet are then nearer to the ground (the world's z = 0).
+// Returns the animation of the joints. If the actor has a trajectory, the motion of the root bone
+// is subtracted from all bones, so that the root bone stays at the actor's origin. But for skins
+// with their origin at the feet, z must not be subtracted. So z is kept if the feet are then nearer
+// to the ground (the world's z = 0) than without it.
 std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
                                                     const model::Script& script, int first_joint) {
   const bool follows = !script.trajectories.empty();

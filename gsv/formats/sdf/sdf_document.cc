@@ -30,8 +30,8 @@ constexpr std::size_t kMaxMessageLength = 300;
 // maximum number of schemas that are kept
 constexpr std::size_t kMaxSchemas = 8;
 
-// Whether an error of libsdformat has no file. libsdformat calls text that is not from a file
-// "<data-string>" or "<urdf-string>".
+// `file` is the file name in an error of libsdformat. Returns whether it names no real file: it is
+// empty, or is libsdformat's name for text in memory, "<data-string>" or "<urdf-string>".
 bool IsNoFile(const std::string& file) { return file.empty() || file.front() == '<'; }
 
 // Stores the errors of urdfdom: libsdformat does not pass them on.
@@ -82,8 +82,9 @@ void ConfigureBy(IncludedFileServer& server) {
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::LOG);
 }
 
-// Sets the sources of elements, so that errors of an element in memory name the file from which the
-// text came.
+// libsdformat reads some included texts from memory, under the names that
+// IncludedFileServer::Find() returned. Replaces these names by the paths of the included files, so
+// that errors have the paths.
 void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& server) {
   if (element == nullptr) return;
   if (const auto* source = server.SourceOf(element->FilePath())) {
@@ -194,9 +195,9 @@ bool BreaksFrames(const sdf::Error& error) {
          code == sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR;
 }
 
-// Whether an error of libsdformat is ignored. GSV checks some of these cases itself and accepts
-// others: sensors of unknown types, and scripts without a <uri>. Summaries have no further
-// information.
+// Whether an error of libsdformat is ignored, for one of three reasons. GSV checks the case itself.
+// Or GSV accepts the case, such as a sensor of an unknown type, or a script without a <uri>. Or the
+// error only summarizes other errors.
 bool IsChecked(const sdf::Error& error) {
   const sdf::ErrorCode code = error.Code();
   for (const char* start :

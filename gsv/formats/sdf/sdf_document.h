@@ -18,7 +18,8 @@ namespace gsv::formats {
 struct SdfDocument {
   std::unique_ptr<sdf::Root> root;
   std::filesystem::path source;
-  // Whether poses cannot be resolved. This may also concern poses of valid elements.
+  // True if libsdformat found an error in the graph of frames. Then it may fail to resolve poses,
+  // even those of valid elements.
   bool has_broken_frames = false;
 };
 

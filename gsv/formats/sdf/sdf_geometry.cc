@@ -161,7 +161,8 @@ base::Result<SdfShape> ReadPlane(const sdf::Plane& plane, const ReadingContext& 
   return Checked(geometry::Plane{geometry::Normalized(normal), size}, {size.x, size.y});
 }
 
-// Cones exist in SDFormat since 1.11: libsdformat 12 keeps the element unchanged.
+// Reads a <cone>, which exists since SDFormat 1.11. libsdformat 12 reads SDFormat up to 1.9 and has
+// no class for cones, but it keeps the element as it is.
 base::Result<SdfShape> ReadCone(const sdf::ElementPtr& geometry) {
   const sdf::ElementPtr cone = geometry->GetElement("cone");
   const double radius = cone->Get<double>("radius", 0.5).first;

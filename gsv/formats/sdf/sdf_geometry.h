@@ -14,7 +14,7 @@ namespace gsv::formats {
 // The shape in a <geometry>, with its pose in the visual or collision.
 struct SdfShape {
   geometry::Shape shape;
-  geometry::Pose visual_from_shape;        // the pose of a heightmap is its <pos>
+  geometry::Pose visual_from_shape;        // <pos> of a heightmap; the identity for other shapes
   std::vector<model::Material> materials;  // materials of a mesh; empty for other shapes
 };
 

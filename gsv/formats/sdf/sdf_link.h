@@ -8,9 +8,9 @@
 
 namespace gsv::formats {
 
-// Reads a link; the caller sets its name and pose. If the mesh of a visual is missing, the link's
-// collision shapes replace it, once, in grey. A collision whose mesh is missing is left out. If
-// `is_static` is true, the inertia is not used, and so not checked.
+// Reads a link; the caller sets its name and pose. If the meshes of some visuals are missing, the
+// link's collision shapes in grey replace all these visuals together. A collision whose mesh is
+// missing is left out. If `is_static` is true, the inertia is not used, and so not checked.
 model::Link ReadLink(const sdf::Link& source, bool is_static, const ReadingContext& context);
 
 // Returns a pose that libsdformat resolves in the frame of the element's parent, or in

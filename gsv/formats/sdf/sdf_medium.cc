@@ -18,8 +18,8 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMaxLayers = 1000;
 
-// Whether the file or class of the plugin has one of these names, in lower case without "-" and
-// "_".
+// Whether the plugin's file name (without ".so") or class name ends with one of `parts`. The names
+// are compared in lower case, without "-" and "_".
 bool IsPlugin(const XMLElement& plugin, std::initializer_list<std::string_view> parts) {
   for (const char* attribute : {"filename", "name"}) {
     std::string plain;

@@ -209,11 +209,12 @@ class ModelReader {
     model_.joints.insert(model_.joints.begin(), to_world.begin(), to_world.end());
   }
 
-  // Stores the joints that close loops separately (Model::loops), because the forest of joints
-  // cannot contain them.
+  // Stores the joints that close loops separately (Model::loop_joints), because the forest of
+  // joints cannot contain them.
   void KeepLoops(std::vector<Joint> loops) {
     for (Joint& joint : loops) {
-      // The name in the file: a joint of several axes was split (AddJoint()).
+      // The name in the file. AddJoint() has split a joint with several axes into joints whose
+      // names are NAME, NAME::axis2 and so on.
       const std::string written = joint.name.substr(0, joint.name.rfind("::axis"));
       const std::string name = "the joint \"" + written + "\" closes a loop";
       const auto& place = joint_places_[written];
