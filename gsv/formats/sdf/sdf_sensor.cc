@@ -76,8 +76,8 @@ void AddParameter(const std::string& path, ParameterValue value, Parameters& par
   if (names != nullptr && name != nullptr) *names += "\n" + *name;
 }
 
-// Adds the parameters below `element`. `only_given`: skips elements that libsdformat has added with
-// their default values.
+// Adds the parameters below `element`. If `only_given` is true, skips elements that are not in the
+// file but that libsdformat has added with their default values.
 void Flatten(const sdf::ElementPtr& element, const std::string& prefix, bool only_given,
              Parameters& parameters) {
   for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {

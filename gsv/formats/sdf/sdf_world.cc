@@ -40,8 +40,8 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   } else {
     context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is used", place);
   }
-  // A factor that is not positive means "as fast as possible". Then the field keeps its default,
-  // and the caller handles this case.
+  // In Gazebo, a factor that is not positive means "as fast as possible". Here it is ignored, so
+  // the field keeps its default.
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
 }
 
@@ -92,7 +92,8 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
   }
   light.diffuse = FromIgnition(source.Diffuse());
   light.intensity = std::max(source.Intensity(), 0.0);
-  // Elements <light_on> exist in SDFormat since 1.9; libsdformat 12 keeps the element unchanged.
+  // Reads <light_on>, which SDFormat has since 1.9. libsdformat 12 does not know this element, but
+  // keeps it as it is in source.Element().
   if (source.Element() != nullptr && source.Element()->HasElement("light_on") &&
       !source.Element()->Get<bool>("light_on", true).first) {
     light.intensity = 0;

@@ -178,7 +178,8 @@ void ReportUnsupported(const XmlFile& file, base::Problems& problems) {
 
 namespace {
 
-// Whether the element's content is read from elements that libsdformat copies without their lines.
+// Whether libsdformat loses the lines of this element and of the elements in it: it keeps copies of
+// such elements without line numbers.
 bool LosesItsLine(const XMLElement& element) {
   const std::string_view name = element.Name();
   if (name == "gsv:slip") return true;

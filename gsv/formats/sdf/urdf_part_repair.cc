@@ -133,8 +133,8 @@ class UrdfPartRepair {
     element.Parent()->DeleteChild(&element);
   }
 
-  // Repairs malformed numbers. If the element requires the number, leaves it unchanged, and a later
-  // step handles it.
+  // Repairs malformed numbers. If a required number cannot be repaired, leaves it unchanged, and a
+  // later step handles it.
   void RepairNumbers(XMLElement& element) {
     for (const Attribute& known : kAttributes) {
       if (!Is(element, known.element)) continue;

@@ -233,7 +233,7 @@ class UrdfRepair {
     }
   }
 
-  // Whether libsdformat merges the two links.
+  // Whether libsdformat merges the two links that the joint connects.
   bool IsLumped(const UrdfJoint& joint) const {
     if (!joint.Is("fixed") || joint.parent == kWorld) return false;
     for (const auto* gazebo = robot_.FirstChildElement("gazebo"); gazebo != nullptr;

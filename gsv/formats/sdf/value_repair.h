@@ -13,9 +13,11 @@ namespace gsv::formats {
 // Compares `element` (a <world>, <model>, <light>, <actor>, <sensor> or <sdf>) and all below it
 // with libsdformat's description of SDFormat 1.9, and changes values that libsdformat would refuse.
 // Each change gives a warning:
-//   numbers          the readable part is used, otherwise the default
-//   <pose>           of fewer than six numbers: the position, without rotation (as Gazebo Classic)
-//   colours          components above 1 are taken as parts of 255 (as Gazebo Classic), or as 1
+//   numbers          the readable part at the beginning is used, otherwise the default
+//   <pose>           if it has fewer than six numbers, only the position is used, without rotation
+//                    (as in Gazebo Classic)
+//   colours          if a component exceeds 2, all components above 1 are divided by 255 (as in
+//                    Gazebo Classic). Otherwise components above 1 become 1
 //   flags            the default, unless they are true, false, 1 or 0
 //   attributes       missing names are made up, other attributes get their default
 //   joints           without a parent or child are left out; joints of unknown type become fixed

@@ -11,7 +11,9 @@ namespace gsv::formats {
 namespace {
 
 constexpr std::size_t kMaxQuoteLength = 60;
-constexpr double kMaxRoundedToOne = 2;  // a colour component up to this value counts as 1
+// if no component of a colour exceeds this value, components above 1 count as 1; else as parts of
+// 255
+constexpr double kMaxRoundedToOne = 2;
 constexpr double kByteColour = 255;
 
 std::string TextOf(double value) {

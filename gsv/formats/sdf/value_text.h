@@ -29,8 +29,9 @@ LeadingNumber LeadingNumberOf(const std::string& word);
 bool IsZeroVector(std::string_view text);
 
 // Repairs a text. `type` is libsdformat's name of the type: "bool", "double", "int", "unsigned
-// int", "pose", "color", "vector3" and so on. Texts of other types are always valid. If
-// `has_quaternion` is true, a pose has the form x y z qx qy qz qw.
+// int", "pose", "color", "vector3" and so on. Texts of other types are always valid. `otherwise` is
+// used if no part of the text is valid. If `has_quaternion` is true, a pose has the form x y z qx
+// qy qz qw.
 RepairedText RepairText(const std::string& type, const std::string& text,
                         const std::string& otherwise, bool has_quaternion = false);
 
