@@ -248,11 +248,11 @@ void LinkTree::WriteMassesOf(int part, int velocity) {
   }
 }
 
-// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. In two cases, a pivot
-// (a value of D) would consist of rounding errors only: if two velocities move all parts alike, as
-// with parallel axes of a universal joint, or if masses differ by more digits than a double has.
-// Then the minimum pivot is used instead. It acts like the inertia of a motor at the joint: the
-// joint's velocity stays finite, and the other velocities keep their accuracy.
+// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. A pivot (a value of D)
+// consists of rounding errors only if two velocities move all parts alike, as with parallel axes of
+// a universal joint. The same happens if masses differ by more digits than a double has. Then the
+// minimum pivot is used instead. It acts like the inertia of a motor at the joint: the joint's
+// velocity stays finite, and the other velocities keep their accuracy.
 void LinkTree::Factorise() {
   factors_ = masses_;
   const auto at = [&](int row, int column) -> double& {
