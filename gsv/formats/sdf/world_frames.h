@@ -34,10 +34,10 @@ class WorldFrames {
   void Add(const std::string& name, WrittenPose at, geometry::Pose frame_from_origin = {},
            const std::map<std::string, geometry::Pose>* inner_frames = nullptr);
 
-  // Returns the pose in the world of an element that was added. Fails for missing names, and for
-  // poses that are relative to each other.
+  // Returns the pose in the world of an element that was added. Fails if a frame on the way to the
+  // world does not exist, or if frames are relative to each other in a cycle.
   base::Result<geometry::Pose> WorldFrom(const std::string& name) const;
-  // Returns a pose in the world.
+  // Converts a <pose> to a pose in the world. Fails as above.
   base::Result<geometry::Pose> WorldFrom(const WrittenPose& pose) const;
 
  private:
@@ -48,7 +48,8 @@ class WorldFrames {
     const std::map<std::string, geometry::Pose>* inner_frames;
   };
 
-  // Resolves the pose of a frame over at most `links_left` other frames.
+  // Returns the pose in the world of a frame. Fails if more than `links_left` frames lie on the way
+  // to the world, because then the frames form a cycle.
   base::Result<geometry::Pose> Follow(const std::string& name, int links_left) const;
 
   std::map<std::string, Entry> entries_;

@@ -268,7 +268,8 @@ class WorldReader {
 
     element.SetAttribute("name", "");
     const auto script = scripts_.find(&element);
-    // The name makes an actor's text unique, because its script belongs to one actor only.
+    // The key of an actor includes its name. So two actors never share a model, because each has
+    // its own script.
     const std::string own = script == scripts_.end() ? "" : placement.name;
     const auto [it, is_new] =
         distinct_by_text_.emplace(PrintCompact(element) + own, distinct_.size());
@@ -301,8 +302,8 @@ class WorldReader {
     }
   }
 
-  // If one model has an error, each model is parsed separately, so that the error does not affect
-  // the other models.
+  // Parses the models from `first` to `end` of distinct_ in one document. If this fails, parses
+  // each model separately, so that an error in one model does not affect the others.
   void ParseModels(std::size_t first, std::size_t end) {
     base::Problems problems;
     const auto document =
@@ -343,7 +344,9 @@ class WorldReader {
     return name == nullptr ? "" : name;
   }
 
-  // Returns a document with these elements in the order of their lines, as the printer requires.
+  // Returns an SDFormat document with the models from `first` to `end` of distinct_, and with
+  // surroundings_ (lights and elements of the world) if wanted. The elements are in the order of
+  // their lines, as LineKeepingPrinter requires.
   std::string Document(std::size_t first, std::size_t end, bool with_surroundings) const {
     std::vector<const XMLElement*> elements;
     if (with_surroundings) elements.assign(surroundings_.begin(), surroundings_.end());
@@ -353,7 +356,7 @@ class WorldReader {
     });
     LineKeepingPrinter printer;
     printer.Text("<sdf version='" + file_.version + "'><world name=\"");
-    // libsdformat reserves some names, so another name replaces them here.
+    // libsdformat refuses worlds with reserved names. The document's name is not used elsewhere.
     const bool reserved = world_.name == "world" || world_.name.find("::") != std::string::npos ||
                           world_.name.rfind("__", 0) == 0;
     printer.Escaped(reserved ? "unnamed" : world_.name.c_str());

@@ -20,8 +20,8 @@ using model::JointKind;
 using tinyxml2::XMLElement;
 
 constexpr int kMaxStateDepth = 32;
-// A joint position closer to zero than this (rad or m) becomes zero, so that equal models stay
-// shared.
+// If all joint positions of a model are closer to zero than this (rad or m), they count as zero.
+// Then the placed model needs no copy with its own start positions, and stays shared.
 constexpr double kAtZero = 1e-9;
 constexpr double kMaxLoopGap = 1e-3;  // m: a larger gap of a loop is reported
 

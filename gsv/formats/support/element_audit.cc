@@ -25,8 +25,8 @@ std::string Tag(std::string_view name) { return "<" + std::string(name) + ">"; }
 
 std::string Spaced(const std::string& sentence) { return sentence.empty() ? "" : " " + sentence; }
 
-// Whether the element is a sensor whose type SDFormat does not define. GSV has this type, or a
-// plug-in may have it.
+// Whether the element is a sensor whose type SDFormat does not define: a type of GSV, or a type
+// that a plug-in may define.
 bool IsSensorOfOurs(const XMLElement& element) {
   static constexpr std::string_view kTypes[] = {"air_flow",
                                                 "air_pressure",
@@ -98,7 +98,8 @@ class ElementAudit {
                          PlaceOf(file_.path, element) + (path.empty() ? "" : ": " + path)});
   }
 
-  // Visits the root. The reader uses the first world, else the first model, else a light.
+  // Visits <sdf> or <robot>. Of its children, visits only the one that the reader uses: the first
+  // world, else the first model, else the first light.
   void VisitRoot(const ElementSupport& root) {
     const XMLElement* taken = nullptr;
     for (const char* kind : {"world", "model", "light"}) {
@@ -256,7 +257,8 @@ class ElementAudit {
 
   void VisitKnown(const XMLElement& element, const ElementSupport& support) {
     if (support.support == Support::kNoEffect) return;
-    // An unsupported element with a name is an object, so it is reported even without any values.
+    // An unsupported element with a name is a thing of its own, such as a <projector>. So it is
+    // reported even if it has only default values.
     const bool is_thing = support.support == Support::kNone && element.Attribute("name") != nullptr;
     if (support.support != Support::kFull && (is_thing || !HasOnlyDefaults(element, support))) {
       Report(

@@ -223,8 +223,8 @@ class NamingRules {
     return {};
   }
 
-  // Returns the frame to which the pose of an element is relative, or with `attachment` the frame
-  // to which it is attached.
+  // Returns the frame to which an element is attached (if `attachment`), or the frame to which its
+  // pose is relative (if not).
   static std::string Next(const XMLElement& element, bool attachment) {
     const std::string_view kind = element.Name();
     const std::string relative_to = attachment ? std::string() : RelativeTo(element);

@@ -23,8 +23,8 @@ void CollectAttributes(const ElementSupport& parent, std::set<std::string_view>&
   if (parent.definition != nullptr) CollectAttributes(*parent.definition, names);
 }
 
-// Whether `written` is probably a misspelt `name`. Short names, such as <x> and <a>, are not
-// compared, because they all look alike.
+// Whether `written` is probably a misspelt `name`. Returns false if one of them is shorter than
+// kMinElementName, because any two names as short as <x> and <a> look alike.
 bool LooksLikeElement(std::string_view written, std::string_view name) {
   return std::min(written.size(), name.size()) >= kMinElementName && base::LooksLike(written, name);
 }

@@ -30,9 +30,9 @@ struct ElementSupport {
   std::optional<std::string_view> otherwise;  // text with the same meaning as a missing element
   std::string_view note;                      // a clause about the replacement in GSV; may be empty
 
-  // Returns the element or attribute with that name; null if SDFormat has none in this element.
+  // Returns the child element with that name; null if the format does not define it here.
   const ElementSupport* Child(std::string_view child) const;
-  // Returns the attribute with that name; null if there is none.
+  // Returns the attribute with that name; null if the format does not define it here.
   const ElementSupport* Attribute(std::string_view attribute) const;
 
   using ByName = std::map<std::string, std::unique_ptr<ElementSupport>, std::less<>>;
