@@ -65,8 +65,8 @@ class LocalGateway final : public Gateway, private Handler {
     return set_->CheckControl(viewer, simulation);
   }
 
-  // These members are in the order in which their threads may start; Stop() ends them in reverse
-  // order.
+  // A member may use the members above it. So the order matters: members are destroyed from the
+  // last to the first. Their threads have ended before, in Stop().
   const StaticFiles files_;
   const Documentation documentation_;
   const metrics::Monitor monitor_;

@@ -53,7 +53,7 @@ struct GatewayOptions : ServerOptions {
 struct RelayedInstance {
   // the address that the other instance prints, such as "http://192.168.1.7:8080/"
   std::string url;
-  std::string token{};      // token for the other instance, for all clients; empty: none
+  std::string token{};      // sent to the other instance in all requests; empty: none
   std::string authority{};  // a PEM file with the certificates to trust; empty: the system's
 };
 

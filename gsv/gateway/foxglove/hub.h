@@ -59,8 +59,8 @@ class Hub {
   bool IsSubscribed(foxglove::ChannelId channel) const;
   // Whether the channel has subscribers that have received no message on it yet.
   bool HasNewSubscribers(foxglove::ChannelId channel) const;
-  // Returns the channels in order. The cost grows with the number of subscriptions, not of
-  // channels.
+  // Returns the channels that have subscribers, in ascending order. The cost grows with the number
+  // of subscriptions, not of channels.
   std::vector<foxglove::ChannelId> SubscribedChannels() const;
 
   // A message for the subscribers of a channel.
@@ -84,6 +84,8 @@ class Hub {
   // Sets the publishers of a channel in the connection graph (default: "gsv").
   void SetPublishers(foxglove::ChannelId channel, std::set<std::string> publishers);
   // Publishes what has changed since the last call: the graph, the parameters, the playback state.
+  // `has_jumped`: a replay has jumped to another time (a seek). Then all clients get the playback
+  // state.
   void PublishChanges(bool has_jumped = false);
 
   // Disconnects all clients, and each client that connects later, with this reason.

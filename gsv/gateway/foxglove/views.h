@@ -10,7 +10,7 @@
 
 namespace gsv::gateway {
 
-// The name of this capability in the server info.
+// If the server info lists this capability, the server draws views.
 inline constexpr const char* kViewsCapability = "gsvViews";
 
 // The interface for images that the server draws for clients.

@@ -27,16 +27,16 @@ std::vector<std::string_view> SegmentsOf(std::string_view pattern) {
 // A node of the tree of routes. The way from the root to a node stands for the first segments of a
 // path. All routes at and below the node begin with these segments.
 struct Router::Node {
-  // Finds or makes the child node.
+  // Returns the child node for a segment of a pattern. Makes it if it does not exist.
   Node* Child(std::string_view segment_of_pattern);
-  // Returns the node for the rest of a path, or null. If the segment is a parameter, stores its
-  // value in `match`.
+  // Returns the child node that matches a segment of a path; null if there is none. If this is the
+  // node of a parameter, stores the parameter's value in `match`.
   const Node* Next(const std::string& segment, Match& match) const;
 
   std::map<std::string, std::unique_ptr<Node>, std::less<>> literals;
   std::unique_ptr<Node> parameter, rest;
-  std::string name, suffix;          // name and suffix of the parameter that leads to this node
-  std::vector<const Route*> routes;  // routes that end here
+  std::string name, suffix;                 // of the parameter for which this node stands, or empty
+  std::vector<const Route*> routes;         // routes that end here
   Permission least = Permission::kControl;  // the lowest permission of the routes at this node and
                                             // below
 };
@@ -101,8 +101,8 @@ Router::Match Router::Find(std::string_view method, const Target& target) const 
   Match match;
   match.permission = root_->least;
   const Node* node = root_.get();
-  // The node of the deepest "{path...}" below the first segment, and the parameters up to this
-  // node. The node is used if no other route matches the path.
+  // The node of the last "{path...}" that could match on the way, apart from one at the root, and
+  // the parameters up to this node. This node is used if no other route matches the request.
   const Node* rest = nullptr;
   auto parameters_of_rest = match.parameters;
   for (const std::string& segment : target.segments) {

@@ -1,8 +1,8 @@
 // A Router finds the route of a request by its method and path.
 //
-// At each segment, literals precede parameters, and parameters precede "{path...}", without
-// backtracking. So a path that begins like another route is not matched by a "{path...}" at the
-// root.
+// At each segment of a path, a literal is preferred to a parameter, and a parameter to "{path...}".
+// If the way chosen so leads to no route, the last "{path...}" on the way matches, but not one at
+// the root. So a wrong address below /api is an error, and not a file of a "{path...}" at the root.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -23,8 +23,8 @@ class Router {
   // The result of Find().
   struct Match {
     const Route* route = nullptr;  // valid during the lifetime of the router; null: see NoRoute()
-    // The permission that the answer requires. Without a route: the lowest permission of all routes
-    // whose paths begin with the same segment.
+    // The permission that a client needs to get the answer. If there is no route, it is the lowest
+    // permission of all routes whose patterns begin with the same segment.
     Permission permission = Permission::kNone;
     // The methods of the address, such as "GET, POST"; empty if no route has this address.
     std::string allow;
@@ -39,7 +39,7 @@ class Router {
   Router(const Router&) = delete;
   Router& operator=(const Router&) = delete;
 
-  // Returns the route of a request, or its absence.
+  // Finds the route of a request. If there is none, `route` of the result is null.
   Match Find(std::string_view method, const Target& target) const;
 
   const std::vector<Route>& routes() const { return routes_; }
