@@ -31,8 +31,8 @@ constexpr const char* kFileElements[]{"uri",           "filename",        "albed
                                       "normal_map",    "light_map",       "roughness_map",
                                       "metalness_map", "glossiness_map",  "specular_map",
                                       "emissive_map",  "environment_map", "ambient_occlusion_map"};
-// A path in a folder that has no models. A name that is found from this path is found from any
-// folder.
+// The path of a world file in a folder that has no models. If a world file at this path can refer
+// to a model by some name, a world file in any folder can.
 constexpr const char* kNowhere = "/gsv-nowhere/world.sdf";
 constexpr int kMaxDepth = 256;
 
@@ -269,7 +269,8 @@ class WorldWriter {
     return pose && !pose->relative_to.empty();
   }
 
-  // Whether the element with that name in the file can stay unchanged.
+  // Whether the file already has an element for this model. If so, the element stays, and this
+  // function updates its <pose>.
   bool Keep(const PlacedModel& placed) {
     const auto found = elements_.find(placed.name);
     const PlacedModel* const original = Original(placed.name);
@@ -367,8 +368,8 @@ class WorldWriter {
         ->ToElement();
   }
 
-  // Returns the URI model://NAME or model://NAME/REST if it means the same file in whatever folder the
-  // world is stored, else the path.
+  // Returns the URI model://NAME or model://NAME/REST if it means this file in whatever folder the
+  // world is saved. Else returns file:// and the absolute path.
   std::string UriOfFile(const std::string& source) const {
     const fs::path path = fs::absolute(xacro::FilePart(source)).lexically_normal();
     const std::string by_name = "model://" + path.parent_path().filename().string();

@@ -4,12 +4,15 @@
 // keeps parts that GSV does not simulate, such as plugins of Gazebo. An unchanged model keeps its
 // element. A moved model gets an absolute <pose>. A removed model loses its element. An added model
 // becomes an <include> of its file, or an inline <model> if it is a shape (sdf/shape_model.h) or
-// was copied from an inline model. Some files are found only beside the world's file. Their names
-// become model://NAME/REST if the model path has the files, else absolute paths, so that the text
-// may be saved in any folder. A warning names an absolute path.
+// was copied from an inline model.
 //
-// Frames  ModelLibrary::ReadWorld() reads equal poses if roll, pitch and yaw can express them, as
-//         for all poses that users set. Other poses are equal up to rounding.
+// The text may be saved in any folder. So file names that are relative to the world's folder are
+// replaced: by model://NAME/REST if the file is in a folder of the model path, else by file:// and
+// the absolute path. One warning counts the absolute paths in the text, and gives one of them.
+//
+// Frames  If ModelLibrary::ReadWorld() reads the text, the models have exactly the poses that were
+//         written if roll, pitch and yaw can express these poses. This is so for all poses that
+//         users set. Other poses are equal up to rounding.
 // Errors  kBadModel if the file of the world cannot be read any more. Models that cannot be written
 //         are left out, each with a problem.
 #pragma once

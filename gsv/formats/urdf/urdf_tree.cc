@@ -10,7 +10,9 @@ namespace {
 using geometry::Pose;
 using model::JointKind;
 
-constexpr double kSameFrame = 1e-9;  // tolerance for equal frames: m, and the sine of half an angle
+// Frames are equal if they differ by less than this number, both in position (m) and in orientation
+// (the vector part of the quaternion: the sine of half the angle, times the axis).
+constexpr double kSameFrame = 1e-9;
 constexpr const char* kWorldLink = "world";
 
 bool IsIdentity(const Pose& pose) {
@@ -69,8 +71,10 @@ class TreeMaker {
     problems_.push_back({base::Problem::Severity::kWarning, message, model_.name});
   }
 
-  // Selects the root: the first link without a parent. If its frame differs from the model's frame,
-  // adds a link for the model's frame above it.
+  // Selects the root. This is the link "world" if a joint connects a link to the world, else the
+  // first link without a parent. If this first link's frame differs from the model's frame, adds a
+  // root link at the model's frame, and fixes the first link to it. Every other link without a
+  // parent gets a floating joint to the root.
   void AddRoots(const std::vector<bool>& has_parent) {
     std::string root = has_world_ ? kWorldLink : "";
     Pose model_from_root;

@@ -1,10 +1,11 @@
 // Converts a model's links and joints to a single tree, as URDF requires.
 //
-// Frames  URDF has no separate frame for a joint: a joint is at the frame of its child link. If the
-//         joint moves its child in the same way from this frame, only the joint's frame changes. If
-//         not (the axis does not pass through the child's origin), an empty link is added at the
-//         joint's frame, and the child is fixed to it. So every link keeps its frame. libsdformat
-//         merges the two links, and uses the empty link's name.
+// Frames  URDF has no separate frame for a joint: a joint is at the frame of its child link. If a
+//         joint of the model has another frame, it is moved to the child's frame, provided that the
+//         child's motion stays the same. The motion would change if the joint turns and its axis
+//         does not pass through the child's origin. Then an empty link is added at the joint's
+//         frame, and the child is fixed to it. So every link keeps its frame. libsdformat merges
+//         the child with the empty link, and uses the empty link's name.
 #pragma once
 
 #include <string>

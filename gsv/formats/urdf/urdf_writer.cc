@@ -17,7 +17,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr double kUnlimited = 1e16;  // the value that SDFormat writes for "none"
+constexpr double kUnlimited = 1e16;  // the limit that SDFormat writes if there is no limit
 constexpr int kSegments = 32;        // number of segments around a round shape that is converted to
                                      // a mesh
 
@@ -211,7 +211,8 @@ class UrdfText {
     out_.CloseElement();
   }
 
-  // Returns the file of a mesh. Each shared mesh is written once.
+  // Returns the name of the STL file of a mesh, or of one part of the mesh. Writes the file at the
+  // first call. So shapes with the same mesh use the same file.
   const std::string& MeshFileOf(const geometry::Mesh& mesh, std::optional<std::size_t> part) {
     const auto key = std::make_pair(mesh.triangles.get(), part);
     const auto known = mesh_files_.find(key);

@@ -25,10 +25,12 @@ class Expander {
  private:
   // The state of the expansion at an element.
   struct Context {
-    Scope& scope;           // the properties that are visible here
-    Space& space;           // the macros that are visible here
-    int line = 0;           // line of the call in the main file; 0 for the file's own line
-    int includes_left = 0;  // number of levels to which files may still include other files
+    Scope& scope;  // the properties that are visible here
+    Space& space;  // the macros that are visible here
+    // The line of the include or macro call in the main file through which the expansion came here;
+    // 0 if the element is in the main file itself. Then errors give the element's own line.
+    int line = 0;
+    int includes_left = 0;  // number of further levels of nested includes that are allowed
   };
   // A function that expands one kind of element, and appends the result to `parent`.
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
@@ -102,8 +104,10 @@ class Expander {
   bool takes_plain_names_ = false;                // whether <macro> means <xacro:macro>
   std::set<const Node*> active_;                  // definitions of macros that are being expanded
   std::string missing_file_;  // the last include that was not found; empty if all were found
-  std::set<std::string> missing_packages_;          // ROS packages that were not found
-  int steps_ = 0, levels_ = 0, max_include_depth_;  // steps so far; present depth of elements
+  std::set<std::string> missing_packages_;  // ROS packages that were not found
+  // The number of nodes and texts that were expanded so far; the number of nested expansions now;
+  // the maximum number of nested includes.
+  int steps_ = 0, levels_ = 0, max_include_depth_;
 };
 
 }  // namespace gsv::formats::xacro

@@ -4,7 +4,7 @@
 // Grammar  ternary (a if b else c), or, and, not, comparisons (chained, in, not in, is), + - * / //
 //          % **, unary signs, calls, members, indices and slices, lists, tuples, dictionaries,
 //          strings, numbers, True, False, None.
-// Refused  with a sentence: lambda, comprehensions, assignments, f-strings, bit operators.
+// Refused  with an error: lambda, comprehensions, assignments, f-strings, bit operators.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,10 @@ struct Expression {
     kName,     // text
     kMember,   // parts[0] . text
     kIndex,    // parts[0] [ parts[1] ]
-    kSlice,    // parts[0] [ parts[1] : parts[2] ], absent ends are null
-    kCall,     // parts[0]: function; other parts: arguments; words: names of the last arguments
+    kSlice,    // parts[0] [ parts[1] : parts[2] ]; a missing end is null
+    // parts[0]: function; other parts: arguments; words: names of the keyword arguments, which come
+    // last
+    kCall,
     kList,
     kTuple,
     kDictionary,  // key, value, key, value, …
