@@ -34,7 +34,8 @@ double NumberIn(const Value& value) {
 
 base::Result<Value> Power(std::int64_t base, std::int64_t exponent) {
   std::int64_t power = 1;
-  // A power with |base| >= 2 exceeds 64 bits after 63 iterations.
+  // Handles the bases 0, 1 and -1 without the loop below, because `exponent` may be huge. For other
+  // bases the loop is short: after at most 64 iterations the power exceeds 64 bits.
   if (base == 0 || base == 1) return Value{exponent == 0 ? std::int64_t{1} : base};
   if (base == -1) return Value{std::int64_t{exponent % 2 == 0 ? 1 : -1}};
   for (std::int64_t i = 0; i < exponent; ++i) {

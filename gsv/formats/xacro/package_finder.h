@@ -9,9 +9,9 @@
 
 namespace gsv::formats::xacro {
 
-// Returns the folder that `finder` finds as package://NAME. Otherwise searches for a folder whose
-// package.xml has this name: the naming file's folder, the four folders above it, and the
-// subfolders of each of these folders.
+// Returns the folder that `finder` finds as package://NAME. If it finds none, searches for a folder
+// whose package.xml has this name. The search covers the folder of `naming_file` (the file that
+// contains the $(find)), the four folders above it, and the direct subfolders of these folders.
 base::Result<std::filesystem::path> FindPackage(const std::string& name,
                                                 const std::filesystem::path& naming_file,
                                                 const ResourceFinder& finder);

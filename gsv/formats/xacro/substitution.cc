@@ -47,7 +47,8 @@ class Substitution {
       const bool has_bracket =
           bracket != std::string::npos && (text[bracket] == '{' || text[bracket] == '(');
       if (!has_bracket || bracket - dollar > 1) {
-        // Removes one of the dollar signs before a bracket.
+        // Nothing is substituted here. Two or more dollar signs before a bracket are copied without
+        // the first of them, and dollar signs without a bracket are copied unchanged.
         if (bracket == std::string::npos) bracket = text.size();
         const std::size_t first = has_bracket ? dollar + 1 : dollar;
         const std::size_t end = has_bracket ? bracket + 1 : bracket;

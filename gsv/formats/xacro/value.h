@@ -61,7 +61,8 @@ std::string FloatText(double value);
 
 // Returns the truth value like Python's bool().
 bool IsTrue(const Value& value);
-// Compares like Python's ==. Numbers are compared by value, and values of other types differ.
+// Compares like Python's ==. Two numbers are equal if their values are, even if one is an int and
+// the other a float. Other values of different types are never equal.
 bool AreEqual(const Value& a, const Value& b);
 
 // Converts a property's or a parameter's text to a number or truth value if possible: "2" is 2,

@@ -5,10 +5,11 @@
 //            xacro:call, insert_block, include (relative, $(find package), patterns, ns, optional),
 //            if, unless, arg, element, attribute; $(arg), $(find), $(eval), $(dirname), $(optenv)
 //            with its default; xacro.load_yaml. Also the old form without the prefix "xacro:".
-// Refused    with a sentence, file and line: $(env), $(anon), $(cwd), and expressions that
-//            expression_parser.h and operators.h do not support.
-// Limits     1,000,000 steps, 500 levels, 512 includes; sizes and depth: see ReadLimits.
-// Source     the behaviour of ros/xacro, processing in order.
+// Refused    with an error that has the reason, file and line: $(env), $(anon), $(cwd), and
+//            expressions that expression_parser.h and operators.h do not support.
+// Limits     1,000,000 expanded nodes and texts, 500 levels of nested elements, macros and
+//            properties, 512 includes; sizes, and the depth of includes: see ReadLimits.
+// Source     the behaviour of ros/xacro, which processes a file from top to bottom ("in-order").
 // Threads    any. The result depends only on the files and arguments.
 #pragma once
 
@@ -38,8 +39,9 @@ struct ExpandOptions {
 
 // The result of Expand().
 struct Expansion {
-  // The expanded XML. An element is on the line of the main file from which it came. An element of
-  // a macro or of an included file is on the line of the call.
+  // The expanded XML. An element is on its line in the main file, or on a later line if the text is
+  // already longer. An element of a macro or of an included file is on the line of the macro call
+  // or include in the main file.
   std::string xml;
   // The origin of each element, in the order of the document.
   std::vector<ElementSource> sources;
