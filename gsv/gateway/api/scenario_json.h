@@ -12,8 +12,8 @@
 namespace gsv::gateway {
 
 // Parses {name, world, mode: real_time|lockstep, real_time_factor, step, duration, seed,
-// record, robots, avatars, pedestrians, ros2}. `record` is a boolean here. Only `world` is
-// required.
+// record, robots, avatars, pedestrians, ros2}. Here `record` is a boolean, whereas in a scenario
+// file it is the name of the recording. Only `world` is required.
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 
 // A request to add a robot or an avatar.

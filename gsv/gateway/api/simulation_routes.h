@@ -17,9 +17,9 @@ using SimulationHandler =
 Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
                             SimulationHandler handler);
 
-// POST /api/simulations/{name}/COMMAND for each entry of the table of commands. The body has the
-// command's arguments; the response is the simulation's status. GET …/commands describes all
-// commands.
+// The routes of commands: POST /api/simulations/{name}/COMMAND for each command in
+// simulation/commands/command_table.h, also under its former names. The body has the command's
+// arguments; the response is the simulation's status. GET …/commands describes all commands.
 std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& directory);
 
 // Routes that place and remove the bodies of a simulation, and drive its avatars.

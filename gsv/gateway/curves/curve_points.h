@@ -13,7 +13,7 @@ namespace gsv::gateway::curves {
 // A point of a curve: a value at a simulated time.
 struct Point {
   base::SimTime time{};
-  double value = 0;  // may be infinite or NaN, for example without an echo
+  double value = 0;  // may be infinite or NaN, for example a range without an echo
 
   friend bool operator==(const Point&, const Point&) = default;
 };

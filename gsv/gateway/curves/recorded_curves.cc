@@ -117,7 +117,7 @@ void RecordedCurves::Read(Job& job) {
       }
     }
     const auto message = cursor.Next();
-    if (!message) {  // the next call continues after the damage
+    if (!message) {  // a part of the file is damaged; the next call of Next() continues after it
       const base::MutexLock lock(job.mutex);
       job.problem = message.error().Sentence();
       continue;

@@ -24,9 +24,13 @@ struct Detail {
   int quality = 100;  // maximum quality of the JPEG
 };
 constexpr std::array<Detail, 5> kDetails{{{1, 100}, {1, 55}, {0.75, 45}, {0.5, 40}, {0.35, 30}}};
-// The time in seconds that the transfer of an image over a slow connection may take. If the
-// transfer takes less than a quarter of this time, the next image has a higher resolution.
+// The time in seconds that the transfer of an image over a slow connection may take. If it takes
+// longer, the next image is coarser (the next entry of kDetails). If it takes less than a quarter
+// of this time, the next image may be finer.
 constexpr double kImageTime = 0.4;
+// Images that become coarser stay so for at least kFirstCoarse the first time. This time doubles
+// each further time, up to kMaxCoarse. kBetweenSteps is the minimum time between two steps to finer
+// images.
 constexpr std::chrono::seconds kFirstCoarse{5}, kMaxCoarse{300}, kBetweenSteps{1};
 
 ViewRequest Coarsened(ViewRequest view, std::size_t detail) {

@@ -11,8 +11,8 @@
 // images become finer again when the connection is fast enough, but not before a waiting time has
 // passed. The waiting time doubles each time the images become coarser.
 //
-// Format   docs/formats/live.md: a message on the client's subscription with the header
-//          `kImageHeaderSize`, then a JPEG.
+// Format   docs/formats/live.md: a binary message for the client's subscription. It has a header of
+//          kImageHeaderSize bytes, then a JPEG.
 // Threads  any.
 // Bounded  the views of each client (here), and all views (ViewDrawer).
 #pragma once
@@ -34,18 +34,18 @@ namespace gsv::gateway::drawing {
 // Maximum number of views of one client at the same time.
 inline constexpr std::size_t kMaxViewsOfClient = 4;
 // Size in bytes of the header before each image. It contains, in little endian: the sequence (4
-// bytes), the number of the image (8), and the time at which the drawer first saw this state, in
-// microseconds since 1970 (8).
+// bytes), the number of the image (8), and the time at which the ViewDrawer first saw the state of
+// the world that the image shows, in microseconds since 1970 (8).
 inline constexpr std::size_t kImageHeaderSize = 20;
 
-// Sends the images of all views that the clients of one hub have started to these clients, over
-// their WebSockets. Each new image is sent without a request, see above.
+// Sends images to the clients of one Hub (foxglove/hub.h), for all views that they have started.
+// Each new image is sent over the client's WebSocket without a request, see above.
 class PushedViews final : public Views, public std::enable_shared_from_this<PushedViews> {
  public:
-  // Returns the world of the hub, or an error if it does not exist any more.
+  // Returns the world that the Hub serves, or an error if this world does not exist any more.
   using FindWorldOfHub = std::function<base::Result<ViewedWorld>()>;
 
-  // `drawer` must outlive the clients of the hub.
+  // `drawer` must outlive the clients of the Hub.
   PushedViews(ViewDrawer& drawer, FindWorldOfHub find) : drawer_(drawer), find_(std::move(find)) {}
 
   // Starts a view, or changes its camera.
@@ -71,12 +71,13 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
     bool is_asked = false;                   // whether an answer of the ViewDrawer is pending
     int unshown = 0;                         // number of sent images not yet reported as shown
     Clock::time_point due{};                 // earliest time of the next image
-    Clock::time_point sent{};                // time of the last image
-    Clock::duration reported_after{};        // time from the last image to its report
+    Clock::time_point sent{};                // time at which the last image was sent
+    Clock::duration reported_after{};        // time from then to the last report of the client
     // index in kDetails (pushed_views.cc); 0: the quality and size that the client requested
     std::size_t detail = 0;
     Clock::time_point coarse_until{};  // earliest time of a finer image
-    // minimum time that the images stay coarse; doubles each time; 0: not yet coarse
+    // minimum time that the images stay coarse; doubles each time that they become coarser; 0: they
+    // were never coarse
     Clock::duration coarse_for{};
   };
   using WatchedPtr = std::shared_ptr<Watched>;
@@ -91,7 +92,8 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
   // Sends an image. `earliest`: the value that was passed to ViewDrawer::Ask() for this image.
   void OnImage(const WatchedPtr& watched, std::uint32_t sequence, Clock::time_point earliest,
                const base::Result<DrawnImage>& image);
-  // Chooses the detail of the next image. `slow_rate`: see Client. `bytes`: size of this image.
+  // Chooses the detail of the next image. `slow_rate`: see Client. `bytes`: size of the image that
+  // is sent now.
   static void ChooseDetail(Watched& watched, double slow_rate, std::size_t bytes);
   // Ends a view and sends the client the reason.
   void Fail(const WatchedPtr& watched, const base::Error& error);

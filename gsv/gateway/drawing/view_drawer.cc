@@ -233,8 +233,9 @@ void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<
       kept_.push_back({request, *answer});
     }
     for (Pending& each : same) {
-      each.seat.reset();  // the viewer's Seat must be free before the viewer can send its next
-                          // request
+      // Releases the Seat before the answer: as soon as the viewer has the answer, it may send its
+      // next request, which needs a free Seat.
+      each.seat.reset();
       each.answer(answer);
     }
   }
