@@ -34,8 +34,8 @@ namespace gsv::gateway::drawing {
 // Maximum number of views of one client at the same time.
 inline constexpr std::size_t kMaxViewsOfClient = 4;
 // Size in bytes of the header before each image. It contains, in little endian: the sequence (4
-// bytes), the number of the image (8), and the time at which the ViewDrawer first saw the state of
-// the world that the image shows, in microseconds since 1970 (8).
+// bytes), the number of the image (8), and a time in microseconds since 1970 (8). At this time, the
+// ViewDrawer first saw the state of the world that the image shows.
 inline constexpr std::size_t kImageHeaderSize = 20;
 
 // Sends images to the clients of one Hub (foxglove/hub.h), for all views that they have started.

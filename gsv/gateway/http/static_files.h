@@ -23,8 +23,9 @@ class StaticFiles {
   // leave the root (by "..", a separator inside a segment, or a symbolic link).
   Response Get(const Request& request) const;
 
-  // Returns the file of the segments below the root, or 304 if `if_none_match` names its entity
-  // tag. Without segments: index.html. nullopt if Get() answers 404.
+  // Returns the file at the path below the root that consists of these segments, or index.html if
+  // there are none. Returns status 304 without the file if `if_none_match` has the file's entity
+  // tag, and nullopt where Get() would answer 404.
   std::optional<Response> Find(const std::vector<std::string>& segments,
                                const std::string& if_none_match) const;
 

@@ -31,8 +31,9 @@ class CommandServices {
   std::vector<foxglove::Service> list() const;
 
   // Returns a function that carries out the call. Run it once; it may block. Fails for an unknown
-  // service or an invalid request. A request cannot omit a field. To select the default, it
-  // has a value outside of the parameter's range: 0 for a count, NaN for a number, or an empty text.
+  // service or an invalid request. A request has all fields, so some values mean "use the default"
+  // if the parameter is optional: NaN for a number, an empty text, and 0 for an integer whose
+  // minimum is greater.
   base::Result<std::function<Response()>> Prepare(const foxglove::ServiceCall& call) const;
 
  private:

@@ -65,7 +65,8 @@ std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation
                                                     Source& source) {
   if ((simulation.*source.since)(source.next).empty()) return {};
   // `count` is the number of all events so far, including old events that the simulation has
-  // dropped. It is read before the events, so that only dropped events can be missing in `events`.
+  // dropped. The code reads `count` before `events`. So an event that is counted but is not in
+  // `events` was dropped, and the next call need not look for it.
   const std::uint64_t count = simulation.status().*source.count;
   std::vector<simulation::Event> events = (simulation.*source.since)(source.next);
   source.next = std::max(source.next + events.size(), count);

@@ -92,7 +92,7 @@ class LiveStream {
   HealthTopics health_;
 
   std::shared_ptr<const world::Layout> layout_;     // the layout of the last snapshot
-  std::vector<presentation::PoseEntry> pose_list_;  // list of the poses of layout_
+  std::vector<presentation::PoseEntry> pose_list_;  // PoseListOf() for layout_
   Pacing refresh_pacing_;  // limits how often the topics of sensors are listed
   std::weak_ptr<const world::Snapshot> time_of_;  // the last snapshot whose time was published
   CommandTopic commands_;

@@ -16,9 +16,10 @@ namespace {
 constexpr double kBeamsRate = 15;  // Hz
 constexpr double kReadingsRate = 15;
 constexpr double kImagesRate = 5;
-// Slow sensors, such as a camera that sees a thousand robots, are read less often. So they use at
-// most a tenth of the processors' time. Viewers must not slow down the simulation, nor the page
-// that shows it on the same machine.
+// Slow sensors, such as a camera that sees a thousand robots, are read less often: the time between
+// two readings is at least this number times the duration of the last reading. So the readings of a
+// sensor take at most a tenth of a processor's time. Viewers must not slow down the simulation, nor
+// the page that shows it on the same machine.
 constexpr int kShareOfProcessors = 10;
 
 }  // namespace
@@ -280,7 +281,8 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
 
 void SensorTopics::ReadSensor(simulation::Simulation& simulation, Sensor& sensor) {
   const auto refuse = [&](const base::Error& error) {
-    // The new subscribers now count as established, so that the next call does not read again.
+    // Ends the wait of new subscribers for a first message. Otherwise Publish() would read the
+    // sensor again for them each time, and fail each time.
     hub_->Welcome(sensor.channel, {});
     if (sensor.has_companion_of_readings()) hub_->Welcome(sensor.companion_channel, {});
     if (sensor.has_complained.exchange(true)) return;

@@ -84,7 +84,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   // Starts to read all beam sensors on a worker thread, if they are due.
   void PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
-  // These functions run on a worker thread. They read sensors, and publish the messages.
+  // Reads a sensor and publishes its messages, on a worker thread.
   void ReadSensor(simulation::Simulation& simulation, Sensor& sensor);
   // Reads the beam sensors and publishes their beams, on a worker thread.
   void ReadBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
