@@ -11,6 +11,7 @@ export class Frame {
   private mounted: MountedPanel | null = null;
   private isLoading = false;
   private isInSight = false;
+  private window: Window | null = null; // the window of the panel, once it has moved
   private end: (() => void) | null = null; // null while the panel reads no data
 
   constructor(
@@ -27,6 +28,14 @@ export class Frame {
   show(isInSight: boolean): void {
     this.isInSight = isInSight;
     void this.follow();
+  }
+
+  // Called when the panel may have moved to another window.
+  followWindow(): void {
+    const { defaultView } = this.element.ownerDocument;
+    if (defaultView === (this.window ?? window)) return;
+    this.window = defaultView;
+    this.mounted?.afterMove?.();
   }
 
   private get isWanted(): boolean {

@@ -242,6 +242,8 @@ export class Workspace {
       element: frame.element,
       init: ({ api }) => {
         frame.show(api.isVisible);
+        // The element moves after this event.
+        api.onDidLocationChange(() => setTimeout(() => frame.followWindow()));
         api.onDidVisibilityChange(({ isVisible }) => !isGone && frame.show(isVisible));
       },
       dispose: () => {

@@ -147,6 +147,7 @@ export function mount(ports: Ports): MountedPanel {
       setOpen(true);
       return () => setOpen(false);
     },
+    afterMove: build,
   };
 }
 

@@ -41,4 +41,7 @@ export interface MountedPanel {
   // closed or hidden behind another tab. Read data (topics, the store) only between these two
   // calls, so that a hidden panel costs nothing.
   whileOpen?(): () => void;
+  // Called after the panel has moved to another window. A canvas that was in a window that is closed
+  // can draw nothing more, so a panel must replace its canvases.
+  afterMove?(): void;
 }

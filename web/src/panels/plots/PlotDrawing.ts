@@ -31,6 +31,9 @@ export class PlotDrawing {
   // while the user drags in a recording, the time range of the axis does not change
   private heldSpan: Range | null = null;
   private readonly values = new Map<string, HTMLElement>();
+  // whether the window of the panel has dark colours; another window may have others
+  private dark: MediaQueryList | null = null;
+  private window: Window | null = null;
   private readonly instant = element("span", { class: "plot-instant number" });
 
   constructor(
@@ -62,6 +65,7 @@ export class PlotDrawing {
     );
     return () => {
       this.isOpen = false;
+      this.followColours(null);
       clearTimeout(this.timer);
       this.timer = undefined;
       end();
@@ -133,7 +137,21 @@ export class PlotDrawing {
     return timeRange(this.curves(), plots.span, time, replay && { min: replay.start, max: replay.end });
   }
 
+  // Draws again when the colours of this window change. The panel may have moved to another window:
+  // then the charts are made anew, see MountedPanel.afterMove().
+  private followColours(window: Window | null): void {
+    if (window === this.window) return;
+    if (window !== null) this.clear();
+    this.window = window;
+    this.dark?.removeEventListener("change", this.recolour);
+    this.dark = window?.matchMedia?.("(prefers-color-scheme: dark)") ?? null;
+    this.dark?.addEventListener("change", this.recolour);
+  }
+
+  private readonly recolour = () => this.request();
+
   private async draw(): Promise<void> {
+    this.followColours(this.place.ownerDocument.defaultView);
     const { time, replay, plots } = this.ports.state.get();
     const curves = this.curves();
     const span = this.span();

@@ -52,6 +52,7 @@ export function mount(ports: Ports): MountedPanel {
       const ends = [drawing.open(), events.open(() => drawing.request())];
       return () => ends.forEach((end) => end());
     },
+    afterMove: () => drawing.request(),
   };
 }
 
