@@ -168,7 +168,7 @@ test("a robot inside another one shows an error at its row", async () => {
   await fill("y (m)", String(y - 1), row(1));
   await row(1).locator(".field-error").first().waitFor({ state: "hidden" });
   await fill("Name", "<img src=x onerror=alert(1)>", row(1));
-  assert.equal(await page.locator(".set-up img, .label img").count(), 0);
+  assert.equal(await page.locator(".set-up img, .view img").count(), 0);
   await fill("Name", "second", row(1));
 });
 

@@ -98,13 +98,26 @@ export async function timeClicks(page, count) {
   for (let i = 0; i < count; i++) {
     list.push(await clickInList(page, i / count));
     const other = await unselectedAt(page, (i + 0.5) / count);
-    const place = await page.evaluate((name) => window.gsv.robotScreenPosition(name), other);
-    const isFree = place && (await page.evaluate(({ x, y }) => document.elementFromPoint(x, y)?.tagName === "CANVAS", place));
-    if (!isFree) continue;
+    const place = (await freePlaces(page)).find(({ name }) => name === other);
+    if (!place) continue;
     const { robot, took } = await clickNoted(page, () => page.mouse.click(place.x, place.y));
     if (robot !== null) picture.push(took);
   }
   return { list, picture };
+}
+
+// Returns the names and the places in the view of the robots that neither labels nor other parts of
+// the page cover.
+export async function freePlaces(page) {
+  return page.evaluate(() => {
+    const { labels } = window.gsv;
+    const isIn = (box, { x, y }) => x >= box.x && x < box.x + box.width && y >= box.y && y < box.y + box.height;
+    const isFree = (at) => document.elementFromPoint(at.x, at.y)?.tagName === "CANVAS" && !labels.some((box) => isIn(box, at));
+    return window.gsv.robots.flatMap((name) => {
+      const at = window.gsv.robotScreenPosition(name);
+      return at && isFree(at) ? [{ name, ...at }] : [];
+    });
+  });
 }
 
 // Returns the robot's row. The list is scrolled until the row exists, because only rows in sight

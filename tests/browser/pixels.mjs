@@ -55,6 +55,18 @@ export const isBlue = (r, g, b) => b > 150 && b > 1.3 * r && b > 1.1 * g;
 export const isGreen = (r, g, b) => g > 110 && g > 1.5 * r && g > 1.5 * b;
 export const isYellow = (r, g, b) => r > 120 && g > 100 && r > 1.5 * b && g > 1.4 * b;
 
+// Returns whether an image shows the label of a robot: light text on a dark ground.
+export function showsLabel(image) {
+  let [dark, light] = [0, 0];
+  for (let i = 0; i < image.data.length; i += 4) {
+    const channels = image.data.subarray(i, i + 3);
+    if (Math.max(...channels) < 120) dark += 1;
+    if (Math.min(...channels) > 200) light += 1;
+  }
+  const pixels = image.data.length / 4;
+  return dark > 0.5 * pixels && light > 0.02 * pixels;
+}
+
 // Returns a square of `size` pixels around a place on the page.
 export function around({ x, y }, size) {
   return { x: Math.round(x - size / 2), y: Math.round(y - size / 2), width: size, height: size };

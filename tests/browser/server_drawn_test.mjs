@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { setTimeout } from "node:timers/promises";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
-import { changedPixels, isBlank, picture } from "./pixels.mjs";
+import { changedPixels, isBlank, picture, showsLabel } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
 import { ask, settled, until } from "./viewing.mjs";
 
@@ -76,7 +76,11 @@ test("the image follows the simulation and the camera", async () => {
 });
 
 test("the image shows the robots' names, and a click selects a robot", async () => {
-  await page.locator(".view").getByText("pebble", { exact: true }).first().waitFor();
+  // The robot may move between the two queries.
+  await until(async () => {
+    const [label] = await page.evaluate(() => window.gsv.labels);
+    return label?.name === "pebble" && showsLabel(await picture(page, label));
+  }, "the name in the image");
   // On a slow machine the robot may have moved away before the click arrives.
   await until(async () => {
     const place = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
@@ -89,7 +93,6 @@ test("while the camera moves, a name stays at its robot in the image", async () 
   await page.keyboard.press("f"); // the camera follows the robot
   const gaps = await page.evaluate(async () => {
     const canvas = document.querySelector(".view canvas:not(.drawn-view)");
-    const label = [...document.querySelectorAll(".view *")].find((each) => each.children.length === 0 && each.textContent === "pebble");
     const found = [];
     for (let i = 0; i < 20; i++) {
       const [x, y] = [400 + 8 * i, 300];
@@ -99,8 +102,8 @@ test("while the camera moves, a name stays at its robot in the image", async () 
       const then = window.gsv.frames;
       while (window.gsv.frames === then) await new Promise(requestAnimationFrame);
       const place = window.gsv.robotScreenPosition("pebble");
-      const box = label.getBoundingClientRect();
-      if (place && box.width > 0) found.push(Math.abs(box.x + box.width / 2 - place.x));
+      const [box] = window.gsv.labels;
+      if (place && box) found.push(Math.abs(box.x + box.width / 2 - place.x));
     }
     canvas.dispatchEvent(new PointerEvent("pointerup", { pointerId: 1, button: 0, clientX: 552, clientY: 300, bubbles: true }));
     return found;

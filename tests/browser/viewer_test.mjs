@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { SHARP, keepPicture } from "./documentation.mjs";
-import { around, changedPixels, cut, isBlank, isRed, isYellow, picture } from "./pixels.mjs";
+import { around, changedPixels, cut, isBlank, isBlue, isRed, isYellow, picture, showsLabel } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
 import * as viewing from "./viewing.mjs";
 import { until } from "./viewing.mjs";
@@ -83,6 +83,33 @@ async function robotsInView() {
 test("the view of the world is not blank", async () => {
   await phaseIs("running");
   assert.equal(isBlank(await picture(page, await viewClip())), false);
+});
+
+test("names are drawn over the view, and a click on a name selects its robot", async () => {
+  await pause();
+  const label = await page.evaluate(() => {
+    const isInSight = ({ x, y, width, height }) => document.elementFromPoint(x + width / 2, y + height / 2)?.tagName === "CANVAS";
+    return window.gsv.labels.find(isInSight);
+  });
+  assert.ok(showsLabel(await picture(page, label)), "the name is not readable");
+  await page.mouse.move(label.x + label.width / 2, label.y + label.height / 2);
+  const cursor = () => page.evaluate(() => getComputedStyle(document.querySelector(".view > canvas")).cursor);
+  await until(async () => (await cursor()) === "pointer", "the pointer of a link");
+  await page.mouse.click(label.x + label.width / 2, label.y + label.height / 2);
+  await page.getByRole("heading", { name: label.name, exact: true }).first().waitFor();
+  await until(async () => {
+    const [first] = await page.evaluate(() => window.gsv.labels);
+    return first.name === label.name && first.kind.startsWith("label selected");
+  }, "the selected name");
+  await settled();
+  const [selected] = await page.evaluate(() => window.gsv.labels);
+  const seen = await picture(page, selected);
+  await page.getByText(`Names in the view: ${label.name}`).waitFor({ state: "attached" }); // for screen readers
+  await page.keyboard.press("Escape");
+  await settled();
+  const blue = changedPixels(await picture(page, selected), seen, isBlue);
+  assert.ok(blue > 0.5 * selected.width * selected.height, `only ${blue} pixels are blue`);
+  await resume();
 });
 
 test("a lost canvas is reported, and the image returns", async () => {

@@ -32,6 +32,8 @@ export interface PageHandle {
   // The place where the robot's centre is drawn, in CSS pixels of the page; null if it is outside
   // the view.
   robotScreenPosition(name: string): { x: number; y: number } | null;
+  // The labels in the view, the most important one first. The boxes are in CSS pixels of the page.
+  readonly labels: readonly { name: string; kind: string; x: number; y: number; width: number; height: number }[];
   // The place where the tip of the selected robot's arrow is drawn; null while it is hidden.
   turnHandle(): { x: number; y: number } | null;
   // The place of the gizmo's handle for this axis of the world; null while it is hidden.
@@ -84,6 +86,9 @@ export function exposeForTests(store: Store<State>, world: () => World3D | null,
       return place ? { x: place[0], y: place[1] } : null;
     },
     robotScreenPosition: (name) => world()?.screenPosition(name) ?? null,
+    get labels() {
+      return world()?.labels ?? [];
+    },
     turnHandle: () => world()?.turnHandle() ?? null,
     gizmoHandle: (axis) => world()?.tools.gizmo.handleAt(axis) ?? null,
     get chosen() {

@@ -1,8 +1,9 @@
 // Shows the robots' names and marks of their states in the view.
 import type { PerspectiveCamera } from "three";
+import { Matrix4, Vector3 } from "three";
+import { LabelLayer } from "../labels/LabelLayer";
 import type { ShownState } from "../state/health";
 import { SHOWN_STATES, badness, isTrouble } from "../state/health";
-import { LabelLayer } from "./LabelLayer";
 import type { RobotPlaces } from "./RobotPlaces";
 import { StateMarks } from "./StateMarks";
 
@@ -20,6 +21,8 @@ export interface SignsShown {
 // The labels with the names, and the marks of the states.
 export class RobotSigns {
   readonly labels: LabelLayer;
+  private readonly clipFromWorld = new Matrix4();
+  private readonly eye = new Vector3();
   readonly marks = new StateMarks();
   private robots: RobotPlaces | null = null;
   private known: RobotStates = { states: null, chosen: null };
@@ -28,8 +31,9 @@ export class RobotSigns {
   private radii: Float64Array = new Float64Array(0);
   private tops: Float64Array = new Float64Array(0); // places above the robots in the present frame
 
-  constructor(onPick: (name: string) => void) {
-    this.labels = new LabelLayer(onPick);
+  // `redraw` requests a frame.
+  constructor(redraw: () => void) {
+    this.labels = new LabelLayer(redraw);
   }
 
   setRobots(robots: RobotPlaces | null): void {
@@ -67,10 +71,13 @@ export class RobotSigns {
 
   // Call this when a frame is drawn, after placeMarks. `isMoving` means that more frames follow.
   placeLabels(camera: PerspectiveCamera, width: number, height: number, selection: string | null, shown: SignsShown, isMoving: boolean): void {
-    if (!shown.labels || !this.robots) return;
+    if (!this.robots) return this.labels.clear();
+    if (!shown.labels) return;
     const { names } = this.robots;
     const { chosen } = this.known;
-    this.labels.place(camera, width, height, {
+    const clipFromWorld = this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+    const eye = this.eye.setFromMatrixPosition(camera.matrixWorld);
+    this.labels.place({ clipFromWorld, eye, width, height }, {
       names,
       tops: this.tops,
       selection,

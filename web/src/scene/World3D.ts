@@ -3,6 +3,9 @@
 import type { Matrix4 } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
+import { LabelHover } from "../labels/LabelHover";
+import type { ShownLabel } from "../labels/LabelLayer";
+import { onLookChange } from "../labels/onLookChange";
 import type { Expectation } from "../state/expectations";
 import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
 import type { OverlayColours, Shown } from "../state/overlays";
@@ -76,6 +79,7 @@ export class World3D {
   private readonly collisions: CollisionLayer;
   private readonly poses = new ShownPoses((sample) => this.overlays.takePoses(sample));
   private readonly signs: RobotSigns;
+  private readonly hover: LabelHover;
   private readonly ghosts = new GhostLayer();
   private readonly follower: RobotFollower;
   private readonly arranger: Arranger;
@@ -104,7 +108,8 @@ export class World3D {
       onChange: () => this.loop.request(),
       onProblem: (sentence) => events.onProblem(sentence),
     });
-    this.signs = new RobotSigns((name) => events.onPick(name));
+    this.signs = new RobotSigns(() => this.loop.request());
+    this.hover = new LabelHover(canvas, this.signs.labels);
     this.loop = new RenderLoop(
       (now) => this.draw(now),
       (took) => {
@@ -134,6 +139,10 @@ export class World3D {
     canvas.addEventListener("webglcontextrestored", () => this.setGraphics(true));
     onClick(canvas, (place) => this.click(place));
     new ResizeObserver(() => this.resize()).observe(host);
+    onLookChange(() => {
+      this.signs.labels.renewLook();
+      this.loop.request();
+    });
     this.resize();
   }
 
@@ -210,7 +219,7 @@ export class World3D {
   setArranging(isOn: boolean, hasArrow = true): void {
     this.arranger.isOn = isOn;
     this.arranger.hasArrow = hasArrow;
-    this.signs.labels.element.classList.toggle("in-the-way", isOn);
+    this.signs.labels.isPickable = !isOn; // robots that the user moves may be behind labels
     this.loop.request();
   }
 
@@ -338,6 +347,12 @@ export class World3D {
     return this.picker.robotOnScreen(robot);
   }
 
+  // The labels that are shown, the most important one first. The places are on the page.
+  get labels(): ShownLabel[] {
+    const { left, top } = this.host.getBoundingClientRect();
+    return this.signs.labels.shown.map((label) => ({ ...label, x: left + label.x, y: top + label.y }));
+  }
+
   // The place on the page where the tip of the selected robot's arrow is drawn.
   turnHandle(): ScreenPlace | null {
     return this.arranger.tipOnScreen();
@@ -372,6 +387,7 @@ export class World3D {
 
   private draw(now: number): boolean {
     const follows = this.drawer.draw(now, this.shown);
+    this.hover.update();
     this.events.onScale(this.rig.metresPerPixel);
     return follows;
   }
@@ -423,6 +439,9 @@ export class World3D {
 
   private click(place: ScreenPlace): void {
     if (this.tools.click(place)) return;
+    const { left, top } = this.host.getBoundingClientRect();
+    const label = this.signs.labels.at(place.x - left, place.y - top);
+    if (label !== null) return this.events.onPick(label);
     const robot = this.picker.robotAt(place);
     const added = robot === null && this.arranger.isOn ? this.picker.addedStaticAt(place) : null;
     const firm = added === this.follower.selection ? null : added;
