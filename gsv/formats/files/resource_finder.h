@@ -17,7 +17,7 @@
 // Safety   a name that leaves the folder in which it is searched (`..`) is refused; a relative path
 //          may lead to the parent of the naming file's folder, where sibling models are. Absolute
 //          paths are refused unless `allow_absolute_paths`.
-// Errors   kNotFound with a sentence that has the name.
+// Errors   kNotFound; the message contains the name.
 // Threads  const members may run concurrently.
 #pragma once
 

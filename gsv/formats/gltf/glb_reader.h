@@ -3,8 +3,8 @@
 // Result   a model with links, visuals and materials only: no joints, collisions or sensors. A flat
 //          rectangle without a texture is a geometry::Plane again, so that it is rendered as
 //          ground.
-// Input    untrusted. kCorrupt with a sentence if the file was not written by WriteGlb(). Textures
-//          that cannot be decoded are left out.
+// Input    untrusted. Returns kCorrupt if the file was not written by WriteGlb(). Textures that
+//          cannot be decoded are left out.
 // Threads  any.
 #pragma once
 

@@ -1,9 +1,9 @@
 // A TextureReader reads images (PNG, JPEG, TGA, BMP, TIFF). It reads each file once and shares the
 // result. An image with sides beyond the limit is scaled down.
 //
-// Errors   a sentence for a file that is missing, larger than the limits, or not an image. The size
-//          in an image is checked before memory is allocated: at most 128 million pixels for an
-//          image that is scaled down.
+// Errors   an error for a file that is missing, larger than the limits, or not an image. The number
+//          of pixels that a file declares is checked before memory is allocated. An image that must
+//          be scaled down may have at most 2^27 pixels.
 // Threads  one thread at a time.
 #pragma once
 

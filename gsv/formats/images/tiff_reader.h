@@ -2,7 +2,7 @@
 //
 // Not read  heights in more than one band (the first is used), in complex numbers, or in
 //           projections other than metres and degrees.
-// Errors    a sentence for a file that is missing, damaged or larger than the limits.
+// Errors    an error for a file that is missing, damaged or larger than the limits.
 // Threads   any; calls may run concurrently.
 #pragma once
 

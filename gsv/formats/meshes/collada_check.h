@@ -7,7 +7,7 @@
 
 namespace gsv::formats {
 
-// Fails with a sentence if the text is not well-formed XML. Fails if an array declares more values
+// Fails if the text is not well-formed XML. Fails if an array declares more values
 // than it has (assimp allocates the declared number), or if an accessor reaches beyond its array
 // (assimp reads there). Fails if a list of indices has anything but whole numbers (assimp would not
 // terminate).

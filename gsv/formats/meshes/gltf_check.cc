@@ -18,8 +18,9 @@ using base::ErrorCode;
 constexpr int kMaxJsonDepth = 64;
 // assimp visits nodes recursively, so deeper nodes could exhaust the stack.
 constexpr std::size_t kMaxNodeDepth = 512;
-constexpr std::size_t kMaxNodes =
-    1'000'000;  // counts a node once for each path from a root, because assimp copies it
+// Maximum number of nodes. A node with several paths from a root counts once for each path, because
+// assimp copies it.
+constexpr std::size_t kMaxNodes = 1'000'000;
 
 std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   std::uint32_t word = 0;
@@ -45,8 +46,8 @@ std::optional<std::string_view> JsonOf(std::string_view glb) {
   return json;
 }
 
-using Children =
-    std::vector<std::vector<std::size_t>>;  // for each node, the indices of its child nodes
+// For each node, the indices of its child nodes.
+using Children = std::vector<std::vector<std::size_t>>;
 
 // Returns why assimp must not read nodes with these children, or null.
 const char* FaultOf(const Children& children) {

@@ -139,7 +139,8 @@ class MeshMerger {
     mesh_.triangles.push_back(corners);
   }
 
-  // Drops attributes that only some parts have, and replaces infinite vertices.
+  // Drops the normals if a part has none, and the texture coordinates if no part has them. Replaces
+  // vertices that are not finite.
   void DropIncompleteAttributes() {
     if (!all_have_normals_) mesh_.normals.clear();
     if (!any_has_coordinates_) mesh_.texture_coordinates.clear();
@@ -150,7 +151,7 @@ class MeshMerger {
 
   const aiScene& scene_;
   const std::string& submesh_;
-  std::set<std::string> submesh_ids_;  // ids of the nodes and geometries with that name
+  std::set<std::string> submesh_ids_;  // ids of the nodes and geometries with the name submesh_
   const ReadLimits& limits_;
   TriangleMesh mesh_;
   bool all_have_normals_ = true;

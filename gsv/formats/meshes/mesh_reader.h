@@ -6,8 +6,7 @@
 //          models are made for these programs (TurtleBot3's arena declares Y_UP, but has z up).
 //          glTF's y axis, which is up by definition, is not changed either.
 // Repairs  triangles without area, and triangles that refer to missing vertices, are dropped.
-// Errors   a sentence for a file that is missing, beyond the limits, unreadable or without
-//          triangles.
+// Errors   an error for a file that is missing, beyond the limits, unreadable or without triangles.
 // Threads  one thread at a time.
 #pragma once
 
