@@ -67,7 +67,8 @@ class Skeleton {
 
   explicit Skeleton(const aiScene& scene) { Add(*scene.mRootNode, -1, kMaxBoneDepth); }
 
-  // Returns false if the animation moves none of the nodes.
+  // Assigns the channels of an animation to the nodes. Returns false if the animation moves none of
+  // the nodes, has no length, or is longer than kMaxAnimationTime.
   bool Animate(const aiScene& motion) {
     bool any = false;
     for (unsigned a = 0; a < motion.mNumAnimations; ++a) {
@@ -89,7 +90,7 @@ class Skeleton {
   double length() const { return length_; }
   const std::vector<Node>& nodes() const { return nodes_; }
 
-  // Returns the index of the node with that name, or -1.
+  // Returns the index of the node `name`, or -1.
   int Find(const std::string& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? -1 : found->second;
@@ -299,7 +300,8 @@ void IntoFrame(const Pose& root_from_bone, double scale, TriangleMesh& mesh) {
   for (Vector3& normal : mesh.normals) normal = bone_from_root.orientation * normal;
 }
 
-// Returns the common ancestor of all bones: the first node that is an ancestor of each.
+// Returns the root bone: the first node that the animation moves. Parents come before their
+// children. Returns 0 if there is no such node.
 std::size_t RootOf(const Skeleton& skeleton, const std::vector<TriangleMesh>& meshes) {
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     if (skeleton.nodes()[n].channel != nullptr) return n;

@@ -3,7 +3,8 @@
 // Rule      The main bone of a corner is the bone with the largest weight there. A triangle becomes
 //           a part of the main bones of its three corners. If these are different bones, each of
 //           them gets a copy of the triangle, so that there is no gap between the parts. If a bone
-//           has less than the fraction kMinTriangles of all triangles, its parent gets them.
+//           has less than the fraction kMinTriangles of all triangles, the triangles of the bone
+//           go to its parent.
 // Frames    the frame of a skin is the root of its file, as for MeshReader. The frame of a bone
 //           has no scale.
 // Sampling  at equal intervals over the animation, at about kFramesPerSecond, at most kMaxFrames.

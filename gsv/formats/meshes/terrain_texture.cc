@@ -10,7 +10,7 @@ namespace {
 using Rgb = std::array<double, 3>;
 
 constexpr double kGreyLevel = 128;
-// A pixel is the mean of at most this many samples per side.
+// A pixel of the result is the mean of at most kMaxSamples x kMaxSamples samples of a layer.
 constexpr int kMaxSamples = 8;
 
 // Interpolates the heights of a mesh whose vertices are a grid, row by row.

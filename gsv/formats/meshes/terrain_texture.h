@@ -22,8 +22,9 @@ struct TerrainLayer {
 inline constexpr int kTerrainTextureSide = 1024;
 
 // Returns the texture for a mesh of HeightmapMesh() with `size.x` by `size.y` metres. The first
-// tile of a layer begins at the terrain's lower left corner. If tiles have smaller pixels than the
-// image, each pixel is the mean of the area that it covers. `layers` must not be empty.
+// tile of a layer begins at the terrain's lower left corner. If the pixels of a layer are smaller
+// than the pixels of the result, a pixel of the result is the mean of the area that it covers.
+// `layers` must not be empty.
 model::Image TerrainTexture(const geometry::TriangleMesh& mesh, geometry::Vector2 size,
                             const std::vector<TerrainLayer>& layers);
 

@@ -457,7 +457,9 @@ void SeparateReservedNames(SdfText& document, IncludedFiles& includes, base::Pro
   std::vector<Tree> trees = TreesOf(document, includes);
   for (Tree& tree : trees) {
     if (!ReservesScope(*tree.root())) continue;
-    std::set<std::string, std::greater<>> names;  // a name comes before its prefixes
+    // In descending order, a name comes before its prefixes. So the longest name that matches is
+    // replaced.
+    std::set<std::string, std::greater<>> names;
     ForEach(tree.root(), [&](XMLElement& element) {
       const char* name = element.Attribute("name");
       if (name == nullptr || std::strstr(name, kScope) == nullptr || IsInPlugin(element)) return;

@@ -17,8 +17,8 @@ bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& in
 
 // If a model was assembled from other models, Gazebo Classic saves it with links named
 // "INNER::LINK". libsdformat splits these names, and throws if their poses are relative to
-// something outside. This function writes "INNER.LINK" instead, with a warning. Returns false if
-// there is no such name.
+// something outside of INNER. This function writes "INNER.LINK" instead, with a warning. Returns
+// false if there is no such name.
 bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& problems);
 
 // SDFormat 1.8 and later reserve "::" for references into nested models, and libsdformat rejects a

@@ -15,7 +15,7 @@ using base::ErrorCode;
 using base::Problem;
 using tinyxml2::XMLElement;
 
-// The prefix of the names that libsdformat requests.
+// Prefix of the names that GSV gives to included files. libsdformat requests the files by them.
 constexpr char kIncluded[] = "gsv-included://";
 
 bool IsModelPart(const XMLElement& element) {

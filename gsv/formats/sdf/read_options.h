@@ -26,8 +26,8 @@ struct ReadOptions {
   ReadLimits limits;
   // Whether to check SDFormat's rules on names and references (gsv/formats/support/naming_rules.h).
   // Only the files that the caller passes to ReadWorld() and ReadModel() are checked, and not the
-  // files that they include. Each broken rule is added as an error. The files are repaired in both
-  // cases.
+  // files that they include. Each broken rule is added as an error. Files are repaired whether or
+  // not they are checked.
   bool check_rules = false;
   SensorCheck check_sensor;  // if it is empty, sensors are not checked
 };
