@@ -75,8 +75,9 @@ class ViewDrawer {
   void SetSource(const std::string& world, const std::weak_ptr<const void>& identity,
                  const MakeSource& make);
 
-  // Answers with the world's image once its number differs from `after` (0: at once), but not
-  // before `earliest`. After `timeout` without a change, answers with the present image.
+  // Answers with an image of the world as soon as the number of the world's state differs from
+  // `after`, but not before `earliest`. If `after` is 0, this is the case at once. If nothing has
+  // changed for `timeout`, answers with the present image.
   void Ask(std::shared_ptr<Seat> seat, std::uint64_t after, Clock::time_point earliest,
            std::chrono::milliseconds timeout, Answer answer);
 
@@ -133,10 +134,10 @@ class ViewDrawer {
                                                const ViewRequest& request);
 
   const DrawingLimits limits_;
-  std::shared_ptr<rendering::Renderer>
-      renderer_;                   // used by the drawing thread; null until the first image
-  std::uint64_t next_number_ = 0;  // used by the drawing thread
-  std::vector<CachedImage> kept_;  // the images that were drawn last; used by the drawing thread
+  // Only the drawing thread uses these three members.
+  std::shared_ptr<rendering::Renderer> renderer_;  // null until the first image
+  std::uint64_t next_number_ = 0;
+  std::vector<CachedImage> kept_;  // the images that were drawn last
 
   base::Mutex mutex_;
   base::ConditionVariable changed_;

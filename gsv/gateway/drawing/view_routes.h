@@ -2,7 +2,7 @@
 // PREFIX/view.png and PREFIX/view.mjpeg. docs/viewer.md and docs/api.yaml describe the parameters.
 //
 // Errors  400 for an invalid parameter, 404 for an unknown robot or camera, 503 if too many views
-//         are drawn. Each response has a sentence.
+//         are drawn. The body of each such response has an error message.
 #pragma once
 
 #include <functional>
@@ -24,12 +24,13 @@ struct ViewedWorld {
 // Returns the world that a request names in its path.
 using FindWorld = std::function<base::Result<ViewedWorld>(const Request&)>;
 
-// Parses the parameters of the query. `is_stream` is true for view.mjpeg.
+// The parameters in the query of a request.
 struct ViewQuery {
   ViewRequest view;
   std::optional<std::uint64_t> after;  // number of the newest image that the client has
   double frames_a_second = 15;         // maximum rate of images, Hz
 };
+// Parses the parameters of the query. `is_stream` is true for view.mjpeg.
 base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream);
 
 // Returns the routes. `drawer` must outlive them. The server's thread calls `find`, which must

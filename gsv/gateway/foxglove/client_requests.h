@@ -39,10 +39,10 @@ class ClientRequests {
   void Handle(const std::shared_ptr<Client>& client,
               const foxglove::PlaybackControl& request) const;
 
-  // Sends each client the watched parameters whose values differ from those that it has. It has
-  // the values of the time when it began to watch, or those that were sent to it later. Sends the
-  // playback state to the clients that have another one, and to all clients after a seek
-  // (`has_jumped`).
+  // Sends each client the watched parameters whose values have changed since they were last sent to
+  // it, or since it began to watch them. Sends the playback state to the clients for which its
+  // status or speed has changed. After a seek (`has_jumped`), sends the state to all clients that
+  // know playbacks.
   void PublishChanges(bool has_jumped = false);
 
   // The names of the services that clients can call.
@@ -55,8 +55,8 @@ class ClientRequests {
     std::optional<foxglove::PlaybackState> playback = std::nullopt;
     // The watched parameters, with the values that the client has, by name.
     std::map<std::string, foxglove::Parameter> watched = {};
-    // The number of pending calls. An answer may arrive after the client or this object was
-    // destroyed.
+    // The number of pending calls. It is shared with the calls, because a response may arrive after
+    // the client or this object was destroyed.
     std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
   };
 

@@ -51,7 +51,8 @@ struct ServerInfo {
   // Names and values that the protocol does not define.
   std::map<std::string, std::string> metadata;
   std::string session_id;  // changes when the server restarts
-  // Set for a playback, which then has the capability of playback control.
+  // The time range of the playback. If it is set, the server info also has the capability
+  // playbackControl.
   std::optional<TimeRange> playback{};
 };
 
