@@ -40,7 +40,7 @@ std::size_t Rightmost(const Ring& ring) {
 }
 
 // Whether the segment from the ring's corner i to `p` starts inside the ring. The bridges of
-// JoinHole() make several corners at the same point. This function tells which of them faces `p`.
+// JoinHole() make several corners at the same point. This function finds the one that faces `p`.
 bool Faces(const Ring& ring, std::size_t i, const Vector2& p) {
   const std::size_t n = ring.size();
   const Vector2 &before = ring[(i + n - 1) % n].point, &here = ring[i].point;

@@ -73,7 +73,8 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
 
   // Publishes the static transforms of the sensors.
   void PublishTransforms(const world::Snapshot& snapshot);
-  // Sends a sensor's companion message to new subscribers.
+  // Sends the message of a sensor's companion topic to the new subscribers of that topic. A
+  // companion topic describes the readings, as camera_info describes images.
   void SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor);
   // Returns whether there are new subscribers to the sensor's readings.
   bool HasNewSubscribers(const Sensor& sensor) const;

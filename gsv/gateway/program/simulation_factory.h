@@ -2,7 +2,8 @@
 // program that contains the gateway implements it.
 //
 // Units    metres, radians, seconds.
-// Errors   name the field of the request, as in "robots[1].model"; empty: no single field.
+// Errors   name the field of the request that caused them, such as "robots[1].model". The name is
+//          empty if no single field caused the error.
 // Threads  any; calls may block to read a world and to wait for behaviours.
 #pragma once
 
@@ -17,10 +18,10 @@
 
 namespace gsv::gateway {
 
-// An error, and the field of the request that caused it (empty: no single field).
+// An error, and the name of the request's field that caused it.
 struct FieldError {
   base::Error error;
-  std::string field;
+  std::string field;  // empty if no single field caused the error
 };
 template <typename T>
 using FieldResult = tl::expected<T, FieldError>;
@@ -40,10 +41,11 @@ struct Placement {
   bool on_ground = true;  // whether the body stands on the floor; the height is then ignored
 };
 
-// A new object: from a model, or a copy of an existing, removed or initial body.
+// A new object: from a model, or a copy of a body. The body exists now, was removed, or was in the
+// world at its start.
 struct ObjectRequest {
   std::string name;                // the name; empty: derived from the model
-  std::string model, copy_of;      // exactly one of the two names is set
+  std::string model, copy_of;      // name of the model or of the body; exactly one is set
   std::optional<Placement> place;  // default: the first free place
 };
 
@@ -65,7 +67,7 @@ class SimulationFactory {
   struct Behaviours {
     std::vector<BehaviourLine> offers;
     std::string broker;         // address of the broker
-    std::string start_command;  // command that starts a program with this behaviour
+    std::string start_command;  // example of a command that starts a behaviour at this broker
   };
   // Whether simulations can be published to ROS 2 nodes, by the key `ros2` of their scenario.
   struct Ros2Support {
