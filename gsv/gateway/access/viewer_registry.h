@@ -61,7 +61,8 @@ class ViewerRegistry {
   // Adds a viewer. An empty `name` becomes "viewer NUMBER". Fails with kUnavailable if there are
   // too many viewers.
   base::Result<Admission> Enter(const std::string& name, const std::string& simulation, Time now);
-  // The following functions fail with kNotFound if no viewer has this key.
+  // Renames a viewer. Rename() and the functions up to Answer() fail with kNotFound if no viewer
+  // has this key.
   base::Status Rename(const std::string& key, const std::string& name, Time now);
   // Selects a simulation; empty: none.
   base::Status SelectSimulation(const std::string& key, const std::string& simulation, Time now);
@@ -79,7 +80,8 @@ class ViewerRegistry {
   ViewerList List(const std::string& key, Time now);
   // Returns a number that changes whenever the viewers or the control change.
   std::uint64_t Version(Time now);
-  // Fails with kNotRunning and a sentence if another viewer holds control of the simulation.
+  // Fails with kNotRunning if another viewer holds control of the simulation. The message of the
+  // error names this viewer.
   base::Status CheckControl(const std::string& key, const std::string& simulation, Time now);
 
  private:
@@ -88,10 +90,10 @@ class ViewerRegistry {
     ViewerState person;  // all members except those that List() computes
     Time seen;           // time of the viewer's last request
   };
-  // A request for control, by the key of the viewer that waits.
+  // A request for control.
   struct Question {
-    std::string key;
-    Time asked;  // time at which the holder was asked; valid for the first request
+    std::string key;  // the key of the viewer that requests control
+    Time asked;       // time at which the holder was asked; only valid for the first request
   };
   // The viewer that holds control of one simulation, and the queue of requests for it.
   struct Control {

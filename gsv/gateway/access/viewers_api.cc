@@ -14,7 +14,8 @@ std::string Text(const ViewersJson& json) {
   return json.dump(-1, ' ', false, ViewersJson::error_handler_t::replace);
 }
 
-// Maximum length of a simulation's name in bytes: an address must be able to contain it.
+// Maximum length of a simulation's name in bytes. The name is a part of URLs, and the length of a
+// URL is limited.
 constexpr std::size_t kMaxSimulationNameLength = 1024;
 
 template <typename T>

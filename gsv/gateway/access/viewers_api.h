@@ -34,7 +34,7 @@ class ViewersApi {
   base::Status Change(const Request& request);
   // Removes a viewer.
   base::Status Leave(const Request& request);
-  // Requests control, or releases it or withdraws the request.
+  // {"wants": true} requests control. {"wants": false} releases it, or withdraws the request.
   base::Status SetControlRequest(const Request& request);
   // Grants or refuses the first request in the queue for control.
   base::Status AnswerFirst(const Request& request);

@@ -24,7 +24,7 @@ base::Result<simulation::Arguments> ParseArguments(const simulation::Command& co
 // value are left out.
 std::string CommandsJson();
 
-// The maximum of `timeout_s`, in seconds of wall-clock time.
+// The maximum of the timeout of a drive command, in seconds of wall-clock time.
 inline constexpr double kMaxDriveTimeout = 60;
 // A drive command that ends after a time.
 struct TimedDriveCommand {

@@ -53,8 +53,9 @@ class FactoryApi {
   ModelStore& models_;
 };
 
-// Returns the response to a valid request that cannot be carried out: status 422, or the usual
-// status of the error, with the field.
+// Returns the response to a refused request: {"error": sentence, "field": field of the request}.
+// The status is 422 for kBadModel, kBehaviour and kNotFound. Other errors have the same status as
+// in ErrorResponse().
 Response Refusal(const FieldError& wrong);
 
 }  // namespace gsv::gateway

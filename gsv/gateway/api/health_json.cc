@@ -9,7 +9,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr std::size_t kLastLines = 20;  // number of lines of output in each robot's health
+// The health of a robot contains the last lines that its behaviour printed, at most this number.
+constexpr std::size_t kLastLines = 20;
 
 std::string HealthText(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);

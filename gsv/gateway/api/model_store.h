@@ -31,8 +31,8 @@ class ModelStore {
   // Returns the identifier of the model's collision shapes, or an empty text if it has none.
   std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
 
-  // Returns Identify() as a function, for scenes. identify_collisions() returns
-  // IdentifyCollisions(). The functions are valid during the lifetime of this object.
+  // identify() and identify_collisions() return function objects that call Identify() and
+  // IdentifyCollisions(), for SceneJson(). They are valid during the lifetime of this object.
   std::function<std::string(const std::shared_ptr<const model::Model>&)> identify() {
     return [this](const auto& model) { return Identify(model); };
   }

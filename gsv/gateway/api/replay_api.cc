@@ -187,8 +187,8 @@ Response RefuseEdit(const Replay&, const Request&) {
 
 using ReplayHandler = std::function<Response(const Replay&, const Request&)>;
 
-// Calls `handler` with the replay. Answers 404 if there is no replay, or if the recorded simulation
-// is not {name}.
+// Returns a handler that finds the replay of the request and calls `handler` with it. It responds
+// with 404 if the path has a parameter {name} that is not the name of the recorded simulation.
 Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
   return [find, handler = std::move(handler)](const Request& request) {
     const base::Result<Replay> replay = find(request);
@@ -206,7 +206,7 @@ Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
 // A request that simulations accept and a replay refuses.
 struct RefusedRequest {
   const char* method;
-  const char* below;  // /api/simulations/{name}
+  const char* below;  // the path after /api/simulations/{name}
   Response (*refuse)(const Replay&, const Request&);
 };
 constexpr RefusedRequest kRefused[]{

@@ -1,7 +1,7 @@
 // The HTTP API of a replay. It has the same addresses as the API of a simulation, and further
-// addresses that control the playback and describe the recording. A status also has the content of
-// GET …/replay. Both `stop` and `reset` return to the start. Requests that would change the
-// recorded run are refused.
+// addresses that control the playback and describe the recording. The status of a replay also has
+// the member "replay": the same object as the response to GET …/replay. Both `stop` and `reset`
+// return to the start. Requests that would change the recorded run are refused.
 //
 // Threads  any.
 #pragma once
@@ -24,10 +24,11 @@ struct Replay {
   std::string recording;  // see ReplaySessions::Add(); may be empty
 };
 
-// Finds the replay to which a request refers, by the parameters of its path except {name}.
+// Finds the replay to which a request refers. It may use the parameters of the request's path, but
+// not {name}: ReplayRoutes() compares {name} with the name of the recorded simulation.
 using FindReplay = std::function<base::Result<Replay>(const Request&)>;
 
-// Returns the routes of the API. The replay of a request is the result of `find`.
+// Returns the routes of the API. For each request, they call `find` to get the replay.
 std::vector<Route> ReplayRoutes(const FindReplay& find);
 
 // Parses {"time_s": T}: a time in simulated seconds, finite and within the range of SimTime.
