@@ -160,7 +160,8 @@ class RelayRoutes final : public RouteSet {
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};
   base::Mutex mutex_;
-  // Streams by socket and name of the simulation. An empty name means the first simulation.
+  // Streams by path at the other instance and name of the simulation. An empty name means the first
+  // simulation.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_
       GSV_GUARDED_BY(mutex_);
   std::thread thread_;

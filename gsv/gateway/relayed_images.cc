@@ -65,7 +65,8 @@ class RelayedStream final : public BodyStream, public std::enable_shared_from_th
     if (!is_accepted) take(std::nullopt);
   }
 
-  // Runs in the pool. The other instance answers when something has changed, or after a second.
+  // Requests the next image. Runs in the pool. The other instance answers the query "after" when
+  // there is a newer image. If there is none for a second, it answers with status 204.
   void Fetch(const Take& take) {
     if (Clock::now() < due_) return WaitAndAsk(take);
     Request request = image_;

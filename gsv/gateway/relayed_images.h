@@ -21,7 +21,7 @@ inline constexpr long kMaxImageStreams = 8;
 // Serves streams of images through a relay.
 class RelayedImages {
  public:
-  // `io` must outlive this object and run until it ends.
+  // `io` must outlive this object and run during its whole lifetime.
   RelayedImages(boost::asio::io_context& io, upstream::Address address);
   ~RelayedImages();
 

@@ -105,7 +105,7 @@ class SimulationFactory {
 
   // Creates a preview of the initial state, without behaviours.
   virtual FieldResult<Preview> Show(const SimulationRequest& request) = 0;
-  // Creates a simulation without starting it; starts a recording on request.
+  // Creates a simulation without starting it. If request.record is set, starts a recording.
   virtual FieldResult<std::shared_ptr<simulation::Simulation>> Create(
       const SimulationRequest& request) = 0;
   virtual base::Status Destroy(const std::string& simulation) = 0;

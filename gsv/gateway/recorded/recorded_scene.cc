@@ -36,7 +36,8 @@ void AddRobotsOf(const Json& scene, std::set<std::string>& robots) {
   }
 }
 
-// Returns the indices of the entries of "poses" that are bodies and not links, by name.
+// Returns the index of each body's pose in the list "poses", by name of the body. The list also has
+// the poses of links, which are left out.
 std::map<std::string, std::size_t> BodyPosesOf(const Json& scene) {
   std::map<std::string, std::size_t> places;
   const Json& bodies = MemberOf(scene, "bodies");

@@ -33,7 +33,8 @@ class RecordedScene {
   // with kNotFound and a sentence if the recording has no scene.
   base::Result<SharedBytes> Scene(std::uint32_t layout_version) const;
 
-  // Returns the index of each body's pose in gsv_msgs/Poses of that layout, by name of the body.
+  // Returns the index of each body's pose in gsv_msgs/Poses with this layout_version, by name of
+  // the body.
   const std::map<std::string, std::size_t>& BodyPoses(std::uint32_t layout_version) const;
 
   // Whether a body of this name is a robot or an avatar in one of the scenes.

@@ -65,7 +65,7 @@ base::SimTime RecordedTimeline::TimeOfPoseFrom(base::SimTime time, std::int64_t 
     return nearest(*a) < nearest(*b);
   });
   const auto wanted = static_cast<std::size_t>(std::abs(count));
-  // time differences to the nearest poses; at most `wanted` of them
+  // The time differences to the nearest poses that were read until now; at most `wanted`.
   std::set<base::SimTime> distances;
   for (const MessageBlock* block : blocks) {
     if (distances.size() == wanted && nearest(*block) > *distances.rbegin()) break;

@@ -16,7 +16,8 @@
 
 namespace gsv::gateway {
 
-// A message of /gsv/events or /gsv/notes ("note"), or a collision of a robot ("collision").
+// A message of /gsv/events, a message of /gsv/notes, or a collision of a robot. `event` is "note"
+// for a note and "collision" for a collision.
 struct RecordedEvent {
   base::SimTime time{};
   std::string event, robot, detail;  // kind of the event, the robot (may be empty), and a text
@@ -45,11 +46,12 @@ class RecordedTimeline {
   base::SimTime TimeOfPoseFrom(base::SimTime time, std::int64_t count) const;
 
   // Returns the first thousand events, the first thousand notes and the first 500 collisions,
-  // ordered by time. The first call reads them from the recording.
+  // ordered by time. Of each of these kinds, it reads about 1 MiB of messages at most. The first
+  // call reads them from the recording.
   const std::vector<RecordedEvent>& Events() const;
 
-  // Returns the first five thousand lines of the log, ordered by time. The first call reads them
-  // from the recording.
+  // Returns the first five thousand lines of the log, ordered by time, from about 1 MiB of messages
+  // at most. The first call reads them from the recording.
   const std::vector<RecordedLine>& Log() const;
 
  private:

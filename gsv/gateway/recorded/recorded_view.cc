@@ -50,8 +50,8 @@ const Poses* RecordedView::NewestAt(base::SimTime time, std::uint16_t channel) {
         std::find(block.channels.begin(), block.channels.end(), channel) != block.channels.end();
     if (may_hold && block.start <= time) blocks.push_back(&block);
   }
-  // The search begins with the blocks that end last, because they have the newest messages. Blocks
-  // hardly overlap.
+  // The search begins with the block that ends last, and takes the newest pose in the first block
+  // that has one. This is the newest pose of all, unless blocks overlap in time, which is rare.
   std::stable_sort(blocks.begin(), blocks.end(),
                    [](const auto* a, const auto* b) { return a->end > b->end; });
   for (const recording::MessageBlock* block : blocks) {

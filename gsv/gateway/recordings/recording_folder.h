@@ -31,7 +31,7 @@ struct RecordingLine {
     kUnreadable,
   };
 
-  std::string name;        // name of the file, or of the folder that rosbag2 opens
+  std::string name;        // name of the file or folder, as described above
   std::uint64_t size = 0;  // bytes
   std::chrono::system_clock::time_point modified;
   State state = State::kComplete;
@@ -55,7 +55,8 @@ class RecordingFolder {
     std::size_t left_out = 0;          // number of older recordings that are not listed
   };
 
-  // `only`: the single recording in the folder that is listed, with any extension; empty: all.
+  // `only` is the name of the only recording that is served, a file with any extension or a folder.
+  // Empty: all recordings of the folder.
   explicit RecordingFolder(std::filesystem::path folder, std::string only = {})
       : folder_(std::move(folder)), only_(std::move(only)) {}
 

@@ -19,8 +19,8 @@ class RecordingsApi {
                          const SessionLimits& limits = {})
       : folder_(std::move(folder), std::move(only)), sessions_(limits) {}
 
-  // Includes the routes of the sessions, whose images `drawer` draws. The handlers are valid during
-  // the lifetime of this object and of the drawer.
+  // Returns the routes about recordings and those of the open replays. `drawer` draws the images of
+  // the replays. The handlers are valid during the lifetime of this object and of the drawer.
   std::vector<Route> Routes(drawing::ViewDrawer& drawer);
 
   ReplaySessions& sessions() { return sessions_; }

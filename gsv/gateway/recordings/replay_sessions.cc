@@ -39,7 +39,7 @@ std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
   const base::MutexLock lock(mutex_);
   for (auto entry = sessions_.begin(); entry != sessions_.end();) {
     const auto next = std::next(entry);
-    // A session is also kept while a viewer watches it or sends a request.
+    // While a viewer watches the session or sends it a request, others also hold the player.
     if (entry->second.replay.player.use_count() > 1) {
       entry->second.used = now;
     } else if (now - entry->second.used > limits_.unwatched) {

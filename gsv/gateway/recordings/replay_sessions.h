@@ -37,7 +37,8 @@ class ReplaySessions {
   base::Result<std::string> Open(const std::string& path, const std::string& recording);
 
   // Adds a session for a player. `recording` is the name under which viewers can open the recording
-  // after the session has ended. Empty if they cannot, as for the history of a simulation.
+  // after the session has ended. It is empty if they cannot open it again: this is so for the
+  // history of a simulation.
   base::Result<std::string> Add(std::unique_ptr<ReplayPlayer> player, const std::string& recording);
 
   // Returns the routes below /replays/{session}/: the API of a replay, and its live stream at ws,
