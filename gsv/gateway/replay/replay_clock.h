@@ -45,8 +45,9 @@ class ReplayClock {
   void SetSpeed(double speed) { speed_ = speed; }
   void SetLoop(bool loop) { loop_ = loop; }
 
-  // Advances with the wall clock. At the end, restarts with `loop` and returns true. Without
-  // `loop`, stays at the end in the phase kFinished and returns false.
+  // Advances with the wall clock while the replay plays. Returns true if the replay has reached its
+  // end and restarted, because of SetLoop(true). Without a loop, it stays at the end in the phase
+  // kFinished.
   bool Advance(WallTime now);
 
  private:

@@ -31,8 +31,8 @@ class ReplayPlayer {
   // Opens a recording at its start. Fails if the file is not a recording or has no messages.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(const std::string& path,
                                                           const ReplayOptions& options);
-  // Plays from a reader. `name` is the simulation's name if the recording does not contain it.
-  // `models`: see RecordedScene.
+  // Like the function above, for a recording that is open already. `name` is the simulation's name
+  // if the recording does not contain it. `models`: see RecordedScene.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(
       std::unique_ptr<recording::McapReader> reader, const std::string& name,
       const ReplayOptions& options, ModelSource models = nullptr);

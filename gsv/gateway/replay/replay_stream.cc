@@ -33,7 +33,8 @@ bool IsCommon(const std::string& topic) {
   return topic.starts_with("/gsv/") || presentation::FindTopic(topic) != nullptr;
 }
 
-// Returns "pebble" for "/pebble/camera"; for other topics, a text that is not the name of a robot.
+// Returns the robot of a topic: "pebble" for "/pebble/camera". Topics of the whole simulation have
+// no robot: "/clock" gives an empty text, and "/gsv/poses" gives "gsv".
 std::string RobotOf(const std::string& topic) {
   const std::size_t end = topic.find('/', 1);
   return end == std::string::npos ? std::string() : topic.substr(1, end - 1);
@@ -168,7 +169,7 @@ void ReplayStream::ReadNext() {
       next_ = *next;
       return;
     }
-    Warn(next.error().Sentence());  // the next call continues after the damage
+    Warn(next.error().Sentence());  // the next call of Next() continues after the damage
   }
 }
 

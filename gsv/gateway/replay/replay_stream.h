@@ -29,8 +29,8 @@ namespace gsv::gateway {
 // Publishes the messages of a recording to a hub.
 class ReplayStream {
  public:
-  // Advertises the topics of the recording, with the limit of SensorTopics. `reader` must outlive
-  // this. `on_demand` and `operations`: see Hub.
+  // Advertises the topics of the recording, at most kMaxSensorTopics. `reader` must outlive this.
+  // `on_demand` and `operations`: see Hub.
   ReplayStream(const recording::McapReader& reader, const std::string& name,
                std::function<void()> on_demand, std::shared_ptr<Operations> operations);
 
@@ -53,7 +53,8 @@ class ReplayStream {
   messages::gsv_msgs::Poses recorded_poses() const;
 
  private:
-  // How the messages of a topic are published. kPlain: the newest message.
+  // How the messages of a topic are published. kPlain and kPoses: only the newest message. kEvents:
+  // every message. kStatus and kClock: not at all, because the replay makes its own messages.
   enum class Kind { kPlain, kEvents, kStatus, kClock, kPoses };
   // The messages of one channel of the recording.
   struct Track {

@@ -1,4 +1,4 @@
-// Data that the server and its sessions share.
+// Data that the server shares with the sessions of its connections.
 #pragma once
 
 #include <atomic>
@@ -28,7 +28,7 @@ struct ServerContext {
 struct SocketOwner {
   access::Principal principal;  // the sender of the request that opened it
   std::string viewer;           // key of the viewer, or empty
-  bool is_private = false;      // whether the client's commands affect no other viewer
+  bool is_private = false;      // whether the client's commands affect only its own replay
 };
 
 // Counts one connection during its lifetime.

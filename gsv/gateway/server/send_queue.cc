@@ -7,8 +7,9 @@
 namespace gsv::gateway {
 namespace {
 
-// Returns the opcode and the subscription of a message, or only the opcode if it has no
-// subscription. A newer message with the same bytes replaces an older one.
+// Returns the bytes that name the stream of a message: the opcode and the subscription, or only the
+// opcode if the message has no subscription. A newer message replaces an older message of the same
+// stream.
 std::span<const std::uint8_t> StreamOf(const foxglove::BinaryHeader& header) {
   const bool has_subscription = header.size == header.bytes.size();
   return std::span(header.bytes).first(has_subscription ? 5 : 1);
