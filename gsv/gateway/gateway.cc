@@ -20,7 +20,7 @@ class LocalGateway final : public Gateway, private Handler {
                std::size_t readers = kReaderThreads)
       : files_(options.web_root),
         documentation_(options.docs_root),
-        monitor_(std::move(sources)),
+        monitor_(WithDrawnViews(std::move(sources))),
         readers_(readers, kWaitingRequests) {}
 
   ~LocalGateway() override { Stop(); }
@@ -59,6 +59,11 @@ class LocalGateway final : public Gateway, private Handler {
     const bool is_accepted = workers.Submit(
         [&route, respond, request = std::move(request)] { respond(route.handler(request)); });
     if (!is_accepted) respond(ErrorResponse(503, "the server is busy; try again in a moment"));
+  }
+
+  metrics::MetricsSources WithDrawnViews(metrics::MetricsSources sources) {
+    sources.drawn_views = [this] { return set_->drawn_views(); };
+    return sources;
   }
 
   base::Status CheckControl(const std::string& viewer, const std::string& simulation) override {

@@ -66,6 +66,8 @@ class LiveRoutes final : public RouteSet {
     return viewers_.CheckControl(viewer, simulation);
   }
 
+  std::optional<metrics::DrawnViews> drawn_views() override { return drawer_.Counts(); }
+
   void Stop() override {
     drawer_.Stop();
     if (histories_) histories_->Stop();

@@ -42,6 +42,8 @@ class ReplayRouteSet final : public RouteSet {
     return viewers_.CheckControl(viewer, simulation);
   }
 
+  std::optional<metrics::DrawnViews> drawn_views() override { return drawer_.Counts(); }
+
   void Stop() override {
     drawer_.Stop();
     player_.Stop();

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gsv/gateway/gateway.h"
+#include "gsv/gateway/metrics/drawn_views.h"
 #include "gsv/gateway/server/worker_pool.h"
 
 namespace gsv::gateway {
@@ -22,6 +24,8 @@ class RouteSet {
                                     const std::string& /*simulation*/) {
     return {};
   }
+  // Returns the counters of the drawn images; null if the set draws no views. Any thread.
+  virtual std::optional<metrics::DrawnViews> drawn_views() { return std::nullopt; }
   // Ends the streams. During this call, handlers may still run and request streams.
   virtual void Stop() {}
 };

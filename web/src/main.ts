@@ -279,6 +279,7 @@ async function drive(avatar: string, wish: Parameters<SimulationApi["drive"]>[2]
 
 const page = document.getElementById("app")!;
 const statusBar = createStatusBar(app);
+app.askServerAgain = () => drawing?.askServerAgain();
 app.drawBy = (drawer) => {
   drawing?.choose(drawer);
   keepDrawer(storage, drawer);

@@ -45,13 +45,7 @@ base::Result<std::shared_ptr<ViewDrawer::Seat>> ViewDrawer::Take(const ViewReque
             "{} viewers already get images from the server, which is the limit; close one of them",
             limits_.viewers));
   }
-  std::vector<ViewRequest> views;
-  for (const auto& weak : seats_) {
-    const auto seat = weak.lock();
-    if (!seat) continue;
-    const bool is_known = std::find(views.begin(), views.end(), seat->request()) != views.end();
-    if (!is_known) views.push_back(seat->request());
-  }
+  const std::vector<ViewRequest> views = Views();
   const bool is_shared = std::find(views.begin(), views.end(), request) != views.end();
   if (!is_shared && views.size() >= limits_.views) {
     return Fail(ErrorCode::kUnavailable,
@@ -62,6 +56,23 @@ base::Result<std::shared_ptr<ViewDrawer::Seat>> ViewDrawer::Take(const ViewReque
   auto seat = std::make_shared<Seat>(request);
   seats_.push_back(seat);
   return seat;
+}
+
+std::vector<ViewRequest> ViewDrawer::Views() const {
+  std::vector<ViewRequest> views;
+  for (const auto& weak : seats_) {
+    const auto seat = weak.lock();
+    if (!seat) continue;
+    const bool is_known = std::find(views.begin(), views.end(), seat->request()) != views.end();
+    if (!is_known) views.push_back(seat->request());
+  }
+  return views;
+}
+
+metrics::DrawnViews ViewDrawer::Counts() {
+  const base::MutexLock lock(mutex_);
+  std::erase_if(seats_, [](const auto& seat) { return seat.expired(); });
+  return {Views().size(), seats_.size(), images_};
 }
 
 void ViewDrawer::SetSource(const std::string& world, const std::weak_ptr<const void>& identity,
@@ -222,6 +233,10 @@ void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<
       }
       if (renderer_ != nullptr) {
         const auto bytes = DrawEncoded(*renderer_, instant, *placed, request);
+        if (bytes) {
+          const base::MutexLock lock(mutex_);
+          ++images_;
+        }
         answer =
             bytes ? base::Result<DrawnImage>(DrawnImage{*bytes, seen.number, instant.time, seen.at})
                   : Fail(bytes.error());

@@ -22,6 +22,7 @@
 #include "gsv/base/mutex.h"
 #include "gsv/gateway/drawing/view_source.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
+#include "gsv/gateway/metrics/drawn_views.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::gateway::drawing {
@@ -85,6 +86,8 @@ class ViewDrawer {
   // image is being drawn or the request was answered already.
   bool Withdraw(const Seat& seat);
 
+  metrics::DrawnViews Counts();
+
   // Answers all pending requests with kEnded, and refuses further requests.
   void Stop();
 
@@ -111,6 +114,8 @@ class ViewDrawer {
     DrawnImage image;
   };
 
+  // Returns the different requests of the occupied seats.
+  std::vector<ViewRequest> Views() const GSV_REQUIRES(mutex_);
   // The main function of the drawing thread.
   void Run();
   // Removes each world that nobody has requested for kUnusedSourceTimeout. If no world is left,
@@ -144,6 +149,7 @@ class ViewDrawer {
   std::map<std::string, World> worlds_ GSV_GUARDED_BY(mutex_);  // by name
   std::vector<Pending> pending_ GSV_GUARDED_BY(mutex_);  // requests that are not answered yet
   std::vector<std::weak_ptr<Seat>> seats_ GSV_GUARDED_BY(mutex_);  // occupied seats
+  std::uint64_t images_ GSV_GUARDED_BY(mutex_) = 0;                // number of images drawn so far
   bool stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };

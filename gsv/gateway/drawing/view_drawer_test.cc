@@ -87,6 +87,27 @@ TEST_F(ViewDrawerTest, RequestsWithTheSameCameraShareAnImage) {
   EXPECT_NE(other->bytes.data(), first->bytes.data());
 }
 
+TEST_F(ViewDrawerTest, CountsViewsClientsAndDrawnImages) {
+  {
+    const auto one = drawer_.Take(Request(32));
+    const auto same = drawer_.Take(Request(32));
+    const auto other = drawer_.Take(Request(33));
+    const metrics::DrawnViews now = drawer_.Counts();
+    EXPECT_EQ(now.views, 2u);
+    EXPECT_EQ(now.clients, 3u);
+    EXPECT_EQ(now.images, 0u);
+  }
+  EXPECT_EQ(drawer_.Counts().views, 0u);
+  EXPECT_EQ(drawer_.Counts().clients, 0u);
+  if (const auto first = Get(Ask(Request())); !first) GTEST_SKIP() << first.error().Sentence();
+  EXPECT_EQ(drawer_.Counts().images, 1u);
+  ASSERT_TRUE(Get(Ask(Request())));
+  EXPECT_EQ(drawer_.Counts().images, 1u);  // the second request got the same image
+  source_->Change();
+  ASSERT_TRUE(Get(Ask(Request())));
+  EXPECT_EQ(drawer_.Counts().images, 2u);
+}
+
 TEST_F(ViewDrawerTest, AnImageHasItsDepthsOnlyOnRequest) {
   const auto plain = Get(Ask(Request()));
   if (!plain) GTEST_SKIP() << plain.error().Sentence();

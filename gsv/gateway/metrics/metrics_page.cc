@@ -71,6 +71,14 @@ void PutTraffic(const Traffic& traffic, Exposition& out) {
   }
 }
 
+void PutDrawnViews(const DrawnViews& drawn, Exposition& out) {
+  out.Put("gsv_drawn_views", kGauge, "Number of different views that this server draws now.",
+          drawn.views);
+  out.Put("gsv_drawn_view_clients", kGauge, "Requests and streams that receive these views now.",
+          drawn.clients);
+  out.Put("gsv_drawn_images_total", kCounter, "Images drawn for viewers.", drawn.images);
+}
+
 void PutBroker(const BrokerCalls& calls, Exposition& out) {
   out.Put("gsv_broker_calls_total", kCounter, "Calls to the broker.", calls.made);
   out.Put("gsv_broker_errors_total", kCounter, "Calls to the broker that failed.", calls.failed);
@@ -108,6 +116,9 @@ Response MetricsPage(const MetricsSources& sources, const Traffic& traffic) {
   if (sources.directory != nullptr) PutSimulations(*sources.directory, out);
   if (sources.recordings != nullptr) PutRecordings(*sources.recordings, out);
   PutTraffic(traffic, out);
+  if (sources.drawn_views) {
+    if (const auto drawn = sources.drawn_views()) PutDrawnViews(*drawn, out);
+  }
   if (sources.broker_calls) PutBroker(sources.broker_calls(), out);
   PutLog(out);
   PutProcess(sources, out);

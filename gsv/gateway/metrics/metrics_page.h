@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gsv/gateway/http/route.h"
+#include "gsv/gateway/metrics/drawn_views.h"
 #include "gsv/gateway/metrics/traffic.h"
 #include "gsv/gateway/program/ports.h"
 
@@ -29,6 +31,8 @@ struct MetricsSources {
   SimulationDirectory* directory = nullptr;
   RecordingSwitch* recordings = nullptr;
   std::function<BrokerCalls()> broker_calls{};
+  // Returns null if the server draws no views, for example a relay.
+  std::function<std::optional<DrawnViews>()> drawn_views{};
 };
 
 // Returns the response to GET /metrics.

@@ -186,6 +186,15 @@ TEST_F(MetricsTest, CountViewersAndSentBytes) {
   EXPECT_EQ(Value("gsv_viewers"), 0);
 }
 
+TEST_F(MetricsTest, CountViewsThatTheServerDraws) {
+  Start();
+  EXPECT_EQ(Value("gsv_drawn_views"), 0);
+  EXPECT_EQ(Value("gsv_drawn_view_clients"), 0);
+  EXPECT_EQ(Value("gsv_drawn_images_total"), 0);
+  const HttpReply image = Ask("/view.jpg?size=64x48");
+  EXPECT_EQ(Value("gsv_drawn_images_total"), image.status == 200 ? 1 : 0);
+}
+
 TEST_F(MetricsTest, HaveNoUserDefinedLabels) {
   Start();
   static const std::set<std::string> kAllowed{"phase", "of", "status", "version"};

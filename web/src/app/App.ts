@@ -63,6 +63,7 @@ export class App {
   // Functions that open the menus of the page and focus their first field.
   readonly menus = new Map<MenuName, () => void>();
   drawBy: (drawer: Drawer) => void = () => {}; // chooses what draws the view
+  askServerAgain: () => void = () => {}; // requests the server's images after the server has refused
   private readonly filming: Filming;
 
   constructor(

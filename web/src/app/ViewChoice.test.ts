@@ -29,6 +29,14 @@ test("without WebGL the server draws, and there is no choice", () => {
   expect(sentences).toEqual([expect.stringContaining("no WebGL")]);
 });
 
+test("after a refusal, the server is asked again if the user wants", () => {
+  const { choice, drawer, use } = started({ canDraw: false });
+  choice.serverFailed();
+  choice.askServerAgain();
+  expect(drawer()).toBe("server");
+  expect(use).toHaveBeenCalledTimes(2);
+});
+
 test("without a graphics card, the server draws after five slow seconds in a row", () => {
   const { choice, drawer, sentences } = started();
   tell(choice, 4, 4);

@@ -80,6 +80,12 @@ export class ViewChoice {
     return true;
   }
 
+  // Lets the server draw after serverFailed(). The user's choice stays as it is.
+  askServerAgain(): void {
+    this.serverFails = false;
+    this.set("server");
+  }
+
   private set(drawer: Drawer): void {
     this.slowSeconds = 0;
     this.store.set({ drawnBy: drawer, whyNotBrowser: this.whyNotBrowser });

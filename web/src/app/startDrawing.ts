@@ -35,9 +35,10 @@ export function startDrawing(
   };
   const fail = (sentence: string) => {
     notify(store, "error", sentence);
-    if (!choice.serverFailed()) store.set({ view: "none" });
+    if (!choice.serverFailed()) store.set({ view: "none", whyNoView: sentence });
   };
   const use = (drawer: Drawer) => {
+    store.set({ whyNoView: "" });
     // A simulation that is still being set up does not exist on the server, so the browser draws
     // it.
     const isOnServer = drawer === "server" && store.get().setUp === null;

@@ -41,6 +41,12 @@ test("missing WebGL is reported when there is a simulation", () => {
   expect(situationOf({ ...open, simulation: "house", view: "none", scene: scene() })).toBe("no-webgl");
 });
 
+test("if the server refuses to draw and there is no WebGL, the reason is shown", () => {
+  const refused = { ...open, simulation: "house", view: "none" as const, scene: scene(), whyNoView: "too many views" };
+  expect(situationOf(refused)).toBe("not-drawn");
+  expect(situationOf({ ...refused, view: "starting", whyNoView: "" })).toBe("loading");
+});
+
 test("a lost WebGL context is reported until it is restored", () => {
   const shown = { ...open, simulation: "house", scene: scene() };
   expect(situationOf({ ...shown, view: "interrupted" })).toBe("webgl-lost");

@@ -6,7 +6,7 @@ import { element } from "../ui/element";
 import { createEndCard as endCard } from "./EndCard";
 import { createTokenForm } from "../ui/tokenForm";
 
-type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "ended" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
+type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "ended" | "no-simulation" | "loading" | "no-webgl" | "not-drawn" | "webgl-lost";
 
 // Whether the run is over. It is still over after the server has ended. A replay can start again,
 // so a replay is never over.
@@ -29,23 +29,28 @@ export function situationOf(state: State): Situation {
   if (refusal !== "") return "refused";
   if (missing !== "") return "missing";
   if (setUp) {
-    if (view === "none") return "no-webgl";
+    if (view === "none") return noViewOf(state);
     return view === "interrupted" ? "webgl-lost" : scene ? "none" : "loading";
   }
   if (state.scene && hasEnded(state)) return state.endSeen ? "none" : "ended";
   if (connection.phase !== "open" && state.scene) return "lost";
   if (connection.phase === "waiting") return "unreachable";
   if (simulations !== null && simulations.length === 0 && simulation === null) return "no-simulation";
-  if (view === "none") return "no-webgl";
+  if (view === "none") return noViewOf(state);
   if (view === "interrupted") return "webgl-lost";
   if (scene) return "none";
   return simulation === null ? "connecting" : "loading";
 }
 
+// The browser cannot draw. "not-drawn": the server has refused to draw, with a reason.
+function noViewOf({ whyNoView }: State): Situation {
+  return whyNoView === "" ? "no-webgl" : "not-drawn";
+}
+
 export function createOverlay(app: App): HTMLElement {
   const place = element("div", { class: "overlay", "aria-live": "polite" });
   app.store.watch(
-    (state) => ({ situation: situationOf(state), of: whatEnded(state) }),
+    (state) => ({ situation: situationOf(state), of: whatEnded(state), reason: state.whyNoView }),
     ({ situation }) => {
       place.hidden = situation === "none";
       place.dataset.situation = situation;
@@ -79,6 +84,15 @@ function content(app: App, situation: Situation): Node[] {
         message(
           "This browser cannot show 3D graphics",
           "WebGL 2 is not available. For the 3D view, use another browser or turn on graphics acceleration. All other parts of the page work.",
+        ),
+      ];
+    case "not-drawn":
+      return [
+        message(
+          "The server does not draw the view",
+          app.store.get().whyNoView,
+          "This browser has no WebGL, so it cannot draw the view either. All other parts of the page work.",
+          element("button", { class: "button", type: "button", onclick: () => app.askServerAgain() }, "Try again"),
         ),
       ];
     case "webgl-lost":

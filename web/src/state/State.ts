@@ -107,6 +107,7 @@ export interface State {
   // s: the instant that the user has requested; null when the replay shows this instant
   wishedTime: number | null;
   view: View;
+  whyNoView: string; // why the server draws no view, if the browser cannot draw either; else empty
   drawnBy: Drawer | null; // null before the view has started
   whyNotBrowser: string; // why the browser cannot draw at present; empty if it can
   scene: SceneDescription | null;
@@ -168,6 +169,7 @@ export const initialState: State = {
   comparison: null,
   wishedTime: null,
   view: "starting",
+  whyNoView: "",
   drawnBy: null,
   whyNotBrowser: "",
   scene: null,
