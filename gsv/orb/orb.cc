@@ -51,13 +51,11 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   const std::string message_time =
       std::to_string(std::chrono::milliseconds(options.message_time).count());
   const std::string call_timeout = std::to_string(options.call_timeout.count());
-  // The time limit of connecting. If a call has to connect first, this limit replaces the call's
-  // limit.
+  // The time limit for opening a connection. If a call has to open one, this limit replaces the
+  // call's limit.
   const std::string connect_timeout =
       std::to_string(std::min<std::int64_t>(options.call_timeout.count(), 5000));
   const std::string connections = std::to_string(options.max_connections_per_server);
-  // A client closes an idle connection (60 s) before the server does (180 s). A message that stops
-  // half-way is dropped after 30 s.
   std::string local_endpoint;
   if (options.local_socket) {
     if (const auto socket = NewLocalSocket()) local_endpoint = "giop:unix:" + socket->native();
@@ -69,7 +67,9 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"giopMaxMsgSize", max_message.c_str()},
       {"clientCallTimeOutPeriod", call_timeout.c_str()},
       {"clientConnectTimeOutPeriod", connect_timeout.c_str()},
+      // A server drops a message that has not arrived completely after this time.
       {"serverCallTimeOutPeriod", message_time.c_str()},
+      // A server closes an idle connection after 180 s. Clients close it earlier, after 60 s.
       {"inConScanPeriod", "180"},
       {"outConScanPeriod", "60"},
       {"scanGranularity", "5"},

@@ -16,7 +16,7 @@
 namespace gsv::orb {
 
 struct OrbOptions {
-  std::string host = "127.0.0.1";  // the address that it listens on
+  std::string host = "127.0.0.1";  // the address that the ORB listens on
   int port = 0;                    // 0 lets the system choose the port
   bool local_socket = false;       // also listen on a local socket if possible, see local_socket.h
   std::uint64_t max_message_bytes = 64u << 20;  // maximum size of a message, including its header
@@ -25,8 +25,8 @@ struct OrbOptions {
   // A function that removes arguments that crash omniORB, see broker::CheckRequest(). Null for no
   // check.
   void (*check_request)(std::string& message) = nullptr;
-  // The maximum number of connections to one server. A call in progress occupies its connection, so
-  // use at least the number of agents that wait at the same time.
+  // The maximum number of connections to one server. Each call in progress needs its own
+  // connection. So this must be at least the number of calls to one server at the same time.
   int max_connections_per_server = 4096;
 };
 

@@ -34,7 +34,7 @@ struct GiopHeader {
 // Returns nullopt if the bytes are not the header of a message of GIOP 1.0 to 1.2. Requires at
 // least 12 bytes.
 std::optional<GiopHeader> ReadGiopHeader(std::string_view bytes);
-// Sets the length in the header of `message` and clears its flag of fragments.
+// Sets the length in the header of `message`, and clears the flag "more fragments follow".
 void CompleteGiopHeader(std::string& message);
 // Returns a reader of `message` that starts behind its GIOP header `header`.
 base::CdrReader ReaderBehind(const GiopHeader& header, std::string_view message);

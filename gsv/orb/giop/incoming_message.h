@@ -12,8 +12,8 @@ class IncomingMessage {
 
   // The buffer into which the caller writes received bytes.
   MessageAssembly& assembly() { return assembly_; }
-  // Returns whether a message can be passed to the ORB, or was refused. CancelRequest messages are
-  // dropped, as no servant supports them.
+  // Returns whether the caller should call HandOut(): a message is complete, or it was refused, so
+  // that HandOut() returns -1. Drops CancelRequest messages, because no servant supports them.
   bool IsReady();
   // Whether the whole message has arrived and no part of it has been passed to the ORB.
   bool is_new() const {

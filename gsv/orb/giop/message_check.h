@@ -1,8 +1,8 @@
 // Checks the arguments and results of operations in the bytes of a message, before the ORB
 // unmarshals them. Operations that pass an `any` or a TypeCode need this check, because omniORB
 // 4.2.5 crashes on some malformed values (type_code_check.h). If a message is invalid, its body is
-// removed. The ORB then answers a request with MARSHAL (or raises it for a reply), and the
-// connection continues.
+// removed. The ORB then answers an invalid request with the exception MARSHAL. For an invalid
+// reply, the caller gets this exception. In both cases the connection continues.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Signature {
   std::string_view types;
 };
 
-// The operations that contain an `any` or a TypeCode. Messages of other operations are not checked.
+// The operations that pass an `any` or a TypeCode. Messages of other operations are not checked.
 // tools/omniidl/signatures.py makes this table from IDL.
 struct Signatures {
   std::span<const Signature> requests;
@@ -49,8 +49,8 @@ class ReplyCheck {
   // `signatures` must outlive this object.
   explicit ReplyCheck(const Signatures& signatures) : signatures_(signatures) {}
 
-  // Call this before `bytes` are sent, in order. All bytes of one call belong to one message. The
-  // header of a request must be in one piece.
+  // Call this before each piece `bytes` is sent, in the order of sending. A piece belongs to only
+  // one message. The header of a request must be in one piece.
   void Sending(std::string_view bytes);
   // Call this after the first `count` of the bytes of Sending() were sent.
   void Sent(std::size_t count);

@@ -216,8 +216,8 @@ void TypeCodeCheck::ReadAny(CdrReader& in, std::size_t depth) {
   ReadValue(type, in, depth + 1);
 }
 
-// Reads an any whose type has no parameters, the most frequent case. For other types, reads nothing
-// and returns false.
+// Reads an any that contains a number, a character, a boolean or a string. These are the most
+// frequent cases. For other types, reads nothing and returns false.
 bool TypeCodeCheck::ReadSimpleAny(CdrReader& in) {
   CdrReader behind = in;
   const std::uint32_t kind = behind.ULong();

@@ -23,7 +23,8 @@ struct TypeCodeLimits {
   std::size_t depth = 64;  // maximum nesting of types and values together
   // maximum number of types in one message; each reference to a type counts again
   std::size_t types = 4096;
-  // maximum number of values in one message; elements of a fixed size do not count
+  // maximum number of values in one message; elements of sequences and arrays do not count if their
+  // size is fixed, as for numbers
   std::size_t values = 65536;
 };
 
@@ -63,8 +64,8 @@ class TypeCodeCheck {
   void AddPart(Type& type, CdrReader& in, std::size_t depth);
 
   void ReadAny(CdrReader& in, std::size_t depth);
-  // Reads an any that contains a number or a string. Returns false, and reads nothing, for any
-  // other.
+  // Reads an any that contains a value of fixed size, such as a number, or a string. For any other,
+  // reads nothing and returns false.
   bool ReadSimpleAny(CdrReader& in);
   void ReadValue(std::size_t type, CdrReader& in, std::size_t depth);
   void ReadUnionValue(std::size_t type, CdrReader& in, std::size_t depth);

@@ -87,7 +87,7 @@ omni::giopActiveConnection* LocalAddress::Connect(const omni_time_t& deadline, C
                                                   CORBA::Boolean& timed_out) const {
   omni::giopActiveConnection* const plain = unixAddress::Connect(deadline, flags, timed_out);
   if (plain == nullptr) return nullptr;
-  // omniORB opens the connection. A Connection of this folder then uses the socket.
+  // `plain` is omniORB's connection. An ActiveConnection takes over a duplicate of its socket.
   const int socket =
       fcntl(static_cast<omni::unixActiveConnection*>(plain)->handle(), F_DUPFD_CLOEXEC, 0);
   plain->getConnection().decrRefCount(true);
