@@ -86,8 +86,8 @@ base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message)
   const auto kind = Named(message.kind, kKinds);
   const auto moment = Named(message.moment, kMoments);
   simulation::Edit edit;
-  // The drive follows in the same field, because a new field would make older recordings unreadable
-  // (ADR 034).
+  // The field `movement` also contains the drive, because a new field would make older recordings
+  // unreadable (ADR 034).
   const std::size_t drive = message.movement.find(kDrive);
   const std::string movement = message.movement.substr(0, drive);
   if (drive != std::string::npos) edit.drive = message.movement.substr(drive + kDrive.size());

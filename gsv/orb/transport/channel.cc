@@ -13,8 +13,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A wait below this limit is short. Falling asleep and waking up take 10 to 20 µs. A call of a
-// behaviour is answered in less time.
+// If the last wait was shorter than this limit, the next wait polls the socket for this long before
+// the thread sleeps. Falling asleep and waking up take 10 to 20 µs. Most answers to a behaviour's
+// calls arrive within this limit.
 constexpr std::chrono::microseconds kShortWait{50};
 
 // Returns the time that is left, rounded up; 0 after the deadline; -1 if there is no deadline.
@@ -37,7 +38,7 @@ int AwaitSocket(int socket, short events, const omni_time_t& deadline) {
   pollfd descriptor{socket, events, 0};
   const int count = poll(&descriptor, 1, milliseconds);
   if (count < 0) return errno == EINTR ? 1 : -1;
-  return count;  // an error is reported by the next read or write
+  return count;  // 1 also after an error of the socket, which the next read or write returns
 }
 
 ssize_t PlainChannel::TryReceive(void* buffer, std::size_t size) {

@@ -1,11 +1,11 @@
 // The policy for the connections of a program's ORB: limits on messages, and hooks that see each
 // message before the ORB does.
 //
-// omniORB 4.2.5 assigns a fragment to the call with the same number, even if that call is complete.
-// If the last fragment of a call arrives twice, two threads work on the call, and the process
+// omniORB 4.2.5 assigns a fragment to the call with the same id, even if that call is complete. If
+// the last fragment of a call arrives twice, two threads work on the call, and the process
 // crashes. Therefore connections join fragments before the ORB sees them (ADR 023). A connection
-// ends if it receives bytes that are no message, or a message that is too long. Cancel requests are
-// dropped.
+// ends if it receives bytes that are no message, or a message that is too long. Cancel requests
+// are dropped.
 //
 // Threads  see each function.
 #pragma once
@@ -72,8 +72,8 @@ struct ConnectionPolicy {
   MakeHooks made;
   // Decides whether the ORB reads from an accepted connection now; empty means always. The thread
   // that accepts connections calls it when bytes arrive and no thread of the ORB waits for them.
-  // The ORB may already have destroyed the connection. So the function may use the pointer only if
-  // one of its existing hooks has the same pointer.
+  // The ORB may already have destroyed the connection, and with it the hooks. So the function must
+  // compare the pointer with those of the hooks that still exist, before it uses the pointer.
   std::function<bool(ConnectionControl*)> shall_read;
 };
 

@@ -78,8 +78,8 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused_ = false, is_gone_ = false;
 };
 
-// A file descriptor that becomes readable at regular intervals while it is set. Without it,
-// Select() might never return.
+// A file descriptor that becomes readable every half second after Set(true). Without it, Select()
+// might never return.
 class Alarm : public omni::SocketHolder {
  public:
   explicit Alarm(omni::SocketCollection& collection)
@@ -172,7 +172,8 @@ void Listener::Proceed(PendingHandshake* pending) {
       pending->setSelectable(1, false);
       return;
     case TlsChannel::Step::kWantsToWrite:
-      // There is always space for the few bytes of a handshake, unless the peer is malicious.
+      // The send buffer of the socket is full. The bytes of a handshake are few, so this happens
+      // only if the peer is malicious.
       pending->Refuse("the peer does not read the data of this server");
       break;
     case TlsChannel::Step::kFailed:

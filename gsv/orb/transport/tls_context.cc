@@ -10,7 +10,8 @@
 namespace gsv::orb {
 
 base::Result<std::shared_ptr<const TlsContext>> TlsContext::Read(const CorbaCertificate& files) {
-  // The certificate is checked first, because the other default file names depend on it.
+  // The certificate is checked first: if its name is wrong, the default names of the other files
+  // are wrong, too (see corba_access.h).
   if (auto good = tls::CheckKeyPair(files.certificate, files.key); !good) {
     return base::Fail(good.error());
   }

@@ -1,6 +1,6 @@
 // Replaces omniORB's transports (TCP, Unix domain sockets and TLS) in this process. The protocols
-// and references are unchanged. Other ORBs call "giop:ssl" SSLIOP. ADR 021, 023 and 029 give the
-// reasons.
+// and references are unchanged: other ORBs use the name SSLIOP for the TLS transport "giop:ssl".
+// ADR 021, 023 and 029 give the reasons.
 //
 // Threads  any.
 #pragma once
