@@ -38,7 +38,7 @@ MotionStatistics StatisticsOf(const std::vector<MotionWindow>& windows);
 std::vector<TimedPose> SimulatedOdometry(const std::vector<TimedPose>& truth,
                                          const sensing::OdometryDrift& drift, std::uint64_t seed);
 
-// Returns the drift parameters that produce windows with these statistics.
+// Returns the drift parameters with which simulated windows have the same statistics as `windows`.
 sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows);
 
 }  // namespace gsv::reality

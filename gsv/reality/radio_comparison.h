@@ -28,8 +28,9 @@ struct RadioGroup {
 // 20 ranges are left out.
 std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);
 
-// Fits the bias and the scatter of a ranging sensor, both linear in the distance, to the even
-// blocks.
+// Fits the bias and the scatter of a ranging sensor to the even blocks of the log (world_fit.h).
+// The bias is linear in the distance. The variance is a constant plus a part that is proportional
+// to the square of the distance.
 FittedDevice FitRanging(const Log& log);
 
 }  // namespace gsv::reality

@@ -102,8 +102,8 @@ base::Result<std::vector<RangeScan>> ScansIn(const Log& log, const CompareOption
   return placed;
 }
 
-// Returns the map of the options' world after an update by scans. Then refines the poses of all
-// scans, because they were found in the map before the update.
+// Updates the map of the options' world by the scans `for_world`, and returns it. Also refines the
+// poses of all scans, because they were found in the map before the update.
 base::Result<OccupancyMap> UpdatedWorld(const Log& log, const CompareOptions& options,
                                         std::vector<RangeScan>& for_world,
                                         std::vector<RangeScan>& to_read) {

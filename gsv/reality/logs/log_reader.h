@@ -21,7 +21,8 @@ std::vector<std::string> LogFormats();
 // kInvalidArgument if the format cannot be detected.
 base::Result<std::string> GuessLogFormat(const std::filesystem::path& path);
 
-// Reads a log. `path` is the first file of the format; the other files must be in the same folder.
+// Reads a log. If the format has several files, `path` is the file that docs/formats/logs.md lists
+// first, and the others must be in the same folder.
 base::Result<Log> ReadLog(const std::filesystem::path& path, const std::string& format,
                           base::Problems& problems);
 

@@ -23,7 +23,8 @@ fs::path Companion(const fs::path& path, const std::string& ending) {
   return path.parent_path() / (name.substr(0, name.rfind('_')) + ending);
 }
 
-// Fails for a log in metres, which would be read as millimetres.
+// Fails if the largest range of the log is below `least_credible`. Both are in `unit`. Such a log
+// probably has another unit, for example metres instead of millimetres.
 base::Status CheckUnit(double largest, double least_credible, const char* unit,
                        const fs::path& path) {
   if (largest >= least_credible) return {};
@@ -35,7 +36,8 @@ base::Status CheckUnit(double largest, double least_credible, const char* unit,
       path.string());
 }
 
-// Reads rows of the word `first`, time, x and y. `units` converts them to s and m.
+// Reads the rows that consist of the word `first`, a time, x and y. `time_unit` is the unit of the
+// times in s, and `length_unit` is that of x and y in m.
 base::Result<std::vector<TimedPose>> ReadPlaces(const fs::path& path, const std::string& first,
                                                 double time_unit, double length_unit,
                                                 base::Problems& problems) {

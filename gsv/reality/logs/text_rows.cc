@@ -98,7 +98,8 @@ bool TextRows::InOrder(double time) {
     LeaveOut(fmt::format("time goes back from {} to {} s", recent_.back().time, time));
     return false;
   }
-  // A later row may still show that the rows after a gap have wrong times.
+  // A gap is reported only when all rows in recent_ are after it. Until then, a row may still show
+  // that the rows after the gap have wrong times, and that there is no gap.
   if (gap_ && recent_.front().time >= gap_->second.time) ReportGap();
   if (!recent_.empty() && time - recent_.back().time > kLongGap) {
     ReportGap();

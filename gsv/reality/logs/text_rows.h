@@ -35,17 +35,17 @@ class TextRows {
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
   // Returns whether the caller may use this row, whose time is `time`. Times must not decrease. If
-  // rows before this row have later times, either their times or the time of this row are wrong:
-  // - If there are more than five such rows, this row is left out, and the result is false.
-  // - If there are at most five such rows, the result is true, and the row after this row decides.
-  //   If its time is not before the time of this row, but before the latest time so far, the five
-  //   or fewer rows have wrong times. Else this row has a wrong time.
-  // When this is decided, the caller has already used the rows with wrong times. RemoveMisdated()
-  // removes their values. Reports a gap of more than 10 s.
+  // this row is earlier than some rows before it, either these rows or this row have wrong times:
+  // - If this row is earlier than more than five rows, it is left out, and the result is false.
+  // - Else the result is true, and the next call of InOrder() decides. If the next row is also
+  //   earlier than the latest row, but not earlier than this row, the rows before this row are
+  //   wrong. Else this row is wrong.
+  // At that time, the caller has already used the rows with wrong times. RemoveMisdated() removes
+  // their values. Reports a gap of more than 10 s.
   bool InOrder(double time);
 
-  // Removes the values that were made from misdated rows from a series, whose elements have a
-  // member `time`. Call this after Finish().
+  // Removes from `series` the elements that the caller made from rows with wrong times. The
+  // elements must have a member `time`. Call this after Finish().
   template <typename Series>
   void RemoveMisdated(Series& series) const {
     if (misdated_.empty()) return;
@@ -88,10 +88,10 @@ class TextRows {
   int line_ = 0;
   std::vector<std::string_view> words_;                 // the words of the current row
   std::size_t rows_ = 0, left_out_ = 0, warnings_ = 0;  // numbers of rows and of warnings so far
-  // The newest rows in the order of time, at most kMaxMisdated + 1; the last one is the newest.
+  // The accepted rows with the latest times, in ascending order, at most kMaxMisdated + 1.
   std::vector<TimedLine> recent_;
-  // A row that is earlier than a few rows before it. The next row shows which of them are
-  // wrong.
+  // A row that is earlier than up to five rows before it. The next row shows which of them have
+  // wrong times.
   std::optional<TimedLine> doubtful_;
   // The time before a gap, and the row after it. Kept until enough rows confirm the gap.
   std::optional<std::pair<double, TimedLine>> gap_;

@@ -13,7 +13,7 @@ namespace gsv::reality {
 base::Result<std::string> WorldOfMap(const OccupancyMap& map, const std::string& name,
                                      double height);
 
-// The height of the cut through a world, and the size of the map.
+// The resolution of a map, the height at which the world is cut, and the margin of the map.
 struct SliceOptions {
   double resolution = 0.05;  // m
   double height = 0.2;       // height at which the world is cut, above its origin, m

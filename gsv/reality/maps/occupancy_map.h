@@ -42,11 +42,12 @@ base::Result<OccupancyMap> ReadBeesoftMap(const std::filesystem::path& path);
 // Writes NAME.yaml and, in the same folder, NAME.pgm.
 base::Status WriteMap(const OccupancyMap& map, const std::filesystem::path& yaml);
 
-// A rectangle of occupied cells, in cells: [x, x + width). Equal rows on top of each other are
-// joined.
+// A rectangle of occupied cells: the columns x to x + width - 1 and the rows y to y + height - 1.
 struct CellBox {
   int x = 0, y = 0, width = 1, height = 1;
 };
+// Covers all occupied cells with rectangles that do not overlap. Each rectangle is a run of cells
+// in a row, together with the rows above that have the same run.
 std::vector<CellBox> BoxesOf(const OccupancyMap& map);
 
 }  // namespace gsv::reality
