@@ -38,7 +38,7 @@ void SendWindow::Pong(std::uint64_t number, Time now) {
   const Clock::duration minimum = *min_delay_;
   const Clock::duration excess = now - mark.started - minimum;
   const bool is_late = excess > kMaxDelay;
-  // A short excess is significant only if the pong confirms a large part of the window.
+  // A short excess gives a useful rate only if the pong confirms a large part of the window.
   const bool is_significant = 4 * excess > kAimedDelay && 4 * mark.bytes >= bytes_;
   const Clock::duration busy = now - std::max(last_pong_, mark.first_started + minimum);
   last_pong_ = now;

@@ -6,15 +6,16 @@
 //
 // The delay of a pong is the time from its ping to the pong. The part of this delay that exceeds
 // the minimum delay is the excess: the messages before the ping have waited in buffers for this
-// time. After an excess the connection was busy, so its rate is known: the number of bytes that the
-// pong confirms, divided by the time since the previous pong. At this rate, a full window should
-// not take longer than the minimum delay plus kMaxDelay. If it takes longer, the window shrinks to
-// a size that takes the minimum delay plus kAimedDelay. The window doubles if messages had to wait
-// for the window and the excess is below half of kAimedDelay.
+// time. If there is an excess, the connection was busy, so its rate is known: the number of bytes
+// that the pong confirms, divided by the time since the previous pong. At this rate, a full window
+// should not take longer than the minimum delay plus kMaxDelay. If it takes longer, the window
+// shrinks to a size that takes the minimum delay plus kAimedDelay. The window doubles if messages
+// had to wait for the window and the excess is below half of kAimedDelay.
 //
 // The minimum delay may increase, for example after a change of the route. If it was measured
-// longer than kMinDelayAge ago, and the delay of a pong exceeds the minimum delay, the window
-// closes until all data are confirmed. Then a ping without data measures the minimum delay again.
+// longer than kMinDelayAge ago, and the excess of a pong is above a quarter of kAimedDelay, the
+// window closes until all data are confirmed. Then a ping without data measures the minimum delay
+// again.
 //
 // Threads  one thread.
 #pragma once
@@ -65,8 +66,9 @@ class SendWindow {
 
   // Whether to send a ping now. Call this after each message and each pong.
   bool WantsPing(Time now) const;
-  // Notes that a ping is sent after all messages so far, and returns its number. `started` is the
-  // start of the last message if the ping follows it directly, else the present time.
+  // Notes that a ping is sent after all messages so far, and returns its number. The delay of its
+  // pong counts from `started`: the start of the last message if the ping is sent directly after
+  // this message, otherwise `now`.
   std::uint64_t Ping(Time now, Time started);
   // Notes the pong of the ping with this number.
   void Pong(std::uint64_t number, Time now);
@@ -102,8 +104,9 @@ class SendWindow {
     bool measures = false;
   };
 
-  // Notes a late pong, or data that were dropped because they had waited too long. `began` is the
-  // time at which the ping was sent or the data were queued.
+  // Notes a late pong, or data that were dropped because they had waited too long. Late pongs and
+  // dropped data belong to one series unless more than kInTimeAfter lies between them. `began` is
+  // the start of the pong's delay, or the time at which the data were dropped.
   void NoteLate(Time began, Time now);
   // Whether the last ping has waited too long for its pong.
   bool IsOverdue(Time now) const;
@@ -124,7 +127,7 @@ class SendWindow {
   bool holds_back_ = false;                   // whether a message had to wait since the last pong
   bool is_slow_ = false;                      // see IsSlow()
   std::optional<double> rate_;                // bytes/s, measured when the connection was last busy
-  std::optional<Time> first_late_, last_late_;  // first and last late pong of the present series
+  std::optional<Time> first_late_, last_late_;  // first and last time of a series, see NoteLate()
 };
 
 }  // namespace gsv::gateway

@@ -25,8 +25,8 @@ using HttpRequest = beast::http::request<beast::http::string_body>;
 constexpr std::size_t kReadSize = 16u << 10;
 // Time limit for a client to receive pending messages before the connection is closed.
 constexpr std::chrono::seconds kCloseTimeout{2};
-// Time between two checks of a slow connection, which may become fast again without further
-// messages.
+// Time between two checks whether a slow connection is fast again. The timer is needed because the
+// server may have no further messages for the client.
 constexpr std::chrono::seconds kSlowCheckInterval{1};
 constexpr std::string_view kSlowSentence =
     "The connection is slow: the server leaves out older updates, so that the newest ones arrive "
@@ -190,8 +190,8 @@ class WebSocketSession final : public Client,
   void WriteNext() {
     if (!is_open_ || is_writing_) return;
     const auto now = SendWindow::Clock::now();
-    // A client that is leaving gets only control messages. But if the server ends, its clients get
-    // the final state, such as the end of a run.
+    // While the server closes a connection, it sends only control messages. But if the server ends,
+    // it also sends the final state, such as the end of a run.
     const bool allows_data = close_reason_ ? sends_all_ : window_.is_open();
     SendQueue::Popped popped = queue_.Pop(now, allows_data);
     if (popped.left_out > 0) {
@@ -222,8 +222,8 @@ class WebSocketSession final : public Client,
     });
   }
 
-  // Call this after everything that may close the window while no ping is in transit. Otherwise the
-  // window stays closed.
+  // Only a pong opens the window again. So call this after each write and each pong: if the window
+  // was closed and no ping were sent, it would stay closed.
   void PingIfWanted(SendWindow::Time started) {
     if (window_.WantsPing(SendWindow::Clock::now())) Ping(started);
   }
@@ -309,7 +309,7 @@ class WebSocketSession final : public Client,
   }
 
   websocket::stream<transport::ByteStream> stream_;
-  bool sends_all_ = false;  // whether all messages are sent before the connection is closed
+  bool sends_all_ = false;  // whether data messages are also sent before the connection is closed
   boost::asio::steady_timer farewell_, expiry_, slow_look_;
   HttpRequest request_;
   beast::flat_buffer buffer_;

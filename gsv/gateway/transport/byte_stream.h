@@ -57,7 +57,7 @@ class ByteStream {
   // These functions read or write some bytes, at least one, and call `then`.
   void ReadSome(boost::asio::mutable_buffer into, Completion then);
   void WriteSome(const Parts& parts, Completion then);
-  // Ends the connection of a WebSocket with the closing handshake.
+  // Shuts the connection down after the closing handshake of a WebSocket. Boost.Beast calls this.
   void Teardown(boost::beast::role_type role, Completion then);
 
   // Implements the concept AsyncReadStream of Boost.Beast.

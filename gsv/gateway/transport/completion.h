@@ -10,8 +10,8 @@
 
 namespace gsv::gateway::transport {
 
-// Must be called at most once. It can be moved. The associated executor and allocator of the
-// handler are ignored.
+// A completion handler of any type. It must be called at most once, and can be moved, but not
+// copied. The executor and the allocator that are associated with the handler are ignored.
 class Completion {
  public:
   // `then` is called with the error and the number of bytes, or with the error only.
