@@ -7,8 +7,9 @@
 namespace gsv::geometry {
 namespace {
 
-// Returns the distance from a point to a rectangle. `outside_x` and `outside_y` are the point's
-// distances outside of the two pairs of sides; negative inside.
+// Returns the distance from a point to a rectangle; negative inside. `outside_x` is the distance by
+// which the point lies beyond the nearer of the two sides at the ends of the x axis. It is negative
+// if the point lies between these sides. `outside_y` is the same for y.
 double ToRectangle(double outside_x, double outside_y) {
   const double beyond = std::hypot(std::max(outside_x, 0.0), std::max(outside_y, 0.0));
   return beyond + std::min(std::max(outside_x, outside_y), 0.0);

@@ -10,8 +10,9 @@
 namespace gsv::geometry {
 namespace {
 
-// A point of a profile that is rotated about z: its distance from the axis, its height, its normal
-// in that half-plane, and its height in the texture.
+// A point of a profile. A profile is a curve in the half-plane of radius (the distance from the z
+// axis) and z. Its rotation about z makes a surface. `normal_out` and `normal_up` are the surface
+// normal's components along radius and z. `v` is the vertical texture coordinate.
 struct ProfilePoint {
   double radius = 0, z = 0;
   double normal_out = 0, normal_up = 0;
@@ -91,8 +92,8 @@ void AddRectangle(const Vector3& centre, const Vector3& right, const Vector3& up
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-// Returns points of a quarter circle in the profile's half-plane, about (0, centre_z), from one
-// latitude to another, including both.
+// Returns points of a circular arc in the profile's half-plane. The centre is (0, centre_z). The
+// arc goes from the latitude `from` to the latitude `to` (rad); the points include both ends.
 std::vector<ProfilePoint> Arc(double radius, double centre_z, double from, double to, int steps) {
   std::vector<ProfilePoint> points;
   for (int i = 0; i <= steps; ++i) {
@@ -104,7 +105,7 @@ std::vector<ProfilePoint> Arc(double radius, double centre_z, double from, doubl
   return points;
 }
 
-// Sets the height in the texture proportional to the distance along the profile.
+// Sets `v` in proportion to the distance along the profile: 0 at its start, 1 at its end.
 void SpreadTexture(std::vector<ProfilePoint>& profile) {
   double length = 0;
   for (std::size_t i = 1; i < profile.size(); ++i) {

@@ -10,7 +10,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Returns the moments of a solid that is symmetric to the three planes through its centroid.
+// Returns the moments of a solid that is symmetric in each axis, so that xy, xz and yz are 0. The
+// arguments `xx`, `yy` and `zz` are the second moments divided by the volume.
 SolidMoments Symmetric(double volume, const Vector3& centroid, double xx, double yy, double zz) {
   SolidMoments moments;
   moments.volume = volume;

@@ -97,7 +97,8 @@ std::string ReasonOf(State state, const simulation::RobotStatus& robot,
   std::string reason = "commanded " + CommandText(motion.command);
   if (!has_command && robot.is_avatar) reason += " (an avatar)";
   if (!has_command && !robot.is_avatar && robot.behaviour.empty()) {
-    // A user or a ROS 2 node may command a robot without a behaviour, so the reason names both.
+    // A user or a ROS 2 node may command a robot without a behaviour. So the reason states that
+    // there is neither a behaviour nor a command.
     reason = "it has no behaviour, and no command to move";
   }
   if (!motion.contact.empty()) reason += ", touches " + motion.contact;

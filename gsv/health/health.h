@@ -18,8 +18,8 @@
 namespace gsv::health {
 
 // A robot is stuck if it does not move although it is commanded to. A robot is late if its
-// behaviour is unresponsive, or has not waited for 1 s of wall-clock time. A robot is dead if its
-// behaviour has crashed or was killed.
+// behaviour is unresponsive, or has run for 1 s of wall-clock time without calling a wait function.
+// A robot is dead if its behaviour has crashed or was killed.
 enum class State { kMoving, kStanding, kStuck, kContact, kLate, kDead };
 inline constexpr std::size_t kStates = 6;  // number of values of State
 
@@ -31,8 +31,8 @@ std::optional<State> StateOf(std::string_view name);
 // How serious a robot's state is.
 enum class Level : std::uint8_t { kFine = 0, kWarning = 1, kError = 2 };
 
-// Returns a number for sorting, which is higher for a worse state: dead, stuck, contact, late,
-// standing, moving.
+// Returns a number by which robots are sorted. From the highest to the lowest number, the states
+// are dead, stuck, contact, late, standing, moving. In one state, a higher level is higher.
 int Severity(State state, Level level);
 
 // A short distance that a range sensor measures. The obstacle at this distance may be the reason
@@ -47,8 +47,8 @@ struct Limit {
 struct RobotHealth {
   std::string robot;
   State state = State::kMoving;
-  // kWarning if the robot is stuck, in contact or late, or if its behaviour has run for 10 s
-  // without motion.
+  // kError if the robot is dead. kWarning if it is stuck, in contact or late, or if its behaviour
+  // runs and the robot has not moved for 10 s.
   Level level = Level::kFine;
   base::SimTime since{0};          // start of `state`
   world::DriveCommand command;     // the last command

@@ -46,7 +46,7 @@ foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulatio
 }
 
 // One attempt to connect, from resolving the name to the end of the connection. Pending operations
-// keep the attempt alive. If it is not the current attempt any more, their results are ignored.
+// keep their attempt alive. If the attempt was abandoned meanwhile, their results are ignored.
 struct Attempt {
   explicit Attempt(asio::io_context& io) : resolver(io), socket(io) {}
 
@@ -109,7 +109,8 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     channels_->ServeNewSubscribers();
   }
 
-  // Returns a handler that does nothing if its attempt has ended.
+  // Returns a handler for the current attempt. It does nothing if this attempt was abandoned before
+  // the handler runs.
   template <typename Then>
   auto ForThis(Then then) {
     return [ self = shared_from_this(), attempt = attempt_, then ]<typename... Results>(
