@@ -23,7 +23,8 @@ std::string NoteDetail(base::SimTime time, std::string_view text);
 // Returns the instant of the note: the one in NoteDetail(), or else the time of the event.
 base::SimTime TimeOfNote(const simulation::Event& event);
 
-// Returns the note as a message, stamped with its instant; `detail` is the text only.
+// Returns the note as a message. Its stamp is TimeOfNote(). Its detail is the text without the
+// beginning that NoteDetail() has added.
 messages::gsv_msgs::LifecycleEvent NoteMessage(const simulation::Event& event);
 
 }  // namespace gsv::presentation

@@ -12,10 +12,10 @@ namespace gsv::presentation {
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
-// Returns an event as a log message from the robot, or from "gsv" for the simulation. A line that a
-// behaviour prints becomes the message's text, with the stream in the field `file`: information for
-// stdout, a warning for stderr. Failures of a behaviour or the simulation are errors; failed
-// requests are warnings.
+// Returns an event as a log message. Its name is the robot, or "gsv" if the event concerns no
+// robot. For a line that a behaviour prints, the text is the line, and `file` is the stream. Its
+// level is information for stdout, and warning for stderr. Failures of a behaviour or the
+// simulation are errors. Failed requests are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 
 // Returns the diagnostics of the simulation, followed by those of each robot, ordered by name. The

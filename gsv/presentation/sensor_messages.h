@@ -50,8 +50,8 @@ class BeamMarkers {
  private:
   // Points in the world frame, by robot.
   std::map<std::string, std::vector<geometry::Vector3>> points_;
-  // The pose of the body's link for which Add() was called last; most robots have all their sensors
-  // on one link.
+  // The body and the link of the last Add(), and the pose of this link. Add() reuses the pose,
+  // because most robots have all their sensors on one link.
   int body_ = -1;
   int link_ = -1;
   geometry::Pose world_from_link_;

@@ -29,7 +29,7 @@ struct TopicOf {
 enum class Replay {
   kNewest,   // at each instant, the newest message
   kEach,     // each message during playback; none during a seek
-  kByClock,  // none; the player makes its own messages: time and status of the replay
+  kByClock,  // no recorded message; the player sends the time and the status of the replay instead
 };
 
 // The properties of one topic in the table.
@@ -73,7 +73,7 @@ inline constexpr TopicOf<messages::rcl_interfaces::Log> kLog{"/rosout"};
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kOutput{"/gsv/output"};
 // Notes of viewers.
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kNotes{"/gsv/notes"};
-// Robots that do not move, and the reason.
+// The number of robots in each health::State, and all robots that are not kMoving, with the reason.
 inline constexpr TopicOf<messages::gsv_msgs::Health> kHealth{"/gsv/health"};
 // The verdicts on the scenario's expectations.
 inline constexpr TopicOf<messages::gsv_msgs::Expectations> kExpectations{"/gsv/expectations"};
@@ -89,7 +89,8 @@ inline constexpr TopicOf<messages::gsv_msgs::Contacts> kCurrentContacts{"/gsv/cu
 inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 // The hash of the simulation's state, to compare runs.
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
-// This topic is in every recording of an edited simulation, even if it is not selected.
+// Changes of the world or its bodies by users, see gsv_msgs/Edit. This topic is in every recording
+// of an edited simulation, even if it is not selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
 // The wall-clock time that each part of a step takes.
 inline constexpr TopicOf<messages::gsv_msgs::StepCosts> kStepCosts{"/gsv/step_costs"};

@@ -112,8 +112,8 @@ struct Odometry {
                       OptionalValue("lateral", "m/s", &Odometry::lateral, "twist.twist.linear"));
 };
 
-// The position and velocity that a GNSS receiver measures. Altitudes are above the ellipsoid.
-// WGS84.
+// The position (WGS84) and velocity that a GNSS receiver measures. The altitude is the height above
+// the WGS84 ellipsoid.
 struct Navsat {
   static constexpr const char* kType = "navsat";
   double latitude_deg = 0, longitude_deg = 0, altitude = 0;  // degrees, degrees, m
