@@ -12,12 +12,14 @@ namespace {
 
 // Half angle of the cone that returns most of the sound, rad.
 constexpr double kSonarHalfAngle = 0.13;
-constexpr double kMargin = 6;  // margin around the path, for sonars and in rooms, m
+constexpr double kMargin = 6;  // margin around the path for sonars; minimum margin for lasers, m
 constexpr double kMaxFittedCells = 25e6;
 constexpr double kFurthest = 50;    // echoes from further away are ignored, m
 constexpr double kMaxWidth = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
-constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // minimum log odds of a wall
+// Log odds above which a cell counts as occupied. FitMap() uses kPerhaps, which needs one echo.
+// UpdatedMap() uses kSeenTwice, which needs two echoes in a cell that was not occupied.
+constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;
 // Log odds of a cell on a line of wall. A smooth wall reflects some sound away, so some readings
 // are longer than the distance to the wall. These readings are evidence against the wall, and this
 // value exceeds the sum of their evidence.
@@ -49,7 +51,7 @@ class LogOdds {
     }
   }
 
-  // Marks the occupied and free cells of the given map as known.
+  // Adds the evidence of the given map: its occupied cells start with the log odds kKnown.
   void AddKnown() {
     for (std::size_t i = 0; i < odds_.size(); ++i) {
       if (map_.cells[i] == Cell::kOccupied) odds_[i] += kKnown;
@@ -106,7 +108,8 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
   }
 }
 
-// Returns a distance from the path, m. Nearly all echoes of a laser are nearer to the path.
+// Returns the margin around the path for a laser, m: 1 m more than the range that 98 % of the
+// echoes do not exceed, but at least kMargin and at most kFurthest.
 double ReachOfEchoes(const std::vector<RangeScan>& scans) {
   constexpr double kNearlyAll = 0.98;
   std::vector<double> ranges;

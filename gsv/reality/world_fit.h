@@ -25,7 +25,8 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
                                   double resolution);
 
 // Returns the map updated by scans of a laser: an occupied cell becomes free if beams pass through
-// it, and a free cell becomes occupied if beams end in it.
+// it, and a free cell becomes occupied if beams end in it. A free cell that no beam touches becomes
+// unknown.
 OccupancyMap UpdatedMap(OccupancyMap map, const Log& log, const std::vector<RangeScan>& scans);
 
 // Returns the walls as a world without a ground. Such a world is for sensors only.

@@ -10,7 +10,8 @@
 namespace gsv::recording {
 namespace {
 
-// Returns the names of all sensors in the scene.
+// Returns a text for each sensor in the scene: its name, its type and its link. If these texts
+// change, a new scene must be attached.
 std::set<std::string> Names(const SensorLists& lists) {
   std::set<std::string> names;
   for (const auto& [robot, list] : lists) {

@@ -2,8 +2,8 @@
 // together exceed the capacity, the oldest chunks are dropped.
 //
 // Kept     All schemas, channels and metadata are kept, and the newest chunks. If several
-//          attachments have the same name, the newest one is kept, and each one that a kept chunk
-//          may need.
+//          attachments have the same name, an attachment is dropped when a later one has replaced
+//          it before the start of the first kept chunk.
 // Threads  any.
 #pragma once
 
@@ -70,8 +70,8 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
       GSV_REQUIRES(mutex_);
   // Drops the oldest chunks until all pieces are within the capacity.
   void Shrink() GSV_REQUIRES(mutex_);
-  // Drops each attachment that was replaced before the first kept chunk, by a later attachment with
-  // the same name.
+  // Drops each attachment that a later attachment with the same name has replaced before the start
+  // of the first kept chunk.
   void DropReplaced() GSV_REQUIRES(mutex_);
 
   const std::size_t capacity_;  // maximum size of all kept pieces, bytes

@@ -12,8 +12,8 @@ namespace {
 
 #define GSV_CARRY_LESS __attribute__((target("pclmul,sse4.1")))
 
-// Returns x times `by` plus `next`, as polynomials: each half of x is multiplied by the same half
-// of `by`.
+// Multiplies polynomials over GF(2), as needed for a CRC. Returns the sum of three terms: the low
+// half of x times the low half of `by`, the high half of x times the high half of `by`, and `next`.
 GSV_CARRY_LESS inline __m128i Folded(__m128i x, __m128i by, __m128i next) {
   return _mm_xor_si128(
       _mm_xor_si128(_mm_clmulepi64_si128(x, by, 0x00), _mm_clmulepi64_si128(x, by, 0x11)), next);

@@ -20,7 +20,7 @@ class ByteSink {
   [[nodiscard]] virtual base::Status Write(std::span<const std::byte> bytes) = 0;
   // Returns when all written bytes are on the disk, so that they survive a loss of power.
   [[nodiscard]] virtual base::Status Sync() = 0;
-  // Truncates the output to its first `size` bytes, if the output supports truncation.
+  // Truncates the output to its first `size` bytes. An output in memory may ignore the call.
   [[nodiscard]] virtual base::Status Truncate(std::uint64_t size) = 0;
 };
 
