@@ -53,9 +53,11 @@ struct RobotHealth {
   base::SimTime since{0};          // start of `state`
   world::DriveCommand command;     // the last command
   double linear = 0, angular = 0;  // the actual motion, m/s and rad/s
-  std::optional<Limit> limit;      // set for a robot that stands or is stuck
-  std::string contact;             // a body that the robot touches; empty if there is none
-  std::string summary;             // such as "has not moved", "has been stuck" or "has been dead"
+  // Only for a robot that stands or is stuck: the shortest distance that its range sensors measure.
+  // Absent if this distance is not short, see FindLimit().
+  std::optional<Limit> limit;
+  std::string contact;  // a body that the robot touches; empty if there is none
+  std::string summary;  // such as "has not moved", "has been stuck" or "has been dead"
   // Such as "commanded 0, sonar_00 reads 0.26 m"; empty if there is none.
   std::string reason;
 };

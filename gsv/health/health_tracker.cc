@@ -8,7 +8,7 @@ namespace gsv::health {
 namespace {
 
 constexpr base::SimTime kReadAgainAfter = std::chrono::seconds(5);
-constexpr double kNear = 1;  // m
+constexpr double kNear = 1;  // m: only a distance below this can be the reason for a stop
 constexpr std::size_t kRobotsReadAtOnce = 500;
 
 // Whether readings of the type contain only distances, such as "range" of a sonar and "ranges" of a

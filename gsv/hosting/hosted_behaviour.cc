@@ -64,7 +64,7 @@ void HostedBehaviour::EndTurn(simulation::Turn& turn) {
   turn.Fail(failure_.cause);
 }
 
-// No lock is needed: these pointers do not change while the simulation takes turns.
+// No lock is needed: these pointers do not change while the simulation runs turns of behaviours.
 void HostedBehaviour::PrefetchTurn() const GSV_NO_THREAD_SAFETY_ANALYSIS {
   __builtin_prefetch(robot_.get());
   __builtin_prefetch(controller_);

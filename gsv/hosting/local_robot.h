@@ -28,13 +28,13 @@ class alignas(64) LocalRobot final : public Robot {
   void SetTurn(simulation::Turn* turn);
   // Must be called before a sensor that takes long is read in a turn.
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
-  // Returns the address of the robot's count of sweeps, for prefetching. A sweep reads all open
-  // sensors together, once per turn. Returns null if there are no sensors.
+  // Returns the address of the robot's count of sweeps, for prefetching. A sweep reads the beams of
+  // all open sensors together, once per turn. Returns null if there are no sensors.
   const void* sweeps() const { return sweeps_.get(); }
   // Ends the run for the behaviour. From now on, waits and calls return at once.
   void End() { is_running_ = false; }
-  // Ends the run for the behaviour because of this error, which error() then returns. kEnded only
-  // ends the run.
+  // Ends the run for the behaviour because of this error, which error() then returns. An error
+  // kEnded also ends the run, but error() does not return it.
   void Note(const base::Error& error);
 
   // Whether all open sensors can be read quickly. A camera, for example, takes long.

@@ -18,8 +18,9 @@ struct SweepPlan {
   // The entry in `beam_of` of a sensor that is not read with the beams.
   static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
 
-  // Makes the plan for `sensors`, which must be ordered by name. The beams of sensors without an
-  // update rate are cast together.
+  // Makes the plan for `sensors`, which must be ordered by name. The plan casts the beams of all
+  // sensors with one beam together. A sensor with several beams, noise, an update rate or latency
+  // is read separately.
   explicit SweepPlan(const std::vector<std::shared_ptr<simulation::MountedSensor>>& sensors);
 
   // Whether every sensor is read with the beams.
