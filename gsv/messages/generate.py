@@ -9,8 +9,8 @@ MSG_ROOT/../srv/PACKAGE/NAME.srv: it becomes the types NAMERequest and NAMERespo
 an action in MSG_ROOT/../action, which becomes NAMEGoal, NAMEResult, NAMEFeedback and the types of its
 services and topics (design.ros2.org, "Actions"). Every type that is used must be listed. A definition may
 contain fields of primitive and message types, arrays of them (fixed, bounded, unbounded), constants, and
-defaults of numbers. Anything else is refused with its file and line. The bound of an array is in the
-definition only: the C++ type is a vector without one.
+defaults of numbers. Anything else is refused with its file and line. The bound of an array is not in the
+C++ type, which is a plain std::vector.
 """
 import pathlib
 import re
@@ -182,8 +182,8 @@ class MessageSet:
                    for f in self.messages[type_].fields)
 
     def scalar_of(self, type_):
-        """The number type that a value consists of, if it consists of one type only: such values
-        lie in memory as they lie in CDR."""
+        """Returns the C++ number type if all numbers in a value have the same type, otherwise None. Such a
+        value has the same bytes in memory as in CDR."""
         if type_ in PRIMITIVES:
             return None if type_ == "bool" else PRIMITIVES[type_][0]
         if type_ == "string" or any(f.array == "[]" for f in self.messages[type_].fields):
@@ -321,7 +321,7 @@ def all_source(messages):
 
 
 def samples(messages):
-    """Returns a function Fill() for each type, which sets every field by a rule (see the test's Filler)."""
+    """Returns a function Fill() for each type. It sets every field to a test value (see sample_filler.h)."""
     lines = ["// Generated for tests.", "#pragma once", "", '#include "gsv/messages/all.h"', "",
              "namespace gsv::messages {", ""]
     ordered = []

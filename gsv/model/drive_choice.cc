@@ -139,8 +139,9 @@ base::Status FindJoints(const Model& model, const std::vector<std::string>& name
   return {};
 }
 
-// Returns the drive to which the user's choice is applied: the model's own or guessed drive if it
-// has that kind, else a new drive with the same wheels.
+// Returns the drive to which the user's choice is applied: the model's drive if it has that kind.
+// If not, returns a drive of that kind with the wheels that GuessDrive() finds. A drive of kind
+// kVelocity or kNone has no wheels.
 Drive StartFrom(const Model& model, DriveKind kind) {
   if (model.drive && model.drive->kind == kind) return *model.drive;
   Drive guess = GuessDrive(model);

@@ -15,13 +15,14 @@ using geometry::Vector3;
 constexpr double kAcross = 0.9;  // minimum cosine between an axle and the model's y axis
 // Wheels whose radius is below this fraction of the largest wheel's radius are not driven.
 constexpr double kIdlerRadius = 0.8;
-// Wheels nearer to the middle than this fraction of the half track are casters.
+// The half track is half the distance between the outermost left and right wheels. A wheel is a
+// caster if its distance from the robot's middle line is below this fraction of the half track.
 constexpr double kMiddle = 0.25;
-constexpr double kNarrowest = 0.01;  // m: minimum distance of a wheel from the middle
-// Minimum distance of a caster behind its swivel, as a fraction of the radius.
+constexpr double kNarrowest = 0.01;  // m: minimum half track of a drive
+// Minimum distance of a caster behind its swivel joint, as a fraction of the wheel's radius.
 constexpr double kTrail = 0.15;
-constexpr double kMaxSteeringAngle = 1.4;  // rad
-constexpr double kFullTurn = 6.2;          // rad
+constexpr double kMaxSteeringAngle = 1.4;  // rad: maximum of a measured steering limit
+constexpr double kFullTurn = 6.2;          // rad: a swivel joint with a smaller range has limits
 
 const Joint& JointAt(const Model& model, int joint) {
   return model.joints[static_cast<std::size_t>(joint)];

@@ -1,21 +1,26 @@
 // Guesses the drive of a robot from its wheels, if the file describes no drive.
 //
 // Rule    Only wheels that FindWheels() returns and whose axle is across the model (along y) count.
-//         - A wheel on a joint about the vertical is a caster if that joint has no limits, and if
-//           the wheel is behind the joint or if there are fixed wheels. Otherwise it is steered.
-//         - Wheels that are clearly smaller than the largest, wheels in the middle between left and
-//           right, and wheels named caster are casters. Casters are not driven.
+//         - A fixed wheel has no swivel joint (a joint about the vertical). A wheel on a swivel
+//           joint with limits is steered.
+//         - A wheel on a swivel joint without limits is a caster if it is behind the joint, unless
+//           "steer" is in its name. If the wheel is under the joint, it is a caster if there are
+//           fixed wheels, but no wheels that are steered by the other rules. Else it is steered.
+//         - Fixed wheels that are clearly smaller than the largest, or in the middle between left
+//           and right, are casters too, and so are wheels with "caster" in their names. Casters are
+//           not driven.
 //         - If <ros2_control> gives some wheels a command interface, only these are driven.
 //         - If there are fixed wheels on the left and on the right, the drive is differential. If
 //           there are more than two, this is skid steering. If there are four fixed wheels with
 //           rollers at 45° and no steered wheels, the drive is mecanum. If all steered wheels are
-//           in front of the fixed wheels, the drive is Ackermann. Other steered wheels stay
-//           straight.
+//           in front of the fixed wheels, the drive is Ackermann. If some are not, it stays
+//           differential, and the steered wheels keep pointing straight ahead.
 //         - If there are only steered wheels, three or more, the base moves in all directions
 //           (kVelocity).
 // Measured  The radius is measured on the wheels, and the separation between the centres of the
-//         left and right wheels. The wheel base is the distance from the steered joints to the rear
-//         axle. The steering limit is the smallest limit of the steered joints.
+//         left and right wheels. For Ackermann, the wheel base is the distance from the steered
+//         joints to the rear axle, and the steering limit is the smallest limit of these joints.
+//         For other drives, the wheel base is the distance between the front and rear wheels.
 #pragma once
 
 #include "gsv/model/model.h"
