@@ -81,8 +81,8 @@ struct Link {
   bool has_wind = false;  // whether wind pushes the link
   // Whether only the drive or the command of its joint moves the link, and forces do not.
   bool is_kinematic = false;
-  // The fraction of its velocity that the link loses in each step of the world's length, in [0, 1]:
-  // SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
+  // The fraction of its velocity that the link loses in a time of the world's max_step_size, in
+  // [0, 1]: SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
   double linear_decay = 0, angular_decay = 0;
   // Set if the link is a wheel that has its own slip or may roll on soft ground. The wheel's axle
   // is the axis of the joint whose child is this link.
@@ -180,9 +180,10 @@ struct Model {
   geometry::Pose default_pose;
   std::vector<Link> links;    // links[0] is the canonical link; never empty
   std::vector<Joint> joints;  // a forest: each link is the child of at most one joint
-  // Joints that close loops of links: each connects two links of the forest, with rigid-body
-  // dynamics only. Such a joint has no position in a state, no commands, limits or losses. Its kind
-  // is fixed, revolute, continuous, prismatic or ball.
+  // Joints that close loops of links: each connects two links of the forest. They apply only with
+  // rigid-body dynamics. Such a joint takes no commands. Its position is not in the world's state,
+  // and its limits, damping and friction are ignored. Its kind is fixed, revolute, continuous,
+  // prismatic or ball.
   std::vector<Joint> loop_joints;
   std::vector<JointTarget> joint_targets;  // at most one per joint
   std::vector<double> start_positions;     // initial positions of the joints; empty: all zero

@@ -16,11 +16,11 @@ using geometry::Vector3;
 constexpr int kDirections = 16;  // number of directions in which a wheel's extent is measured
 // Minimum ratio of the smallest to the largest extent; a 12-sided mesh counts as round.
 constexpr double kRoundness = 0.88;
-constexpr double kMinRadius = 0.005;
+constexpr double kMinRadius = 0.005;  // m
 // Maximum sine of an axle's slope, because wheels may have camber.
 constexpr double kLevel = 0.35;
 constexpr double kUpright = 0.9;   // minimum cosine between a swivel and the vertical
-constexpr double kManyTurns = 20;  // rad
+constexpr double kManyTurns = 20;  // rad: a joint with a larger range turns freely
 
 // The extent of a shape from its origin, along a direction in its own frame.
 struct Reach {
@@ -90,7 +90,7 @@ class Extent {
     const double least = *std::min_element(across_.begin(), across_.end());
     return std::isfinite(radius()) && radius() > kMinRadius && least > kRoundness * radius();
   }
-  // Returns the point halfway along the axis.
+  // Returns the point on the axis that is halfway between the two ends of the shapes.
   Vector3 middle() const { return origin_ + (ahead_ - behind_) / 2 * axis_; }
 
  private:

@@ -24,8 +24,9 @@ struct Light {
   // Only for point and spot lights, at the distance d: the light is divided by constant + linear d
   // + quadratic d².
   double constant_attenuation = 1, linear_attenuation = 0, quadratic_attenuation = 0;
-  // Only for spots: the full angles of the cone with full light and of the cone with any light.
-  double inner_angle = 0, outer_angle = 0;  // rad: spot
+  // Only for spots: the full angles of two cones, in rad. Within the inner cone, the light has its
+  // full intensity. Outside of the outer cone, there is no light of this spot.
+  double inner_angle = 0, outer_angle = 0;
   bool cast_shadows = true;
 };
 
