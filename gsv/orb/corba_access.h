@@ -5,7 +5,7 @@
 // GSV_CORBA_CERTIFICATE  a PEM file, such as `gsv certificates make` writes
 // GSV_CORBA_KEY          its key (default: NAME-key.pem beside NAME.pem)
 // GSV_CORBA_AUTHORITY    the trusted authority (default: ca.pem beside NAME.pem)
-// GSV_INSECURE_CORBA     1: access control is off, for calls to this process and from it
+// GSV_INSECURE_CORBA     1: no access control for incoming and outgoing calls
 #pragma once
 
 #include <array>

@@ -160,8 +160,9 @@ base::Status McapFileWriter::Close() {
     WriteEnd();
     if (status_) status_ = sink_.Sync();
   } else if (ends_in_a_record_ && position_ > 0) {
-    // The truncation of the failed record may have freed enough space for the summary, so the
-    // writer still tries to write it. status() continues to return the first error.
+    // A write has failed, for example because the disk is full, and the incomplete record was cut
+    // off the file. This may have freed enough space for the summary, so the writer still tries to
+    // write it. status() continues to return the first error.
     base::Status reason = std::exchange(status_, base::Status{});
     WriteEnd();
     status_ = std::move(reason);

@@ -7,8 +7,8 @@
 namespace gsv::recording {
 namespace {
 
-// Reads the summary at the end of a file. Any damage makes the whole summary unusable. Returns the
-// reason, or an empty text if the summary is valid.
+// Reads the summary at the end of a file. Any damage makes the whole summary unusable. Each member
+// function returns what is wrong with the file or its summary, or nullopt if nothing is.
 class SummaryReader {
  public:
   using Reason = std::optional<std::string>;

@@ -146,7 +146,7 @@ bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   const auto has_room = [&]() GSV_REQUIRES(mutex_) {
     return queued() < options_.queue_size || closing_ || !status_;
   };
-  // Usually there is room. Then the clock is not read.
+  // Checks for space before wait_for(), which would read the clock. Usually there is space.
   if (!has_room() && !room_.wait_for(lock, options_.wait_limit, has_room)) {
     EndWith({base::ErrorCode::kTimeout,
              "the recording's disk does not keep up; record fewer topics or to a faster disk",
@@ -155,7 +155,8 @@ bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   return status_.has_value() && !closing_;
 }
 
-// Wakes the writer's thread if necessary. `before` is the size of the queue before it grew.
+// Wakes the writer's thread if the queue has just become long. `before` is the size of the queue
+// before the new record.
 void McapWriter::WakeWriter(std::size_t before) {
   if (oldest_ == std::chrono::steady_clock::time_point{}) {
     oldest_ = std::chrono::steady_clock::now();

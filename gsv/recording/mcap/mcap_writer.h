@@ -5,7 +5,8 @@
 // the recording, not the program: status() has the reason, and later messages are discarded.
 //
 // Threads  every member may be called from any thread, at any moment.
-// Time     log times are simulated. Only FlushIfOlderThan() reads the wall clock.
+// Time     log times are simulated. The wall-clock time decides only when the file is flushed, and
+//          how long a producer waits for the disk.
 #pragma once
 
 #include <atomic>
@@ -118,7 +119,8 @@ class McapWriter {
   std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;  // number of bytes in whole_
   bool flush_ GSV_GUARDED_BY(mutex_) = false;    // whether the thread must flush the sink next
   bool closing_ GSV_GUARDED_BY(mutex_) = false;  // whether Close() was called
-  // Time of the oldest message that is not flushed; zero if there is none.
+  // Wall-clock time at which the oldest message that is not flushed was queued; zero if there is
+  // none.
   std::chrono::steady_clock::time_point oldest_ GSV_GUARDED_BY(mutex_){};
   base::Status status_ GSV_GUARDED_BY(mutex_);
   Progress progress_ GSV_GUARDED_BY(mutex_);
