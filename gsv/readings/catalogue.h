@@ -285,7 +285,7 @@ struct Gripper {
 struct Speaker {
   static constexpr const char* kType = "speaker";
   std::string name;                  // name of the sound; empty for silence
-  double frequency = 0, volume = 0;  // Hz; from 0 to 1
+  double frequency = 0, volume = 0;  // frequency in Hz; volume from 0 to 1
   double elapsed = 0, left = 0;      // seconds since the sound's start, and until its end
   static constexpr auto kFields = std::make_tuple(
       Value("name", "", &Speaker::name, "sound"),
@@ -328,11 +328,11 @@ struct SegmentedImage {
   bool IsComplete() const { return pixels.size() == std::size_t(1) * width * height; }
 };
 
-// A thermal image; rows from the top, temperatures in multiples of the camera's resolution.
+// A thermal image; rows from the top. Every temperature is a multiple of `resolution`.
 struct ThermalImage {
   static constexpr const char* kType = "thermal_camera";
   int width = 0, height = 0;
-  double resolution = 0;                // the step of the temperatures, K
+  double resolution = 0;                // the smallest difference of two temperatures, K
   std::span<const double> temperature;  // one value per pixel, K
   static constexpr auto kFields = std::make_tuple(
       Value("width", "px", &ThermalImage::width), Value("height", "px", &ThermalImage::height),

@@ -1,7 +1,8 @@
 // Converts the struct of a reading to values and labels, and back.
 //
 // Readings of all types are passed as lists of numbers (`values`) and of texts (`labels`). The
-// struct of a type (catalogue.h) lists its members in this order, each with name and unit:
+// struct of a type (catalogue.h) has a tuple kFields. It lists the members, with name and unit, in
+// the order of their numbers and texts in a reading:
 //
 //   struct Altimeter {
 //     double position = 0, velocity = 0, reference = 0;
@@ -9,12 +10,13 @@
 //                                                     …);
 //   };
 //
-// Decode() and Append() convert in the order of that list, and LayoutOf() describes it. The Python
-// module makes one attribute for each member of the list. Members may be
+// Decode() and Append() convert the members in the order of kFields, and LayoutOf() describes
+// kFields. The Python module makes one attribute for each member in kFields. These are the types of
+// members, and what a reading contains for each of them:
 //   numbers, flags              one value each
 //   std::string                 one label
 //   a struct with kFields       its parts, in order
-//   std::optional of a struct   its parts, or nothing at the end of the values
+//   std::optional of a struct   its parts; no values if it is empty (for the last member only)
 //   std::vector of a struct     its parts again and again, to the end of the values
 //   std::span of double         all values that are left; of std::string: all labels that are left
 #pragma once
@@ -42,7 +44,7 @@ struct Field {
   // The field's path in the sensor type's message. Null means that the path equals `name`. An empty
   // path means that the parts have their own paths.
   const char* path;
-  bool is_optional;  // whether the field may be missing if it is the last one
+  bool is_optional;  // whether a reading may end before this field
 };
 
 template <typename Struct, typename Member>
@@ -65,7 +67,7 @@ constexpr void ForEachField(Function function) {
 
 namespace internal {
 
-// The kind of a member, as in the list above.
+// The kinds of members, from the list at the top of this file.
 template <typename T>
 inline constexpr bool kIsOptional = false;
 template <typename T>

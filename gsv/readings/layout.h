@@ -13,14 +13,14 @@ namespace gsv::readings {
 // The number of times that a column occurs in a reading.
 enum class Multiplicity {
   kOnce,
-  kOptional,  // once, or not at all at the end of a reading
+  kOptional,  // once; or not at all, if a reading ends before it
   kRepeated,  // any number of times, up to the end of the values
 };
 
-// The path of a field in nested structs, with the unit that it has or inherits.
+// The place of a field in nested structs: its full name, its unit and its path in the message.
 struct Place {
   std::string name;  // "touches.point.x"
-  std::string unit;  // unit of the innermost field that has one
+  std::string unit;  // its unit, or else that of the innermost struct around it that has one
   std::string path;  // path in the message, such as "contacts.point.x"
   Multiplicity occurs = Multiplicity::kOnce;
 
@@ -33,7 +33,7 @@ struct Place {
 struct Layout {
   struct Column {
     std::string name;  // "angular_velocity.x"
-    std::string unit;  // empty: none
+    std::string unit;  // empty if it has none
     std::string path;  // path in the type's message
     Multiplicity occurs = Multiplicity::kOnce;
   };
@@ -49,7 +49,7 @@ struct Layout {
   // Returns the size of a reading as a text, such as "6 or 10 values" or "groups of 8 values and 1
   // label".
   std::string Sizes() const;
-  // Returns units by path in the message. A path applies to all fields below it.
+  // Returns the unit of each path in the message. The unit applies to all fields below the path.
   std::map<std::string, std::string> Units() const;
 
  private:

@@ -72,9 +72,9 @@ struct FittedDevice {
   std::vector<FittedParameter> parameters;
   std::string warning = {};  // see Comparison::warning
 };
-// Fits the parameters to the readings of the log's even blocks (world_fit.h), or for odometry to
-// all windows. For a ring of sonars, returns one device for each beam, in beam order. Fails with
-// kInvalidArgument in the same cases as Compare().
+// Fits the parameters of a scanner to the scans of the log's even blocks (world_fit.h). Fits those
+// of odometry and of radio ranges to the whole log. For a ring of sonars, returns one device for
+// each beam, in beam order. Fails with kInvalidArgument in the same cases as Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 
 // Returns an SDFormat sensor for each device.

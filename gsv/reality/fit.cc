@@ -96,8 +96,9 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   const double scale = device.parameters.back().value;
   device.parameters.push_back(
       Estimated("short_probability", "", pairs, [scale](const std::vector<ScanPair>& some) {
-        // The simulation draws a random length for each short reading. A length beyond the surface
-        // has no effect, so the drawn fraction is larger than the observed one.
+        // A short reading is one that ends before the surface. The simulation draws a random range
+        // for it. A range beyond the surface has no effect: the reading remains as it is. So the
+        // fraction of drawn short readings must be larger than the observed fraction.
         double nearer = 0, beams = 0;
         for (const ScanPair& pair : some) {
           for (const double exact : pair.exact) {
@@ -109,8 +110,8 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
         const double shorter = MixtureOf(some, true, kFitTolerance).shorter;
         return nearer > 0 ? std::min(1.0, shorter * beams / nearer) : 0;
       }));
-  // Omits parameters of short readings whose interval is wider than half their value. By default
-  // there are no short readings.
+  // Omits both parameters of short readings unless the half-widths of both intervals are less than
+  // half of the values. Without these parameters, the simulation makes no short readings.
   const std::size_t shared = device.parameters.size() - 2;
   device.warning = WarningAbout(MixtureOf(pairs, true, kFitTolerance), kFitTolerance);
   const bool is_known = std::all_of(
@@ -135,9 +136,10 @@ class SonarFit {
   SonarFit(const Log& log, const CompareOptions& options) : log_(log), options_(options) {}
 
   base::Result<std::vector<FittedDevice>> Run() {
-    // The simulated shares are computed at the poses of the odd blocks, because the world was not
-    // fitted to the readings there. The real shares are computed from the readings of the even
-    // blocks. The readings of the odd blocks are not used.
+    // A share is the fraction of a sonar's readings that have an echo. The simulated shares are
+    // computed at the poses of the odd blocks (world_fit.h), because the world was not fitted to
+    // the readings there. The real shares are computed from the readings of the even blocks. The
+    // real readings of the odd blocks are not used.
     auto placed = PlaceScans(log_, options_, false);
     if (!placed) return base::Fail(placed.error());
     placed_ = *std::move(placed);
@@ -145,7 +147,8 @@ class SonarFit {
     for (const RangeScan& scan : ScansFor(log_, true)) fitted.push_back({{}, scan.ranges, {}, {}});
     real_ = EchoShares(fitted, true);
     // The slopes of a rough surface are normally distributed, and specular_width is their deviation
-    // (Kirchhoff's approximation): walls with mouldings return sound that arrives obliquely.
+    // (Kirchhoff's approximation). A large value is possible, because walls with mouldings return
+    // sound that arrives obliquely.
     std::vector<Searched> searched = {{"specular_width", "rad", 0.1, {0.5, 2, 3, 4.5}, 0.01, 0.8},
                                       {"roughness", "", 0.1, {0.2, 0.5, 2, 4}, 1e-3, 1},
                                       {"threshold", "", 0.02, {0.5, 2, 4}, 1e-3, 0.9},
@@ -180,8 +183,9 @@ class SonarFit {
   }
 
  private:
-  // The sonars of a ring are not equally sensitive. If a sonar returns fewer echoes than with the
-  // shared parameters, the difference becomes its fraction of lost echoes.
+  // Returns one device for each sonar. The sonars of a ring are not equally sensitive. If a real
+  // sonar returns fewer echoes than the simulation with the shared parameters, the missing fraction
+  // of echoes becomes the dropout probability of this sonar.
   base::Result<std::vector<FittedDevice>> WithLosses(const std::vector<Searched>& searched,
                                                      const FittedDevice& shared) {
     const auto pairs = PairsWith(searched);
@@ -224,8 +228,9 @@ class SonarFit {
     return cost;
   }
 
-  // Returns the change of the parameter that increases the cost by 3.84 (95 % for one degree of
-  // freedom), found in steps of a tenth.
+  // Returns the increase of the parameter that makes the cost more than 3.84 higher (95 % for one
+  // degree of freedom). Tries increases of 10 %, 40 % and 70 %. Returns the value of the parameter
+  // if none of them suffices.
   base::Result<double> IntervalOf(std::vector<Searched>& searched, Searched& each, double best) {
     const double value = each.value;
     for (double part = 0.1; part < 1; part += 0.3) {

@@ -29,8 +29,8 @@ TimedPose Inverted(const TimedPose& a) {
 LikelihoodField::LikelihoodField(const OccupancyMap& map)
     : map_(map), deviation_(std::max(0.02, map.resolution)) {
   distances_.assign(map.cells.size(), kFarthest);
-  // Dijkstra's algorithm over the eight neighbours of a cell. The distances are at most 8 % too
-  // long.
+  // Computes the distances with Dijkstra's algorithm. Its steps go to the eight neighbours of a
+  // cell, so the distances are at most 8 % too long.
   using Entry = std::pair<float, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
@@ -114,9 +114,10 @@ struct Candidate {
   TimedPose pose;
 };
 
-// Finds the pose of the first scan from some of the scans along the path.
+// Finds the pose of the first scan. Rates the poses of a coarse grid by the first scan. Then rates
+// the best of them by a few scans along the first metres of the path, and returns the best one.
 std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field) {
-  constexpr double kApart = 1;  // minimum odometry between two of these scans, m or rad
+  constexpr double kApart = 1;  // minimum distance between two of these scans, m
   constexpr std::size_t kScans = 6, kKept = 300;
   const TimedPose home = Inverted(*log.scans.front().base);
   std::vector<std::pair<const RangeScan*, TimedPose>> views;  // first_from_base
@@ -150,7 +151,8 @@ std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field)
   std::sort(best.begin(), best.end(),
             [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   best.resize(std::min(best.size(), 10 * kKept));
-  // Follows the odometry from scan to scan. Each search starts at the pose of the previous scan.
+  // Follows the odometry from scan to scan. Each search starts at the pose of the previous scan,
+  // moved by the odometry since then.
   for (Candidate& candidate : best) {
     TimedPose pose = field.Refined(log, *views[0].first, candidate.pose, 0.16);
     candidate.pose = pose;

@@ -22,8 +22,9 @@ class LikelihoodField {
  public:
   explicit LikelihoodField(const OccupancyMap& map);
 
-  // Returns the score of a scan in [0, 1]: the fraction of its finite ranges that end on or near
-  // occupied cells. Uses every `stride`th beam.
+  // Returns the score of a scan in [0, 1]: the mean weight of its finite ranges. The weight is 1
+  // for a range that ends on an occupied cell, and falls to 0 with the distance from the nearest
+  // one (a Gaussian). Uses every `stride`th beam.
   double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
                std::size_t stride) const;
   // Returns the pose with the best score near `guess`. The local search starts with steps of `reach`
@@ -33,12 +34,12 @@ class LikelihoodField {
   const OccupancyMap& map() const { return map_; }
 
  private:
-  // Returns the distance from a point of the world to the nearest occupied cell, m.
+  // Returns the distance from a point of the world to the nearest occupied cell: m, at most 1.
   double DistanceAt(double x, double y) const;
 
   OccupancyMap map_;
-  double deviation_ = 0.1;        // standard deviation of the end of a beam, m
-  std::vector<float> distances_;  // m, capped
+  double deviation_ = 0.1;        // standard deviation of the score's Gaussian, m
+  std::vector<float> distances_;  // for each cell of the map; m, at most 1
 };
 
 // Returns the poses, in the world, of every `stride`th scan of log.scans. `start` is the pose of

@@ -78,8 +78,8 @@ class CarmenReader {
     ++used_;
   }
 
-  // Returns the number of readings, which is the word at index `place`; nullopt if the number is
-  // unreasonable.
+  // Returns the number of readings, which is the word at index `place`; 0 if the word is not an
+  // integer from 1 to kMaxBeams.
   std::size_t BeamCount(std::size_t place) {
     std::vector<double> v;
     if (!rows_.Numbers(place, 1, v)) return 0;

@@ -36,7 +36,7 @@ struct TimedWheels {
 struct RangeScan {
   double time = 0;
   std::vector<double> ranges;
-  std::optional<TimedPose> base;  // the pose of the robot according to the log
+  std::optional<TimedPose> base;  // pose of the robot in the log's odometry or truth, if any
 };
 
 // One measured distance to a radio anchor, and the distance by the reference system.

@@ -44,7 +44,8 @@ struct SoundSettings {
   // Smallest echo that is detected. The strongest echo from straight ahead is 1, and the strongest
   // echo from the side lobes is 0.0175.
   double threshold = 0.02;
-  // Largest angle between the sound and a smooth surface's normal at which an echo returns, rad.
+  // Standard deviation of a smooth surface's slopes, rad. The echo falls to 61 % if the angle
+  // between the sound and the surface's normal has this value.
   double specular_width = 0.035;
   double roughness = 0;             // fraction of the sound that is scattered in all directions
   double gain_range = 0;            // m; 0: the amplifier compensates every distance
