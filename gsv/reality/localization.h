@@ -27,8 +27,8 @@ class LikelihoodField {
   // one (a Gaussian). Uses every `stride`th beam.
   double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
                std::size_t stride) const;
-  // Returns the pose with the best score near `guess`. The local search starts with steps of `reach`
-  // m and `reach` / 2 rad, and halves the steps repeatedly.
+  // Returns the pose with the best score near `guess`. The local search starts with steps of
+  // `reach` m and `reach` / 2 rad, and halves the steps repeatedly.
   TimedPose Refined(const Log& log, const RangeScan& scan, TimedPose guess, double reach) const;
 
   const OccupancyMap& map() const { return map_; }

@@ -38,7 +38,8 @@ MetadataRecord Describe(const Simulation& simulation, const StringMap& further) 
   return record;
 }
 
-// Adds the verdict of the expectations, and the first violation.
+// Adds to `result` whether the run has passed or failed. If expectations were violated, also adds
+// name, detail and time of the first violation.
 void AddVerdict(const std::vector<simulation::ExpectationState>& states, StringMap& result) {
   using Verdict = simulation::ExpectationState::Verdict;
   if (states.empty()) return;
@@ -167,8 +168,8 @@ void SimulationRecorder::Record(const Occurrence& occurrence) {
 
 void SimulationRecorder::Record(const Observation& observation) {
   const world::Snapshot& snapshot = *observation.snapshot;
-  // The first and the last snapshot are read from the simulation itself. If the feed delivers them
-  // too, only their status is recorded here.
+  // The first and the last snapshot are read from the simulation itself, so the feed may deliver
+  // them a second time. Then only the status is recorded.
   if (latest_ && snapshot.state.step <= latest_->state.step) {
     RecordStatusOf(observation);
     return;

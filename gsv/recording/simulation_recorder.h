@@ -6,7 +6,8 @@
 // One run     a reset of the simulation ends the recording.
 // Errors      a failing disk ends the recording, never the simulation; Stop() returns the error.
 // Threads     any; Stop() waits for the disk.
-// Determinism in lockstep, recorded from its start, equal runs give equal content hashes.
+// Determinism two recordings of equal runs have equal content hashes, if the runs are in lockstep
+//             and are recorded from their start.
 #pragma once
 
 #include <memory>
@@ -29,9 +30,9 @@ namespace gsv::recording {
 struct RecorderOptions {
   WriteGlb write_glb;               // required: writes a model as GLB
   double poses_rate = 50;           // in Hz of simulated time, > 0
-  SensorRates sensors;              // rates of the topics of sensors
+  SensorRates sensors;              // maximum rates of the topics of sensors
   std::vector<std::string> topics;  // see Selection; empty for all topics
-  WritePng write_png;               // if empty, images are recorded in the encoding of the sensors
+  WritePng write_png;               // encodes images; if empty, they are recorded as JPEG
   bool replace = false;             // whether to replace an existing file
   // The scenario to attach (default: ScenarioOf() of the simulation).
   std::optional<scenario::Scenario> scenario{};

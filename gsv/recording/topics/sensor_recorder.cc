@@ -36,7 +36,7 @@ struct SensorRecorder::Sensor {
   sensing::SensorMessages messages;
   std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
-  int body = -1;                     // index of the robot in layout_; -1 if it has no such body
+  int body = -1;                     // index of the robot in layout_; -1 if layout_ lacks the robot
   bool is_wanted = true;             // whether readings are recorded
   bool has_companion = false;        // whether companion messages (such as CameraInfo) are recorded
   bool has_beams = false;            // whether beams are recorded

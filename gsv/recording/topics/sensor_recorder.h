@@ -54,8 +54,8 @@ class SensorRecorder {
 
   // Sets the sensors that are recorded from now on.
   void SetSensors(const SensorLists& lists, const world::Snapshot& snapshot);
-  // Writes the readings and beams that are due at the snapshot's time. Several images are rendered at the
-  // same time.
+  // Writes the readings and beams that are due at the snapshot's time. Several images are rendered
+  // at the same time.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
@@ -108,13 +108,13 @@ class SensorRecorder {
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // samples slow sensors; null if there are none
   Sensors sensors_;
-  // No reading is due from `none_due_from_` until before `next_due_`.
+  // No reading is due at times t with none_due_from_ <= t < next_due_.
   base::SimTime none_due_from_{0}, next_due_{0};
   // The layout whose body indices Sensor::body and robot_beams_ use; null after SetSensors().
   std::shared_ptr<const world::Layout> layout_;
   std::vector<RobotBeams> robot_beams_;  // by body
-  // Working memory of TakeRobotSamples(): sensors of one robot with a due beam, and the values of
-  // their beams.
+  // Working memory of TakeRobotSamples(): the sensors of one robot that have a beam and whose
+  // reading is due, and the values that their beams return.
   std::vector<const Sensor*> due_beams_;
   std::vector<double> beam_values_;
   Instants beams_instants_;  // instants at which beams are recorded

@@ -5,8 +5,8 @@
 namespace gsv::recording {
 namespace {
 
-// Mounting a sensor does not change the layout, so the lists of sensors are checked at this
-// interval.
+// The lists of sensors are made when the layout changes. Mounting a sensor does not change the
+// layout, so the lists are also made at this interval.
 constexpr base::SimTime kSensorPeriod = std::chrono::seconds(1);
 constexpr std::size_t kMaxEvents = 10'000;
 
@@ -64,7 +64,8 @@ void SimulationFeed::OnSnapshot(const std::shared_ptr<const world::Snapshot>& sn
 }
 
 void SimulationFeed::OnEvent(const simulation::Event& event) {
-  const bool is_reset = event.kind == "reset";  // the event "reset" has the time of the next run
+  // The event "reset" is not recorded, because its time is in the next run.
+  const bool is_reset = event.kind == "reset";
   {
     const base::MutexLock lock(mutex_);
     if (closed_) return;
@@ -94,7 +95,8 @@ void SimulationFeed::CloseAtLatest() {
   {
     const base::MutexLock lock(mutex_);
     if (!closed_) {
-      // The snapshot is taken last, because the simulation may be running and its state may change.
+      // The status is read before the snapshot. If the simulation is running, the snapshot may be
+      // newer.
       queue_.emplace_back(
           Observation{simulation_.snapshot(), nullptr, status, simulation_.expectations()});
       ++snapshots_;

@@ -5,8 +5,8 @@
 // Bounded      snapshots are limited by a capacity. If the queue is full, the producer waits, or
 //              the snapshot is dropped and counted. Producers of events never wait, because events
 //              are emitted under the simulation's locks; excess events are dropped.
-// Determinism  in lockstep nothing is dropped, and the stepping thread takes the lists of sensors
-//              while the threads of all robots wait.
+// Determinism  in lockstep nothing is dropped. The stepping thread reads the lists of sensors while
+//              the threads of all robots wait, so the lists do not depend on thread timing.
 #pragma once
 
 #include <deque>
@@ -56,14 +56,14 @@ class SimulationFeed final : public simulation::Observer {
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // Returns the next snapshot or event. Returns nullopt after `timeout` of wall-clock time, or at
-  // the end.
+  // Returns the next snapshot or event. Returns nullopt after `timeout` of wall-clock time, or if
+  // is_over().
   std::optional<Occurrence> Next(std::chrono::milliseconds timeout);
 
   // Closes the feed, and wakes producers that wait. Queued entries remain. A reset of the
   // simulation also closes the feed.
   void Close();
-  // Closes the feed and appends the current state of the simulation, which must still exist.
+  // Appends the current state of the simulation, which must still exist, and closes the feed.
   void CloseAtLatest();
   bool is_over() const;           // Whether the feed is closed and the queue is empty.
   bool was_reset() const;         // whether a reset of the simulation has closed the feed
@@ -76,8 +76,8 @@ class SimulationFeed final : public simulation::Observer {
   const simulation::Simulation& simulation_;
   const FeedOptions options_;
 
-  // The following members are used by the stepping thread only.
-  // Instants at which the status and the lists of sensors are sampled.
+  // Only the stepping thread uses the next three members: the instants at which the status and the
+  // lists of sensors are read, and the layout.
   Instants status_instants_;
   Instants sensor_instants_;
   std::shared_ptr<const world::Layout> layout_;  // the layout of the last list of sensors

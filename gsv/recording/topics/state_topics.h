@@ -26,7 +26,8 @@ class StateTopics {
 
   // Writes the messages that are due at the time of the snapshot.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
-  // Writes all messages of the snapshot that were not written yet, even if they are not due.
+  // Writes the poses and the clock of the snapshot, unless they are already written. They need not
+  // be due.
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
@@ -57,7 +58,7 @@ class StateTopics {
   std::shared_ptr<const world::Layout> layout_;     // layout of the last snapshot
   std::vector<presentation::PoseEntry> pose_list_;  // the entries of the written poses, for layout_
   messages::tf2_msgs::TFMessage
-      transforms_message_;  // the last message; it has the names in layout_
+      transforms_message_;  // the last message on /tf; has the frames of the bodies in layout_
   std::map<std::string, world::DriveState> written_;  // last written command of each robot
   // The element of written_ for each body of layout_; null for bodies that are not robots.
   std::vector<world::DriveState*> written_of_;

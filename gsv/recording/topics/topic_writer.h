@@ -14,8 +14,8 @@ namespace gsv::recording {
 template <typename Message>
 class TopicWriter {
  public:
-  // `writer` must outlive this object. The recording must not have the topic with another type. A
-  // topic that is not selected is not recorded.
+  // `writer` must outlive this object. If the recording already has the topic, the message types
+  // must be equal. A topic that is not selected is not recorded.
   TopicWriter(McapWriter& writer, const Selection& selection,
               const presentation::TopicOf<Message>& topic)
       : writer_(writer) {

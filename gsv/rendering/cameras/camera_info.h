@@ -4,9 +4,9 @@
 // Lens    K contains fx, skew, cx; fy, cy in pixels. P is K with a column of zeros. R is the
 //         identity, so a rectified image has the same K. A pinhole with distortion is "plumb_bob"
 //         with D = k1 k2 p1 p2 k3; its distortion must be about the principal point. An equidistant
-//         wide lens is "equidistant" with D = 0 0 0 0 and K for r = f a. ROS has no model of other
-//         lenses. For them, the name and D are empty, and K is zero, which means "not calibrated"
-//         in ROS.
+//         wide lens is "equidistant" with D = 0 0 0 0 and the K of r = f a (r: distance from the
+//         centre in px, a: angle from the axis). ROS has no model of other lenses. For them, the
+//         name and D are empty, and K is zero, which means "not calibrated" in ROS.
 #pragma once
 
 #include <string>
