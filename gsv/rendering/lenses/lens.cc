@@ -9,8 +9,9 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-// Newton's method stops when its step is smaller than this length in the image plane at a distance
-// of 1. This is far less than a pixel, because an image has at most 4,096 pixels per side.
+// Newton's method stops when its step is smaller than this length in the normalized image plane
+// (focal length 1). This is far less than a pixel, because an image has at most 4,096 pixels per
+// side.
 constexpr double kCloseEnough = 1e-12;
 constexpr int kMaxSteps = 50;
 
@@ -111,7 +112,8 @@ Vector2 Lens::Distorted(const Vector2& p) const {
 std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
   if (distortion_.is_none()) return p;
   const Distortion& d = distortion_;
-  // The search starts at the centre, so that it finds the innermost solution.
+  // Several p can be distorted to the same point. The search starts at the centre and goes outwards
+  // in kStations steps, so that it finds the solution nearest to the centre.
   Vector2 at = centre_;
   const Vector2 whole = p - centre_;
   constexpr int kStations = 4;
@@ -126,7 +128,8 @@ std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
       const double xy = x * y * slope + 2 * d.p1 * x + 2 * d.p2 * y;
       const double yy = radial + y * y * slope + 6 * d.p1 * y + 2 * d.p2 * x;
       const double determinant = xx * yy - xy * xy;
-      // Where the determinant is not positive, the image is folded back on itself.
+      // Where the determinant is not positive, points farther out are distorted to the same image
+      // points again: the image is folded.
       if (!(determinant > 1e-9 && xx + yy > 0)) return std::nullopt;
       const Vector2 off = goal - Distorted(at);
       const Vector2 move{(yy * off.x - xy * off.y) / determinant,
@@ -170,7 +173,8 @@ std::optional<Vector2> Lens::Project(const Vector3& point) const {
   const Vector2 p{-point.y / point.x, -point.z / point.x};
   const Vector2 at = Distorted(p);
   if (!distortion_.is_none()) {
-    // The folded part of the image is not shown.
+    // If the image is folded (see Undistorted()), several points have the same image point. Only
+    // the innermost one is shown.
     const auto back = Undistorted(at);
     if (!back || std::hypot(back->x - p.x, back->y - p.y) > 1e-6) return std::nullopt;
   }

@@ -66,9 +66,9 @@ class Lens {
   explicit Lens(const CameraParameters& camera);
   // A pinhole with these intrinsics and this distortion.
   Lens(const CameraParameters& camera, const Intrinsics& intrinsics, const Distortion& distortion);
-  // Creates a wide lens; only the image size of `camera` is used. If `horizontal_fov` is not 0 (at
-  // most 2 pi), f is chosen such that the image is this wide. Fails with kInvalidArgument if that
-  // is impossible.
+  // Creates a wide lens; only the image size of `camera` is used. If `horizontal_fov` is greater
+  // than 0, view.f is ignored, and f is computed so that the image's width spans this angle (at
+  // most 2 pi). Fails with kInvalidArgument if the lens cannot span the angle.
   static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
                                  double horizontal_fov);
 
@@ -94,16 +94,16 @@ class Lens {
 
  private:
   // Distorted() applies the distortion, and Undistorted() inverts it. Both are for points in the
-  // plane at a distance of 1.
+  // normalized image plane (focal length 1).
   geometry::Vector2 Distorted(const geometry::Vector2& p) const;
-  // Removes the distortion from a point; nullopt if no point has this image.
+  // Returns the point that Distorted() maps to `p`; nullopt if there is none.
   std::optional<geometry::Vector2> Undistorted(const geometry::Vector2& p) const;
 
   int width_ = 0, height_ = 0;  // size of the image, pixels
   bool is_plain_ = true;
   Intrinsics intrinsics_;
   Distortion distortion_;
-  geometry::Vector2 centre_;      // the centre of distortion, at a distance of 1
+  geometry::Vector2 centre_;      // the centre of distortion in the normalized image plane
   std::optional<WideView> wide_;  // nullopt for a pinhole
 };
 

@@ -61,7 +61,8 @@ double DensityOf(const Lens& lens) {
 
 double FovOf(double tangent) { return 2 * std::atan(tangent); }
 
-// Returns the pinhole camera of a face that extends by the tangents `right` and `up` to all sides.
+// Returns the pinhole camera of a face. `right` and `up` are the tangents of half its horizontal
+// and of half its vertical angle of view. `density` is in pixels per radian.
 CameraParameters FaceOf(const CameraParameters& camera, double density, double right, double up) {
   CameraParameters face = camera;
   const double most = 0.5 * kMaxImageSide - kMargin;
@@ -149,8 +150,8 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
       const double f = FocalLength(face.camera);
       source.u = static_cast<float>(0.5 * face.camera.width - f * in_face.y / in_face.x);
       source.v = static_cast<float>(0.5 * face.camera.height - f * in_face.z / in_face.x);
-      // The depth of the nearest pixel belongs to that pixel's ray, and not to the ray of the
-      // sampled position.
+      // Depth is sampled at the nearest pixel of the face. So the scale is computed for the ray
+      // through the centre of that pixel, and not for the ray through (u, v).
       const Vector3 nearest{1, -(std::floor(source.u) + 0.5 - 0.5 * face.camera.width) / f,
                             -(std::floor(source.v) + 0.5 - 0.5 * face.camera.height) / f};
       source.depth_scale = static_cast<float>((face.camera_from_face * nearest).x);
@@ -160,7 +161,8 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
   FindReach();
 }
 
-// Computes the distance between the positions from which neighbouring pixels are sampled.
+// Computes `reach`: the distance between the positions in the face from which a pixel and its
+// neighbour in the row are sampled. It stays 1 if they are sampled from different faces.
 void LensMap::FindReach() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& here = sources_[i];
@@ -197,8 +199,8 @@ model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> 
     Light light{};
     if (source.face >= 0) {
       const model::Image& from = *images[static_cast<std::size_t>(source.face)];
-      // The number of samples of a pixel is large enough to include every source pixel that it
-      // covers.
+      // A pixel gets about one sample for each face pixel that it covers, but at most
+      // kMaxMixedSamples² samples.
       const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMaxMixedSamples);
       for (int i = 0; i < side * side; ++i) {
         const auto off = [&](int k) {
@@ -232,7 +234,7 @@ GroundTruth LensMap::Join(std::span<const std::shared_ptr<const GroundTruth>> tr
     const int y = std::clamp(static_cast<int>(source.v), 0, from.height - 1);
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) +
                            static_cast<std::size_t>(x);
-    // A background pixel keeps its infinite depth, also behind the camera.
+    // The scale is negative behind the camera. The depth of the background remains +infinity there.
     const bool is_something = std::isfinite(from.depth[at]);
     joined.depth.push_back(is_something ? from.depth[at] * source.depth_scale : from.depth[at]);
     joined.body.push_back(from.body[at]);

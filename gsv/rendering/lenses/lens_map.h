@@ -21,9 +21,9 @@ namespace gsv::rendering {
 // Computes an image through a lens from pinhole images.
 class LensMap {
  public:
-  // `camera` sets near and far. The pinhole images have the largest resolution (pixels per radian)
-  // of the lens, but at most four times its resolution at the centre. They have at most
-  // kMaxImageSide pixels per side.
+  // Only `near` and `far` of `camera` are used. The pinhole images have the largest resolution
+  // (pixels per radian) of the lens, but at most four times its resolution at the centre. They have
+  // at most kMaxImageSide pixels per side.
   LensMap(const Lens& lens, const CameraParameters& camera);
 
   // The maximum number of pixels of an image. A map takes 20 bytes per pixel.

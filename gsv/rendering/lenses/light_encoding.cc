@@ -13,7 +13,7 @@ double Linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-// Returns a table of the light of (i + `off`) / 255.
+// Returns a table whose element i is the linear light of the encoded value i + `off` (0 to 255).
 Table TableOf(double off) {
   Table table;
   for (std::size_t i = 0; i < table.size(); ++i) {

@@ -7,7 +7,7 @@ namespace gsv::rendering {
 
 // Returns the linear light of an sRGB value, from 0 (black) to 1 (white).
 float LightOf(std::uint8_t number);
-// Returns the sRGB value whose linear light is nearest to `light`.
+// Encodes linear light as sRGB, and returns the nearest integer.
 std::uint8_t NumberFor(float light);
 
 }  // namespace gsv::rendering

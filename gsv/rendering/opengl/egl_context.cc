@@ -33,9 +33,9 @@ Status CheckLibrary(const std::string& name) {
   return {};
 }
 
-// Keeps the driver's library loaded. Mesa unloads its drivers at exit, and LeakSanitizer searches
-// for leaks after that. It could then not recognise allocations of a driver, and so not suppress
-// them (cmake/sanitizers/lsan.supp).
+// Keeps the driver's library loaded. Mesa would unload its drivers at exit, before LeakSanitizer
+// searches for leaks. LeakSanitizer would then not know which allocations are a driver's, and would
+// report them although cmake/sanitizers/lsan.supp suppresses them.
 int KeepDriver(dl_phdr_info* object, std::size_t, void*) {
   const std::string name = object->dlpi_name;
   if (name.ends_with("_dri.so")) dlopen(name.c_str(), RTLD_NOW | RTLD_NODELETE);

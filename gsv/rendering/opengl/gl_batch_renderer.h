@@ -26,7 +26,7 @@ class GlBatchRenderer final : public BatchRenderer {
 
   base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
-  // Uses the rasteriser, so that results are bit-identical on every machine.
+  // Renders on the CPU (raster/), so that results are bit-identical on every machine.
   base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
   // Frees the meshes and textures that are not in use.
