@@ -48,7 +48,8 @@ std::vector<std::string> Without(const std::vector<std::string>& lines,
   return alone;
 }
 
-// Returns the body whose pose contains the number at `index`, in a message with all poses.
+// Returns the name of the body whose pose contains a number of a gsv_msgs/Poses message; empty if
+// it is unknown. `index` is the index of the number. Each pose has seven numbers.
 std::string BodyOfPose(const McapReader& reader, base::SimTime time, std::size_t index) {
   const auto scene =
       nlohmann::json::parse(AttachmentOf(reader, kSceneAttachment, time), nullptr, false);
@@ -95,7 +96,7 @@ std::string RobotOf(const McapReader& reader, const Difference& difference) {
     return BodyOfPose(reader, difference.time,
                       std::strtoul(difference.field.c_str() + kPoses.size(), nullptr, 10));
   }
-  // All topics that are not in the table are topics of sensors: /ROBOT/SENSOR.
+  // All topics that FindTopic() does not know are topics of sensors: /ROBOT/SENSOR.
   if (presentation::FindTopic(topic) == nullptr) {
     return topic.substr(1, topic.find('/', 1) - 1);
   }

@@ -24,7 +24,8 @@ constexpr std::chrono::milliseconds kChunkAge{500};        // wall-clock time
 constexpr std::chrono::milliseconds kWatchedPeriod{50}, kUnwatchedPeriod{250};
 constexpr std::chrono::milliseconds kWatchedStatusPeriod{200}, kUnwatchedStatusPeriod{1000};
 constexpr std::chrono::milliseconds kReadingsPeriod{200}, kSensorListPeriod{1000};
-// After each sampling, the thread pauses for this multiple of the time that the sampling took.
+// The time from the start of one sampling to the start of the next is at least this multiple of the
+// time that the first one took.
 constexpr int kWatchedRest = 20, kUnwatchedRest = 50;
 // A rate above all sampling rates, so that every sample is recorded.
 constexpr double kHistoryPosesRate = 1000;

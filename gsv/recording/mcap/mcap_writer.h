@@ -113,7 +113,7 @@ class McapWriter {
   mutable base::Mutex mutex_;
   // Notified when there is work for the writer's thread.
   base::ConditionVariable work_;
-  base::ConditionVariable room_;                       // notified when the queue is empty again
+  base::ConditionVariable room_;                       // notified when producers may continue
   Bytes queue_ GSV_GUARDED_BY(mutex_);                 // encoded records in the form of the file
   std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);    // large records, each in its own buffer
   std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;  // number of bytes in whole_

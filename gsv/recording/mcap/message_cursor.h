@@ -33,7 +33,7 @@ class MessageCursor {
     bool operator()(const OpenBlock* a, const OpenBlock* b) const;
   };
 
-  // Reads each block that may contain a message before the next message of the open blocks.
+  // Opens blocks until no closed block can contain an earlier message than the open blocks.
   base::Status OpenBlocksThatMayBeNext();
   base::Status Open(const MessageBlock& block);
   // Frees the block whose last message was returned.

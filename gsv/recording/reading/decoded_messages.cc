@@ -54,8 +54,8 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
 }
 
 // Reads the messages of a recording for a comparison, one instant at a time. A message is
-// identified by its topic and its number within the topic. If messages may be missing, the numbers
-// start from 0 at each instant.
+// identified by its topic and its sequence number. If one of the recordings may lack messages, the
+// sequence numbers differ, so the messages of a topic are counted from 0 at each instant.
 class InstantReader {
  public:
   InstantReader(const McapReader& reader, const Selection& selection, Gaps gaps)
@@ -155,8 +155,8 @@ base::Result<Difference> Compare(const InstantReader& first, const InstantReader
   const auto decoded_b = second.Decode(topic, b);
   if (!decoded_b) return base::Fail(decoded_b.error());
   if (!FindDifference(*decoded_a, *decoded_b, "", difference)) {
-    // Images and padding are not decoded, so the difference may be in bytes that belong to no
-    // field.
+    // All decoded fields are equal. Then the bytes of an image or of padding differ, which are not
+    // decoded.
     difference.field = "bytes";
     difference.in_first = fmt::format("{} bytes", a.size());
     difference.in_second = fmt::format("{} others", b.size());

@@ -57,7 +57,8 @@ class Copier {
     ++recovery_.attachments;
   }
 
-  // Copies lasting messages to the start of the part, with their original publish time.
+  // Copies the messages that are still valid at the start of the selection (lasting_messages.h).
+  // Their log time becomes this start. They keep their publish time.
   void CopyLasting() {
     LastingMessages lasting = FindLastingMessages(reader_, selection_.from);
     for (const LastingMessage& message : lasting.messages) {
