@@ -26,7 +26,7 @@ struct LensModel {
 // Returns the ROS parameters of a lens.
 LensModel LensModelOf(const Lens& lens);
 
-// The companion message of camera types.
+// Returns the companion message of camera types: sensor_msgs/CameraInfo, sent with each reading.
 sensing::Companion CameraInfoCompanion();
 // Encodes the message in CDR, for a camera whose frame is `frame_id`.
 sensing::Sensor::Bytes EncodeCameraInfo(const Lens& lens, base::SimTime time,

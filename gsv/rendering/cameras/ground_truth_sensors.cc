@@ -28,8 +28,8 @@ constexpr std::size_t kSharedSurveyBytes = 64 << 20;
 // the maximum number of points of a point cloud that the viewer shows
 constexpr std::size_t kMaxDrawnPoints = 2000;
 
-// Scales a pixel's ray to a depth of one metre. Returns nullopt if the lens shows nothing there, or
-// if the ray does not point forwards.
+// Scales a pixel's ray so that its component along the view is 1 m. Returns nullopt if the lens
+// shows nothing there, or if the ray is perpendicular to the view.
 std::optional<Vector3> OneMetreOn(const std::optional<Vector3>& ray) {
   if (!ray || std::abs(ray->x) < 1e-6) return std::nullopt;
   return (1 / ray->x) * *ray;
@@ -295,10 +295,13 @@ class ThermalCamera final
 };
 
 // Computes surface normals from a depth image. A tangent is the difference between the points of a
-// pixel and of an adjacent pixel of the same visual. Of the two adjacent pixels, the one is taken
-// on whose side the surface is closer to a plane. So a normal near an edge belongs to the pixel's
-// own face. In the image of a plane, the inverse depth is linear along a line. So its second
-// difference measures the deviation from a plane.
+// pixel and of a neighbour of the same visual, in the row or in the column. If the neighbours on
+// both sides are of this visual, the one on the flatter side is used. So a normal near an edge
+// belongs to the pixel's own face.
+//
+// Bend() measures flatness. In a pinhole image of a plane, the inverse depth is linear along a row
+// and along a column. So the second difference of the inverse depth shows the deviation from a
+// plane.
 class SurfaceNormals {
  public:
   SurfaceNormals(const GroundTruth& truth, const Optics& optics) : truth_(truth) {
@@ -334,9 +337,9 @@ class SurfaceNormals {
            truth_.visual[other] == truth_.visual[pixel];
   }
 
-  // Returns how much three points deviate from a straight line. These are the points of the pixel
-  // (x, y) and of the next two pixels in the direction (dx, dy). Infinite if one of them has no
-  // depth.
+  // Returns how much three points deviate from a straight line: the points of the pixel (x, y) and
+  // of the next two pixels in the direction (dx, dy). Infinite if the last pixel is not of the same
+  // visual.
   double Bend(int x, int y, int dx, int dy) const {
     const std::size_t pixel = Index(x, y);
     if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {

@@ -1,16 +1,18 @@
 // The optics of all cameras: image size, lens, and rendering through the lens.
 //
-// Parameters (of SDFormat's <camera>; lengths in m, angles in rad, sizes in pixels)
+// Parameters (of SDFormat's <camera>) and their default values. Lengths are in m, angles in rad,
+// sizes in pixels. "Pinhole": only for the lens gnomonical. "Wide": only for the other lenses.
 //   image.width, image.height   320 by 240, at most 4096; through a lens at most 4,194,304 pixels
-//   horizontal_fov              1.047; at most 3.0, of a wide lens 2 pi
+//   horizontal_fov              1.047; at most 3.0 (pinhole) or 2 pi (wide)
 //   clip.near, clip.far         0.1 and 100
-//   lens.type                   gnomonical (a pinhole), stereographic, equidistant, solid_angle,
-//                               orthographic, custom
-//   lens.scale_to_hfov          true, of a wide lens
-//   lens.cutoff_angle           pi / 2, of a wide lens
-//   lens.custom_function.{c1,c2,c3,f,fun}   fun: sin, tan or id
-//   lens.intrinsics.{fx,fy,cx,cy,s}         of a pinhole, instead of horizontal_fov
-//   distortion.{k1,k2,k3,p1,p2}, distortion.center   of a pinhole; "0.5 0.5" is the middle
+//   lens.type                   gnomonical, stereographic, equidistant, solid_angle, orthographic
+//                               or custom (default: see Optics::Read())
+//   lens.scale_to_hfov          wide: true
+//   lens.cutoff_angle           wide: pi / 2
+//   lens.custom_function.{c1,c2,c3,f,fun}   lens custom: 1, 1, 0, 1, tan; fun is sin, tan or id
+//   lens.intrinsics.{fx,fy,cx,cy,s}         pinhole: replace horizontal_fov
+//   distortion.{k1,k2,k3,p1,p2}             pinhole: 0
+//   distortion.center                       pinhole: "0.5 0.5", the middle of the image
 // The equations are in lens.h.
 #pragma once
 

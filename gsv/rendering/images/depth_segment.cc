@@ -58,7 +58,8 @@ std::vector<std::uint8_t> EncodeDepth(const DepthGrid& grid) {
 
   GroupWriter groups(bytes);
   const auto columns = static_cast<std::size_t>(grid.columns);
-  // The previous row of numbers, from the column that the loop has reached; before it, this row.
+  // In the columns that the loop has passed: the numbers of this row. In the other columns: the
+  // numbers of the previous row.
   std::vector<std::uint32_t> numbers(columns, 0);
   for (std::size_t first = 0; first < grid.inverse_depth.size(); first += columns) {
     std::uint32_t left = 0, above_left = 0;
@@ -78,7 +79,7 @@ std::vector<std::uint8_t> EncodeDepth(const DepthGrid& grid) {
 }
 
 void InsertDepth(const DepthGrid& grid, std::vector<std::uint8_t>& jpeg) {
-  constexpr std::size_t kFirstSegment = 2;  // after the marker of the beginning
+  constexpr std::size_t kFirstSegment = 2;  // offset in bytes, after the marker SOI
   GSV_CHECK(jpeg.size() > kFirstSegment + 4);
   const std::size_t length = (std::size_t{jpeg[kFirstSegment + 2]} << 8) + jpeg[kFirstSegment + 3];
   const std::vector<std::uint8_t> content = EncodeDepth(grid);
