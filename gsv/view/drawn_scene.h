@@ -35,9 +35,10 @@ class DrawnScene {
   // Returns the world at the instant of a message, which must have this scene's layout.
   std::shared_ptr<const world::Snapshot> At(const messages::gsv_msgs::Poses& poses) const;
 
-  // The result is valid during the lifetime of this object and of `snapshot`, which must be a
-  // result of At(). The default view uses the poses of the scene, so it does not move with the
-  // bodies.
+  // Returns an object that finds bodies and cameras of the scene by name, at the instant of
+  // `snapshot`, which must be a result of At(). The returned object is valid during the lifetime of
+  // this object and of `snapshot`. Its default view uses the poses of the scene, so it does not move
+  // with the bodies.
   SceneLookup LookupAt(const world::Snapshot& snapshot) const;
 
  private:

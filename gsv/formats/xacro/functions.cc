@@ -87,16 +87,31 @@ base::Result<Value> Extreme(const Arguments& given, const char* word) {
   return *best;
 }
 
+// Rounds to a multiple of a power of ten, which is at most 1e22, so that it is exact. A value halfway
+// between two multiples becomes the multiple with the even quotient.
+double RoundedToMultiple(double value, double power) {
+  const double rest = std::fmod(value, power), multiple = value - rest;
+  const double twice = 2 * std::abs(rest);
+  const bool is_odd = std::fmod(multiple / power, 2) != 0;
+  const bool is_away = twice > power || (twice == power && is_odd);
+  return is_away ? multiple + std::copysign(power, value) : multiple;
+}
+
 // Implements round(). Halves are rounded to the nearest even integer.
 base::Result<Value> Round(const Arguments& a) {
   if (a.empty() || a.size() > 2 || !a[0].is_number()) return InvalidCall("round() takes a number");
   if (a.size() == 1) return Whole(std::nearbyint(Real(a[0])));
   const auto* digits = a[1].as<std::int64_t>();
-  if (digits == nullptr || *digits < -300 || *digits > 300) {
-    return InvalidCall("the second argument of round() must be a whole number from -300 to 300");
+  if (digits == nullptr || *digits < -22 || *digits > 300) {
+    return InvalidCall("the second argument of round() must be a whole number from -22 to 300");
+  }
+  if (*digits < 0) {
+    const double power = std::pow(10.0, static_cast<double>(-*digits));
+    const double rounded = RoundedToMultiple(Real(a[0]), power);
+    return a[0].as<double>() != nullptr ? base::Result<Value>(Value{rounded}) : Whole(rounded);
   }
   // Uses the decimal text, as Python does, so that 2.675 becomes 2.67.
-  if (*digits >= 0 && a[0].as<double>() != nullptr && std::abs(Real(a[0])) < 1e17) {
+  if (a[0].as<double>() != nullptr && std::abs(Real(a[0])) < 1e17) {
     char text[400];
     std::snprintf(text, sizeof text, "%.*f", static_cast<int>(*digits), Real(a[0]));
     return Value{*ParseFloat(text)};

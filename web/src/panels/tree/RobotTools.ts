@@ -28,7 +28,7 @@ const GROUPING_LABELS: Record<Grouping, string> = {
 export function createRobotTools(ports: Ports): HTMLElement {
   const field = searchField(ports);
   const problem = element("p", { class: "robot-problem", role: "status" });
-  const chip = element("button", { class: "button small robot-chip", type: "button", title: "Show all states" });
+  const chip = element("button", { class: "button small robot-chip", type: "button", title: "Show robots in all states" });
   chip.addEventListener("click", () => ports.robots.filter({ state: null }));
   const sorting = choice<Sorting>("Order", SORTING_LABELS, (chosen) => ports.robots.filter({ sorting: chosen }));
   const grouping = choice<Grouping>("Groups", GROUPING_LABELS, (chosen) => ports.robots.filter({ grouping: chosen }));
