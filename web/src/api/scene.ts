@@ -1,5 +1,6 @@
 // The scene of a simulation: its bodies, its lights, and the meaning of each entry of /gsv/poses.
 // Metres, radians, z up. A pose has seven numbers: x y z qx qy qz qw.
+import type { Units } from "../live/values";
 import type { JsonObject } from "./json";
 import { listAt, numberAt, numberOr, numbersAt, objectAt, textAt, textOr } from "./json";
 
@@ -26,9 +27,6 @@ export interface CameraView {
   horizontalFov: number;
   aspect: number;
 }
-
-// Units by the path of a field in the sensor's messages. A path applies to all fields below it.
-export type Units = Readonly<Record<string, string>>;
 
 // A sensor of a body: its topic, its type, and where it is mounted.
 export interface SceneSensor {

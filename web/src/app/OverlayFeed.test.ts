@@ -34,6 +34,7 @@ function fakeView() {
     setSensorFrames: vi.fn(),
     setBeams: vi.fn(),
     forgetBeams: vi.fn(),
+    setPoints: vi.fn(),
     setReading: vi.fn(),
     keepReadings: vi.fn(),
   };
@@ -87,8 +88,8 @@ test("in a recording, only the beams of the selected robot are drawn", () => {
   };
   const view = fakeView();
   new OverlayFeed(store, session as unknown as Session, view).start();
-  send({ markers: [{ ns: "r6" }, { ns: "r7" }] });
-  expect(view.setBeams).toHaveBeenCalledWith({ markers: [{ ns: "r7" }] });
+  send([{ robot: "r6" }, { robot: "r7" }]);
+  expect(view.setBeams).toHaveBeenCalledWith([{ robot: "r7" }]);
   store.set({ selection: null });
   expect(end).toHaveBeenCalled();
   expect(view.forgetBeams).toHaveBeenCalled();
@@ -108,8 +109,10 @@ test("hidden overlays are unsubscribed and cleared", () => {
   expect(heard.size).toBe(0);
   store.set(showing(["points", "contacts"]));
   expect([...heard.keys()].sort()).toEqual(["/a/scan", "/b/scan", "/gsv/current_contacts", "/tf_static"]);
-  heard.get("/a/scan")!({ ranges: [] });
-  expect(view.setReading).toHaveBeenCalledWith("/a/scan", { ranges: [] });
+  heard.get("/a/scan")!("points");
+  expect(view.setPoints).toHaveBeenCalledWith("/a/scan", "points");
+  heard.get("/gsv/current_contacts")!({ contacts: [] });
+  expect(view.setReading).toHaveBeenCalledWith("/gsv/current_contacts", { contacts: [] });
   store.set(showing(["contacts"]));
   expect([...heard.keys()]).toEqual(["/gsv/current_contacts"]);
   expect(view.keepReadings).toHaveBeenLastCalledWith(new Set(["/gsv/current_contacts"]));

@@ -1,10 +1,11 @@
 // Subscribes to the data of the visible overlays only: sensor poses, and the readings of lidars,
 // depth cameras, bumpers and actuators.
 import { robotsOf } from "../api/scene";
-import type { MarkerArrayMessage } from "../protocol/messages";
 import type { SceneBody, SceneDescription, SceneSensor } from "../api/scene";
-import type { TransformsMessage } from "../protocol/messages";
+import type { Points } from "../live/clouds";
 import { CURRENT_CONTACTS_TOPIC } from "../live/clouds";
+import type { RobotBeams } from "../protocol/beams";
+import type { TransformsMessage } from "../protocol/messages";
 import type { TopicSource } from "../protocol/SharedTopics";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
@@ -25,8 +26,9 @@ const ACTUATORS = ["gripper", "lamp", "led", ...SPEAKERS];
 // The part of the 3D view that receives the data.
 export interface OverlayView {
   setSensorFrames(message: TransformsMessage): void;
-  setBeams(message: MarkerArrayMessage): void;
+  setBeams(beams: readonly RobotBeams[]): void;
   forgetBeams(): void;
+  setPoints(topic: string, points: Points): void;
   setReading(topic: string, message: unknown): void;
   keepReadings(topics: ReadonlySet<string>): void;
 }
@@ -114,7 +116,7 @@ export class OverlayFeed {
 
   private subscribe(topic: string): () => void {
     if (topic.startsWith(BEAMS_TOPIC)) {
-      const end = this.topics.subscribe<MarkerArrayMessage>(topic, (message) => this.takeBeams(message), { newestOnly: true });
+      const end = this.topics.subscribe<RobotBeams[]>(topic, (beams) => this.takeBeams(beams), { form: "beams" });
       return () => {
         end();
         this.view.forgetBeams();
@@ -125,12 +127,20 @@ export class OverlayFeed {
         this.view.setSensorFrames(message),
       );
     }
+    if (this.isOfPoints(topic)) {
+      return this.topics.subscribe<Points>(topic, (points) => this.view.setPoints(topic, points), { form: "points" });
+    }
     return this.topics.subscribe<unknown>(topic, (message) => this.view.setReading(topic, message));
   }
 
-  private takeBeams(message: MarkerArrayMessage): void {
+  private isOfPoints(topic: string): boolean {
+    const { scene } = this.store.get();
+    return sensorsOf(scene, null).some((sensor) => sensor.topic === topic && sensor.overlay === "points");
+  }
+
+  private takeBeams(beams: readonly RobotBeams[]): void {
     const { scene, selection } = this.store.get();
     const isCrowd = robotsOf(scene).length > MOST_ROBOTS_WITH_BEAMS;
-    this.view.setBeams(isCrowd ? { markers: message.markers.filter(({ ns }) => ns === selection) } : message);
+    this.view.setBeams(isCrowd ? beams.filter(({ robot }) => robot === selection) : beams);
   }
 }

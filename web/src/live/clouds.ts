@@ -125,7 +125,10 @@ class PointList {
 
   add(x: number, y: number, z: number, intensity = 0): void {
     if (!Number.isFinite(x + y + z)) return;
-    this.numbers.set([x, y, z], 3 * this.used);
+    const at = 3 * this.used;
+    this.numbers[at] = x;
+    this.numbers[at + 1] = y;
+    this.numbers[at + 2] = z;
     if (this.intensities) this.intensities[this.used] = intensity;
     this.used += 1;
   }

@@ -27,7 +27,8 @@ const STOPS = [
   [252, 165, 10],
   [252, 255, 164],
 ] as const;
-const NOTHING = [32, 38, 46, 255] as const; // the colour of pixels without a measurement
+const CHANNELS = Float64Array.from(STOPS.flat()); // r g b of each stop
+const NOTHING = [32, 38, 46] as const; // the colour of pixels without a measurement
 
 // The image of a depth camera: the distance along the viewing direction, which is x in the camera's
 // frame. Returns null if the cloud has no rows.
@@ -62,7 +63,12 @@ export function coloured({ width, height, values }: ValueImage): ColouredImage {
   const [least, largest] = spanOf(values);
   const scale = largest > least ? 1 / (largest - least) : 0;
   const rgba = new Uint8ClampedArray(4 * width * height);
-  values.forEach((value, i) => rgba.set(Number.isFinite(value) ? colourAt((value - least) * scale) : NOTHING, 4 * i));
+  for (let i = 0, at = 0; i < values.length; i++, at += 4) {
+    const value = values[i]!;
+    const isMeasured = Number.isFinite(value);
+    for (let k = 0; k < 3; k++) rgba[at + k] = isMeasured ? channelAt((value - least) * scale, k) : NOTHING[k]!;
+    rgba[at + 3] = 255;
+  }
   return { width, height, rgba };
 }
 
@@ -70,11 +76,12 @@ export const SCALE_CSS = `linear-gradient(to right, ${STOPS.map((stop) => `rgb($
 
 // Returns the colour of a value that is scaled to the range from 0 to 1.
 export function colourAt(part: number): [number, number, number, number] {
+  return [channelAt(part, 0), channelAt(part, 1), channelAt(part, 2), 255];
+}
+
+function channelAt(part: number, channel: number): number {
   const place = part * (STOPS.length - 1);
   const below = Math.min(Math.floor(place), STOPS.length - 2);
-  const channel = (i: 0 | 1 | 2) => {
-    const [from, to] = [STOPS[below]![i], STOPS[below + 1]![i]];
-    return from + (place - below) * (to - from);
-  };
-  return [channel(0), channel(1), channel(2), 255];
+  const from = CHANNELS[3 * below + channel]!;
+  return from + (place - below) * (CHANNELS[3 * below + 3 + channel]! - from);
 }

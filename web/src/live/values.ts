@@ -1,7 +1,8 @@
 // Extracts the numbers in a message, each with a key and the server's unit. The code contains no
 // sensor types: fields are shown by their names.
 
-import type { Units } from "../api/scene";
+// Units by the path of a field in the sensor's messages. A path applies to all fields below it.
+export type Units = Readonly<Record<string, string>>;
 
 // One number of a message.
 export interface LiveValue {

@@ -4,6 +4,9 @@ import { afterEach, expect, test, vi } from "vitest";
 import WebSocketClient, { WebSocketServer } from "ws";
 import type { ConnectionState } from "./FoxgloveClient";
 import { FoxgloveClient, SUBPROTOCOLS } from "./FoxgloveClient";
+import { CLOUD_CHANNEL, cloudMessage } from "./testClouds";
+import { TestWorker } from "./testWorker";
+import { WorkerDecoder } from "./WorkerDecoder";
 
 // The time limit suits a loaded machine.
 const eventually = (check: () => void) => vi.waitFor(check, 20_000);
@@ -66,7 +69,10 @@ class Server {
 }
 
 function greeting(subscription: number, number: number, text: string): Uint8Array {
-  const payload = new MessageWriter(parse(SCHEMA, { ros2: true })).writeMessage({ number, text });
+  return frameOf(subscription, new MessageWriter(parse(SCHEMA, { ros2: true })).writeMessage({ number, text }));
+}
+
+function frameOf(subscription: number, payload: Uint8Array): Uint8Array {
   const frame = new Uint8Array(13 + payload.length);
   const view = new DataView(frame.buffer);
   view.setUint8(0, 1);
@@ -88,7 +94,7 @@ async function serve(channels?: object[], port?: number): Promise<Server> {
   return server;
 }
 
-function connectTo(server: Server) {
+function connectTo(server: Server, decoder = new WorkerDecoder(() => null)) {
   const states: ConnectionState[] = [];
   const problems: string[] = [];
   const lasting: { now: string[] } = { now: [] };
@@ -100,6 +106,7 @@ function connectTo(server: Server) {
       onLasting: (sentences) => (lasting.now = sentences),
     },
     WebSocketClient as unknown as typeof WebSocket,
+    decoder,
   );
   opened.unshift(client);
   client.connect();
@@ -212,6 +219,94 @@ test("readers of one channel share a subscription, which ends with the last of t
   await eventually(() => expect(handler).toHaveBeenCalledTimes(2));
   expect(handler).toHaveBeenLastCalledWith({ number: 4, text: "in time" });
   expect(problems).toEqual([]);
+});
+
+test("a later reader of a channel subscribes it again, so that the server sends the current message", async () => {
+  const server = await serve();
+  const { client } = connectTo(server);
+  const first = vi.fn();
+  const later = vi.fn();
+  client.subscribe("/greeting", first);
+  await eventually(() => expect(server.heard).toHaveLength(1));
+  const end = client.subscribe("/nowhere", later, { orElse: "/greeting" });
+  await eventually(() => expect(server.heard).toHaveLength(3));
+  expect(server.heard.slice(1)).toEqual([
+    { op: "unsubscribe", subscriptionIds: [1] },
+    { op: "subscribe", subscriptions: [{ id: 2, channelId: 7 }] },
+  ]);
+  server.send(greeting(2, 1, "to both"));
+  await eventually(() => expect(later).toHaveBeenCalledOnce());
+  expect(first).toHaveBeenCalledOnce();
+  end();
+  server.send(greeting(2, 2, "to the first"));
+  await eventually(() => expect(first).toHaveBeenCalledTimes(2));
+  expect(server.heard).toHaveLength(3);
+});
+
+// A client with a reader of a cloud's points, whose worker has started.
+async function readingPoints() {
+  const server = await serve([CLOUD_CHANNEL]);
+  const worker = new TestWorker();
+  const { client, problems } = connectTo(server, new WorkerDecoder(() => worker.asWorker));
+  const points = vi.fn();
+  client.subscribe("/a/depth", points, { form: "points" });
+  await eventually(() => expect(server.heard).toHaveLength(1));
+  server.send(frameOf(1, cloudMessage(64, 48)));
+  await eventually(() => expect(points).toHaveBeenCalledOnce());
+  worker.send({ isReady: true });
+  return { server, worker, client, problems, points };
+}
+
+test("while a worker decodes a message, only the newest of the next ones waits", async () => {
+  const { server, worker, client, points } = await readingPoints();
+  const arrived = vi.fn();
+  client.subscribe("/a/depth", arrived);
+  await eventually(() => expect(server.heard).toHaveLength(3));
+  server.send(frameOf(2, cloudMessage(64, 48)));
+  await eventually(() => expect(worker.requests).toHaveLength(1));
+  for (const width of [64, 65, 66]) server.send(frameOf(2, cloudMessage(width, 48)));
+  await eventually(() => expect(arrived).toHaveBeenCalledTimes(4));
+  expect(worker.requests).toHaveLength(1);
+  worker.answer("first");
+  await eventually(() => expect(worker.requests).toHaveLength(2));
+  expect(worker.requests[1]!.payload.byteLength).toBe(cloudMessage(66, 48).byteLength);
+  worker.answer("second");
+  await eventually(() => expect(points.mock.calls.slice(1)).toEqual([["first"], ["second"]]));
+});
+
+test("a message that the worker cannot decode is reported, and the next one is shown", async () => {
+  const { server, worker, problems, points } = await readingPoints();
+  server.send(frameOf(1, cloudMessage(64, 48)));
+  await eventually(() => expect(worker.requests).toHaveLength(1));
+  worker.send({ number: worker.requests[0]!.number, problem: "it is cut off" });
+  server.send(frameOf(1, cloudMessage(64, 48)));
+  await eventually(() => expect(worker.requests).toHaveLength(2));
+  worker.answer("next");
+  await eventually(() => expect(points).toHaveBeenLastCalledWith("next"));
+  expect(problems).toEqual(["A message on /a/depth cannot be read: it is cut off"]);
+});
+
+test("if the worker ends, the topic is subscribed again, and the page decodes its messages", async () => {
+  const { server, worker, problems, points } = await readingPoints();
+  server.send(frameOf(1, cloudMessage(64, 48)));
+  await eventually(() => expect(worker.requests).toHaveLength(1));
+  worker.onerror!();
+  await eventually(() => expect(server.heard.at(-1)).toEqual({ op: "subscribe", subscriptions: [{ id: 2, channelId: 7 }] }));
+  server.send(frameOf(2, cloudMessage(64, 48)));
+  await eventually(() => expect(points).toHaveBeenCalledTimes(2));
+  expect(worker.isTerminated).toBe(true);
+  expect(problems).toEqual([]);
+});
+
+test("an answer of the worker after the end of the subscription is dropped", async () => {
+  const { server, worker, client, points } = await readingPoints();
+  server.send(frameOf(1, cloudMessage(64, 48)));
+  await eventually(() => expect(worker.requests).toHaveLength(1));
+  client.close();
+  expect(worker.isTerminated).toBe(true);
+  worker.answer("late");
+  await Promise.resolve();
+  expect(points).toHaveBeenCalledOnce();
 });
 
 test("after the server was away, it reconnects and subscribes again", async () => {

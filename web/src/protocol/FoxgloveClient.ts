@@ -5,13 +5,15 @@ import { backoffMs } from "./Backoff";
 import type { LiveView, LiveViewSource, ViewReader } from "./LiveViews";
 import { ConnectedViews } from "./LiveViews";
 import type { Channel } from "./MessageDecoder";
+import type { Form } from "./forms";
 import { MessageDecoders } from "./MessageDecoder";
 import type { TopicOptions, TopicSource } from "./SharedTopics";
+import { WorkerDecoder, WorkerLost } from "./WorkerDecoder";
 
 export const SUBPROTOCOLS = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 
 const OPENING_TIMEOUT_MS = 5000;
-const REST_SHARE = 4; // pause after a decoded message, as a multiple of the time that decoding took
+const REST_SHARE = 4; // pause after a decoded message, as a multiple of the page's time that it took
 const LONGEST_REST_MS = 250;
 const MESSAGE_DATA = 1;
 const MESSAGE_DATA_HEADER_BYTES = 13;
@@ -51,7 +53,9 @@ interface Subscription {
   orElse: string | undefined;
   handler: Handler;
   newestOnly: boolean;
-  waiting: DataView | null; // the newest payload, if it is not decoded yet
+  form: Form;
+  waiting: { channel: Channel; payload: DataView } | null; // the newest message, if it is not decoded yet
+  isBusy: boolean; // whether a message waits for its turn or is being decoded
   restsUntilMs: number;
   id: number | null; // null: not subscribed at the server
   ended: boolean; // whether the server has offered the topic on this connection, and withdrawn it
@@ -74,7 +78,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   private readonly subscriptions = new Set<Subscription>();
   // by the ID that this client has given to the subscription
   private readonly subscribed = new Map<number, SubscribedChannel>();
-  private readonly decoders = new MessageDecoders();
+  private readonly decoders = new MessageDecoders(); // for readers of all messages
   private readonly reported = new Set<string>();
   private readonly counted = new Map<string, TopicCount>(); // by topic
   private readonly questions = new Map<string, (value: ParameterValue | null) => void>(); // by parameter
@@ -86,6 +90,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     private readonly url: string,
     private readonly events: ClientEvents,
     private readonly SocketClass: typeof WebSocket = WebSocket,
+    private readonly newestDecoder = new WorkerDecoder(),
   ) {}
 
   connect(): void {
@@ -105,6 +110,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     this.closed = true;
     clearTimeout(this.timer);
     this.abandon();
+    this.newestDecoder.close();
   }
 
   get topics(): string[] {
@@ -122,19 +128,21 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     return [...this.subscriptions].filter(({ id, ended }) => id === null && !ended).map(({ topic }) => topic);
   }
 
-  // Subscribes to a topic. Returns the function that ends the subscription. With `newestOnly`,
-  // messages are skipped, so that decoding takes at most a fifth of the page's time.
+  // Subscribes to a topic. Returns the function that ends the subscription. With `newestOnly` or a
+  // form, messages are skipped, so that decoding takes at most a fifth of the page's time.
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,
-    { newestOnly = false, orElse }: TopicOptions = {},
+    { newestOnly = false, form = "message", orElse }: TopicOptions = {},
   ): () => void {
     const subscription: Subscription = {
       topic,
       orElse,
       handler: handler as Handler,
-      newestOnly,
+      newestOnly: newestOnly || form !== "message",
+      form,
       waiting: null,
+      isBusy: false,
       restsUntilMs: -Infinity,
       id: null,
       ended: false,
@@ -296,21 +304,32 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   private request(subscriptions: Subscription[]): void {
     const byTopic = new Map([...this.channels.values()].map((channel) => [channel.topic, channel]));
     const idOfChannel = new Map([...this.subscribed].map(([id, { channel }]) => [channel.id, id]));
-    const wanted: { id: number; channelId: number }[] = [];
+    const begun = new Map<number, SubscribedChannel>(); // by the ID of the subscription
+    const ended: number[] = [];
     for (const subscription of subscriptions) {
       const { topic, orElse } = subscription;
       const channel = byTopic.get(topic) ?? (orElse === undefined ? undefined : byTopic.get(orElse));
       if (!channel || subscription.id !== null) continue;
       const known = idOfChannel.get(channel.id);
-      subscription.id = known ?? this.nextSubscription++;
-      if (known !== undefined) {
-        this.subscribed.get(known)!.subscriptions.add(subscription);
+      if (known !== undefined && begun.has(known)) {
+        begun.get(known)!.subscriptions.add(subscription);
+        subscription.id = known;
         continue;
       }
-      idOfChannel.set(channel.id, subscription.id);
-      this.subscribed.set(subscription.id, { channel, subscriptions: new Set([subscription]) });
-      wanted.push({ id: subscription.id, channelId: channel.id });
+      // A new subscription makes the server send the current message. So a channel with earlier
+      // readers is subscribed again.
+      const earlier = known === undefined ? undefined : this.subscribed.get(known);
+      if (earlier) ended.push(known!);
+      const id = this.nextSubscription++;
+      const shared = { channel, subscriptions: new Set([...(earlier?.subscriptions ?? []), subscription]) };
+      for (const each of shared.subscriptions) each.id = id;
+      idOfChannel.set(channel.id, id);
+      begun.set(id, shared);
     }
+    for (const id of ended) this.subscribed.delete(id);
+    for (const [id, shared] of begun) this.subscribed.set(id, shared);
+    if (ended.length > 0) this.send({ op: "unsubscribe", subscriptionIds: ended });
+    const wanted = [...begun].map(([id, { channel }]) => ({ id, channelId: channel.id }));
     if (wanted.length > 0) this.send({ op: "subscribe", subscriptions: wanted });
   }
 
@@ -340,19 +359,62 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
 
   // Decodes the newest message of the subscription. Before this, it waits for all messages that
   // have already arrived, and for the pause after the previous decoded message. If a newer message
-  // arrives during this time, the older one is dropped.
+  // arrives during this time, or while the previous one is decoded, the older one is dropped.
   private handOverLater(subscription: Subscription, channel: Channel, payload: DataView): void {
-    const isScheduled = subscription.waiting !== null;
-    subscription.waiting = payload;
-    if (isScheduled) return;
-    setTimeout(() => {
-      const newest = subscription.waiting;
-      subscription.waiting = null;
+    subscription.waiting = { channel, payload };
+    if (!subscription.isBusy) this.schedule(subscription);
+  }
+
+  private schedule(subscription: Subscription): void {
+    subscription.isBusy = true;
+    const rest = Math.max(0, subscription.restsUntilMs - performance.now());
+    setTimeout(() => void this.handOverNewest(subscription), rest);
+  }
+
+  private async handOverNewest(subscription: Subscription): Promise<void> {
+    const { waiting: newest, id } = subscription;
+    subscription.waiting = null;
+    let spentMs = 0; // the page's time, without the time of the worker
+    const timed = <Result>(work: () => Result): Result => {
       const began = performance.now();
-      if (newest && subscription.id !== null) this.handOver(subscription, channel, newest);
-      const ended = performance.now();
-      subscription.restsUntilMs = ended + Math.min(LONGEST_REST_MS, REST_SHARE * (ended - began));
-    }, Math.max(0, subscription.restsUntilMs - performance.now()));
+      try {
+        return work();
+      } finally {
+        spentMs += performance.now() - began;
+      }
+    };
+    try {
+      if (!newest || id === null) return;
+      const { channel, payload } = newest;
+      const isShared = (this.subscribed.get(id)?.subscriptions.size ?? 0) > 1;
+      const decoding = timed(() => this.decodeNewest(channel, payload, subscription.form, isShared));
+      const decoded = await decoding;
+      if (subscription.id !== id) return;
+      if (decoded === "lost") this.renew(subscription);
+      else if (decoded) timed(() => subscription.handler(decoded.message));
+    } finally {
+      subscription.restsUntilMs = performance.now() + Math.min(LONGEST_REST_MS, REST_SHARE * spentMs);
+      subscription.isBusy = false;
+      if (subscription.waiting) this.schedule(subscription);
+    }
+  }
+
+  // Resolves to null if the message cannot be decoded, and to "lost" if the worker has ended.
+  private async decodeNewest(channel: Channel, payload: DataView, form: Form, isShared: boolean): Promise<{ message: unknown } | "lost" | null> {
+    try {
+      return { message: await this.newestDecoder.decode(channel, payload, form, isShared) };
+    } catch (error) {
+      if (error instanceof WorkerLost) return "lost";
+      this.problem(`A message on ${channel.topic} cannot be read: ${sentenceOf(error)}`);
+      return null;
+    }
+  }
+
+  // Subscribes again, so that the server sends the current message again.
+  private renew(subscription: Subscription): void {
+    this.unsubscribe(subscription);
+    this.subscriptions.add(subscription);
+    this.request([subscription]);
   }
 
   private handOver(subscription: Subscription, channel: Channel, payload: DataView): void {

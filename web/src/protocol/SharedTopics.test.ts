@@ -107,3 +107,12 @@ test("messages are skipped only while every reader requests only the newest one"
   end();
   expect(asked().at(-1)).toEqual({ newestOnly: true });
 });
+
+test("readers of two forms of a topic have two subscriptions, and the topic is read once", () => {
+  const { topics, subscribe } = source();
+  topics.subscribe("/a", () => {});
+  topics.subscribe("/a", () => {}, { form: "points" });
+  topics.subscribe("/a", () => {}, { form: "points" });
+  expect(subscribe.mock.calls.map((call) => (call as unknown[])[2])).toEqual([{ newestOnly: false }, { newestOnly: false, form: "points" }]);
+  expect(topics.read).toEqual(["/a"]);
+});

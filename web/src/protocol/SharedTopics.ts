@@ -1,7 +1,8 @@
-// The topics that the page reads. A topic with several readers is subscribed once, so that each
-// message is sent and decoded once. A server would also refuse a second subscription of a channel.
-// The subscription ends with its last reader. If the source changes, each topic is subscribed again
-// at the new source.
+// The topics that the page reads. A topic that several readers read in one form is subscribed once,
+// so that each message is decoded once. The subscription ends with its last reader. If the source
+// changes, each topic is subscribed again at the new source.
+
+import type { Form } from "./forms";
 
 type Handler = (message: unknown) => void;
 
@@ -9,6 +10,9 @@ export interface TopicOptions {
   // If messages arrive faster than the page can decode them, only the newest message is decoded.
   // This option has an effect on a topic only while all its readers set it.
   newestOnly?: boolean;
+  // The form in which the reader gets the messages (default: the message itself). In other forms, it
+  // gets only the newest messages, because large ones are decoded in a worker.
+  form?: Form;
   // The topic to read if the server does not offer the topic itself.
   orElse?: string;
 }
@@ -21,6 +25,8 @@ export interface TopicSource {
 }
 
 interface SharedTopic {
+  topic: string;
+  form: Form;
   handlers: Map<Handler, { newestOnly: boolean }>;
   // The topic to read if the server does not offer this topic. The first reader determines it.
   orElse: string | undefined;
@@ -31,62 +37,64 @@ interface SharedTopic {
 
 export class SharedTopics implements TopicSource {
   private source: TopicSource | null = null;
-  private readonly topics = new Map<string, SharedTopic>();
+  private readonly topics = new Map<string, SharedTopic>(); // by form and topic
 
   // Sets the source of all topics; null for none. Messages of the previous source are dropped.
   attach(source: TopicSource | null): void {
     for (const shared of this.topics.values()) shared.end();
     this.source = source;
-    for (const [topic, shared] of this.topics) {
+    for (const shared of this.topics.values()) {
       shared.newest = null;
-      this.open(topic, shared);
+      this.open(shared);
     }
   }
 
   // The topics with readers.
   get read(): string[] {
-    return [...this.topics.keys()];
+    return [...new Set([...this.topics.values()].map(({ topic }) => topic))];
   }
 
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,
-    { newestOnly = false, orElse }: TopicOptions = {},
+    { newestOnly = false, form = "message", orElse }: TopicOptions = {},
   ): () => void {
-    const known = this.topics.get(topic);
-    const shared = known ?? { handlers: new Map(), orElse, newest: null, newestOnly, end: () => {} };
+    const key = `${form} ${topic}`;
+    const known = this.topics.get(key);
+    const shared = known ?? { topic, form, handlers: new Map(), orElse, newest: null, newestOnly, end: () => {} };
     // Each reader is a separate object, because one function may be added twice.
     const own: Handler = (message) => handler(message as Message);
     shared.handlers.set(own, { newestOnly });
     if (!known) {
-      this.topics.set(topic, shared);
-      this.open(topic, shared);
+      this.topics.set(key, shared);
+      this.open(shared);
     } else {
-      this.adapt(topic, shared);
+      this.adapt(shared);
       if (shared.newest) own(shared.newest.message);
     }
     return () => {
       if (!shared.handlers.delete(own)) return;
-      if (shared.handlers.size > 0) return this.adapt(topic, shared);
-      this.topics.delete(topic);
+      if (shared.handlers.size > 0) return this.adapt(shared);
+      this.topics.delete(key);
       shared.end();
     };
   }
 
   // Subscribes again in the other mode if the readers now require it.
-  private adapt(topic: string, shared: SharedTopic): void {
+  private adapt(shared: SharedTopic): void {
     if (shared.newestOnly === asksForNewestOnly(shared)) return;
     shared.end();
-    this.open(topic, shared);
+    this.open(shared);
   }
 
-  private open(topic: string, shared: SharedTopic): void {
+  private open(shared: SharedTopic): void {
     shared.newestOnly = asksForNewestOnly(shared);
     const take = (message: unknown) => {
       shared.newest = { message };
       for (const handler of [...shared.handlers.keys()]) if (shared.handlers.has(handler)) handler(message);
     };
-    const options = { newestOnly: shared.newestOnly, ...(shared.orElse !== undefined && { orElse: shared.orElse }) };
+    const { topic, form, newestOnly, orElse } = shared;
+    const options = { newestOnly, ...(form !== "message" && { form }), ...(orElse !== undefined && { orElse }) };
     shared.end = this.source?.subscribe<unknown>(topic, take, options) ?? (() => {});
   }
 }

@@ -2,31 +2,27 @@
 // drawn in several frames. In these frames, it moves with the displayed robot.
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
-import type { MarkerMessage } from "../protocol/messages";
-import { LINE_LIST } from "../protocol/messages";
+import type { RobotBeams } from "../protocol/beams";
 import { Segments } from "./Segments";
 
 const WIDTH_PX = 1.5;
 const OPACITY = 0.85;
-// Used if the marker does not have a colour for each beam. The single colour of the marker is not
-// used.
-const BEAM_COLOUR = { r: 1, g: 0.012, b: 0.006 };
 const SMALLEST_CAPACITY = 64; // segments
 const NUMBERS_PER_POINT = 3;
 
-interface RobotBeams {
+interface StoredBeams {
   // x y z of each end, in the robot's frame at the time of the measurement
   pointsInRobot: Float64Array;
   colours: Float32Array; // r g b of each end
 }
 
-interface PlacedBeams extends RobotBeams {
+interface PlacedBeams extends StoredBeams {
   robot: string;
   frame: Matrix4; // world_from_robot, as shown
 }
 
 export class BeamLayer {
-  private readonly beams = new Map<string, RobotBeams>();
+  private readonly beams = new Map<string, StoredBeams>();
   private readonly drawn: Segments;
   private capacity = 0;
 
@@ -47,26 +43,17 @@ export class BeamLayer {
     return this.drawn.count;
   }
 
-  // Sets the beams of one robot. `marker` contains lines in the world at the time when the robot
-  // was at `worldFromRobot`.
-  setRobot(robot: string, marker: MarkerMessage, worldFromRobot: Matrix4): void {
-    if (marker.type !== LINE_LIST || marker.action !== 0 || marker.points.length < 2) {
+  // Sets the beams of one robot. They were measured when the robot was at `worldFromRobot`.
+  setRobot({ robot, points, colours }: RobotBeams, worldFromRobot: Matrix4): void {
+    if (points.length === 0) {
       this.beams.delete(robot);
       return;
     }
-    const ends = marker.points.length - (marker.points.length % 2);
     const robotFromWorld = worldFromRobot.clone().invert();
-    const pointsInRobot = new Float64Array(NUMBERS_PER_POINT * ends);
-    const colours = new Float32Array(NUMBERS_PER_POINT * ends);
+    const pointsInRobot = new Float64Array(points.length);
     const point = new Vector3();
-    for (let i = 0; i < ends; i++) {
-      const { x, y, z } = marker.points[i]!;
-      point
-        .set(x, y, z)
-        .applyMatrix4(robotFromWorld)
-        .toArray(pointsInRobot, 3 * i);
-      const { r, g, b } = marker.colors[i] ?? BEAM_COLOUR;
-      colours.set([r, g, b], 3 * i);
+    for (let i = 0; i < points.length; i += NUMBERS_PER_POINT) {
+      point.fromArray(points, i).applyMatrix4(robotFromWorld).toArray(pointsInRobot, i);
     }
     this.beams.set(robot, { pointsInRobot, colours });
   }

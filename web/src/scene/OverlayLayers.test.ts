@@ -2,6 +2,7 @@ import type { InterleavedBufferAttribute, Points } from "three";
 import { Vector3 } from "three";
 import type { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import type { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { cloudOf } from "../live/clouds";
 import { expect, test } from "vitest";
 import type { SceneSensor } from "../api/scene";
 import type { OverlayName, Shown } from "../state/overlays";
@@ -73,7 +74,7 @@ test("points are at their sensor's place, on a rotated link", () => {
     range_max: 9,
     ranges: new Float32Array([2]),
   };
-  overlays.takeReading("/a/scan", scan);
+  overlays.takePoints("/a/scan", cloudOf(scan));
   overlays.place(new Vector3());
   expect(points.geometry.drawRange.count).toBe(1);
   const place = Array.from(points.geometry.getAttribute("position").array.slice(0, 3));
@@ -194,7 +195,7 @@ test("the masses of a link that moves and of one that does not are at their plac
 test("points have the colour of their distance, height or intensity", () => {
   const { overlays, points } = layers(only("points"));
   const ranges = new Float32Array([1, 2, 3]);
-  overlays.takeReading("/a/scan", { angle_min: 0, angle_increment: 1, range_min: 0, range_max: 9, ranges, intensities: [30, 20, 10] });
+  overlays.takePoints("/a/scan", cloudOf({ angle_min: 0, angle_increment: 1, range_min: 0, range_max: 9, ranges, intensities: [30, 20, 10] }));
   const brightness = () => {
     overlays.place(new Vector3());
     const colours = points.geometry.getAttribute("color").array;

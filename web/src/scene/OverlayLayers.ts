@@ -2,11 +2,11 @@
 import { Group, Matrix4, Vector3 } from "three";
 import type { SceneInertial, SceneSensor } from "../api/scene";
 import { robotsOf } from "../api/scene";
-import type { TouchPoint } from "../live/clouds";
-import { cloudOf, contactsOf, CURRENT_CONTACTS_TOPIC, worldContactsOf } from "../live/clouds";
+import type { Points, TouchPoint } from "../live/clouds";
+import { contactsOf, CURRENT_CONTACTS_TOPIC, worldContactsOf } from "../live/clouds";
 import type { Sound } from "../live/devices";
-import type { MarkerArrayMessage, TransformsMessage } from "../protocol/messages";
-import { seconds } from "../protocol/messages";
+import type { RobotBeams } from "../protocol/beams";
+import type { TransformsMessage } from "../protocol/messages";
 import type { OverlayColours, Shown } from "../state/overlays";
 import { FIRST_COLOURS, FIRST_SHOWN } from "../state/overlays";
 import { BeamLayer } from "./BeamLayer";
@@ -115,11 +115,15 @@ export class OverlayLayers {
     this.frames.take(message);
   }
 
-  // Shows a reading of a lidar, depth camera, bumper or actuator.
+  // Shows the points of a lidar or depth camera.
+  takePoints(topic: string, points: Points): void {
+    this.points.set(topic, points);
+  }
+
+  // Shows a reading of a bumper or actuator.
   takeReading(topic: string, message: unknown): void {
     this.devices.take(topic, message);
     this.radio.take(message, performance.now());
-    this.points.set(topic, cloudOf(message));
     this.contacts.set(topic, topic === CURRENT_CONTACTS_TOPIC ? worldContactsOf(message) : contactsOf(message));
   }
 
@@ -143,11 +147,11 @@ export class OverlayLayers {
   }
 
   // Takes beams. They are relative to the poses that the robots had at the time of measuring.
-  takeBeams({ markers }: MarkerArrayMessage, posesAt: (stamp: number) => Float64Array | null): void {
-    for (const marker of markers) {
-      const poses = posesAt(seconds(marker.header.stamp));
-      const entry = this.bodies?.poseEntryOf(marker.ns) ?? null;
-      if (poses && entry !== null) this.beams.setRobot(marker.ns, marker, matrixOf(poses, 7 * entry));
+  takeBeams(beams: readonly RobotBeams[], posesAt: (stamp: number) => Float64Array | null): void {
+    for (const each of beams) {
+      const poses = posesAt(each.stamp);
+      const entry = this.bodies?.poseEntryOf(each.robot) ?? null;
+      if (poses && entry !== null) this.beams.setRobot(each, matrixOf(poses, 7 * entry));
     }
   }
 

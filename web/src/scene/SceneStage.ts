@@ -1,7 +1,7 @@
 // Sets up the view for a scene: its bodies, lights, overlays and collision shapes, and the camera.
 import type { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
-import type { MarkerArrayMessage } from "../protocol/messages";
+import type { RobotBeams } from "../protocol/beams";
 import type { CameraRig } from "./CameraRig";
 import type { CollisionLayer } from "./CollisionLayer";
 import type { Environment } from "./Environment";
@@ -40,7 +40,7 @@ export interface StageEvents {
 
 export class SceneStage {
   parts: SceneParts | null = null; // the parts of the present scene
-  private lastBeams: MarkerArrayMessage | null = null;
+  private lastBeams: readonly RobotBeams[] | null = null;
   private framedFor = ""; // the environment that the camera was set up for
 
   constructor(
@@ -58,9 +58,9 @@ export class SceneStage {
     this.events.onChange();
   }
 
-  setBeams(message: MarkerArrayMessage): void {
-    this.lastBeams = message;
-    this.takeBeams(message);
+  setBeams(beams: readonly RobotBeams[]): void {
+    this.lastBeams = beams;
+    this.takeBeams(beams);
   }
 
   // Removes the beams of a topic that is no longer read.
@@ -108,7 +108,7 @@ export class SceneStage {
     follower.update();
   }
 
-  private takeBeams(message: MarkerArrayMessage): void {
-    this.layers.overlays.takeBeams(message, (at) => this.layers.poses.at(at));
+  private takeBeams(beams: readonly RobotBeams[]): void {
+    this.layers.overlays.takeBeams(beams, (at) => this.layers.poses.at(at));
   }
 }

@@ -6,8 +6,10 @@ import type { SceneDescription } from "../api/scene";
 import { LabelHover } from "../labels/LabelHover";
 import type { ShownLabel } from "../labels/LabelLayer";
 import { onLookChange } from "../labels/onLookChange";
+import type { Points } from "../live/clouds";
 import type { Expectation } from "../state/expectations";
-import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
+import type { RobotBeams } from "../protocol/beams";
+import type { PosesMessage, TransformsMessage } from "../protocol/messages";
 import type { OverlayColours, Shown } from "../state/overlays";
 import { FIRST_SHOWN } from "../state/overlays";
 import type { Viewpoint } from "../state/link";
@@ -174,8 +176,8 @@ export class World3D {
     this.latePoses = setTimeout(() => this.loop.request(), LATE_POSES_MS);
   }
 
-  setBeams(message: MarkerArrayMessage): void {
-    this.stage.setBeams(message);
+  setBeams(beams: readonly RobotBeams[]): void {
+    this.stage.setBeams(beams);
     this.loop.request();
   }
 
@@ -185,7 +187,13 @@ export class World3D {
     this.loop.request();
   }
 
-  // Shows a reading in the world: points or contacts.
+  // Shows the points of a lidar or depth camera.
+  setPoints(topic: string, points: Points): void {
+    this.overlays.takePoints(topic, points);
+    this.loop.request();
+  }
+
+  // Shows a reading in the world: contacts or the state of an actuator.
   setReading(topic: string, message: unknown): void {
     this.overlays.takeReading(topic, message);
     this.loop.request();

@@ -3,10 +3,10 @@
 import type { CameraChoice } from "../../api/scene";
 import type { ValueImage } from "../../live/valueImage";
 import { SCALE_CSS, spanOf } from "../../live/valueImage";
+import type { CameraImage } from "../../protocol/forms";
 import { element, setText } from "../../ui/element";
 import { formatTime, formatValue } from "../../ui/format";
 import type { PanelPorts } from "../contract/ports";
-import type { CameraMessage } from "./ImagePainter";
 import { ImagePainter } from "./ImagePainter";
 
 const SAME_INSTANT_S = 1e-6;
@@ -78,7 +78,7 @@ export class CameraTile {
     const missing = inPast ? "Camera images of past times are not stored. Press Live to see the present image." : "The recording has no image of this camera up to this time.";
     setText(this.waiting, replay ? missing : "Waiting for an image…");
     if (view === "starting") return;
-    this.end = this.ports.topics.subscribe<CameraMessage>(this.camera.topic, (image) => this.painter.take(image), { newestOnly: true });
+    this.end = this.ports.topics.subscribe<CameraImage>(this.camera.topic, (image) => this.painter.take(image), { form: "image" });
   }
 
   close(): void {

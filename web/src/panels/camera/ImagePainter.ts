@@ -1,14 +1,8 @@
 // Paints the images of one camera. One image is decoded at a time. If several images arrive during
 // decoding, only the newest of them is decoded next.
-import type { PointCloud } from "../../live/clouds";
-import { valuesOfGreyPng } from "../../live/greyPng";
 import type { ValueImage } from "../../live/valueImage";
-import { coloured, depthImageOf } from "../../live/valueImage";
-import type { CompressedImageMessage } from "../../protocol/messages";
+import type { CameraImage, DrawnValues } from "../../protocol/forms";
 import { seconds } from "../../protocol/messages";
-
-type Stamped = Pick<CompressedImageMessage, "header">;
-export type CameraMessage = CompressedImageMessage | (PointCloud & Stamped);
 
 export interface Painted {
   time: number; // s, simulated
@@ -16,7 +10,7 @@ export interface Painted {
 }
 
 export class ImagePainter {
-  private next: CameraMessage | null = null;
+  private next: CameraImage | null = null;
   private busy = false;
   private isPainted = false;
   private generation = 0;
@@ -42,7 +36,7 @@ export class ImagePainter {
     this.isPainted = false;
   }
 
-  take(image: CameraMessage): void {
+  take(image: CameraImage): void {
     this.next = image;
     if (!this.busy) void this.paintAll();
   }
@@ -59,17 +53,10 @@ export class ImagePainter {
   }
 
   // Returns a sentence about the problem, or an empty text.
-  private async paint(image: CameraMessage, generation: number): Promise<string> {
-    if ("point_step" in image) {
-      const depths = depthImageOf(image);
-      if (!depths) return "The depth image cannot be read: its points are not arranged in rows.";
-      this.paintValues(depths, image);
-      return "";
-    }
-    if (image.format.startsWith("mono16")) {
-      const values = await valuesOfGreyPng(image.data.slice());
-      if (!values) return `The image cannot be decoded (format ${image.format}).`;
-      if (generation === this.generation) this.paintValues(values, image);
+  private async paint(image: CameraImage, generation: number): Promise<string> {
+    if ("problem" in image) return image.problem;
+    if ("values" in image) {
+      this.paintValues(image);
       return "";
     }
     const type = image.format.includes("png") ? "image/png" : "image/jpeg";
@@ -87,8 +74,7 @@ export class ImagePainter {
     return "";
   }
 
-  private paintValues(values: ValueImage, { header }: Stamped): void {
-    const { width, height, rgba } = coloured(values);
+  private paintValues({ values, pixels: { width, height, rgba }, header }: DrawnValues): void {
     this.canvas.width = width;
     this.canvas.height = height;
     this.context?.putImageData(new ImageData(rgba, width, height), 0, 0);
