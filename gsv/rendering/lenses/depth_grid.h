@@ -3,7 +3,8 @@
 // Sample (i, j) is that of pixel (min(i * spacing, width - 1), min(j * spacing, height - 1)), so
 // that the samples include all borders of the image. In the image of a plane, the inverse depth is
 // a linear function of the pixel's position. So linear interpolation between samples is exact for
-// planes. Units  pixels, 1/m.
+// planes.
+// Units  pixels, 1/m.
 #pragma once
 
 #include <algorithm>

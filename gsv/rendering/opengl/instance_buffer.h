@@ -27,13 +27,13 @@ class InstanceBuffer {
  public:
   InstanceBuffer();
 
-  // Replaces the instances and makes the arrays current.
+  // Replaces the instances, and binds the vertex arrays.
   void Upload(const std::vector<InstanceData>& instances);
   // Draws one group with the instances [first, first + count).
   void Draw(const DrawGroup& group, std::size_t first, std::size_t count) const;
 
  private:
-  GlVertexArray arrays_;  // attributes of both buffers: the mesh's and instances_
+  GlVertexArray arrays_;  // attributes of the mesh's vertices and of instances_
   GlBuffer instances_;    // the InstanceData of Upload()
 };
 

@@ -22,8 +22,8 @@ class RenderTarget {
   // The maximum number of images before Read() must be called.
   int capacity() const { return capacity_; }
 
-  // Begins an image: clears the depth and binds the target. The caller must draw all pixels. The
-  // alpha of each pixel must be the number of its surface.
+  // Begins an image: clears the depth and binds the target. The caller must draw all pixels. Alpha
+  // must be the number of the pixel's surface, from which Read() finds the edges to antialias.
   void Begin();
   // Returns the images since the last Read(), in the order of Begin(), antialiased. Waits for the
   // card.
@@ -36,7 +36,7 @@ class RenderTarget {
     GlFramebuffer frame;
   };
 
-  int width_, height_, capacity_;   // pixels, pixels; maximum number of layers
+  int width_, height_, capacity_;   // size in pixels; maximum number of layers
   std::size_t begun_ = 0;           // number of images since the last Read()
   GlRenderbuffer depth_;            // the depth buffer, which all layers share
   std::vector<Layer> layers_;       // layers are added when they are needed

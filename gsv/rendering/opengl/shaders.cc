@@ -85,8 +85,8 @@ invariant gl_Position;
 void main() {
   vec4 p = vec4(position, 1.0);
   v_position = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
-  // Normals are transformed by the cofactors of rotation and scale; a reflection would turn them
-  // inward.
+  // Normals are transformed by the cofactors of rotation and scale. If the scale mirrors the mesh,
+  // the cofactors turn normals inward, and handedness turns them back.
   vec3 c0 = cross(row1.xyz, row2.xyz), c1 = cross(row2.xyz, row0.xyz), c2 = cross(row0.xyz, row1.xyz);
   float handedness = dot(row0.xyz, c0) < 0.0 ? -1.0 : 1.0;
   v_normal = handedness * vec3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
@@ -153,7 +153,7 @@ vec3 Ambient(Surface surface, vec3 to_view, float roughness) {
 float SunVisible(vec3 normal, float n_dot_l) {
   vec3 p = v_position + normal * (to_sun.w * (1.5 - n_dot_l));
   vec3 s = (shadow_from_relative * vec4(p, 1.0)).xyz;
-  s.z = max(s.z, 0.0);  // a point below the background is looked up at the background's height
+  s.z = max(s.z, 0.0);  // the cleared map has depth 0, so no point may be below 0
   const float texel = 1.0 / 2048.0;  // kSide of shadow_map.cc
   return 0.5 * (texture(shadow_map, vec3(s.xy + texel * vec2(-0.6, -0.3), s.z)) +
                 texture(shadow_map, vec3(s.xy + texel * vec2(0.6, 0.3), s.z)));

@@ -25,8 +25,8 @@ extern const std::string kShadowFragmentShader;
 extern const std::string kSkyVertexShader;
 extern const std::string kSkyFragmentShader;
 
-// The bindings are the same in all shaders.
-// binding point of the FrameBlock (frame_block.h)
+// The following bindings are the same in all shaders.
+// The binding point of the FrameBlock (frame_block.h).
 inline constexpr unsigned kFrameBlockBinding = 0;
 // The texture units of a material's maps and of the shadow map.
 inline constexpr unsigned kBaseColourUnit = 0, kNormalUnit = 1, kMetallicRoughnessUnit = 2,

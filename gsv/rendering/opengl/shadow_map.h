@@ -2,7 +2,7 @@
 //
 // Static shadow casters are drawn once, into a first map. A second map also contains the moving
 // casters. For each snapshot, the changed parts of the second map are copied from the first map,
-// and the moving casters are drawn again. This is done only if a camera may see the shadows.
+// and those moving casters are drawn again whose shadows a camera may see.
 // Threads  the render thread only.
 #pragma once
 
@@ -28,7 +28,7 @@ class ShadowMap {
   const ShadowRegion& region() const { return region_; }
 
  private:
-  // Identifies the content of a map: its render list, bodies that have moved, and region.
+  // Identifies the content of a map: its render list, its number of moved bodies, and its region.
   struct Drawn {
     std::uint64_t render_list_id = 0;
     int moved_count = -1;  // RenderList::moved_count(); -1: nothing was drawn

@@ -20,7 +20,7 @@ class ViewPass {
   ViewPass();
 
   // Draws a posed render list into the current target. The depth of the target must be cleared.
-  // `block` must be complete. If `shadows` is null, there are no shadows.
+  // `block` must include the shadow parameters. If `shadows` is null, there are no shadows.
   void Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
             const ShadowMap* shadows, InstanceBuffer& instances);
 

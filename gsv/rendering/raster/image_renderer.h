@@ -4,10 +4,10 @@
 // last. Then each pixel is shaded once, in tiles. Then transparent items are blended from far to
 // near.
 //
-// From the second image of a view on, a tile that shows only still bodies, on which no moving body
-// casts a shadow, keeps its colours for the next image. This does not change the image: a new
-// ImageRenderer would render the same one. The first image keeps nothing, because most cameras move
-// with a robot and have another view each time.
+// If successive images have the same view, tiles keep their colours for the next image, from the
+// second image on. A tile is kept if it shows only still bodies and no moving body casts a shadow
+// on it. This does not change the image: a new ImageRenderer would render the same one. The first
+// image keeps no tiles, because most cameras move with a robot and have another view each time.
 // Threads  one thread at a time; it shades on the threads of a team.
 #pragma once
 
@@ -25,8 +25,8 @@ namespace gsv::rendering::raster {
 class ImageRenderer {
  public:
   // Renders a posed render list, antialiased. `render_list_id` identifies the render list. `block`
-  // must be complete. If `shadow` is null, there are no shadows. If `team` is null, everything is
-  // done on the caller's thread.
+  // must include the shadow parameters. If `shadow` is null, there are no shadows. If `team` is
+  // null, everything is done on the caller's thread.
   model::Image Draw(const CameraView& view, const RenderList& render_list,
                     std::uint64_t render_list_id, const FrameBlock& block, const SunShadow* shadow,
                     base::ThreadTeam* team = nullptr);
@@ -57,10 +57,11 @@ class ImageRenderer {
     FrameBlock block{};
   };
   struct Tile {
-    bool is_kept = false;                           // whether rgba_ has the colours of this tile
-                                                    // without moving bodies
-    ShadowRegion::Rectangle in_shadow{0, 0, 0, 0};  // texels of the shadow map that the tile looks
-                                                    // up
+    // Whether the tile's colours in rgba_ can be used again: they show no moving body or its
+    // shadow.
+    bool is_kept = false;
+    // The texels of the shadow map that the shading of the tile may read.
+    ShadowRegion::Rectangle in_shadow{0, 0, 0, 0};
   };
   // A box around the visible points of a tile, in the frame of FrustumOf().
   struct TileBox {
@@ -69,7 +70,7 @@ class ImageRenderer {
   };
   // The data that one thread uses while it shades.
   struct Shading {
-    // for each triangle, by its number - 1: its index in `surfaces`, or -1
+    // Element n - 1 is for triangle number n: its index in `surfaces`; -1 if it is not there yet.
     std::vector<std::int32_t> surface_of;
     std::vector<TriangleSurface> surfaces;
   };
@@ -113,7 +114,7 @@ class ImageRenderer {
   }
 
   int width_ = 0, height_ = 0, stride_ = 0;
-  // the direction of a pixel's ray, as parts that depend on the pixel's position
+  // The ray through the centre of pixel (x, y) has the direction forward_ + x right_ + y down_.
   Float4 forward_, right_, down_;
   std::vector<float> inverse_w_;        // 1/w of the nearest surface, by pixel
   std::vector<std::uint32_t> nearest_;  // number of the nearest triangle, by pixel, from 1; 0 is
@@ -127,7 +128,7 @@ class ImageRenderer {
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
   Background background_;
-  bool is_repeated_ = false;  // whether the last image had the present background too
+  bool is_repeated_ = false;  // whether the image before had the same background_
   std::vector<Tile> tiles_;   // row by row
   Rasteriser rasteriser_;
 };

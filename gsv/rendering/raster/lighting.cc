@@ -30,7 +30,7 @@ F8x3 Reflected(const Reflector& s, const F8x3& to_light, F8 n_dot_l) {
   const F8 n_dot_sum = Max(Dot(s.normal, to_light) + Dot(s.normal, s.to_view), Splat(0));
   const F8 m = Max(Fma(Sqrt(length2), Splat(-0.5f), Splat(1)), Splat(0)), m2 = m * m,
            m5 = m2 * m2 * m;
-  // the usual term times |l + v|²
+  // The GGX term n_dot_h² (alpha2 - 1) + 1, multiplied by |l + v|².
   const F8 d = Fma(n_dot_sum * n_dot_sum, s.alpha2 - Splat(1), length2);
   const F8 v =
       Max(Mixed(Splat(2) * n_dot_l * s.n_dot_v, n_dot_l + s.n_dot_v, s.alpha), Splat(1e-4f));
@@ -159,7 +159,8 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
   if (Bits(used & (n_dot_l > Splat(0))) != 0) {
     F8 visible = Splat(1);
     if (shadow_ != nullptr && block_.to_sun[3] > 0) {
-      // The shadow is looked up beside the surface, so that the surface does not shade itself.
+      // The shadow is looked up at a point p a little above the surface, so that the surface does
+      // not cast a shadow on itself.
       const F8 beside = Splat(block_.to_sun[3]) * (Splat(1.5f) - n_dot_l);
       const F8x3 face_normal = surface.has_normal_map ? Normalized(surface.face_normal) : s.normal;
       const F8x3 p = Fma(face_normal, beside, position);
@@ -187,8 +188,8 @@ F8x3 LightModel::Sky(const F8x3& ray) const {
 }
 
 I8 Encoded(const F8x3& colour, I8 alpha) {
-  // Number of entries of the table of encoded values. It is large enough that from entry to entry,
-  // the value changes by at most half a step of eight bits.
+  // The number of entries of the table of encoded values. With so many entries, the values of
+  // neighbouring entries differ by at most half an 8-bit step before rounding.
   constexpr int kSteps = 8192;
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> bytes(kSteps + 4);
