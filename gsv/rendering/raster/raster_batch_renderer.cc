@@ -85,14 +85,15 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRendere
 }
 
 std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer(const CameraView& view) {
-  // The minimum number of views whose still parts are kept for the next image.
+  // A view that no idle renderer has drawn gets a new renderer while fewer than this are idle. So
+  // at least this many renderers keep the still parts of their views for the next image.
   constexpr std::size_t kMinKept = 4;
   const base::MutexLock lock(mutex_);
   auto found = std::find_if(idle_.begin(), idle_.end(),
                             [&](const auto& renderer) { return renderer->IsOf(view); });
   if (found == idle_.end()) {
     if (idle_.size() < kMinKept) return std::make_unique<ImageRenderer>();
-    found = idle_.begin();  // the view that was used least recently
+    found = idle_.begin();  // the renderer that was used least recently
   }
   auto renderer = std::move(*found);
   idle_.erase(found);
@@ -100,7 +101,7 @@ std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer(const CameraVie
 }
 
 void RasterBatchRenderer::GiveBack(std::unique_ptr<ImageRenderer> renderer) {
-  // The memory of a larger image is released at once.
+  // A renderer of an image with more pixels than this is deleted at once, to free its memory.
   constexpr std::size_t kMaxPixels = 2 << 20;
   if (renderer->pixels() > kMaxPixels) return;
   const base::MutexLock lock(mutex_);

@@ -8,8 +8,8 @@
 
 namespace gsv::rendering::raster {
 
-// A chunk in one level of detail. Runs of vertices and triangles are padded to multiples of eight,
-// with the first vertex and with degenerate triangles.
+// A chunk in one level of detail. The numbers of vertices and of triangles are multiples of eight:
+// copies of the first vertex, and triangles without area, fill the rest.
 struct Level {
   float cell = 0;  // largest displacement of a vertex at this level, approximately, m
   std::uint32_t first_vertex = 0, vertex_count = 0;

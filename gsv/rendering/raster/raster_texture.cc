@@ -46,7 +46,7 @@ RasterTexture::Level AppendHalf(const RasterTexture::Level& from,
 Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& level, F8 u, F8 v) {
   const auto axis = [](F8 at, int size, I8& low, I8& high) {
     const F8 extent = Splat(static_cast<float>(size));
-    // NaN, which may occur in invisible pixels, becomes the first texel.
+    // NaN, which may occur in invisible pixels, becomes the edge of the texture.
     const F8 x =
         Min(Max(Fma(at - Floor(at), extent, Splat(-0.5f)), Splat(-0.5f)), extent - Splat(0.5f));
     const F8 whole = Floor(x);
@@ -94,8 +94,8 @@ std::shared_ptr<DrawTexture> MakeRasterTexture(const model::Image& image) {
 }
 
 Texels Sample(const RasterTexture& texture, float level, F8 u, F8 v) {
-  constexpr float kBand = 0.4f;  // the part of the range between two levels in which they are
-                                 // blended
+  // Two levels n and n + 1 are blended only if `level` differs from n + 0.5 by less than kBand / 2.
+  constexpr float kBand = 0.4f;
   const int most = static_cast<int>(texture.levels.size()) - 1;
   level = std::clamp(level, 0.0f, static_cast<float>(most));
   const int fine = std::min(static_cast<int>(level), most);

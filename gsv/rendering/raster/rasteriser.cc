@@ -17,8 +17,8 @@ Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& le
   const Vector3 t = placed.origin - origin;
   const Vector3 rows[3] = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
   const double offset[3] = {t.x, t.y, t.z};
-  // Normals are transformed by the cofactors of rotation and scale. A reflection would turn them
-  // inward.
+  // Normals are transformed by the cofactors of rotation and scale. If the scale mirrors the mesh,
+  // the cofactors turn normals inward, and handedness turns them back.
   const double handedness = geometry::Dot(x, geometry::Cross(y, z)) < 0 ? -1 : 1;
   const Vector3 cofactors[3] = {handedness * geometry::Cross(rows[1], rows[2]),
                                 handedness * geometry::Cross(rows[2], rows[0]),
@@ -88,8 +88,9 @@ int Rasteriser::SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t fi
   const F8 nearest = Max(Max(iw[0], iw[1]), iw[2]), farthest = Min(Min(iw[0], iw[1]), iw[2]);
   const F8 min_x = Min(Min(x[0], x[1]), x[2]), max_x = Max(Max(x[0], x[1]), x[2]);
   const F8 min_y = Min(Min(y[0], y[1]), y[2]), max_y = Max(Max(y[0], y[1]), y[2]);
-  // In pixels. If a corner is farther from the image than this, single precision is too coarse. The
-  // triangle is then set up in double precision, like those that cross the near plane.
+  // The maximum distance of a corner from pixel (0, 0) in x and in y, pixels. Beyond it, single
+  // precision is too coarse. The triangle is then set up in double precision, like triangles that
+  // cross the near plane.
   constexpr float kFar = 16384;
   const I8 is_far = (Max(Abs(min_x), max_x) > Splat(kFar)) | (Max(Abs(min_y), max_y) > Splat(kFar));
   const I8 crosses = ((farthest <= zero) | is_far) & (nearest > zero) &

@@ -12,8 +12,8 @@ namespace gsv::rendering::raster {
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 
-// Narrows eight rows of pixels to those where no q_i is negative. Pixels are counted from the first
-// of the box.
+// Narrows the pixels [left, right] of eight rows to those where no q_i is negative. `rows` has the
+// q_i of each row at pixel 0, the first pixel of the box.
 inline void Narrow(const Triangle& t, const F8 (&rows)[3], F8& left, F8& right) {
   for (int i = 0; i < 3; ++i) {
     if (t.a[i] > 0) {
@@ -27,7 +27,7 @@ inline void Narrow(const Triangle& t, const F8 (&rows)[3], F8& left, F8& right) 
 }
 
 // Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y if the triangle covers one
-// of them. Rows have seven pixels of padding.
+// of them. These pixels may be up to seven pixels beyond the box, so rows need padding.
 template <class Block>
 void Scan(const Triangle& t, const Box& box, Block&& block) {
   // Adjacent triangles overlap by this many pixels, so that rounding leaves no gap between them.
@@ -41,7 +41,7 @@ void Scan(const Triangle& t, const Box& box, Block&& block) {
   const float total_slack = slack[0] + slack[1] + slack[2];
   const bool wide = box.x1 - box.x0 >= kWide;
   const float first_x = static_cast<float>(box.x0) - t.x0;
-  // Eight rows at a time.
+  // Each iteration computes eight rows, one per lane.
   for (int first_y = box.y0; first_y <= box.y1; first_y += 8) {
     const F8 dy = Splat(static_cast<float>(first_y) - t.y0) + Steps();
     F8 rows[3];

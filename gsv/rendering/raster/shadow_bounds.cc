@@ -75,7 +75,7 @@ ShadowBounds::Block ShadowBounds::BoundsOf(const float* map, std::ptrdiff_t stri
                   (depth(kEnd, 0) + depth(kEnd, kEnd) - depth(0, 0) - depth(0, kEnd)) / (2 * kEnd),
               by_y =
                   (depth(0, kEnd) + depth(kEnd, kEnd) - depth(0, 0) - depth(kEnd, 0)) / (2 * kEnd);
-  // The largest height of a depth above the plane with these slopes that is 0 at the first corner.
+  // The plane by_x dx + by_y dy has these slopes. Finds how far the highest depth is above it.
   F8 above = Splat(-1e30f);
   for_each([&](F8 depths, int column, int row) {
     const F8 dx = Splat(static_cast<float>(column - x0) + 0.5f) + Steps();

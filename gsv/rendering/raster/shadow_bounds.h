@@ -22,9 +22,9 @@ class ShadowBounds {
   static constexpr int kBefore = 2, kAfter = 2;
   static constexpr float kBesideX = 1.601f, kBesideY = 1.301f;
 
-  // Computes the bounds that depend on the texels of `parts`, on the threads of `team`. `map` points
-  // to texel (0, 0) of a map with a border of at least one texel, and `stride` is the number of
-  // texels from row to row.
+  // Computes the bounds that depend on the texels of `parts`, on the threads of `team`. `map`
+  // points to texel (0, 0) of a map with a border of at least one texel, and `stride` is the number
+  // of texels from row to row.
   void Update(const float* map, std::ptrdiff_t stride,
               std::span<const ShadowRegion::Rectangle> parts, base::ThreadTeam& team);
 
@@ -49,12 +49,12 @@ class ShadowBounds {
   static constexpr int kBlock = 8;  // in texels
   static constexpr int kSide = kShadowSide / kBlock;
 
-  // The upper bound is a plane, because depths in a block differ if a surface is tilted. They
-  // differ by more than the small offset between a surface and its own depths in the map. So under
-  // a constant bound, a part of a lit surface would count as possibly in shadow.
+  // The bounds of a block of texels. The upper bound is a plane. On a tilted surface, the depths in
+  // a block differ by more than the offset between a surface and its own depths in the map. So a
+  // part of a lit surface would be below a constant bound, and would need a look-up.
   struct Block {
     float min = 0;
-    float max = 0;                   // upper bound at the block's first corner
+    float max = 0;                   // upper bound at the block's corner with the lowest x and y
     float slope_x = 0, slope_y = 0;  // change of the upper bound across the whole block
   };
   // Computes the bounds of the block at (x, y).

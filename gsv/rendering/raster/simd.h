@@ -51,13 +51,13 @@ inline F8 Gather(const float* from, I8 index) {
 inline I8 GatherInt(const void* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(static_cast<const int*>(from), (__m256i)index, 4);
 }
-// Loads from[index] and from[index + 1], with half the loads of two gathers.
 struct I8x2 {
   I8 first, second;
 };
+// Loads from[index] and from[index + 1], with half the loads of two gathers.
 inline I8x2 GatherPairs(const void* from, I8 index) {
-  // The order is lanes 0, 1, 4, 5, then 2, 3, 6, 7: the shuffles below sort the loaded pairs within
-  // each half of the register.
+  // Loads the pairs of lanes 0, 1, 4, 5 into `low`, and those of lanes 2, 3, 6, 7 into `high`. The
+  // shuffles below work within each half of a register, so they then give the order 0 to 7.
   const __m256i halves = _mm256_permute4x64_epi64((__m256i)index, 0xd8);
   const auto gather = [&](__m128i four) {
     return _mm256_castsi256_ps(

@@ -22,8 +22,8 @@ struct Fineness {
 };
 constexpr Fineness kThing{0.5, 0.5}, kRobot{3, 1.5};
 
-// Returns the coarsest level whose vertices are displaced by at most `moved_by` and by a third of
-// the radius.
+// Returns the coarsest level whose vertices are displaced by at most `moved_by` and at most a third
+// of the item's radius.
 const Level& LevelFor(const std::vector<Level>& levels, const DrawItem& item, double moved_by) {
   const double scale =
       std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
@@ -56,7 +56,7 @@ void SunShadow::Draw(const RenderList& render_list, std::uint64_t render_list_id
   moved_ = region_.PartsOf(render_list, moving);
   DrawCasters(render_list, moving, copied, moving_, team);
   changed.insert(changed.end(), moved_.begin(), moved_.end());
-  // A caster at the map's edge may be drawn into the texels beyond it.
+  // A caster at the map's right edge may also be drawn into the border texels beyond the edge.
   for (ShadowRegion::Rectangle& part : changed) ++part.max_x;
   bounds_.Update(&moving_[kFirst], kStride, changed, team);
 }
@@ -99,8 +99,8 @@ std::vector<SunShadow::Caster> SunShadow::CastersOf(
 void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& items,
                             std::span<const ShadowRegion::Rectangle> copied,
                             std::vector<float>& map, base::ThreadTeam& team) {
-  // More bands than threads, because some bands have more casters than others. But a caster is
-  // projected once for each band that it touches, so bands are not too narrow.
+  // There are more bands than threads, because some bands have more casters than others. The number
+  // of bands is limited, because a caster is projected once for each band that it touches.
   constexpr int kBandsPerThread = 4, kMaxBands = 32;
   FrameBlock block{};
   region_.Describe({}, block);
@@ -140,7 +140,8 @@ void SunShadow::DrawCaster(const Caster& caster, const Band& band, Rasteriser& r
                           : nullptr;
   rasteriser.ForEachTriangle(
       caster.drawn, 0, caster.both_sides, [&](const Triangle& t, const Box& box, bool) {
-        // The value at a texel does not depend on the rows with which the box begins and ends.
+        // Draws only the rows in the band. The values at their texels do not depend on where the
+        // box begins and ends.
         const Box part{box.x0, std::max(box.y0, band.begin), box.x1,
                        std::min(box.y1, band.end - 1)};
         if (part.y0 > part.y1) return;
@@ -187,7 +188,7 @@ F8 SunShadow::Visible(const F8x3& point, I8 needed) const {
   // Points outside the map use the border texels, which cast no shadow.
   const auto inside = [&](F8 at) { return Min(Max(at, Splat(-0.5f)), side + Splat(0.4f)); };
   const F8 x = point.x * side, y = point.y * side;
-  const F8 z = Max(point.z, Splat(0));  // below the map, use the height of its lowest layer
+  const F8 z = Max(point.z, Splat(0));  // the cleared map has depth 0, so no point may be below 0
   const ShadowBounds::Range range = bounds_.At(x, y);
   const I8 is_lit = z >= range.max, is_shaded = z < range.min;
   if (Bits(needed & ~(is_lit | is_shaded)) == 0) return Select(is_lit, Splat(1), Splat(0));

@@ -1,8 +1,8 @@
 // The shadow map of the sun: one per snapshot, for all cameras.
 //
-// Static shadow casters are drawn once, into a first map. A second map contains the moving casters
-// as well. For each snapshot, the changed parts of the second map are restored from the first one
-// and drawn again, if a camera may see the shadows.
+// Static shadow casters are drawn once, into a first map. A second map also contains the moving
+// casters. For each snapshot, the changed parts of the second map are copied from the first map,
+// and those moving casters are drawn again whose shadows a camera may see.
 //
 // Threads      Draw() needs exclusive access; const members may run concurrently.
 // Determinism  the map is bit-identical for any number of threads.
@@ -58,8 +58,8 @@ class SunShadow {
 
   // Copies the part of still_ that is in a band to moving_.
   void CopyStill(const ShadowRegion::Rectangle& part, const Band& band);
-  // Returns casters that are large enough to cast a shadow. Moving casters are drawn with front
-  // faces and coarser levels only, which suffices for closed meshes.
+  // Returns the casters that are large enough to cast a shadow. Robots are drawn with front faces
+  // and coarser levels only. This suffices for closed meshes.
   std::vector<Caster> CastersOf(const RenderList& render_list,
                                 const std::vector<std::size_t>& items,
                                 const std::array<float, 16>& shadow_from_relative) const;

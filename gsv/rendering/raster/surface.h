@@ -15,7 +15,7 @@ struct Surfaces {
   F8 alpha, metalness, roughness;
   F8 occlusion;  // the fraction of ambient light that reaches the surface
   I8 number;     // number of the surface, from 1 to 255
-  // The item whose material all lanes have so far, if the material has no textures; else null.
+  // The item whose material all filled lanes have, if the material has no textures; else null.
   const Drawn* plain = nullptr;
 };
 
