@@ -1,9 +1,9 @@
 // Renders images of snapshots on its own thread: with OpenGL on a graphics card, otherwise with the
 // built-in rasteriser.
 //
-// Pending requests for one snapshot are rendered as one batch, with one shadow map. Snapshots and
-// simulations share the meshes and textures on the back end. These are freed after their model is
-// destroyed.
+// Pending requests for one snapshot are rendered as one batch, with one shadow map. The back
+// end keeps each mesh and texture once, for all snapshots and simulations. It frees them after
+// their model is destroyed.
 //
 // Determinism  an image is a function of snapshot, camera and renderer_name(). Equal inputs give
 //              equal bytes on one renderer, in any batch.
@@ -31,7 +31,8 @@ namespace gsv::rendering {
 
 // The implementation that renders the images.
 enum class BackEnd {
-  // graphics card; if there is none: rasteriser; on processors without AVX2: Mesa in software
+  // OpenGL on a graphics card. If there is none, the rasteriser; on processors without AVX2 and
+  // FMA, Mesa's software renderer.
   kAutomatic,
   kOpenGl,      // OpenGL, on the devices that `egl` allows
   kRasteriser,  // the rasteriser; kUnavailable on processors without AVX2 and FMA
@@ -48,8 +49,9 @@ struct RendererOptions {
 // Renders images of snapshots on its own thread.
 class Renderer {
  public:
-  // This is longer than the time that the slowest machine needs for an image. The simulation's
-  // deadline for behaviours may be shorter.
+  // The default limit of the time that a call waits. It is longer than the time that the slowest
+  // machine needs for an image. A behaviour that waits for an image may exceed the simulation's
+  // deadline for behaviours earlier.
   static constexpr std::chrono::seconds kTimeout{60};
 
   // Starts the render thread. Returns kUnavailable if the back end cannot be used on this machine.

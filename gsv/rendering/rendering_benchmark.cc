@@ -97,7 +97,8 @@ class Office {
     }
   }
 
-  // Adds the two walls that end at a corner of rooms. Each has a door of 1.4 m at that end.
+  // Adds two walls, one along x and one along y. Between each wall and the corner of the rooms
+  // there is an opening of 1.4 m, the door.
   void AddWalls(int i, int k, const model::Material& material) {
     const double at = kRoom * i - kHalf, along = kRoom * (k + 0.5) - kHalf + 0.7;
     const std::string name = std::to_string(i) + "." + std::to_string(k);

@@ -151,7 +151,8 @@ class Smoother {
     }
   }
 
-  // Returns the first pixel from `i` on whose numbers differ, or `end`.
+  // Returns the first pixel from `i` on whose numbers in the lines `a` and `b` differ. Returns
+  // `end` if there is none.
   static int SkipEqual(const std::uint8_t* a, const std::uint8_t* b, int i, int end) {
     const auto sixteen = [](const std::uint8_t* from) {
       return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));

@@ -1,5 +1,5 @@
 // Antialiases finished images. At edges, the result is comparable to four samples per pixel. On a
-// processor, it takes a small part of their time.
+// CPU, it takes a small part of the time that four samples per pixel would take.
 //
 // This is morphological antialiasing (Reshetov 2009) with surfaces instead of colours, so that
 // textures and shadows stay sharp. Every pixel has the number of its surface. An edge is a border

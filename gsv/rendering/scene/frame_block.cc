@@ -40,8 +40,9 @@ Rgb Mix(const Rgb& a, const Rgb& b, double t) {
 }
 
 // Limits ambient light to a useful range. Some worlds have almost no ambient light, because they
-// were made for a simulator that adds its own. These worlds would be dark. Worlds with the maximum
-// would show no shadows.
+// were made for a simulator that adds its own. Without the minimum, these worlds
+// would be dark. Other worlds have so much ambient light that shadows would be invisible without
+// the maximum.
 Rgb Ambient(const model::Colour& asked) {
   constexpr double kMin = 0.3, kMax = 0.45;
   const Rgb c{asked.r, asked.g, asked.b};

@@ -36,9 +36,10 @@ struct FrameBlock {
   Float4 sun_colour;  // linear light
   Float4 ambient_above, ambient_below;  // ambient light on surfaces that face up and down
   Float4 zenith, horizon, nadir;        // colours of the sky above, at the horizon and below
-  Float4 view_forward, view_right,
-      view_down;  // camera to image's centre; image's centre to right edge; to lower edge
-  // [0]: number of used elements of `lights`; the others are 0
+  // Vectors from the camera to the image's centre, and from the image's centre to the middles of
+  // its right and of its lower edge.
+  Float4 view_forward, view_right, view_down;
+  // Element 0 is the number of used elements of `lights`. Elements 1 to 3 are 0.
   std::array<std::int32_t, 4> light_count;
   std::array<LightBlock, kMaxLights> lights;
 };
@@ -55,7 +56,7 @@ class Lighting {
   // Replaces the lamps of robots by the lamps that are on in `snapshot`.
   void TakeLamps(const world::Snapshot& snapshot);
 
-  // Returns the block of a view, without the shadow.
+  // Returns the block of a view, without the shadow parameters (see ShadowRegion::Describe()).
   FrameBlock BlockFor(const CameraView& view) const;
 
  private:
@@ -64,7 +65,7 @@ class Lighting {
     double range = 0;  // infinite for directional lights
     LightBlock block;
   };
-  // Adds a light with a position to lamps_.
+  // Adds a light of any kind, except the sun, to lamps_.
   void AddLamp(const model::Light& light);
 
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};

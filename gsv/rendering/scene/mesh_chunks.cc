@@ -22,8 +22,8 @@ class Cutter {
   MeshChunks Take() { return std::move(result_); }
 
  private:
-  // Divides the triangles of a run at the median of its longest side. Repeats this until each run
-  // is small enough.
+  // Divides a run of triangles into two halves: at the median of their centroids along the longest
+  // side of their bounding box. Repeats this until each run has at most most_ triangles.
   void CutRun(std::uint32_t first, std::uint32_t count, std::uint32_t material) {
     if (count == 0) return;
     const Bounds bounds = BoundsOf(first, count);

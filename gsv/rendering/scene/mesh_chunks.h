@@ -8,7 +8,8 @@
 
 namespace gsv::rendering {
 
-// A run of `order` in MeshChunks whose triangles share one material, and the box around them.
+// Consecutive elements of MeshChunks::order whose triangles share one material, and the box around
+// these triangles.
 struct MeshChunk {
   std::uint32_t first_triangle = 0;  // index in `order`
   std::uint32_t triangle_count = 0;

@@ -64,7 +64,7 @@ std::vector<float> WithSurfaces(const Arrays& arrays) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const auto first = arrays.vertices.begin() + static_cast<std::ptrdiff_t>(8 * i);
     vertices.insert(vertices.end(), first, first + 8);
-    // Numbers below 4096 are exact as a float.
+    // With numbers below 4096, renderers can compute with them exactly in single precision.
     vertices.push_back(static_cast<float>(surfaces[i] % 4096));
   }
   return vertices;

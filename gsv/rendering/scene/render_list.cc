@@ -66,8 +66,8 @@ class Builder {
       item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
       item.radius = 0.5 * Norm(Scaled(chunk.bounds.max - chunk.bounds.min, shape.scale));
       item.factors = FactorsOf(material);
-      // The number restarts at 4096, because numbers up to 4096 are exact as a float. Renderers add
-      // the number of the mesh's surface, and reduce the sum to eight bits.
+      // Renderers add multiples of this number and of the number of the mesh's surface, and reduce
+      // the sum to eight bits. Both numbers are below 4096, so that the sum is exact as a float.
       item.factors.surface =
           static_cast<float>((first_surface + static_cast<int>(material_index)) % 4096);
       item.casts_shadow = visual.cast_shadows && !plane && group.blending != Blending::kTransparent;

@@ -1,8 +1,8 @@
-// The render list of a layout. Each visual has one item per piece. The items of one draw call are a
-// group.
+// The render list of a layout. Each visual has one item per chunk of its mesh. The items of one
+// draw call are a group.
 //
-// A list is made once per layout and posed for each snapshot. It keeps the back end's data alive,
-// but no model.
+// A list is made once per layout and posed for each snapshot. It owns a share of the back end's
+// meshes and textures, but it does not keep the models alive.
 // Threads  the render thread only.
 #pragma once
 
