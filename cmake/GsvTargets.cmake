@@ -1,8 +1,7 @@
 # gsv_precompile(TARGET KIND) gives a target a precompiled header (cmake/precompiled_KIND.h), which
 # is compiled once for all targets of this kind. It contains the headers that nearly every file of the
 # kind includes. KIND is "library", or "test" for test programs. The target links to gsv::base. Other
-# programs have no precompiled header, because each program would compile the code of CLI11 in the
-# header again.
+# programs have no precompiled header, because it cost more than it saved.
 function(gsv_precompile TARGET KIND)
   set(OWNER gsv_precompiled_${KIND})
   if(NOT TARGET ${OWNER})
@@ -39,12 +38,16 @@ endfunction()
 # gsv_compile_in_groups(TARGET FILE[@GROUP] …) groups the target's sources in the order in which they
 # are listed. A file with @GROUP (such as @json) is in the group of this name. Such groups contain files
 # that share the slowest headers (libsdformat, Boost.Beast, nlohmann::json, CLI11). gsv_library and
-# gsv_test call this function with their SOURCES.
+# gsv_test call this function with their SOURCES. A group contains the files of GSV_FILES_A_GROUP
+# (otherwise 20) places in the list. Larger groups take less time in total, but more names must differ.
 function(gsv_compile_in_groups TARGET)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug")
     return()
   endif()
   set(FILES_A_GROUP 20)
+  if(GSV_FILES_A_GROUP)
+    set(FILES_A_GROUP ${GSV_FILES_A_GROUP})
+  endif()
   # In a precompiled header, GCC treats a file's unnamed namespace as that of a header.
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
@@ -89,13 +92,14 @@ function(gsv_test_helper)
   endforeach()
 endfunction()
 
-# gsv_library(NAME SOURCES FILE[@GROUP] … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …])
+# gsv_library(NAME SOURCES FILE[@GROUP] … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …] [FILES_A_GROUP n])
 #
 # Adds the static library gsv_NAME with the alias gsv::NAME. Path, include and target agree:
 # the folder gsv/NAME is included as "gsv/NAME/…" from the repository root. Each header is
 # compiled alone by the target all_verify_interface_header_sets.
 function(gsv_library NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "FILES_A_GROUP" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(GSV_FILES_A_GROUP ${ARG_FILES_A_GROUP})
   if(ARG_SOURCES)
     gsv_without_groups(FILES ${ARG_SOURCES})
     add_library(gsv_${NAME} STATIC ${FILES})

@@ -29,6 +29,5 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "gsv/base/json_templates.h"
+#include "gsv/base/json_templates.h"  // includes <nlohmann/json.hpp>, and must be the first to do so

@@ -7,7 +7,18 @@
 
 #include <string>
 
+// <nlohmann/json.hpp> defines the operator _json as an inline function. GCC therefore instantiates the
+// whole parser in each file that includes the header, even if nothing uses it, and even if the
+// templates below are declared as extern. So the operator is only declared, and its body
+// becomes that of a template that nothing uses. Call nlohmann::json::parse() instead of the operator.
+#ifndef INCLUDE_NLOHMANN_JSON_HPP_
+#define _json(...)                           \
+  _json(const char* text, std::size_t size); \
+  template <typename Unused>                 \
+  nlohmann::json BodyOfJsonOperator(__VA_ARGS__)
 #include <nlohmann/json.hpp>
+#undef _json
+#endif
 
 namespace gsv::base::json_templates {
 
