@@ -25,7 +25,7 @@ class TrajectoryFollower final : public Source {
                      std::shared_ptr<const model::Model> model, std::vector<int> joints,
                      std::function<void()> on_change);
 
-  // Replaces the current trajectory by the JointTrajectory message in `sample`, if it is valid.
+  // Replaces the active trajectory by the JointTrajectory message in `sample`, if it is valid.
   void Take(std::span<const std::byte> sample);
 
   bool is_wanted() const override;
@@ -52,7 +52,7 @@ class TrajectoryFollower final : public Source {
   mutable base::Mutex mutex_;
   // A trajectory that Take() has received, and that Publish() has not yet begun.
   std::optional<JointTrajectory> next_ GSV_GUARDED_BY(mutex_);
-  bool is_active_ GSV_GUARDED_BY(mutex_) = false;  // whether active_ is set, for is_wanted()
+  bool is_active_ GSV_GUARDED_BY(mutex_) = false;  // whether active_ or next_ is set
 };
 
 }  // namespace gsv::ros2

@@ -127,7 +127,7 @@ class ServiceHost {
   std::vector<dds::Guid> readers_, writers_;
   std::vector<std::unique_ptr<dds::Writer>> topics_;  // the writers of Advertise()
   std::atomic<bool> is_stopping_{false};
-  // The threads of the lanes. Requests of kLists run on quick_.
+  // The threads of the lanes. Requests of the lane kLists run on quick_.
   ServiceWorker quick_, slow_, stepping_;
 };
 

@@ -29,8 +29,8 @@ class ServedSimulation {
   using SetNamespace =
       std::function<base::Status(const std::string& robot, const std::string& name_space)>;
 
-  // The host and the spawner must outlive this object. The name of the node is "/gsv". If the
-  // spawner is null, requests to add entities fail.
+  // The host and the spawner must outlive this object. An example of a node name
+  // is "/gsv". If the spawner is null, requests to add entities fail.
   ServedSimulation(ServiceHost& service_host, std::string node_name, Spawner* model_spawner)
       : host(service_host), node(std::move(node_name)), spawner(model_spawner) {}
 
@@ -60,8 +60,8 @@ class ServedSimulation {
   base::Status SetNamespaceOf(const std::string& robot, const std::string& name_space) const;
   // Whether clients can load another world.
   bool loads_worlds() const { return spawner != nullptr && spawner->loads_worlds(); }
-  // Returns the names of entities that were added to the simulation. Call it only on the thread of
-  // ServiceHost::Lane::kSlow.
+  // Returns the names of the entities that clients have added to the simulation. Serve() clears
+  // them. Call it only on the thread of ServiceHost::Lane::kSlow.
   std::set<std::string>& spawned();
 
   ServiceHost& host;       // offers the services
@@ -72,9 +72,9 @@ class ServedSimulation {
   mutable base::Mutex mutex_;
   std::weak_ptr<simulation::Simulation> simulation_ GSV_GUARDED_BY(mutex_);
   SetNamespace set_namespace_ GSV_GUARDED_BY(mutex_);
-  std::uint64_t count_ GSV_GUARDED_BY(mutex_) = 0;  // number of simulations so far
+  std::uint64_t count_ GSV_GUARDED_BY(mutex_) = 0;  // number of calls of Serve()
   std::set<std::string> spawned_;                   // names of added entities, see spawned()
-  std::uint64_t spawned_in_ = 0;  // value of count_ for the simulation of spawned_
+  std::uint64_t spawned_in_ = 0;                    // value of count_ when spawned_ was last used
 };
 
 class StepAction;
@@ -103,7 +103,8 @@ class SimulationServices {
   void Offer();
 
   std::vector<dds::Guid> readers_, writers_;
-  std::unique_ptr<ServiceHost> host_;  // destroyed first: its handlers use the other members
+  // Close() destroys the host first, because its handlers use the other members.
+  std::unique_ptr<ServiceHost> host_;
   std::unique_ptr<ServedSimulation> served_;
   std::unique_ptr<StepAction> steps_;
 };

@@ -10,7 +10,7 @@ namespace interfaces = messages::simulation_interfaces;
 using simulation::Simulation;
 using Lane = ServiceHost::Lane;
 
-// Highest number that is appended to a name to make it unique.
+// Numbers below this are appended to a name to make it unique.
 constexpr int kMaxNumber = 10'000;
 constexpr std::size_t kMaxName = 200;
 

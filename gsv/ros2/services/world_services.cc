@@ -74,7 +74,7 @@ LoadResponse LoadWorld(const ServedSimulation& served,
   const auto loaded = served.spawner->LoadWorld(request.uri, request.fail_on_unsupported_element);
   if (!loaded) return NotLoaded(loaded.error());
   const auto simulation = served.simulation();
-  // another client has unloaded the world
+  // Meanwhile, another client may have unloaded the world.
   if (simulation == nullptr) return {served.NoSimulation(), {}};
   return {Succeeded(), CurrentWorld(*simulation, {}).world};
 }

@@ -11,8 +11,8 @@ namespace gsv::ros2 {
 namespace {
 
 constexpr std::uint8_t kNested = 1, kString = 17, kBoundedString = 21;
-constexpr std::uint8_t kArray = 48, kBoundedSequence = 96,
-                       kSequence = 144;  // this constant is added to the id of the element type
+// One of these constants is added to the id of the element type of an array or a sequence.
+constexpr std::uint8_t kArray = 48, kBoundedSequence = 96, kSequence = 144;
 constexpr std::string_view kSeparator = "\n====";
 constexpr std::string_view kNextType = "MSG: ";
 

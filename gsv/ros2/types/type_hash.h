@@ -20,9 +20,9 @@ std::string TypeHash(const TypeDescription& description);
 // computed only once.
 std::string TypeHashOf(std::string_view type);
 
-// Returns the USER_DATA of an endpoint of that type: "typehash=RIHS01_…;". Both topics of a service
-// contain the hash of the service: the hash for "pkg/srv/Name_Request" and "pkg/srv/Name_Response"
-// is the hash of "pkg/srv/Name". Empty if there is no hash.
+// Returns the USER_DATA of an endpoint with the type `type`: "typehash=RIHS01_…;". Empty if the
+// type has no hash. Both topics of a service contain the hash of the service. So for
+// "pkg/srv/Name_Request" and "pkg/srv/Name_Response", it is the hash of "pkg/srv/Name".
 std::string TypeHashUserData(std::string_view type);
 
 // Returns the hash in an endpoint's USER_DATA, or an empty text. `user_data` is untrusted input.
