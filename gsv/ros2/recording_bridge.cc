@@ -24,8 +24,9 @@ constexpr std::chrono::milliseconds kTick{5};
 constexpr std::size_t kMaxTopics = 1000;
 constexpr std::string_view kClockTopic = "/clock";
 
-// Whether a seek has changed the position. The position then moves backwards, or farther within one
-// tick than a late tick can explain.
+// Whether the user has moved the position of the replay. `advance` is the change of the position
+// since the last tick. It is then negative, or more than half a second of replay at `speed` and one
+// second more. A busy machine can delay a tick, but hardly so long.
 bool IsJump(base::SimTime advance, double speed) {
   return advance < base::SimTime(0) || base::ToSeconds(advance) > 1 + speed / 2;
 }

@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A placeholder in mesh URIs for the path of the temporary folder, which is created only if there
-// are meshes.
+// Stands in mesh URIs for "file://" and the path of the temporary folder. It is replaced when the
+// folder exists. The folder is created only if the model has meshes.
 constexpr const char* kPlaceholder = "gsv-ros2-meshes://";
 
 void ReplaceAll(std::string& text, std::string_view from, const std::string& to) {

@@ -96,8 +96,8 @@ SensorOutput OdometryMessage(const RosSensor& sensor, std::string topic, const F
           }};
 }
 
-// Poses are in the frame of the ground truth, because the frame "map" belongs to the user's
-// localization.
+// Poses are in the frame "world", whose poses are exact. The frame "map" is not used: the user's
+// localization publishes it.
 SensorOutput PoseMessage(const RosSensor& sensor, std::string topic) {
   return {std::move(topic), "geometry_msgs/msg/PoseStamped", kDefaultQos,
           [name = sensor.description.name](const Reading& reading, EncodedMessage& out) {
@@ -159,7 +159,8 @@ class OutputList {
     AddOwn(base_ + "/points", frame_, kLargeDataQos);
     AddCompanion(base_ + "/camera_info");
   }
-  // A lidar with one row has a scan as output; a lidar with several rows has points.
+  // A lidar with one row is published as a LaserScan. A lidar with several rows is published as a
+  // PointCloud2, which is its companion message.
   void AddLidar() {
     if (!sent_.companion) return AddOwn(base_, frame_, kSensorDataQos);
     AddCompanion(sensor_.is_only ? "points" : RosName(sensor_.description.name) + "/points",

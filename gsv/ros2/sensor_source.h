@@ -73,7 +73,7 @@ class SensorSource final : public Source {
   const RosSensor sensor_;
   std::vector<Channel> channels_;
   EncodedMessage message_;   // the message that is encoded now; its memory is reused
-  bool has_failed_ = false;  // whether a reading has failed; later ones are not published
+  bool has_failed_ = false;  // whether a reading has failed; no more readings are then published
 };
 
 }  // namespace gsv::ros2

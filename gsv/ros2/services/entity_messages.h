@@ -18,7 +18,8 @@ messages::simulation_interfaces::EntityState StateOf(const world::Snapshot& snap
 
 messages::geometry_msgs::Pose MessageOf(const geometry::Pose& pose);
 
-// Converts a box to two corners: first the upper right corner, then the lower left corner.
+// Converts a box to two corners: first the corner with the largest coordinates (x, y and z), then
+// the corner with the smallest coordinates.
 messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 
 // Returns the pose in an untrusted message. An orientation of zeros means no rotation. Fails with
@@ -27,8 +28,8 @@ messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 base::Result<geometry::Pose> PoseIn(const std::string& frame,
                                     const messages::geometry_msgs::Pose& pose);
 
-// Whether a pose is upright at height zero, like the default pose. A body with such a pose is put
-// on the floor.
+// Whether a pose has z = 0 and no roll and no pitch. The default pose of a ROS 2 message is such a
+// pose. A body that is placed at such a pose is put on the floor.
 bool StandsOnTheFloor(const geometry::Pose& pose);
 
 }  // namespace gsv::ros2

@@ -14,7 +14,8 @@ void OfferRunServices(ServedSimulation& served);
 // Returns a constant of SimulationState.
 std::uint8_t StateOfPhase(simulation::Phase phase);
 
-// Changes the state of a simulation. `code` is a constant of SetSimulationState or of Result.
+// Changes the state of a simulation to `state`, a constant of SimulationState. The code of the
+// result is a constant of SetSimulationState or of Result.
 messages::simulation_interfaces::Result EnterState(simulation::Simulation& simulation,
                                                    std::uint8_t state);
 

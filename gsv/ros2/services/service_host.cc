@@ -30,9 +30,10 @@ constexpr std::chrono::milliseconds kRetry{10};
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kCycloneHeader = 16;
 
-// This number of replies is kept. Some clients send requests without waiting for replies, or do not
-// run for some seconds. If a client's socket had no space for a reply, the reply is sent again
-// after the next heartbeat.
+// `depth` is the number of replies that are kept, so that they can be sent again. It is large
+// because some clients send many requests without waiting for replies, or do not run for some
+// seconds. If a client's socket had no space for a reply, the reply is sent again after the next
+// heartbeat.
 constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
 // If replies may be large, fewer replies are kept, to limit the memory.
 constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
@@ -49,7 +50,7 @@ std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const s
 
 bool HasCycloneHeader(const dds::Request& request) {
   const dds::Guid& writer = request.writer;
-  // DDS Security sets the first bit of a GUID that it has hashed (1.1, 9.3.3).
+  // DDS Security replaces a GUID by a hash, and sets its first bit (DDS Security 1.1, 9.3.3).
   const bool is_hashed = (writer[0] & 0x80) != 0;
   if (is_hashed) return request.related.writer == dds::Guid{};
   return writer[0] == 0x01 && writer[1] == 0x10;

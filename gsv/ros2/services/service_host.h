@@ -49,8 +49,9 @@ class ServiceHost {
   // another thread.
   class Replier {
    public:
-    // Sends a complete message. Returns at once. The reply is sent as soon as discovery has found
-    // the client, but at the latest after ten seconds.
+    // Sends an encoded message, and returns at once. If the client is not yet discovered, the reply
+    // is sent as soon as it is, but at the latest after ten seconds. If 1000 replies wait for
+    // discovery already, the reply is dropped.
     void Send(messages::Bytes response) const;
     template <typename Response>
     void SendMessage(const Response& response) const {
