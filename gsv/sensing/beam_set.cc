@@ -11,12 +11,13 @@ namespace {
 
 using geometry::Pose;
 
-// For fewer rays, gathering the candidate set takes longer than it saves.
+// A link with fewer beams casts its rays one by one. To gather a candidate set for so few rays takes
+// longer than the set saves.
 constexpr std::size_t kMinPacket = 3;
 
-// Computes the rays of the beams. The results are bit-identical to world_from_link *
-// link_from_sensor and to the x axis rotated by this orientation, because the operations and their
-// order are the same.
+// Computes the rays of the beams. A ray starts at the origin of world_from_sensor = world_from_link
+// * link_from_sensor, and points along the x axis of world_from_sensor. The results are
+// bit-identical to those of class Pose, because the operations and their order are the same.
 GSV_FOR_EACH_PROCESSOR
 void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPacket& rays) {
   const double tx = world_from_link.position.x, ty = world_from_link.position.y,

@@ -24,7 +24,7 @@ class BeamSet {
   // Whether both sets have bit-identical beams in the same order.
   bool IsIdenticalTo(const BeamSet& other) const;
 
-  // Sets values[i] to the value of a reading of the sensor that was added as number i.
+  // Reads all sensors. values[i] is the value of sensor i, counted from 0 in the order of Add().
   void Sample(const Sampling& sampling, std::span<double> values) const;
 
   // Beams on one link, as a structure of arrays. `link_from_sensor` has its position in x, y, z,

@@ -3,8 +3,8 @@
 //
 // Model       the charge falls by idle_current at all times, and by drive_charge for each metre.
 //             The voltage without load is between voltage_empty and voltage_full in proportion to
-//             the charge. The voltage drop at the resistance is subtracted. An empty battery stops
-//             nothing.
+//             the charge. The voltage drop at the resistance is subtracted. An empty battery has
+//             the voltage and the current 0, but the robot can still drive.
 // Parameters  (with their default values)
 //   capacity (5 Ah)
 //   initial_charge (1)      as a fraction of the capacity

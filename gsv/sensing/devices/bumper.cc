@@ -73,7 +73,7 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
       : SensorOf(description),
         half_view_(reader.Number("field_of_view", 2 * std::numbers::pi, 0, 2 * std::numbers::pi) /
                    2),
-        // If the bumper has named collisions, such as feet, it also reports the ground.
+        // By default, a bumper with named collisions, such as feet, also reports the ground.
         feels_ground_(reader.Flag("ground", !model::CollisionNamesOf(description).empty())),
         collisions_(description, NamesIn(description, reader)) {}
 

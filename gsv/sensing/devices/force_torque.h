@@ -8,7 +8,7 @@
 //                           "child_to_parent": the wrench that the child exerts on the parent;
 //                           "parent_to_child": the wrench that the parent exerts on the child
 //   force.{x,y,z}.noise (N), torque.{x,y,z}.noise (N m)   see noise.h
-// Model       joint_wrench.h. The sensor belongs to the joint above its link.
+// Model       see joint_wrench.h. The sensor belongs to the joint whose child is the sensor's link.
 // Readings    values {force x, y, z (N), torque x, y, z (N m)}. As a message:
 //             geometry_msgs/WrenchStamped.
 #pragma once

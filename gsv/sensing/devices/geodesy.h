@@ -4,8 +4,8 @@
 //          ellipsoid (WGS84).
 // Sources  National Imagery and Mapping Agency, TR8350.2, "Department of Defense World Geodetic
 //          System 1984", chapter 3, for the ellipsoid; B. R. Bowring, "Transformation from spatial
-//          to geographical coordinates", Survey Review 23 (1976), for the inverse, iterated until
-//          it converges (below 1e-9 m within 1,000 km of the ground).
+//          to geographical coordinates", Survey Review 23 (1976), for the inverse. Its formula is
+//          iterated four times. The error is then below 1e-9 m within 1,000 km of the ground.
 #pragma once
 
 #include "gsv/geometry/vector3.h"

@@ -11,9 +11,10 @@
 //   opening (0.1 m)         distance between the open fingers
 //   reach (0.08 m), height (0.03 m)   length and height of the fingers
 //   closing_time (0.5 s)    time in which open fingers close completely
-//   left_finger, right_finger   prismatic joints that show the fingers, only for robots with planar
-//                           kinematics. The position of each joint is the distance by which the
-//                           finger has moved from its open position.
+//   left_jaw, right_jaw     names of the prismatic joints of the fingers (default: none). Only for
+//                           robots with planar kinematics: the gripper sets the position of each
+//                           joint to the distance by which the finger has moved from its open
+//                           position.
 // Message     gsv_msgs/Gripper
 #pragma once
 

@@ -20,7 +20,7 @@ struct GripperSetup {
   double opening = 0.1;                   // distance between the open fingers, m
   double reach = 0.08, height = 0.03;     // length and height of the fingers, m
   double closing_time = 0.5;              // s
-  std::string left_finger, right_finger;  // joints that show the fingers; empty: none
+  std::string left_finger, right_finger;  // names of the fingers' joints; empty: none
 };
 using GripperSetupPtr = std::shared_ptr<const GripperSetup>;
 
@@ -33,7 +33,8 @@ class GripperState final : public world::ActuatorState {
     double width = 0;    // width of the attached body, m
   };
 
-  // `opening_before` is the distance between the fingers at `followed.since`, m.
+  // `opening_before` is the distance between the fingers (m) when the command was applied
+  // (`followed.since`).
   GripperState(world::DeviceMount mount, world::FollowedCommand followed, GripperSetupPtr setup,
                double opening_before, std::optional<Hold> hold = std::nullopt);
 

@@ -66,11 +66,11 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   }
 
  private:
-  // Reads the three terms of an Allan plot, which apply to all three axes of `quantity`.
+  // Reads the three parameters that an Allan plot shows. They apply to all three axes of `quantity`.
   void ReadAllan(ParameterReader& reader, const std::string& quantity, double limit,
                  std::size_t first_channel) {
-    // The lowest value of the Allan deviation is 0.664 times the deviation of a slowly drifting
-    // bias (IEEE 952).
+    // The parameter bias_instability is the lowest value of the Allan deviation. This value is
+    // 0.664 times the standard deviation of a slowly drifting bias (IEEE 952).
     constexpr double kFloor = 0.664, kInstabilityTime = 100, kWalkTime = 3600;  // s
     const double density = reader.Number(quantity + ".noise_density", 0, 0, limit);
     const double instability = reader.Number(quantity + ".bias_instability", 0, 0, limit);
@@ -107,8 +107,9 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   const bool has_orientation_;
   const OrientationReference reference_;
   std::array<NoiseModel, 6> noise_;
-  // The index is allan_[term][quantity]. Term 0 is white noise and bias instability, and term 1 is
-  // the random walk. Quantity 0 is the angular velocity, and quantity 1 is the specific force.
+  // Noise models of the Allan parameters: allan_[term][quantity]. Term 0 is white noise and bias
+  // instability, and term 1 is the random walk. Quantity 0 is the angular velocity, and quantity 1
+  // is the specific force.
   std::array<std::array<NoiseModel, 2>, 2> allan_;
 };
 
