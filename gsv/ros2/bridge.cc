@@ -37,7 +37,7 @@ using messages::tf2_msgs::TFMessage;
 using simulation::Simulation;
 
 constexpr base::SimTime kTransformPeriod = std::chrono::milliseconds(20);
-// The period, in wall-clock time, of diagnostics and of checks for other publishers.
+// The period, in wall-clock time, of diagnostics and of RobotTopics::CheckPublishers().
 constexpr std::chrono::milliseconds kRefreshPeriod{1000};
 // The period of checks for changes of robots and sensors. Some of these changes cause no event.
 constexpr std::chrono::milliseconds kFollowPeriod{3000};
@@ -80,7 +80,7 @@ class SimulationBridge final : public Bridge {
   // namespaces by robot
   std::map<std::string, std::string> namespaces_ GSV_GUARDED_BY(namespaces_mutex_);
 
-  // Members of the publisher thread.
+  // The publisher thread uses the following members without a lock.
   std::shared_ptr<const sensing::SensorRegistry> types_;
   sensing::SensorSet sensors_;
   sensing::RaySceneCache rays_;
@@ -93,7 +93,7 @@ class SimulationBridge final : public Bridge {
   dds::Writer* diagnostics_ = nullptr;
   // topics of each robot, by the name of its body
   std::map<std::string, std::unique_ptr<RobotTopics>> robots_;
-  SlowLane slow_;  // declared last, because it uses the members above
+  SlowLane slow_;  // declared after sources_ and robots_, because it uses them
   bool has_checked_namespaces_ = false;
   std::unique_ptr<SimulationServices> own_services_;  // null if the caller has given services
   SimulationServices& services_;

@@ -38,7 +38,7 @@ base::Result<world::DriveCommand> CommandOf(const Twist& twist) {
 
 base::Result<std::vector<double>> DecodeFloat64MultiArray(std::span<const std::byte> sample) {
   messages::CdrReader reader(sample);
-  // Each element of layout.dim has at least a string of one byte and two numbers.
+  // Each element of layout.dim takes at least 12 bytes: the length of its label and two numbers.
   const std::size_t dimensions = reader.ReadCount(12);
   for (std::size_t i = 0; i < dimensions; ++i) {
     std::string label;
@@ -129,8 +129,8 @@ void CommandInput::Note(const base::Status& status, const char* topic) {
     return;
   }
   const base::ErrorCode code = status.error().code;
-  // A command may arrive too late: in lockstep after its agent has begun to wait, or after the end
-  // of the simulation.
+  // A command may arrive too late: after the end of the simulation, or, in lockstep, when its agent
+  // already waits (see agent.h).
   if (code == base::ErrorCode::kNotRunning || code == base::ErrorCode::kEnded) return;
   if (refused_++ == 0) {
     spdlog::warn("{}: {} from ROS 2 is refused: {}. Further refusals are not logged", robot_, topic,

@@ -90,7 +90,7 @@ class RenderList {
 
   // Whether a body has not moved since the first snapshot. Always false for robots and avatars.
   bool IsStill(int body) const { return !bodies_[body].moved; }
-  // The number of bodies that have moved.
+  // The number of bodies that have moved. Robots and avatars do not count.
   int moved_count() const { return moved_count_; }
 
  private:
@@ -104,7 +104,8 @@ class RenderList {
   // The pose and joints of a body, to detect motion.
   struct BodyPose {
     bool posed = false;  // whether Pose() has posed the body
-    bool moved = false;  // whether the body has moved since the first snapshot
+    // whether the body has moved since the first snapshot; always true for robots and avatars
+    bool moved = false;
     geometry::Pose world_from_model;
     std::vector<double> joints;                  // joint positions, in the order of the model
     std::size_t first_item = 0, item_count = 0;  // the body's items in items_
@@ -115,7 +116,8 @@ class RenderList {
   std::vector<DrawGroup> groups_;
   std::vector<DrawItem> items_;      // items by body, then the lamps that are on
   std::size_t body_item_count_ = 0;  // number of items in items_ without the lamps that are on
-  // the items of a lamp with a radius of 1 m; empty until a lamp is on
+  // the items of a lamp's glow before scaling: a sphere with a radius of 1 m; empty until a lamp is
+  // on
   std::vector<DrawItem> glow_;
   std::vector<PlacedItem> placed_;  // in the order of items_
   std::vector<BodyPose> bodies_;

@@ -18,7 +18,8 @@ constexpr double kMaxRadius = 60;
 // would be finer than needed and slower to render.
 constexpr double kMinSide = 10;
 
-// Rounds outwards to a multiple of a power of two that is about a sixteenth of the length.
+// Rounds both ends of a range outwards to multiples of a unit. The unit is the smallest power of
+// two that is at least a sixteenth of the range's length.
 void RoundOutward(double& min, double& max) {
   const double unit = std::exp2(std::ceil(std::log2((max - min) / 16)));
   min = unit * std::floor(min / unit);
@@ -38,8 +39,8 @@ ShadowRegion::ShadowRegion(const RenderList& render_list, const Vector3& to_sun)
     if (!item.casts_shadow) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const double at = Dot(axes_[axis], render_list.placed()[i].centre);
-      // Along the light, every caster must be completely inside the region. Otherwise, it would
-      // cast no shadow.
+      // Axis 2 is the direction of the light. Along it, every caster must be completely inside the
+      // region. Otherwise, the caster would have no shadow.
       const double radius = axis < 2 ? std::min(item.radius, kMaxRadius) : item.radius;
       min[axis] = std::min(min[axis], at - radius);
       max[axis] = std::max(max[axis], at + radius);
@@ -78,8 +79,8 @@ std::vector<std::size_t> ShadowRegion::StillCasters(const RenderList& render_lis
 
 std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_list,
                                                      const std::vector<CameraView>& views) const {
-  // The maximum distance between a point and the texels that are read for its shadow. It consists
-  // of the offset along the normal and the filter.
+  // The maximum distance between a point and the texels that are read for its shadow. The shader
+  // shifts the point along its normal and reads several neighbouring texels there.
   const double beside = 4 * TexelSize();
   // Shadows are infinitely long; this length is beyond the view of every camera.
   const Vector3 shade = -1e7 * axes_[2];

@@ -24,7 +24,7 @@ class TextureStore {
   using Make = std::function<std::shared_ptr<DrawTexture>(const model::Image&)>;
   TextureStore(Make make, int max_side) : make_(std::move(make)), max_side_(max_side) {}
 
-  // Returns null for a null or invalid image; the material then has no such map.
+  // Returns null for a null or invalid image. The material is then drawn without this texture.
   std::shared_ptr<const DrawTexture> Find(const std::shared_ptr<const model::Image>& image);
 
   // Removes textures whose image was destroyed.

@@ -18,9 +18,9 @@ using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 using eprosima::fastrtps::rtps::LocatorsIterator;
 
-// A placeholder for kDiscoveryGroup in the list of peers. The group itself must not be in the list,
-// because participants with default settings announce this group too. Fast DDS would then also send
-// data to the group.
+// A placeholder for kDiscoveryGroup in the list of peers. Participants with default settings
+// announce that they listen to this group. If the list contained the group itself, Fast DDS would
+// also send data to the group.
 constexpr const char* kGroupPeer = "127.255.255.254";
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.3, 9.6.1.4
 

@@ -3,9 +3,9 @@
 //
 // The sockets are bound to 127.0.0.1. Participants of this machine that announce a network address
 // also listen at 127.0.0.1, so this transport sends their data there. Without this transport, Fast
-// DDS cannot reach these participants and stay on this machine at the same time. If its only
-// interface is 127.0.0.1, it ignores participants with default settings. If it uses all interfaces,
-// everybody on the network can send data to it.
+// DDS cannot reach these participants and stay on this machine at the same time. If Fast DDS uses
+// only the interface 127.0.0.1, it ignores participants with default settings. If Fast DDS uses all
+// interfaces, everybody on the network can send data to it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,8 @@ namespace gsv::ros2::dds {
 // requests. The actual size is at most net.core.rmem_max of Linux.
 inline constexpr std::uint32_t kSocketBuffer = 4 << 20;
 
-// Makes the transport. It announces itself to the ports of the first `max_peers` participants.
+// Makes the transport. For discovery, the participant announces itself at the ports of the
+// participant indices 0 to `max_peers` - 1.
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> LoopbackTransport(
     std::uint32_t max_peers);
 

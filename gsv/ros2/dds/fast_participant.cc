@@ -134,8 +134,8 @@ void UseUnicastOnly(const std::string& address, rtps::BuiltinAttributes& builtin
   user.push_back(LocatorOf(address));
 }
 
-// Shortens the period of announcements (default: 3 s), because announcements of two participants
-// may cross and be lost.
+// Shortens the period of announcements (default: 3 s). If two participants start at the same time,
+// each may announce itself before the other listens. These announcements are lost.
 void AnnounceOften(rtps::BuiltinAttributes& builtin) {
   builtin.discovery_config.leaseDuration_announcementperiod = {1, 0};
   builtin.discovery_config.initial_announcements.count = 10;
