@@ -5,8 +5,8 @@
 //   counts_per_turn (0)     positions are rounded down to multiples of 2 pi / counts_per_turn; 0:
 //                           positions are exact
 //   position.noise (rad or m), velocity.noise (rad/s or m/s)   see noise.h
-// Readings    for each joint, in the order of the model, the values {position, velocity} and the
-//             label of its name. As a message: sensor_msgs/JointState.
+// Readings    for each joint, in the order of the model, the values {position, velocity}, and its
+//             name as label. As a message: sensor_msgs/JointState.
 // Errors      Sample(): kNotFound for a joint that the robot does not have.
 #pragma once
 

@@ -27,7 +27,7 @@ struct WrenchSum {
 std::vector<bool> LinksBelow(const model::Model& model, int joint) {
   std::vector<bool> is_below(model.links.size());
   is_below[static_cast<std::size_t>(model.joints[static_cast<std::size_t>(joint)].child)] = true;
-  // The loop ends, because a forest has at most as many levels as links.
+  // The loop ends, because each repetition has found at least one more link.
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (const model::Joint& each : model.joints) {
@@ -41,7 +41,7 @@ std::vector<bool> LinksBelow(const model::Model& model, int joint) {
   return is_below;
 }
 
-// Adds the force and torque of a link's motion, without gravity.
+// Adds the force and torque that the motion of a link requires, minus the force of gravity.
 void AddInertia(const model::Link& link, const LinkMotion& motion, const Vector3& gravity,
                 WrenchSum& sum) {
   const model::Inertial& i = link.inertial;

@@ -15,9 +15,9 @@
 //   noise (m)               see noise.h. Each beam has its own bias. A dropout reads as no hit, and
 //                           noise does not move a range beyond the limits.
 //   intensity_scale (0), intensity_range (0 m)   see below
-// Intensity   with an intensity_scale above 0, the intensities of all beams follow the ranges. An
-//             intensity is intensity_scale × reflectance × cosine of the angle of incidence
-//             (Lambert's law), or 0 without an echo. If intensity_range is 0, the device
+// Intensity   if intensity_scale is above 0, the reading has the intensities of all beams after the
+//             ranges. An intensity is intensity_scale × reflectance × cosine of the angle of
+//             incidence (Lambert's law), or 0 without an echo. If intensity_range is 0, the device
 //             compensates for the distance. Otherwise the intensity is multiplied by
 //             (intensity_range / distance)², as for a surface that is larger than the beam (Höfle
 //             and Pfeifer, ISPRS Journal of Photogrammetry and Remote Sensing 62 (2007)). The

@@ -11,7 +11,8 @@ namespace {
 using geometry::kInfinity;
 
 constexpr double kMaxTangent = 20;  // the tangent at a grazing angle of 3 degrees
-// two ranges that differ by more than this (m) belong to different surfaces
+// two ranges that differ by more than this (m) plus a tenth of the range belong to different
+// surfaces
 constexpr double kEdge = 0.1;
 
 // The tangent of the angle of incidence, from the adjacent beams that hit the same surface.
@@ -67,14 +68,16 @@ void Disturb(const LidarErrors& errors, const Sampling& sampling,
     const double after = i + 1 < exact.size() ? exact[i + 1] : range;
     const double tangent = step > 0 ? TangentAt(before, range, after, step) : 0;
     if (errors.reach > 0) {
-      // In the last tenth of the reach, some echoes are lost and others are not.
+      // At ranges near the reach, chance decides whether an echo is lost. The standard deviation of
+      // the limit is 5 %.
       const double reach = errors.reach * std::pow(1 + tangent * tangent, -0.25);
       if (range > reach * (1 + 0.05 * fading)) {
         ranges[i] = kInfinity;
         continue;
       }
     }
-    // Half of the beam's width is on the side of each adjacent beam.
+    // Chooses one of the two adjacent beams at random. If there is an edge between this beam and
+    // the chosen one, this beam covers the edge with the probability `covered`.
     const double other = edge < 0.5 ? before : after;
     if (std::isfinite(other) && std::abs(other - range) > kEdge + 0.1 * range &&
         std::abs(2 * edge - (edge < 0.5 ? 0.5 : 1.5)) < covered / 2) {

@@ -12,8 +12,8 @@
 //                           dust or people
 //   short_range (1 m)       mean range of these hits, which is exponentially distributed
 //
-// Source      Thrun, Burgard and Fox, "Probabilistic Robotics", section 6.3, for the fractions;
-//             Lambert's law and the equation of the lidar for the cosine.
+// Source      short_probability and short_range: Thrun, Burgard and Fox, "Probabilistic Robotics",
+//             section 6.3. sqrt(cos a) in the maximum range: Lambert's law and the lidar equation.
 // Determinism random numbers are keyed by (seed, robot, sensor, step) and the beam.
 #pragma once
 

@@ -118,8 +118,8 @@ class MotionReader {
     motion.world_from_link = poses_[of];
   }
 
-  // Passes a ball joint. The rates of the ball joint's three joints are about the axes of the link
-  // below the third joint.
+  // Moves `motion`, which is at a ball joint, to the link below the ball joint. The rates of the
+  // ball joint's three joints are about the axes of this link. `last` is the third of these joints.
   void PassBall(int last, const Pose& world_from_joint, LinkMotion& motion) {
     const Vector3 around = motion.angular_velocity;
     for (int joint = last, i = 0; i < 3; ++i) {

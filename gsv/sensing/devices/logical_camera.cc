@@ -18,8 +18,8 @@ using geometry::kInfinity;
 using geometry::Pose;
 using geometry::Vector3;
 
-// The centre of the box around a model's collisions, with all joints at zero; nullopt if the model
-// has no collisions.
+// The centre of the box around a model's collisions except planes, with all joints at zero; nullopt
+// if the model has no such collisions.
 std::optional<Vector3> CentreOf(const model::Model& model) {
   Vector3 low{kInfinity, kInfinity, kInfinity}, high = -low;
   for (const model::Link& link : model.links) {
@@ -122,7 +122,7 @@ class LogicalCamera final
 
   const double near_, far_;
   const Frustum frustum_;
-  const double half_width_, half_height_;  // half the size of the view at 1 m, m
+  const double half_width_, half_height_;  // of the view at a distance of 1 m, in m
   const bool hides_, robots_only_;
 };
 

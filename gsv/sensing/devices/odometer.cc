@@ -80,7 +80,7 @@ class Odometer final : public SensorOf<readings::Odometry, OdometryMessage> {
   const VelocityNoise noise_;
 };
 
-// An odometer whose errors accumulate, so that it keeps a state.
+// An odometer whose errors accumulate. Its state is the estimated pose.
 class DriftingOdometer final : public SensorOf<readings::Odometry, OdometryMessage, Device> {
  public:
   DriftingOdometer(const model::SensorDescription& description, ParameterReader& reader)

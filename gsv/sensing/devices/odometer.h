@@ -1,7 +1,8 @@
 // The sensor type "odometry" (also "wheel_odometry"): dead reckoning from the wheels, see
 // world/wheel_odometry.h.
 //
-// Frame       the base's reference point (halfway between the wheels) in the frame of its start.
+// Frame       the pose of the base's reference point (halfway between the wheels), relative to its
+//             pose at the start.
 //             The mounting of the sensor has no effect.
 // Parameters  (with their default values)
 //   linear.noise (m/s; also for the lateral velocity), angular.noise (rad/s)   see noise.h
