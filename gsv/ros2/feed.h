@@ -1,7 +1,8 @@
-// The publisher's queue of events and of snapshots for which messages are due.
+// The publisher's queue. It holds events, and snapshots from which at least one message must be
+// published.
 //
-// Threads  OnSnapshot() and OnEvent() as simulation::Observer; Next() from one thread; other
-//          functions from any thread.
+// Threads  OnSnapshot() and OnEvent(): the threads that simulation::Observer names. Next(): one
+//          thread. Other functions: any thread.
 // Bounded  a few snapshots. If the publisher is too slow, the oldest snapshots are dropped. In
 //          lockstep, the stepping thread waits instead.
 #pragma once
@@ -29,7 +30,7 @@ class Feed final : public simulation::Observer {
   void OnSnapshot(const SnapshotPointer& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // Requests snapshots at multiples of these periods.
+  // From now on, queues the first snapshot at or after each multiple of each period, and no others.
   void SetPeriods(const std::set<base::SimTime>& periods);
 
   // The entries that Next() returns.
@@ -37,8 +38,8 @@ class Feed final : public simulation::Observer {
     SnapshotPointer snapshot;  // null if there is no new snapshot
     std::vector<simulation::Event> events;
   };
-  // Returns the new entries. If there are none, waits for an entry, until `timeout` (wall-clock
-  // time) or until Wake() is called.
+  // Returns the oldest queued snapshot and all queued events. If the queue is empty, waits until
+  // there is an entry, Wake() or Close() is called, or `timeout` (wall-clock time) has passed.
   News Next(std::chrono::milliseconds timeout);
   // Ends the wait of Next() early.
   void Wake();
@@ -54,7 +55,7 @@ class Feed final : public simulation::Observer {
   mutable base::Mutex mutex_;
   base::ConditionVariable news_;  // notified when Next() can return
   base::ConditionVariable room_;  // notified when the queue has space for a snapshot
-  // The instants of each requested period, by period.
+  // The key is a requested period. The value computes the instants at which a snapshot is due.
   std::map<base::SimTime, recording::Instants> instants_ GSV_GUARDED_BY(mutex_);
   std::deque<SnapshotPointer> snapshots_ GSV_GUARDED_BY(mutex_);
   std::vector<simulation::Event> events_ GSV_GUARDED_BY(mutex_);

@@ -1,8 +1,10 @@
 // The frames of one robot in ROS 2: PREFIXodom → PREFIXBASE → links → sensors, by REP-105.
 //
-// BASE is the model's own frame. If the frame of the canonical link equals the model's frame, BASE
-// has this link's name. Otherwise, BASE is base_link. If another link has the name base_link, BASE
-// is base_footprint. So there is always a frame base_link.
+// All frame names of the robot begin with PREFIX, see Frames(). BASE names the model's frame. If
+// the frame of the canonical link equals the model's frame, BASE is this link's name. Otherwise,
+// BASE is base_link, or base_footprint if a link has the name base_link. If neither BASE nor a link
+// has the name base_link, AppendStatic() adds a frame PREFIXbase_link that equals the model's
+// frame. So there is always a frame PREFIXbase_link.
 #pragma once
 
 #include <string>
@@ -25,7 +27,7 @@ class Frames {
   Frames(std::string prefix, const model::Model& model);
 
   std::string odom() const { return prefix_ + "odom"; }
-  const std::string& base() const { return base_; }  // PREFIXBASE, with BASE as above
+  const std::string& base() const { return base_; }  // PREFIXBASE; see the top of this file
   std::string OfLink(const model::Model& model, int link) const;
   // Returns the frame of a sensor. This is the link's frame if sensor and link have equal poses.
   // Otherwise, it is the sensor's own frame.

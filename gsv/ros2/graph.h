@@ -1,6 +1,7 @@
 // Publishes the list of nodes of this participant on the topic ros_discovery_info.
 //
-// Source  rmw_dds_common/msg/ParticipantEntitiesInfo.msg, of Humble and of Iron and later.
+// Source  rmw_dds_common/msg/ParticipantEntitiesInfo.msg. Humble has one version of this file; Iron
+//         and later distributions have another.
 #pragma once
 
 #include <memory>

@@ -42,7 +42,8 @@ void EncodeDepth(int width, int height, std::span<const double> depth, base::Sim
   std::vector<float> metres(depth.begin(), depth.end());
   messages::CdrWriter writer(out);
   WriteHead({width, height, "32FC1", sizeof(float)}, time, frame, writer);
-  // The elements are bytes, so they need no alignment.
+  // In the message, `data` is a sequence of bytes. Therefore, the alignment is 1 and not that of
+  // float.
   writer.WriteBlock(metres.data(), metres.size() * sizeof(float), 1);
 }
 

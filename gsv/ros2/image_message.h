@@ -1,4 +1,5 @@
-// Encodes sensor_msgs/msg/Image without an intermediate copy of the pixels.
+// Encodes images directly into the bytes of sensor_msgs/msg/Image. No message object is made, which
+// would be another copy of the pixels.
 #pragma once
 
 #include <span>

@@ -15,7 +15,8 @@
 
 namespace gsv::ros2 {
 
-// The QoS profiles that rmw/qos_profiles.h defines.
+// The QoS profiles of the topics. They follow rmw/qos_profiles.h and the usual profiles of /clock,
+// /tf, /rosout and latched topics.
 inline constexpr dds::Qos kSensorDataQos{.is_reliable = false, .depth = 5};
 inline constexpr dds::Qos kLargeDataQos{.is_reliable = false, .depth = 5, .is_large = true};
 inline constexpr dds::Qos kDefaultQos{.depth = 10};

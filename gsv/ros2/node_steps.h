@@ -20,7 +20,7 @@
 
 namespace gsv::ros2 {
 
-// The name of the behaviour of robots that ROS 2 nodes drive.
+// If a robot's behaviour has this name, a ROS 2 node drives the robot.
 inline constexpr const char* kRos2Behaviour = "ros2";
 
 // Stores the commands that nodes have sent, and lets robots wait for them.
@@ -59,8 +59,8 @@ class NodeSteps {
 };
 
 // The agent of a robot that a node steps. At each instant of /clock, the agent waits for the
-// command of the node, applies it, and waits for the next instant. The simulation's deadline
-// applies as for every behaviour.
+// command of the node, applies it, and waits for the next instant. If the command takes longer than
+// Specification::deadline, the agent is unresponsive, like any other agent.
 class NodeBehaviour final : public simulation::BehaviourPort {
  public:
   // `period` is the period of /clock.

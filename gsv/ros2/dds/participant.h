@@ -3,8 +3,8 @@
 // This header depends on no DDS library. The implementation is a plug-in (module.h), so that a
 // program without ROS 2 neither loads nor links one.
 //
-// Threads  any. `on_message`, `on_request` and `on_match` are called on threads of the DDS library;
-//          they return at once and do not call back.
+// Threads  any. `on_message`, `on_request` and `on_match` are called on threads of the DDS library.
+//          They must return at once, and must not call the participant, its writers or its readers.
 #pragma once
 
 #include <array>
@@ -75,8 +75,8 @@ struct SampleIdentity {
 // The identities in a request to a service, or in a reply.
 struct Request {
   Guid writer{};            // the endpoint that sent the request or the reply
-  SampleIdentity identity;  // the identity to send with the reply
-  SampleIdentity related;   // the identity of the request to which a reply belongs
+  SampleIdentity identity;  // in a request: the identity that its reply must contain
+  SampleIdentity related;   // in a reply: the identity of the request that it answers
 };
 
 // The publishing endpoint of a topic.
@@ -126,7 +126,8 @@ class Participant {
   // Makes a reader of a usual topic. `on_message` gets each sample with its encapsulation header.
   virtual base::Result<std::unique_ptr<Reader>> MakeReader(
       const Topic& topic, std::function<void(std::span<const std::byte>)> on_message) = 0;
-  // Makes a reader of a service's requests. `on_request` also gets the identities for the reply.
+  // Makes a reader of a service's requests. `on_request` also gets the identities of the request;
+  // WriteReply() needs `identity`.
   virtual base::Result<std::unique_ptr<Reader>> MakeRequestReader(
       const Topic& topic,
       std::function<void(std::span<const std::byte>, const Request&)> on_request) = 0;
