@@ -39,14 +39,15 @@ struct Quantity {
     // such time of all robots.
     kStuck,
   };
-  // How one number is computed from the values of a reading.
+  // Which number is taken from a reading with several values. kOne takes the element with the index
+  // `value`.
   enum class Take { kMin, kMax, kMean, kOne };
 
   Kind kind = Kind::kTime;
-  std::string first, second;     // names as the kind says; empty if it uses none
+  std::string first, second;     // see the comments of Kind; empty if the kind does not use them
   double x = 0, y = 0, yaw = 0;  // for kDistanceToPoint (m) and kYawOff (rad)
-  Take take = Take::kMin;  // for kSensor: which number is taken from a reading with several values
-  int value = 0;           // the index of the value for kOne
+  Take take = Take::kMin;        // for kSensor
+  int value = 0;                 // for Take::kOne: the index in the reading, from 0
 };
 
 // An atom, or an operator with its operands.
@@ -57,15 +58,17 @@ struct Formula {
   // Only for kAtom. The atom is true if the quantity is in [min, max]. If the quantity is not
   // available, the atom is false.
   Quantity quantity{};
-  // For kStuck, a negative minimum stands for Specification::stuck_after.
+  // For kStuck, a negative `min` means that Specification::stuck_after is the minimum.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  // The operands. kUntil has two operands: the first must be true until the second is true. kNot,
-  // kAlways and kEventually have one.
+  // The operands. kNot, kAlways and kEventually have one operand. kUntil has two operands: the
+  // first must be true until the second is true. kAll and kAny have one operand or more.
   std::vector<Formula> parts{};
-  double from = 0;             // start of the window, s after the instant of evaluation
-  std::optional<double> by{};  // end of the window; nullopt for the end of the run
-  SourcePlace source{};        // place of the formula in the scenario file
+  // The time window of kAlways, kEventually and kUntil, in s after the instant at which the formula
+  // is evaluated. If `by` is nullopt, the window ends with the run.
+  double from = 0;
+  std::optional<double> by{};
+  SourcePlace source{};  // place of the formula in the scenario file
 };
 
 // A formula that a run must satisfy.

@@ -11,7 +11,7 @@ namespace {
 using FormulaKind = Formula::Kind;
 using QuantityKind = Quantity::Kind;
 
-constexpr double kMax = 1e9;                    // maximum absolute value of a measured number
+constexpr double kMax = 1e9;                    // maximum absolute value of a bound
 constexpr double kNear = 0.25;                  // default tolerance of a position, m
 constexpr double kYawNear = 0.261799387799149;  // default tolerance of a yaw, rad (15 degrees)
 constexpr double kStuckAfterOfRun = -1;         // see Formula::min
@@ -147,8 +147,8 @@ class FormulaReader {
   Formula Until(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kUntil, Several(node, m, key, depth, 2));
   }
-  // Reads `before: [first, second]`. At some instant, `first` must be true, and `second` must not
-  // have been true at or before this instant.
+  // Reads `before: [first, second]`. `first` must become true at some instant. Until then, and at
+  // that instant, `second` must be false.
   Formula Before(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     auto parts = Several(node, m, key, depth, 2);
     Formula none_of_second = Not(parts[1]);

@@ -10,9 +10,11 @@
 namespace gsv::scenario {
 
 // The place of a key in its file, such as "room.yaml:7:5", for messages about errors. operator==
-// always returns true, so that faults at different places of a file can be equal.
+// always returns true: two faults are equal even if they are at different places of a file.
 struct SourcePlace {
-  std::string text;  // FILE:LINE:COLUMN; empty if the fault is not from a file
+  // FILE:LINE:COLUMN in a file, or the field in a request, such as "faults[1]". Empty for a fault
+  // that a program made.
+  std::string text;
   friend bool operator==(const SourcePlace&, const SourcePlace&) { return true; }
 };
 
@@ -37,7 +39,7 @@ struct Fault {
     kBehaviourDies,  // robot: the behaviour ends, as if its process had been killed
     kMotorFails,     // robot: the drive stops; robot/joint: the joint loses its motor
     kBodyMoves,      // body: the body is moved to `place`
-    kJointMoves,     // body/joint: the joint moves to `target` in the unit of `unit`
+    kJointMoves,     // body/joint: the joint is commanded to `target`; `unit` names the quantity
   };
   // The quantity that `target` sets: a position (rad or m), a velocity (rad/s or m/s), or an effort
   // (N m or N).

@@ -18,14 +18,15 @@
 
 namespace gsv::scenario {
 
-// A robot or an avatar of a scenario.
+// A robot of a scenario, or an avatar (a person in the world whom a user drives).
 struct RobotEntry {
   // A file, a folder, or a name. Empty if the robot is in the world file.
   std::string model;
   std::string name;            // if empty, the robot gets the name of its model
   std::optional<Place> start;  // if not set, the robot starts at the first free place
   std::string behaviour;       // name and options of the behaviour; empty if the robot has none
-  // instead of `behaviour`: a constraint on the behaviour's offer
+  // A constraint of the OMG Trading Service, instead of a name in `behaviour`. The behaviour's
+  // offer must satisfy it.
   std::string behaviour_constraint;
   std::optional<model::Movement> movement;  // if not set, the movement of the model is used
   // A text as in model/drive_choice.h. If it is empty, the drive of the model is used. A model

@@ -69,8 +69,8 @@ std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
   return std::nullopt;
 }
 
-// Returns the first line, counted from 1, with a character that YAML forbids. These are control
-// characters other than tabs and newlines. YAML readers interpret them differently.
+// Returns the first line, counted from 1, that contains a control character other than tab, line
+// feed and carriage return. YAML forbids these characters, and YAML readers treat them differently.
 std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   const auto is_control = [](unsigned char c) {
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;

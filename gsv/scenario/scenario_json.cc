@@ -6,8 +6,8 @@
 namespace gsv::scenario {
 namespace {
 
-// JSON is read as YAML. Only a few JSON texts are not allowed in YAML, such as a key of a thousand
-// letters.
+// Reads JSON with the YAML reader. YAML accepts nearly every JSON text. It refuses only a few, such
+// as an object with a key of a thousand letters.
 template <typename Read>
 auto ReadJson(const std::string& json, base::Problems& problems, const Read& read) {
   const YamlPlace place(YamlPlace::Naming::kFields, "", problems);

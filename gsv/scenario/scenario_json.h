@@ -14,7 +14,8 @@ namespace gsv::scenario {
 
 Scenario ParseScenarioJson(const std::string& json, base::Problems& problems);
 
-// Reads {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement}.
+// Reads {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement, drive}. An avatar
+// has only the keys up to yaw.
 RobotEntry ParseRobotJson(const std::string& json, bool is_avatar, base::Problems& problems);
 
 // Reads {x, y, z, yaw}, where x and y are required.

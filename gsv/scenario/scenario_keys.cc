@@ -83,7 +83,7 @@ std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
-    // Adds the error as a problem, unless reading this value has already added a problem.
+    // Reports that the group is invalid, unless a problem of its keys has been reported already.
     if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
       keys.AddProblem(ok.error().message);
     }
@@ -165,8 +165,8 @@ std::optional<double> ReadStep(YamlMapping& mapping) {
   return step;
 }
 
-// Reads the name of the recording. In a request to a server, the value may also be true or
-// false.
+// Reads the name of the recording. Refuses true and false, which are values of `record` in requests
+// to a server. The server removes them from the request before it reads the scenario.
 std::string ReadRecord(YamlMapping& mapping) {
   const std::string record = mapping.Text("record").value_or("");
   if (record == "true" || record == "false") {

@@ -50,8 +50,8 @@ class YamlMapping {
   YamlMapping(const YamlMapping&) = delete;
   YamlMapping& operator=(const YamlMapping&) = delete;
 
-  // These functions return nullopt if the key is absent or null. If the value has another type,
-  // they add a problem and return nullopt.
+  // These functions return nullopt, or an empty list, if the key is absent or null. If the value
+  // has another type or is out of range, they also add a problem.
   std::optional<std::string> Text(const std::string& key);
   std::optional<double> Number(const std::string& key, double min, double max);
   std::optional<double> Angle(const std::string& key);  // Reads an angle in radians.
@@ -79,7 +79,7 @@ class YamlMapping {
     }
   }
 
-  // Whether the key was read and is present, with any value.
+  // Whether one of the functions above has read the key, and the key has a value other than null.
   bool Has(const std::string& key) const { return marks_.contains(key); }
   bool is_mapping() const { return is_mapping_; }  // false if the node has another type
   const YamlPlace& place() const { return place_; }

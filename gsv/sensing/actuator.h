@@ -21,9 +21,9 @@ class Actuator : public Device {
  protected:
   using Device::Device;
 
-  // Returns the state of the actuator that follows this command, from `followed.since` on. An
-  // actuator with light, sound or an attached body returns its own class of state. `before` is null
-  // before the first command.
+  // Returns the actuator's state under the command `followed.command`, which applies from
+  // `followed.since` on. An actuator with light, sound or an attached body returns its own class of
+  // state. `before` is the state before the command; it is null for the first command.
   virtual world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                        const world::DeviceState* /*before*/) const {
     return std::make_shared<const world::ActuatorState>(std::move(mount), std::move(followed));
