@@ -71,8 +71,8 @@ class LostSimulations {
   mutable base::Mutex mutex_;   // guards lost_ and next_
   // never notified; the threads wait on it until they are stopped
   std::condition_variable_any changed_;
-  std::map<int, LostSimulation> lost_ GSV_GUARDED_BY(mutex_);
-  int next_ GSV_GUARDED_BY(mutex_) = 1;  // number of the next report
+  std::map<int, LostSimulation> lost_ GSV_GUARDED_BY(mutex_);  // by number of the report
+  int next_ GSV_GUARDED_BY(mutex_) = 1;                        // number of the next report
   // Destroyed before all other members, because the threads use these.
   std::jthread examiner_, watcher_;
 };

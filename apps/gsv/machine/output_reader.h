@@ -81,9 +81,9 @@ class OutputReader {
   bool has_waiter_ GSV_GUARDED_BY(mutex_) = false;
   base::ConditionVariable all_read_;  // notified when all output so far was read
   // used by the reader's thread only
-  std::vector<Source> sources_;
+  std::vector<Source> sources_;  // the streams that are open
   std::map<pid_t, Child> children_;
-  std::jthread thread_;
+  std::jthread thread_;  // the reader's thread: it executes Run()
 };
 
 }  // namespace gsv::app

@@ -40,10 +40,10 @@ class ScenarioServiceServant final : public POA_sba::ScenarioService {
   const PortableServer::POA_var poa_;
   const int capacity_;  // maximum number of concurrent runs
   mutable base::Mutex mutex_;
-  base::ConditionVariable closing_changed_;
-  bool closing_ GSV_GUARDED_BY(mutex_) = false;
+  base::ConditionVariable closing_changed_;                    // notified by Close()
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;                // whether Close() was called
   std::set<ScenarioRunServant*> runs_ GSV_GUARDED_BY(mutex_);  // owned by the POA
-  std::jthread janitor_;
+  std::jthread janitor_;                                       // executes EndAbandoned()
 };
 
 }  // namespace gsv::app

@@ -74,7 +74,7 @@ class BehaviourOutput {
   void Flush(pid_t pid, Program& program) GSV_REQUIRES(mutex_);
   void FlushAll();  // calls Flush() for each program
 
-  const ListSimulations list_;
+  const ListSimulations list_;  // returns the simulations of this process
   base::Mutex mutex_;
   base::ConditionVariable ended_;  // notified when a program has ended
   std::map<pid_t, Program> programs_ GSV_GUARDED_BY(mutex_);

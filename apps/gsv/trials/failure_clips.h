@@ -10,7 +10,7 @@ namespace gsv::app {
 
 // A part of a recording, in simulated seconds.
 struct Clip {
-  double from = 0, to = 0;
+  double from = 0, to = 0;         // start and end of the part
   std::vector<double> violations;  // times of the violations in this part, in ascending order
 };
 
