@@ -18,7 +18,7 @@ base::Error ErrorOfCurrentException(const std::string& where);
 
 // The number of calls that this process has made, and the number of failed ones. Any thread.
 struct CallCounts {
-  std::atomic<std::uint64_t> made{0}, failed{0};
+  std::atomic<std::uint64_t> made{0}, failed{0};  // `made` includes the failed calls
 };
 // The counts of this process, which Guarded() and GuardedRepeatable() increase.
 CallCounts& ProcessCallCounts();

@@ -49,7 +49,7 @@ class PropertyList : public PropertySource {
     bool operator==(const Iterator& other) const { return index_ == other.index_; }
 
    private:
-    const PropertyList* list_;
+    const PropertyList* list_;  // the list that this iterator reads
     std::size_t index_;
   };
 

@@ -67,7 +67,7 @@ class DynamicValues {
   const std::chrono::milliseconds budget_;  // time limit of all evaluations of the query
   std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // set by the first evaluation
   std::map<Key, std::optional<Value>> known_;  // results of the evaluations so far
-  std::vector<Place> places_;
+  std::vector<Place> places_;                  // places of the properties that were searched
 };
 
 // An offer as a source of properties: dynamic properties are evaluated when they are needed.

@@ -70,8 +70,8 @@ class FoundOffers {
   void ReleaseViews();
 
  private:
-  std::shared_ptr<KeptOffers> kept_;
-  std::vector<const OfferPtr*> places_;
+  std::shared_ptr<KeptOffers> kept_;     // keeps the found offers alive
+  std::vector<const OfferPtr*> places_;  // pointers to the found offers, in the order of the list
 };
 
 }  // namespace gsv::broker

@@ -42,13 +42,13 @@ class RemainingOffers {
   // The offers as they were found, and after sorting. All copies of an object share one Shared.
   struct Shared {
     std::once_flag once{};  // set when `sorted` is made from `offers`
-    RankedOffers offers{};
-    FoundOffers sorted{};
+    RankedOffers offers{};  // the found offers; empty after sorting
+    FoundOffers sorted{};   // all offers of the query, sorted
   };
 
-  std::size_t first_;  // index of the first remaining offer in the sorted list
-  std::size_t size_;
-  std::shared_ptr<Shared> shared_;
+  std::size_t first_;               // index of the first remaining offer in the sorted list
+  std::size_t size_;                // number of remaining offers
+  std::shared_ptr<Shared> shared_;  // the offers; shared with the copies of this object
 };
 
 // The cursors of iterators over offers. The context is the properties that the importer requests.

@@ -88,8 +88,8 @@ class OfferFile : public Journal {
   std::vector<StateChange> waiting_ GSV_GUARDED_BY(mutex_);  // changes that are not written yet
   ChangeNumber last_appended_ GSV_GUARDED_BY(mutex_) = 0;
   ChangeNumber last_written_ GSV_GUARDED_BY(mutex_) = 0;
-  bool works_ GSV_GUARDED_BY(mutex_) = true;  // false after a failed write, and after Close()
-  bool ending_ GSV_GUARDED_BY(mutex_) = false;
+  bool works_ GSV_GUARDED_BY(mutex_) = true;    // false after a failed write, and after Close()
+  bool ending_ GSV_GUARDED_BY(mutex_) = false;  // set by Close(); the writer then ends
   std::thread writer_;  // declared last, because the thread uses the other members when it starts
 };
 

@@ -137,7 +137,7 @@ class CursorTable {
   // The results of one iterator that are not fetched yet: `entries` from `next` on.
   struct Cursor {
     Entries entries;
-    std::size_t next = 0;
+    std::size_t next = 0;  // index in `entries`
     Context context;
     std::chrono::steady_clock::time_point used;  // time of the last use
   };

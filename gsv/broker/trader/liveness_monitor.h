@@ -81,8 +81,8 @@ class LivenessMonitor {
   const Ask ask_;  // calls a service
 
   base::Mutex mutex_;
-  base::ConditionVariable ending_changed_;  // notified when the monitor ends
-  bool ending_ GSV_GUARDED_BY(mutex_) = false;
+  base::ConditionVariable ending_changed_;      // notified when the monitor ends
+  bool ending_ GSV_GUARDED_BY(mutex_) = false;  // whether the monitor ends
   // The services that are checked in this period, and the index of the next service to check.
   std::vector<std::shared_ptr<const Service>> round_ GSV_GUARDED_BY(mutex_);
   std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;

@@ -196,7 +196,7 @@ class Trader {
   TradingResult<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
 
   const TraderLimits limits_;
-  std::uint32_t stem_;
+  std::uint32_t stem_;                       // part of every offer's id
   std::unique_ptr<Journal> journal_;         // null if everything is in memory only
   mutable std::atomic<std::uint64_t> seed_;  // seed of the next query for the preference "random"
   // Limits the number of queries that scan many offers at the same time.
