@@ -23,6 +23,7 @@ struct QueueContext {
   CommandRunner& commands;  // runs the programs of the queue, such as sbatch
   std::string program;      // the path of gsv on other machines
   std::function<void(const std::string& sentence)> say;  // prints a sentence for the user
+  // Returns the present time; tests replace it.
   std::function<std::chrono::steady_clock::time_point()> now = &std::chrono::steady_clock::now;
 };
 // Makes the queue of an engine, with the settings that were read from the campaign's file.

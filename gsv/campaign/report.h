@@ -12,8 +12,8 @@ namespace gsv::campaign {
 
 // The runs with equal values of the grouping parameters.
 struct Group {
-  std::vector<std::string> values;  // values of the grouping parameters
-  std::size_t runs = 0, passed = 0;
+  std::vector<std::string> values;   // values of the grouping parameters
+  std::size_t runs = 0, passed = 0;  // number of runs, and of those that have passed
   std::map<std::string, std::vector<double>> metrics;  // by metric, the values of the group's runs
 };
 

@@ -24,7 +24,7 @@ namespace gsv::campaign {
 
 // The result of one run.
 struct RunResult {
-  std::int64_t run = 0;
+  std::int64_t run = 0;                // number of the run in the campaign
   std::string status;                  // "passed", "failed" or "error"
   std::string message;                 // the reason why the run did not pass
   std::string state_hash;              // hash of the world's state at the end of the run
