@@ -37,7 +37,7 @@ class CommandTimeouts {
   using Clock = std::chrono::steady_clock;
   // A pending function, and the time at which it runs.
   struct Entry {
-    Clock::time_point due;
+    Clock::time_point due;  // when `stop` is called
     std::function<void()> stop;
   };
 
@@ -45,10 +45,10 @@ class CommandTimeouts {
   void Run();
 
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
-  std::map<std::string, Entry> entries_ GSV_GUARDED_BY(mutex_);
-  bool stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread thread_;
+  base::ConditionVariable changed_;  // notified by Set() and by the destructor
+  std::map<std::string, Entry> entries_ GSV_GUARDED_BY(mutex_);  // pending functions by key
+  bool stopping_ GSV_GUARDED_BY(mutex_) = false;                 // set by the destructor
+  std::thread thread_;                                           // executes Run()
 };
 
 }  // namespace gsv::gateway

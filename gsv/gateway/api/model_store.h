@@ -46,7 +46,7 @@ class ModelStore {
  private:
   // The GLB file of a model. The first request writes it, while later requests wait.
   struct File {
-    base::Mutex writing;
+    base::Mutex writing;  // locked while the file is written
     // The file, or the error of writing it; nullopt before it is written.
     std::optional<base::Result<SharedBytes>> glb GSV_GUARDED_BY(writing);
   };

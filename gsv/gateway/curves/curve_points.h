@@ -44,7 +44,7 @@ class CurvePoints {
   // Adds a sample to the bin of its time.
   void AddToBin(const Point& point);
 
-  const base::SimTime start_, end_;
+  const base::SimTime start_, end_;  // the time range of all bins
   const std::size_t max_points_;
   std::size_t samples_ = 0;
   std::vector<Point> points_;  // all samples, while they fit

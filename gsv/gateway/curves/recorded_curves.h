@@ -61,11 +61,11 @@ class RecordedCurves {
   const RecordedScene& scene_;
   const std::chrono::milliseconds timeout_;
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified after changes of jobs_ and is_stopping_
   std::vector<std::shared_ptr<Job>> jobs_
       GSV_GUARDED_BY(mutex_);  // the curves; the most recently requested one is last
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread thread_;
+  std::thread thread_;  // computes the curves; started by the first request
 };
 
 }  // namespace gsv::gateway::curves

@@ -104,7 +104,8 @@ class ViewDrawer {
   // A request that is not answered yet: the arguments of Ask().
   struct Pending {
     std::shared_ptr<Seat> seat;
-    std::uint64_t after = 0;
+    std::uint64_t after = 0;  // number of the state that the requester already has
+    // time of the earliest answer, and time of the answer if nothing changes
     Clock::time_point earliest, deadline;
     Answer answer;
   };
@@ -128,7 +129,7 @@ class ViewDrawer {
   // The number of a state, and the time at which the drawer first saw it.
   struct Seen {
     std::uint64_t number = 0;
-    std::chrono::system_clock::time_point at{};
+    std::chrono::system_clock::time_point at{};  // when the drawer first saw the state
   };
   // Draws the images of these requests and answers them.
   void Draw(const ViewInstant& instant, const Seen& seen, std::vector<Pending> due);
@@ -141,17 +142,17 @@ class ViewDrawer {
   const DrawingLimits limits_;
   // Only the drawing thread uses these three members.
   std::shared_ptr<rendering::Renderer> renderer_;  // null until the first image
-  std::uint64_t next_number_ = 0;
-  std::vector<CachedImage> kept_;  // the images that were drawn last
+  std::uint64_t next_number_ = 0;                  // number of the newest state of any world
+  std::vector<CachedImage> kept_;                  // the images that were drawn last
 
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;                             // notified by Ask() and Stop()
   std::map<std::string, World> worlds_ GSV_GUARDED_BY(mutex_);  // by name
   std::vector<Pending> pending_ GSV_GUARDED_BY(mutex_);  // requests that are not answered yet
   std::vector<std::weak_ptr<Seat>> seats_ GSV_GUARDED_BY(mutex_);  // occupied seats
   std::uint64_t images_ GSV_GUARDED_BY(mutex_) = 0;                // number of images drawn so far
-  bool stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread thread_;
+  bool stopping_ GSV_GUARDED_BY(mutex_) = false;                   // set by Stop()
+  std::thread thread_;  // the drawing thread: it executes Run()
 };
 
 // A place among the requests and streams that a ViewDrawer serves at the same time.

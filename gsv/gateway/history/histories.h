@@ -49,10 +49,10 @@ class Histories {
   const std::size_t capacity_;
   const IsWatched is_watched_;
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified when the thread must end
   std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread thread_;
+  std::thread thread_;  // executes Run()
 };
 
 }  // namespace gsv::gateway::history

@@ -51,7 +51,7 @@ class Router {
   void Add(const Route& route);
 
   const std::vector<Route> routes_;
-  const std::unique_ptr<Node> root_;
+  const std::unique_ptr<Node> root_;  // the tree of patterns
 };
 
 // Returns the response to a request without a route: 405 or 404.

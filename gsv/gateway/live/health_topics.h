@@ -28,8 +28,8 @@ class HealthTopics {
   // A topic, and its last message.
   struct Topic {
     foxglove::ChannelId channel = 0;
-    Pacing pacing;
-    std::optional<Hub::Message> latest{};
+    Pacing pacing;                         // limits the rate of the topic's messages
+    std::optional<Hub::Message> latest{};  // the last message, for new subscribers
   };
   // Whether the topic needs a message now.
   bool IsDue(const Topic& topic, WallTime now) const;

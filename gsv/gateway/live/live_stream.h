@@ -63,7 +63,7 @@ class LiveStream {
     double rate = kPublishRate;  // Hz
     // The limit of bytes per second does not reduce the rate below this value, in Hz.
     double min_rate = kPublishRate;
-    Pacing pacing{rate};
+    Pacing pacing{rate};                             // limits the rate of the topic's messages
     std::weak_ptr<const world::Snapshot> published;  // the snapshot of the last message
     Hub::Message latest;                             // the last message, for new subscribers
   };

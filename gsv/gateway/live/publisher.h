@@ -62,12 +62,12 @@ class Publisher {
   RecordingSwitch* const recordings_;
   access::ViewerRegistry* const registry_;
   mutable base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified when a round is requested or the thread must end
   std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);
   bool is_woken_ GSV_GUARDED_BY(mutex_) = false;  // whether a round was requested, see Wake()
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   Pacing directory_pacing_;  // used by thread_ only
-  std::thread thread_;
+  std::thread thread_;       // executes Run()
 };
 
 }  // namespace gsv::gateway

@@ -35,7 +35,7 @@ class StepCostTopic {
 
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId channel_ = 0;
-  Pacing pacing_;
+  Pacing pacing_;                 // limits the rate of messages
   std::shared_ptr<Watch> watch_;  // set while there are subscribers
 };
 

@@ -20,8 +20,8 @@ namespace gsv::gateway::metrics {
 
 // Calls to the broker, since this process started.
 struct BrokerCalls {
-  std::uint64_t made = 0;
-  std::uint64_t failed = 0;
+  std::uint64_t made = 0;    // all calls, also the failed ones
+  std::uint64_t failed = 0;  // calls that failed
 };
 
 // The objects from which GET /metrics reads its numbers.

@@ -31,9 +31,9 @@ struct RecordingLine {
     kUnreadable,
   };
 
-  std::string name;        // name of the file or folder, as described above
-  std::uint64_t size = 0;  // bytes
-  std::chrono::system_clock::time_point modified;
+  std::string name;                                // name of the file or folder, as described above
+  std::uint64_t size = 0;                          // bytes
+  std::chrono::system_clock::time_point modified;  // when the file was last changed
   State state = State::kComplete;
   std::string problem;           // a sentence with the reason, if it is unreadable
   base::SimTime start{}, end{};  // simulated times of the first and the last message
@@ -79,7 +79,7 @@ class RecordingFolder {
   RecordingLine Describe(const std::string& name, const std::filesystem::path& file);
 
   const std::filesystem::path folder_;
-  const std::string only_;
+  const std::string only_;  // name of the only recording that is served, or empty; see only()
   base::Mutex mutex_;
   std::map<std::string, RecordingLine> known_ GSV_GUARDED_BY(mutex_);  // by name
 };

@@ -51,11 +51,11 @@ class ReplayClock {
   bool Advance(WallTime now);
 
  private:
-  const base::SimTime start_;
-  const base::SimTime end_;
-  double speed_;
-  bool loop_;
-  base::SimTime position_;
+  const base::SimTime start_;  // the first time of the recording
+  const base::SimTime end_;    // the last time of the recording
+  double speed_;               // simulated seconds per second of wall-clock time, > 0
+  bool loop_;                  // whether the replay restarts at its end
+  base::SimTime position_;     // the present time of the replay
   simulation::Phase phase_ = simulation::Phase::kCreated;
   WallTime last_{};  // time of the last Advance(); {} before the first call
 };

@@ -100,7 +100,7 @@ class ReplayPlayer {
   base::Problems problems_;
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified after commands, by Wake() and by Stop()
   ReplayClock clock_ GSV_GUARDED_BY(mutex_);
   // Whether the position has jumped since the last publication.
   bool has_jumped_ GSV_GUARDED_BY(mutex_) = false;
@@ -108,7 +108,7 @@ class ReplayPlayer {
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
 
   ReplayStream stream_;
-  std::thread thread_;
+  std::thread thread_;  // executes Run()
 };
 
 }  // namespace gsv::gateway

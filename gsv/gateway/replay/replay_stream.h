@@ -96,7 +96,7 @@ class ReplayStream {
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId clock_channel_ = 0, status_channel_ = 0;  // /clock and /gsv/status; 0: none
   std::map<std::uint16_t, Track> tracks_;                       // by channel of the recording
-  WantedRobots wanted_;
+  WantedRobots wanted_;  // robots whose topics were requested and are replayed too
   std::optional<recording::MessageCursor> cursor_;  // position in the recording
   std::optional<recording::MessageRecord> next_;    // the next message of cursor_
   std::optional<base::SimTime> published_time_;     // the time and phase that were published last

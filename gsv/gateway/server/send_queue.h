@@ -83,10 +83,11 @@ class SendQueue {
 
   const SendLimits limits_;
   mutable base::Mutex mutex_;
+  // advertisements and answers, which are never dropped
   std::deque<Outgoing> control_ GSV_GUARDED_BY(mutex_);
-  std::deque<Outgoing> data_ GSV_GUARDED_BY(mutex_);
+  std::deque<Outgoing> data_ GSV_GUARDED_BY(mutex_);  // messages of subscriptions
   std::size_t control_bytes_ GSV_GUARDED_BY(mutex_) = 0, data_bytes_ = 0;
-  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;  // number of dropped data messages so far
 };
 
 }  // namespace gsv::gateway

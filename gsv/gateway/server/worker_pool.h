@@ -37,9 +37,9 @@ class WorkerPool {
 
   const std::size_t queue_limit_;
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
-  std::deque<std::function<void()>> jobs_;
-  bool stopping_ GSV_GUARDED_BY(mutex_) = false;
+  base::ConditionVariable changed_;               // notified by Submit() and Stop()
+  std::deque<std::function<void()>> jobs_;        // jobs that have not started
+  bool stopping_ GSV_GUARDED_BY(mutex_) = false;  // whether Stop() was called
   std::vector<std::thread> threads_;
 };
 

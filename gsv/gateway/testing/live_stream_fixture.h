@@ -54,7 +54,7 @@ class LiveStreamTest : public ::testing::Test {
                       [&](const auto& text) { return text.value("message", "") == sentence; }));
   }
 
-  WallTime now_{};
+  WallTime now_{};  // time of the last Round(), set by the tests
   WorkerPool workers_{1, 8};
   std::shared_ptr<ScriptedSimulation> simulation_ =
       std::make_shared<ScriptedSimulation>("arena", 1);

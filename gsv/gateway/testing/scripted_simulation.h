@@ -104,8 +104,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   std::shared_ptr<Avatar> avatar_;
 
   mutable std::mutex mutex_;
-  mutable std::condition_variable changed_;
-  int robots_ = 0;  // number of robots
+  mutable std::condition_variable changed_;  // notified after changes of phase_
+  int robots_ = 0;                           // number of robots
   simulation::Phase phase_ = simulation::Phase::kCreated;
   base::SimTime time_{0};
   std::shared_ptr<const world::Layout> layout_;

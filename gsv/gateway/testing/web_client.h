@@ -99,6 +99,7 @@ class Viewer {
   std::unique_ptr<Impl> impl_;
   std::map<std::string, foxglove::ChannelId> channels_;  // advertised channels, by topic
   std::map<std::string, std::uint32_t> services_;        // advertised services, by name
+  // received data that wait for ReceiveData()
   std::map<foxglove::SubscriptionId, std::deque<ReceivedData>> kept_;
 };
 

@@ -42,7 +42,7 @@ class Completion {
         then(error);
       }
     }
-    Then then;
+    Then then;  // the handler
   };
 
   std::unique_ptr<AnyStep> step_;  // null after the call
