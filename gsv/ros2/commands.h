@@ -54,8 +54,8 @@ class CommandInput {
   const std::weak_ptr<simulation::Agent> agent_;
   const std::shared_ptr<NodeSteps> steps_;  // null if no ROS 2 node steps robots
   const std::string robot_;
-  std::atomic<std::uint64_t> taken_{0};
-  std::atomic<std::uint64_t> refused_{0};
+  std::atomic<std::uint64_t> taken_{0};    // number of applied messages
+  std::atomic<std::uint64_t> refused_{0};  // number of rejected messages
 };
 
 // Returns the `data` of a std_msgs/msg/Float64MultiArray. Fails with kCorrupt.

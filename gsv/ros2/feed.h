@@ -59,7 +59,7 @@ class Feed final : public simulation::Observer {
   std::map<base::SimTime, recording::Instants> instants_ GSV_GUARDED_BY(mutex_);
   std::deque<SnapshotPointer> snapshots_ GSV_GUARDED_BY(mutex_);
   std::vector<simulation::Event> events_ GSV_GUARDED_BY(mutex_);
-  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;  // number of dropped snapshots
   bool is_woken_ GSV_GUARDED_BY(mutex_) = false;  // whether Wake() was called since the last Next()
   bool is_closed_ GSV_GUARDED_BY(mutex_) = false;
 };

@@ -46,7 +46,7 @@ class Frames {
 
   const std::string prefix_;
   const std::vector<int> moving_;  // links
-  std::string base_;
+  std::string base_;               // name of the base frame, with the prefix
 };
 
 // Returns the pose of a robot according to its wheel odometry.

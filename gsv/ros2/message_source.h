@@ -28,7 +28,7 @@ class MessageSource final : public Source {
 
  private:
   dds::Writer* const writer_;
-  const Make make_;
+  const Make make_;  // makes the message of a snapshot
   messages::Bytes buffer_;
 };
 

@@ -87,7 +87,7 @@ class NodeBehaviour final : public simulation::BehaviourPort {
   const std::string place_ = "ROS 2";
   std::shared_ptr<simulation::Agent> agent_;
   std::string robot_;
-  std::thread thread_;
+  std::thread thread_;  // executes Run()
 };
 
 }  // namespace gsv::ros2

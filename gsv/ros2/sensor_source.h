@@ -20,8 +20,8 @@ namespace gsv::ros2 {
 
 // An encoded message in two parts. The second part contains the pixels of an image, or is empty.
 struct EncodedMessage {
-  messages::Bytes head;
-  std::span<const std::byte> rest;
+  messages::Bytes head;             // begins with the encapsulation header
+  std::span<const std::byte> rest;  // the pixels; refers to the reading
 };
 
 // One of the messages to which a reading is converted.

@@ -44,13 +44,13 @@ class SlowLane {
   void Do(const Job& job);
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable changed_;
-  std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);     // jobs that have not started
-  bool is_working_ GSV_GUARDED_BY(mutex_) = false;  // whether a job is being executed
-  std::uint64_t skipped_ GSV_GUARDED_BY(mutex_) = 0;
+  base::ConditionVariable changed_;                   // notified after changes of the members below
+  std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);       // jobs that have not started
+  bool is_working_ GSV_GUARDED_BY(mutex_) = false;    // whether a job is being executed
+  std::uint64_t skipped_ GSV_GUARDED_BY(mutex_) = 0;  // number of skipped snapshots
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::unique_ptr<base::ThreadTeam> team_;  // used by the thread `thread_` only
-  std::thread thread_;
+  std::thread thread_;                      // executes Run()
 };
 
 }  // namespace gsv::ros2

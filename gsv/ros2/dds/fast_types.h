@@ -13,7 +13,7 @@ namespace gsv::ros2::dds {
 // An outgoing sample in two parts, so that the pixels of an image are copied only once.
 struct OutgoingSample {
   std::span<const std::byte> head;  // begins with the encapsulation header
-  std::span<const std::byte> rest;
+  std::span<const std::byte> rest;  // the bytes after `head`; may be empty
   std::size_t size() const { return head.size() + rest.size(); }
 };
 

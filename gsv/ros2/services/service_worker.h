@@ -62,7 +62,7 @@ class ServiceWorker {
 
   const std::size_t max_jobs_;
   mutable base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified after changes of jobs_ and is_stopping_
   std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::thread thread_;  // declared last, because it uses the members above

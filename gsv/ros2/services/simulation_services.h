@@ -105,7 +105,7 @@ class SimulationServices {
   std::vector<dds::Guid> readers_, writers_;
   // Close() destroys the host first, because its handlers use the other members.
   std::unique_ptr<ServiceHost> host_;
-  std::unique_ptr<ServedSimulation> served_;
+  std::unique_ptr<ServedSimulation> served_;  // the simulation that the services control
   std::unique_ptr<StepAction> steps_;
 };
 

@@ -39,7 +39,7 @@ class StepAction {
   void SendStatus() GSV_REQUIRES(mutex_);
   bool IsCanceled(const GoalList::Id& id) const;
 
-  ServedSimulation& served_;
+  ServedSimulation& served_;         // the simulation that takes the steps
   dds::Writer* feedback_ = nullptr;  // null if the participant refused to create the writer
   dds::Writer* status_ = nullptr;    // writer of the topic "status"; the host owns it
   mutable base::Mutex mutex_;

@@ -94,7 +94,7 @@ class Peer {
 
  private:
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified when a sample or a reader comes
   std::map<std::string, std::vector<messages::Bytes>> samples_ GSV_GUARDED_BY(mutex_);
   std::unique_ptr<dds::Participant> participant_;
   std::vector<std::unique_ptr<dds::Reader>> readers_;

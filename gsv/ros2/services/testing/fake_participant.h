@@ -96,7 +96,7 @@ class FakeParticipant final : public dds::Participant {
   };
 
   base::Mutex mutex_;
-  base::ConditionVariable came_;
+  base::ConditionVariable came_;  // notified when a reply comes
   std::vector<Reply> replies_ GSV_GUARDED_BY(mutex_);
 };
 
