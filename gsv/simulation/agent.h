@@ -38,7 +38,7 @@ enum class Wait { kReached, kNotYet };
 // A reading and the name of its sensor.
 struct NamedReading {
   std::string sensor;
-  sensing::Reading reading;
+  sensing::Reading reading;  // the reading of `sensor`
 };
 
 // The result of Exchange() or SleepAndRead().

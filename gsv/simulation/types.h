@@ -186,12 +186,12 @@ struct ExpectationState {
   struct Place {
     double x = 0, y = 0, radius = 0;  // m
   };
-  std::vector<Place> places;
+  std::vector<Place> places;  // the circles of the expectation's conditions
   // A rectangle in which a body must be, or must not be.
   struct Box {
     double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  // m; an infinite value means no limit
   };
-  std::vector<Box> boxes;
+  std::vector<Box> boxes;  // the rectangles of the expectation's conditions
 };
 
 const char* ToString(ExpectationState::Verdict verdict);

@@ -71,7 +71,7 @@ class WorldEditor {
                                    const model::Model& model) const GSV_REQUIRES(world_mutex);
 
   SimulatedWorld& world_;
-  const std::shared_ptr<SharedState> shared_;
+  const std::shared_ptr<SharedState> shared_;  // state shared by the parts of the simulation
   EventLog& events_;
   // Objects that were removed, ordered from the oldest to the newest. Copies of them can be added.
   std::deque<world::Body> removed_ GSV_GUARDED_BY(world_mutex);

@@ -52,7 +52,7 @@ class FaultInjector {
   base::Status MoveJoint(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);
 
   FaultSchedule schedule_ GSV_GUARDED_BY(simulation_mutex);
-  const std::shared_ptr<SharedState> shared_;
+  const std::shared_ptr<SharedState> shared_;  // state shared by the parts of the simulation
   EventLog& events_;
   AgentPopulation& agents_;
   SimulatedWorld& world_;

@@ -50,7 +50,7 @@ class SnapshotHistory {
    private:
     friend class SnapshotHistory;
     SnapshotPtr latest_;
-    std::vector<std::pair<Cadence, SnapshotPtr>> at_instant_;
+    std::vector<std::pair<Cadence, SnapshotPtr>> at_instant_;  // by cadence, what At() returns
   };
 
   explicit SnapshotHistory(SnapshotPtr initial) : latest_(std::move(initial)) {}
@@ -85,7 +85,7 @@ class SnapshotHistory {
   };
 
   mutable base::Mutex mutex_;
-  SnapshotPtr latest_ GSV_GUARDED_BY(mutex_);
+  SnapshotPtr latest_ GSV_GUARDED_BY(mutex_);  // the snapshot of the newest step
   // The samples of each cadence in use.
   std::map<Cadence, Samples> kept_ GSV_GUARDED_BY(mutex_);
 };

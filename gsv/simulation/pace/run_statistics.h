@@ -32,7 +32,7 @@ class RunStatistics {
     WallTime wall;
     base::SimTime time;
   };
-  bool running_ = false;
+  bool running_ = false;       // true between Started() and Stopped()
   Sample start_{};             // the last call of Started()
   Sample latest_{};            // the last step
   std::deque<Sample> recent_;  // samples of about the last second

@@ -75,7 +75,7 @@ class AgentPopulation {
   // Reports the behaviour's death and emits an event.
   void ReportDeath(RobotAgent& agent, const std::string& detail) GSV_REQUIRES(simulation_mutex);
 
-  const std::shared_ptr<SharedState> shared_;
+  const std::shared_ptr<SharedState> shared_;  // state shared by the parts of the simulation
   EventLog& events_;
   BehaviourCaller& caller_;
   std::map<std::string, AgentPtr> agents_ GSV_GUARDED_BY(simulation_mutex);

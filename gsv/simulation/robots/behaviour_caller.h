@@ -42,10 +42,10 @@ class BehaviourCaller {
   std::deque<Task>::iterator FindRunnable() GSV_REQUIRES(mutex_);
 
   base::Mutex mutex_;
-  base::ConditionVariable changed_;
+  base::ConditionVariable changed_;  // notified when a task comes, when a call ends, and at the end
   std::deque<Task> tasks_ GSV_GUARDED_BY(mutex_);
   std::set<std::string> in_progress_ GSV_GUARDED_BY(mutex_);  // keys of the running calls
-  bool closing_ GSV_GUARDED_BY(mutex_) = false;
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;               // set by the destructor
   std::vector<std::jthread> threads_;
 };
 

@@ -32,10 +32,10 @@ class EventSignaler {
   void Run();
 
   base::Mutex mutex_;
-  base::ConditionVariable came_;           // notified when waiting_ gets events, or at the end
-  Events waiting_ GSV_GUARDED_BY(mutex_);  // events that the thread must signal
-  bool quit_ GSV_GUARDED_BY(mutex_) = false;
-  std::jthread thread_;
+  base::ConditionVariable came_;              // notified when waiting_ gets events, or at the end
+  Events waiting_ GSV_GUARDED_BY(mutex_);     // events that the thread must signal
+  bool quit_ GSV_GUARDED_BY(mutex_) = false;  // set by the destructor; the thread then ends
+  std::jthread thread_;                       // executes Run()
 };
 
 }  // namespace gsv::simulation

@@ -32,7 +32,7 @@ class Turn {
  public:
   // The data that all turns at one instant share.
   struct Instant {
-    base::SimTime now{0};
+    base::SimTime now{0};              // simulated time of the instant
     SnapshotHistory::Frame snapshots;  // the snapshots that the sensors read
     sensing::RaySceneCache* rays = nullptr;
     std::uint64_t seed = 0;
@@ -100,21 +100,21 @@ class Turn {
 
   // The four ways in which a turn can end.
   struct Waiting {
-    base::SimTime until{0};
+    base::SimTime until{0};  // simulated time of the next turn
   };
   struct Blocked {
-    std::function<void()> work;
+    std::function<void()> work;  // the argument of Block()
   };
   struct Finished {};
   struct Failed {
     std::string reason;
   };
 
-  const Instant* instant_ = nullptr;
-  const sensing::Sampling* sampling_ = nullptr;
-  RobotCommands commands_;       // the commands of this turn
-  std::uint64_t exchanges_ = 0;  // number of CountExchange() calls in this turn
-  std::variant<Finished, Failed, Waiting, Blocked> end_;
+  const Instant* instant_ = nullptr;             // the instant of this turn, see Begin()
+  const sensing::Sampling* sampling_ = nullptr;  // see Begin()
+  RobotCommands commands_;                       // the commands of this turn
+  std::uint64_t exchanges_ = 0;                  // number of CountExchange() calls in this turn
+  std::variant<Finished, Failed, Waiting, Blocked> end_;  // how the turn ends
 };
 
 // Base class of behaviours that run in this process, in turns.

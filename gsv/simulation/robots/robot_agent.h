@@ -250,6 +250,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // change no member of the first cache line, so several threads can keep this line in their
   // caches.
   static constexpr std::size_t kPrefetchedLines = 6;
+  // State that the parts of the simulation share.
   alignas(64) const std::shared_ptr<SharedState> shared_;
   std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
   LocalBehaviour* local_ GSV_GUARDED_BY(simulation_mutex) = nullptr;  // behaviour_->local()

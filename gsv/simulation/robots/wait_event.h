@@ -15,7 +15,7 @@ namespace gsv::simulation {
 class Wakeable {
  public:
   virtual ~Wakeable() = default;
-  virtual void Open() = 0;
+  virtual void Open() = 0;  // wakes the waiting agent
 };
 
 // An event on which threads wait, and which another thread signals.
@@ -48,8 +48,8 @@ class WaitEvent final : public Wakeable {
 
  private:
   mutable base::Mutex mutex_;
-  base::ConditionVariable opened_;
-  std::uint64_t signals_ GSV_GUARDED_BY(mutex_) = 0;
+  base::ConditionVariable opened_;                    // notified by Open()
+  std::uint64_t signals_ GSV_GUARDED_BY(mutex_) = 0;  // see signals()
 };
 
 }  // namespace gsv::simulation

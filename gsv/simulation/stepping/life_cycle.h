@@ -65,7 +65,7 @@ class LifeCycle {
   RunControl run_ GSV_GUARDED_BY(simulation_mutex);  // the phase of the run
   RunPace pace_ GSV_GUARDED_BY(simulation_mutex);    // the real-time schedule of the run
   const WorldLock& world_lock_;
-  const std::shared_ptr<SharedState> shared_;
+  const std::shared_ptr<SharedState> shared_;  // state shared by the parts of the simulation
   EventLog& events_;
   AgentPopulation& agents_;
   BehaviourCaller& caller_;

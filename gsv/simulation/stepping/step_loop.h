@@ -29,7 +29,7 @@ class StepLoop {
   // The objects that the loop uses. All must outlive the loop.
   struct Parts {
     const Specification& specification;
-    std::shared_ptr<SharedState> shared;
+    std::shared_ptr<SharedState> shared;  // state shared by the parts of the simulation
     EventLog& events;
     BehaviourCaller& caller;
     AgentPopulation& agents;
@@ -105,9 +105,9 @@ class StepLoop {
   void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start, int steps)
       GSV_REQUIRES(world_mutex);
 
-  const Parts parts_;
-  RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
-  bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
+  const Parts parts_;                                   // the arguments of the constructor
+  RunControl& run_ GSV_GUARDED_BY(simulation_mutex);    // the phase of the run
+  bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;  // set by Quit(); the thread then ends
 
   // Only the stepping thread uses the following members.
   SnapshotPool snapshots_;
@@ -130,7 +130,7 @@ class StepLoop {
   bool is_timed_ = false;  // whether an observer requests the times of steps
   StepTimer timer_;
 
-  std::jthread thread_;
+  std::jthread thread_;  // executes Run()
 };
 
 }  // namespace gsv::simulation

@@ -115,13 +115,13 @@ class SteppingSimulation final : public Simulation {
 
   const Specification specification_;
   const std::shared_ptr<const sensing::SensorRegistry> sensors_;
-  const std::shared_ptr<SharedState> shared_;
+  const std::shared_ptr<SharedState> shared_;  // state shared by the parts below
   SimulatedWorld world_;
   EventLog events_;
   BehaviourCaller caller_;
   AgentPopulation agents_;
   LifeCycle life_cycle_;
-  RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
+  RunControl& run_ GSV_GUARDED_BY(simulation_mutex);  // the phase of the run; part of life_cycle_
   WorldEditor editor_;
   FaultInjector faults_;
   StepLoop step_loop_;

@@ -31,12 +31,12 @@ class Watchdog {
 
   const std::chrono::milliseconds deadline_;  // maximum duration of a turn
   WorldLock& world_lock_;
-  const std::shared_ptr<SharedState> shared_;
+  const std::shared_ptr<SharedState> shared_;  // state shared by the parts of the simulation
   EventLog& events_;
   AgentPopulation& agents_;
   LifeCycle& life_cycle_;
-  bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
-  base::ConditionVariable stopped_;  // notified by Stop()
+  bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;  // set by Stop(); the thread then ends
+  base::ConditionVariable stopped_;                     // notified by Stop()
   std::jthread thread_;
 };
 
