@@ -84,14 +84,14 @@ class SimulationRecorder {
   HealthTopic health_;
   SceneAttachments scene_;
   SourceAttachments sources_;
-  std::shared_ptr<SimulationFeed> feed_;
+  std::shared_ptr<SimulationFeed> feed_;           // snapshots and events to record
   std::shared_ptr<const world::Snapshot> latest_;  // the last recorded snapshot
   std::atomic<bool> has_ended_ = false;            // whether the recording has ended
 
-  base::Mutex stopping_;
+  base::Mutex stopping_;  // locked while the recording is stopped
   bool is_stopped_ GSV_GUARDED_BY(stopping_) = false;
-  StringMap result_;  // set before the feed is closed, and read after the feed's end
-  std::thread thread_;
+  StringMap result_;    // set before the feed is closed, and read after the feed's end
+  std::thread thread_;  // executes Run()
 };
 
 }  // namespace gsv::recording

@@ -34,7 +34,7 @@ class BackgroundSync {
   bool is_asked_ GSV_GUARDED_BY(mutex_) = false;
   bool is_ending_ GSV_GUARDED_BY(mutex_) = false;
   base::Status status_ GSV_GUARDED_BY(mutex_);
-  std::thread thread_;
+  std::thread thread_;  // executes Run()
 };
 
 }  // namespace gsv::recording

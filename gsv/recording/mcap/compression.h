@@ -29,7 +29,7 @@ class ZstdCompressor {
     void operator()(ZSTD_CCtx_s* context) const;
   };
   std::unique_ptr<ZSTD_CCtx_s, Free> context_;
-  Bytes out_;
+  Bytes out_;  // the result of Compress(); its memory is reused
 };
 
 // Decompresses to `size` bytes. Returns kCorrupt if the result has another size. Allocates at most

@@ -91,7 +91,7 @@ class MemorySink : public ByteSink {
   base::Status Truncate(std::uint64_t size) override;
 
  private:
-  Bytes& out_;
+  Bytes& out_;  // the written bytes
 };
 
 class MemorySource : public ByteSource {

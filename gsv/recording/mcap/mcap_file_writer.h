@@ -63,7 +63,7 @@ class McapFileWriter {
   ByteSink& sink_;
   const FileOptions options_;
   base::Status status_;
-  bool closed_ = false;
+  bool closed_ = false;  // whether Close() was called
   // Whether the last record is complete; false if truncating failed after an error.
   bool ends_in_a_record_ = true;
   std::uint64_t position_ = 0;  // number of bytes written so far

@@ -225,7 +225,7 @@ std::optional<AttachmentIndexRecord> ParseAttachmentHead(std::span<const std::by
 // A record whose content was not parsed.
 struct RawRecord {
   Opcode opcode{};
-  std::span<const std::byte> content;
+  std::span<const std::byte> content;  // the bytes after opcode and length
 };
 
 // Removes the next record from `records` and returns it, or nullopt if it is incomplete.

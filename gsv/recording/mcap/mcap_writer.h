@@ -131,7 +131,7 @@ class McapWriter {
 
   std::atomic<bool> failed_ = false;  // whether an error has ended the recording
   std::once_flag joined_;             // Close() has joined thread_
-  std::thread thread_;
+  std::thread thread_;                // executes Run()
 };
 
 }  // namespace gsv::recording

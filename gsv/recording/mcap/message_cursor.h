@@ -42,7 +42,7 @@ class MessageCursor {
   const ByteSource& source_;
   const Summary& summary_;
   const Limits& limits_;
-  const base::SimTime from_;
+  const base::SimTime from_;  // earlier messages are left out
   // Blocks that are not open yet; the earliest is at the end.
   std::vector<const MessageBlock*> waiting_;
   std::vector<std::unique_ptr<OpenBlock>> open_;  // owns all blocks that are open

@@ -18,7 +18,7 @@ struct DecodedMessage {
   std::string topic;
   std::string type;  // such as "sensor_msgs/msg/Range"
   base::SimTime time{};
-  nlohmann::ordered_json content;
+  nlohmann::ordered_json content;  // the message's fields by name
 };
 
 // Makes the content of a message valid JSON. JSON has no infinite numbers, so they become the texts

@@ -67,15 +67,15 @@ class SensorRecorder {
   struct Sample {
     const std::string* topic = nullptr;  // key of the sensor in sensors_
     Sensor* sensor = nullptr;
-    base::Result<sensing::Reading> reading;
-    std::vector<std::uint8_t> message;    // empty if only the sensor's beams are recorded
-    std::vector<std::uint8_t> companion;  // message such as CameraInfo; empty if there is none
+    base::Result<sensing::Reading> reading;  // the reading, or why it could not be taken
+    std::vector<std::uint8_t> message;       // empty if only the sensor's beams are recorded
+    std::vector<std::uint8_t> companion;     // message such as CameraInfo; empty if there is none
   };
   // The sensors with beams of one robot that were last sampled together. A new set is made only if
   // the next sample is of different sensors.
   struct RobotBeams {
     std::vector<const Sensor*> sensors;
-    sensing::BeamSet set;
+    sensing::BeamSet set;  // the beams of `sensors`
   };
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // sensors by topic
 

@@ -87,9 +87,9 @@ class SimulationFeed final : public simulation::Observer {
   base::ConditionVariable room_;  // notified when the queue has space for a snapshot
   std::deque<Occurrence> queue_ GSV_GUARDED_BY(mutex_);
   std::size_t snapshots_ GSV_GUARDED_BY(mutex_) = 0;  // number of snapshots in queue_
-  bool closed_ GSV_GUARDED_BY(mutex_) = false;
+  bool closed_ GSV_GUARDED_BY(mutex_) = false;        // whether the queue accepts no more entries
   bool was_reset_ GSV_GUARDED_BY(mutex_) = false;
-  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;  // number of dropped snapshots
 };
 
 }  // namespace gsv::recording
