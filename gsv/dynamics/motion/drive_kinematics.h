@@ -133,8 +133,8 @@ class DriveKinematics {
   bool wheels_are_as_believed_ = true;  // whether the wheels have the radii that the drive assumes
   bool slips_ = false;                  // whether the drive's wheels slip, see "Slip" above
   double turn_share_ = 1;  // the base's turn rate divided by its turn rate without slip, in (0, 1]
-  std::vector<Wheel> wheels_;
-  std::vector<Steered> steered_;
+  std::vector<Wheel> wheels_;     // the wheels that roll while the base travels
+  std::vector<Steered> steered_;  // the joints that steer wheels; empty if none do
 };
 
 // Equals std::clamp(value, low, high), but takes no branches.

@@ -54,8 +54,8 @@ class Crowd {
     // The present goal, after `reached` goals have been reached. The goal is stored because it is
     // drawn at random only once.
     bool has_goal = false;
-    std::uint32_t reached = 0;
-    Vector2 goal;  // in the world, m
+    std::uint32_t reached = 0;  // number of goals that the pedestrian has reached
+    Vector2 goal;               // in the world, m
   };
   // A body that pedestrians avoid, also a pedestrian itself.
   struct Other {

@@ -71,8 +71,8 @@ class ContactFinder {
   };
   // A piece of a static body.
   struct StaticPiece {
-    PlacedPiece placed;
-    int collider = 0;  // index in colliders_
+    PlacedPiece placed;  // the piece at its pose in the world
+    int collider = 0;    // index in colliders_
   };
 
   // Computes the poses of the static bodies.

@@ -153,7 +153,7 @@ class LinkTree {
   void AddBias();
   double& MassAt(int row, int column) { return masses_[Index(row * size_ + column)]; }
 
-  const RigidBody& plan_;
+  const RigidBody& plan_;  // the body whose links form the tree
   std::vector<Link> links_;
   std::vector<BallAngles> balls_;  // one for each ball joint
   std::vector<int> ball_of_;       // index in balls_ for each part; -1: none

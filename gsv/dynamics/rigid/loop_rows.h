@@ -17,7 +17,7 @@ class LoopJoint {
   // `kind` is fixed, revolute, continuous, prismatic or ball. `part` is an index in the
   // articulation. The joint's axis is the z axis of its frame at each end.
   struct End {
-    int part = 0;
+    int part = 0;                    // index of the part in the articulation
     geometry::Pose part_from_joint;  // pose of the joint's frame in the frame of the part
   };
   LoopJoint(const End& first, const End& second, model::JointKind kind)

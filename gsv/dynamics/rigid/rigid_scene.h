@@ -48,8 +48,8 @@ class RigidScene {
   std::shared_ptr<const world::Layout> layout_;
   RigidShapes shapes_;
   std::vector<RigidBody> bodies_;
-  std::vector<Solid> standing_;
-  std::vector<Solid> planar_;
+  std::vector<Solid> standing_;  // solids of bodies that do not move
+  std::vector<Solid> planar_;    // solids of bodies that planar kinematics and scripts move
 };
 
 }  // namespace gsv::dynamics
