@@ -94,7 +94,7 @@ class Renderer {
   class RenderThread;
   Renderer();
 
-  std::unique_ptr<RenderThread> thread_;
+  std::unique_ptr<RenderThread> thread_;  // the thread that draws all images
   std::string renderer_name_;
 };
 

@@ -56,7 +56,7 @@ class Optics {
  private:
   // A lens map that several cameras share. It is made on first use.
   struct Joining {
-    std::once_flag made;
+    std::once_flag made;                 // set when `map` is made
     std::unique_ptr<const LensMap> map;  // made for the first image
   };
 
@@ -70,7 +70,7 @@ class Optics {
   CameraParameters camera_;
   Lens lens_;
   sensing::Frustum frustum_;
-  std::shared_ptr<Joining> joining_;
+  std::shared_ptr<Joining> joining_;  // the lens map; null for a plain lens
 };
 
 }  // namespace gsv::rendering

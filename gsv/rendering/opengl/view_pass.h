@@ -35,10 +35,10 @@ class ViewPass {
   };
   // An item that the camera may see.
   struct Seen {
-    int group = 0;         // index in RenderList::groups()
-    double distance = 0;   // distance of the camera from the centre of the item
-    std::size_t item = 0;  // index in RenderList::items()
-    bool shadowed = false;
+    int group = 0;          // index in RenderList::groups()
+    double distance = 0;    // distance of the camera from the centre of the item
+    std::size_t item = 0;   // index in RenderList::items()
+    bool shadowed = false;  // whether the item may be in shadow
   };
 
   // Lists the items that the camera may see.

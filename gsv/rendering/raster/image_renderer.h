@@ -121,7 +121,7 @@ class ImageRenderer {
                                         // the sky
   std::vector<Triangle> triangles_;
   std::vector<Shading> shadings_;
-  std::vector<Drawn> drawn_;
+  std::vector<Drawn> drawn_;  // the items of the image; Triangle::drawn is an index in this list
   std::vector<std::uint8_t> is_still_;  // whether each opaque item of drawn_ is still
   std::vector<std::int32_t> body_of_,
       visual_of_;  // one for each opaque item, in the order of drawn_

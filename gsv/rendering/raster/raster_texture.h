@@ -12,7 +12,7 @@ namespace gsv::rendering::raster {
 struct RasterTexture final : DrawTexture {
   struct Level {
     int width = 0, height = 0;
-    std::size_t first = 0;
+    std::size_t first = 0;  // index of the level's first texel in `texels`
   };
   std::vector<Level> levels;          // each level is half as large as the one before
   std::vector<std::uint32_t> texels;  // red in the lowest byte, alpha in the highest

@@ -74,7 +74,7 @@ class Rasteriser {
                      Triangle& triangle) const;
 
   int width_ = 0, height_ = 0;
-  float near_ = 0;
+  float near_ = 0;  // surfaces nearer to the camera are not drawn, m
   bool rows_upwards_ = false;
   // Maps the frame of FrustumOf() to homogeneous pixel coordinates (x w, y w, w)
   float to_pixels_[3][4];

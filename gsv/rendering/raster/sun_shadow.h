@@ -46,8 +46,8 @@ class SunShadow {
 
   // A caster that is ready to be drawn.
   struct Caster {
-    raster::Drawn drawn;
-    float depth_row[4];  // computes the depth in the map from a mesh vertex
+    raster::Drawn drawn;  // the caster's mesh, and its pose in the world
+    float depth_row[4];   // computes the depth in the map from a mesh vertex
     bool both_sides = false;
     ShadowRegion::Rectangle around;  // the texels that the caster may cover
   };

@@ -11,7 +11,7 @@ struct Surfaces {
   F8x3 normal;       // points towards the camera and includes the normal map
   F8x3 face_normal;  // does not include the normal map; only set if has_normal_map
   bool has_normal_map = false;
-  F8x3 base, emissive;
+  F8x3 base, emissive;  // base colour and emitted light
   F8 alpha, metalness, roughness;
   F8 occlusion;  // the fraction of ambient light that reaches the surface
   I8 number;     // number of the surface, from 1 to 255

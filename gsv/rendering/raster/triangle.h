@@ -13,7 +13,7 @@ struct Triangle {
   float a[3], b[3], c[3];
   float x0, y0;
   std::uint32_t corner[3];  // indices of the mesh's vertices
-  std::uint32_t drawn;
+  std::uint32_t drawn;      // index of the item to which the triangle belongs
 };
 
 // A rectangle of pixels.

@@ -69,8 +69,9 @@ class MeshStore {
   std::shared_ptr<const DrawMesh> FindGenerated(const Key& key, const geometry::Shape& shape);
 
   const Make make_;  // makes the back end's meshes
+  // by the mesh that was read from a file
   std::map<const geometry::TriangleMesh*, FileMesh> file_meshes_;
-  std::map<Key, std::weak_ptr<const DrawMesh>> generated_;
+  std::map<Key, std::weak_ptr<const DrawMesh>> generated_;  // meshes of shapes such as boxes
 };
 
 }  // namespace gsv::rendering

@@ -36,7 +36,7 @@ class TextureStore {
     std::weak_ptr<const model::Image> image;
     std::shared_ptr<const DrawTexture> texture;
   };
-  const Make make_;
+  const Make make_;     // makes the back end's textures
   const int max_side_;  // pixels; images with a longer side are not used
   std::map<const model::Image*, Entry> entries_;
 };
