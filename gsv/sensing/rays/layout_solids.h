@@ -22,8 +22,8 @@ struct Part {
 
 // A part of one body.
 struct BodyPart {
-  const Part* part;
-  int body;  // index of the body in the layout
+  const Part* part;  // the solids; shared by all bodies of the model
+  int body;          // index of the body in the layout
 };
 
 // The solids of all bodies of a layout.

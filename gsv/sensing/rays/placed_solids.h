@@ -45,7 +45,7 @@ class PlacedSolids final : public RayScene {
   // A moving part at its pose in the snapshot.
   struct PlacedPart {
     geometry::Pose part_from_world;  // transforms rays to the frame of the part's solids
-    const Part* part;
+    const Part* part;                // the solids in the part's frame
   };
   struct Shadings;  // the solids near a fan, and for each solid the sector of rays that may hit it
 

@@ -28,7 +28,7 @@ struct TouchedSpheres {
     std::uint32_t number;  // number of the sphere in its grid
     unsigned rays;         // bit i: ray i may touch the sphere
   };
-  std::array<Touched, kMax> touched;
+  std::array<Touched, kMax> touched;  // the first `count` are valid
   std::size_t count = 0;
 
   std::span<const Touched> all() const { return std::span(touched).first(count); }
