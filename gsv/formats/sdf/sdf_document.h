@@ -16,8 +16,8 @@ namespace gsv::formats {
 
 // A document read by libsdformat, and its file.
 struct SdfDocument {
-  std::unique_ptr<sdf::Root> root;
-  std::filesystem::path source;
+  std::unique_ptr<sdf::Root> root;  // the document as libsdformat has read it
+  std::filesystem::path source;     // path of the file
   // True if libsdformat found an error in the graph of frames. Then it may fail to resolve poses,
   // even those of valid elements.
   bool has_broken_frames = false;

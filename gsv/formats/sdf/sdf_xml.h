@@ -57,7 +57,7 @@ class LineKeepingPrinter {
   // Prints newlines up to the line.
   void AdvanceTo(int line);
 
-  std::string out_;
+  std::string out_;           // the text that was printed so far
   int line_ = 1;              // number of the line that is being printed
   bool marks_lines_ = false;  // whether to print kLineAttribute
 };

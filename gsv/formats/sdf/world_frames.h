@@ -43,7 +43,7 @@ class WorldFrames {
  private:
   // The arguments of Add() for a model or frame.
   struct Entry {
-    WrittenPose at;
+    WrittenPose at;  // pose of the element, or of its placement frame
     geometry::Pose frame_from_origin;
     const std::map<std::string, geometry::Pose>* inner_frames;
   };
