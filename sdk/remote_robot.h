@@ -108,7 +108,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   HeldInstant held_;                     // readings and command of the current instant
   double footprint_radius_ = 0;          // m
   std::uint64_t cycle_ = 0;              // number of the last exchange
-  std::atomic<bool> running_{true};
+  std::atomic<bool> running_{true};      // false after the end of the run
   mutable base::Mutex error_mutex_;
   // The reason why the run has ended with an error; empty if there is none.
   std::string error_ GSV_GUARDED_BY(error_mutex_);

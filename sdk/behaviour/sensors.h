@@ -124,7 +124,7 @@ class Sensor {
 
  private:
   std::unique_ptr<SensorPort> port_;
-  Reading reading_;
+  Reading reading_;            // the newest reading
   bool has_measured_ = false;  // whether the newest reading is valid
 };
 
@@ -297,9 +297,9 @@ class Radio : public Sensor {
   using Sensor::Sensor;
 
   struct Message {
-    std::string sender;  // the name of the robot
-    std::string content;
-    SimTime sent{0};
+    std::string sender;   // the name of the robot
+    std::string content;  // the bytes that were sent
+    SimTime sent{0};      // simulated time of sending
     double strength = 0;  // in dBm
   };
 
@@ -319,7 +319,7 @@ class Radio : public Sensor {
 
  private:
   std::uint64_t received_ = 0;  // number of the last received message
-  std::uint64_t missed_ = 0;
+  std::uint64_t missed_ = 0;    // number of lost messages, see missed()
 };
 
 // A tag that measures the distance to one radio anchor.
