@@ -27,7 +27,7 @@ struct TriangleMesh {
   std::vector<Vector3> normals;                         // unit length
   std::vector<Vector2> texture_coordinates;             // (0, 0) is the image's lower left corner
   std::vector<std::array<std::uint32_t, 3>> triangles;  // three indices of vertices each
-  std::vector<MeshPart> parts;
+  std::vector<MeshPart> parts;                          // ranges of triangles by material slot
 };
 
 // A box whose edges are parallel to the axes.

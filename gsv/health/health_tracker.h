@@ -17,8 +17,10 @@ namespace gsv::health {
 
 // Access to the sensors of robots. A reading must not change the simulation.
 struct SensorAccess {
+  // returns the sensors of a robot
   std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
   std::function<base::Result<sensing::Reading>(const std::string& robot, const std::string& sensor)>
+      // takes a reading of a sensor
       read;
   const sensing::SensorRegistry* types = nullptr;  // never null
 };

@@ -20,6 +20,7 @@ struct RecordedDeviceCommand {
 
 // A message of a radio.
 struct RecordedTransmission {
+  // names of the sending radio and of the receiving robot, and the text
   std::string radio, receiver, content;
 };
 

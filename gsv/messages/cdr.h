@@ -57,7 +57,7 @@ class CdrWriter {
   }
 
  private:
-  Bytes& out_;
+  Bytes& out_;          // the buffer to which the writer appends
   std::size_t origin_;  // the position from which alignment is counted
 };
 

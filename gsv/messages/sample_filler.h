@@ -33,7 +33,7 @@ class SampleFiller {
   }
 
  private:
-  std::uint32_t next_;
+  std::uint32_t next_;  // the number from which the next value is made
 };
 
 }  // namespace gsv::messages

@@ -18,7 +18,7 @@ struct ScanPair {
 // Fractions of beams (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3): within
 // `tolerance` of the exact range, shorter, without an echo although one is expected, and longer.
 struct Mixture {
-  double hit = 0, shorter = 0, none = 0, longer = 0;
+  double hit = 0, shorter = 0, none = 0, longer = 0;  // in the order of the comment above
 };
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
 

@@ -34,7 +34,7 @@ class YamlPlace {
   std::size_t problem_count() const { return problems_.size(); }
 
  private:
-  const Naming naming_;
+  const Naming naming_;  // how Of() names a place
   const std::string file_;
   base::Problems& problems_;
 };

@@ -42,7 +42,7 @@ class ServantGroup {
   PortableServer::POA_var poa_;
   base::Mutex mutex_;
   std::set<std::string> ids_ GSV_GUARDED_BY(mutex_);  // object ids of the group's objects
-  bool closed_ GSV_GUARDED_BY(mutex_) = false;
+  bool closed_ GSV_GUARDED_BY(mutex_) = false;        // whether DeactivateAll() was called
 };
 
 }  // namespace gsv::services

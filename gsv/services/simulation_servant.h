@@ -117,8 +117,8 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   BehaviourSource* const behaviours_;
   const ServiceHooks hooks_;
   base::Mutex mutex_;
-  base::ConditionVariable closing_changed_;
-  bool closing_ GSV_GUARDED_BY(mutex_) = false;
+  base::ConditionVariable closing_changed_;      // notified when closing_ becomes true
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;  // whether the servant ends
   // whether a simulation was destroyed since the janitor's last check
   bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;
   std::map<std::string, SimulationServant*> servants_

@@ -68,7 +68,7 @@ class Judge final : public simulation::Observer, public simulation::ExpectationS
  private:
   // An expectation with its evaluation so far. Its finding is final when the monitor has a verdict.
   struct Pending {
-    Finding finding;
+    Finding finding;  // the verdict so far
     Monitor monitor;
     scenario::Formula formula;
     std::optional<Margin> margin;  // nullopt if the expectation has no margin

@@ -28,7 +28,7 @@ struct State;
 // `content`.
 struct DeviceCommand {
   std::vector<double> values;
-  std::string word;
+  std::string word;       // such as the name of a sound or of a receiver; may be empty
   std::string content{};  // bytes
   friend bool operator==(const DeviceCommand&, const DeviceCommand&) = default;
 };

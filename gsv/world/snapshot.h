@@ -25,8 +25,8 @@ struct ContactPoint {
 // a static body or the ground, the robot is the first body. Point, normal and depth are the values
 // of the deepest point.
 struct Contact {
-  int first = 0;
-  int second = 0;
+  int first = 0;             // index of the first body in the layout
+  int second = 0;            // index of the second body
   geometry::Vector3 point;   // world
   geometry::Vector3 normal;  // normal in the world, unit length
   double depth = 0;          // m

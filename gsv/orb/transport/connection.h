@@ -23,7 +23,7 @@ namespace gsv::orb {
 
 // The addresses as URIs, such as "giop:tcp:127.0.0.1:40123".
 struct ConnectionAddresses {
-  std::string own, peer;
+  std::string own, peer;  // of this process, and of the other end
 };
 // Returns the addresses of a connected TCP socket. `scheme` is "giop:tcp" or "giop:ssl".
 ConnectionAddresses AddressesOfTcp(int socket, const char* scheme);
