@@ -9,8 +9,8 @@
 //              both ends. Each drawn value has its own random number, keyed by its position on the
 //              time axis.
 // Source       Rasmussen and Williams, "Gaussian Processes for Machine Learning", appendix B.2, for
-//              the distribution between two values.
-// Determinism  a function of the arguments.
+//              the distribution of a value between two known values.
+// Determinism  the result depends only on the arguments.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Functions for encoders of sensor readings.
+// Functions that help to encode sensor readings as messages.
 #pragma once
 
 #include <string>

@@ -38,8 +38,8 @@ NoisyReading::NoisyReading(const Sampling& sampling, const model::SensorDescript
       time_(sampling.snapshot()->state.time) {}
 
 std::uint64_t NoisyReading::StreamOf(std::uint64_t channel, std::uint64_t purpose) const {
-  // Fibonacci hashing separates the streams. It is needed because the numbers of channels are
-  // consecutive, whereas the numbers of names are spread over all values.
+  // `stream_` is a hash, so its values are spread over all numbers. The numbers of channels are
+  // consecutive, so Fibonacci hashing spreads them, too. Otherwise, streams could coincide.
   return stream_ ^ ((channel * kPurposes + purpose + 1) * 0x9E3779B97F4A7C15u);
 }
 

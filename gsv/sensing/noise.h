@@ -33,7 +33,7 @@ struct NoiseModel {
   // standard deviation of the drift, and its correlation time in s (0: no drift)
   double drift_stddev = 0, drift_time = 0;
   double precision = 0;  // step to which readings are rounded; 0: not rounded
-  // fraction of readings; their additional noise
+  // fraction of readings with additional noise; standard deviation of this noise
   double outlier_probability = 0, outlier_stddev = 0;
   double dropout_probability = 0;  // fraction of readings that are lost
 
@@ -50,7 +50,7 @@ class NoisyReading {
  public:
   NoisyReading(const Sampling& sampling, const model::SensorDescription& description);
 
-  // Returns the reading for the true `value`. The channels of a sensor are independent.
+  // Returns the reading for the true `value`. The noise of each channel of a sensor is independent.
   double Read(const NoiseModel& model, std::uint64_t channel, double value) const;
   // Returns the bias and the drift, without white noise.
   double Bias(const NoiseModel& model, std::uint64_t channel) const;

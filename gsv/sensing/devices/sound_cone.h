@@ -80,7 +80,7 @@ class SoundCone {
   // One of the rays that represent the sound.
   struct Beam {
     geometry::Vector3 direction;  // direction in the sonar's frame
-    double strength = 0;          // strength after the way to the target and back
+    double strength = 0;          // square of Directivity(), for the way to the target and back
   };
 
   // The echo of one ray.
@@ -108,8 +108,9 @@ class SoundCone {
   // Adds the echoes of the sound of another sonar.
   void AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
                     std::span<const std::optional<Hit>> hits, std::vector<Echo>& echoes) const;
-  // Returns the echo of the nearest point of the hit body. The point is searched in steps from the
-  // hit. This finds bodies that are thinner than the spacing of the rays, such as posts.
+  // Returns the echo of the nearest point of the hit body. The search turns the ray by smaller and
+  // smaller angles, starting with the direction of the hit. So the nearest point is also found on
+  // bodies that are thinner than the spacing of the rays, such as posts.
   Echo EchoNear(const Sampling& sampling, Ray ray, Hit hit, const geometry::Vector3& axis) const;
 
   const SoundSettings sound_;

@@ -39,8 +39,8 @@ double PaddingFor(const std::vector<Bounds>& boxes) {
   return 1e-6 + 2e-6 * furthest;
 }
 
-// Returns the length of a ray in single precision, slightly enlarged. If this finds a box beyond
-// the true length, it does no harm.
+// Returns the length of a ray in single precision, slightly enlarged. The ray may then find a box
+// beyond its true length, which does no harm.
 float LengthFor(double length, double padding) {
   return static_cast<float>(length + padding + 1e-6 * std::abs(length));
 }

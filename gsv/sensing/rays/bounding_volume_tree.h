@@ -2,9 +2,9 @@
 //
 // The caller gives boxes in double precision. The boxes are rounded outwards and padded. The caller
 // computes the intersection with the content of each box. The tree finds every box on the ray
-// within the ray's current length, if the ray starts within ten times the extent of the boxes. For
-// such rays, the error of single precision is smaller than the padding, which is 2e-6 of that
-// extent.
+// within the ray's current length, if the ray starts within ten times the extent of the boxes. The
+// extent is the largest absolute coordinate of a box. For such rays, the error of single precision
+// is smaller than the padding, which is 1e-6 m plus 2e-6 of the extent.
 //
 // Threads  const members may run concurrently.
 #pragma once

@@ -11,8 +11,8 @@ using geometry::Bounds;
 // Up to this number of boxes, each box is tested.
 constexpr std::size_t kFewBoxes = 8;
 
-// Maximum occupancy of a grid's columns. Above this value, the tree is faster, for example for
-// boxes that are stacked, or if one box is far from a crowd.
+// Maximum of ColumnGrid::occupancy(), a mean number of boxes. Above this value, the tree is faster,
+// for example for boxes that are stacked, or if one box is far from many others.
 constexpr double kMaxOccupancy = 12;
 
 bool FitsGrid(const Bounds& b) {

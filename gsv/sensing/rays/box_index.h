@@ -39,9 +39,9 @@ class BoxIndex {
     }
   }
 
-  // Adds to `found` every box within `reach` of the place, once, and possibly boxes further away.
-  // If there is no space in `found`, or no fast method for these boxes, returns false, and some
-  // boxes are missing.
+  // Adds each box within `reach` (m) of `place` to `found` once. May also add boxes further away.
+  // Returns false if there is no space in `found`, or no fast method for these boxes. Some boxes
+  // are missing then.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
     if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMax) return false;
