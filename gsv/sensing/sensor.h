@@ -86,7 +86,7 @@ class Sampling {
   std::uint64_t seed_;                             // seed of the simulation
   RaySceneCache& rays_;                            // creates scene_
   mutable std::shared_ptr<const RayScene> scene_;  // null until the first use
-  mutable std::size_t expected_rays_ = 0;          // the sum of ExpectRays()
+  mutable std::size_t expected_rays_ = 0;          // number of rays that ExpectRays() announced
   mutable bool has_gathered_ = false;              // whether candidates_ belong to the present body
   // solids near the robot; null until they are needed
   mutable std::unique_ptr<CandidateSet> candidates_;

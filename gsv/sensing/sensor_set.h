@@ -24,8 +24,8 @@ class SensorSet {
 
  private:
   const SensorRegistry& types_;
-  // The sensors by name, because few models use one name for different sensors. An expired sensor
-  // is removed when another sensor with the same name is created.
+  // The sensors by name. Each list is short, because few models use one name for different sensors.
+  // An expired sensor is removed when another sensor with the same name is created.
   std::map<std::string, std::vector<std::weak_ptr<const Sensor>>, std::less<>> known_;
 };
 

@@ -97,8 +97,8 @@ class SolidSet {
            into.min.y <= b.max.y && b.min.z <= into.max.z && into.min.z <= b.max.z;
   }
 
-  // Adds to `found` the shapes within `reach` of the place, and possibly shapes further away.
-  // Returns false if there is no fast method.
+  // Adds the shapes within `reach` (m) of `place` to `found`. May also add shapes further away.
+  // Returns false if there is no space in `found`, or no fast method for these shapes.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     return shape_index_.Near(place, reach, found);
   }
@@ -156,7 +156,8 @@ class SolidSet {
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
   // Extends bounds_ so that it contains these bounds.
   void Include(const geometry::Bounds& bounds);
-  // Solids are numbered in this order: shapes, planes, triangles.
+  // Cast a ray at one shape, at all planes or at all triangles. The numbers of solids (`solid`)
+  // begin with the shapes. The planes follow, and then the triangles.
   static void CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray, int ignored_body,
                      Nearest& nearest, const Bearer& bearer);
   void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;

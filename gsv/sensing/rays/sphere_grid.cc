@@ -25,15 +25,15 @@ constexpr double kMaxCoordinate = 1e5;  // m
 constexpr double kLargeCells = 2;
 constexpr std::size_t kMaxLarge = 32;
 
-// If there are more spheres than this near the rays, single rays are faster.
+// If more spheres or more rows of cells than this are near the rays, single rays are faster.
 constexpr std::size_t kMaxTested = 512, kMaxRows = 128;
 
 // Spheres are read in vectors of this length.
 constexpr std::size_t kRead = 8;
 
-// Single precision has a relative error of 6e-8. Spheres are enlarged by kRounding times the reach.
-// They are also enlarged by kCoordinateRounding times the coordinates, because these are rounded
-// once.
+// Single precision has a relative error of 6e-8. Radii are enlarged by kRounding times the radius
+// and the reach, for the errors of the test. They are also enlarged by kCoordinateRounding times
+// the coordinates of the centre and of the place, which are rounded to single precision.
 constexpr double kRounding = 2e-5, kCoordinateRounding = 1e-6;
 
 double SumOfSizes(const Vector3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
@@ -44,9 +44,9 @@ bool Suits(const BoundingSphere& sphere) {
          fits(sphere.radius);
 }
 
-// In their test, spheres are enlarged by this fraction of the squared distances. The fraction
-// exceeds the rounding error of the squared distance between centre and ray, whose computation
-// takes a dozen operations in single precision.
+// When a sphere is tested, its squared radius is enlarged by this fraction of the squared
+// distances. The fraction exceeds the rounding error of the squared distance between centre and
+// ray. Computing this distance takes a dozen operations in single precision.
 constexpr float kSquareRounding = 1e-6f;
 
 // Spheres that are side by side, in a row of cells.
@@ -118,7 +118,8 @@ class SpheresInReach {
   using Floats = std::array<float, kMaxTested + kRead>;
   std::size_t count = 0;
   Floats x, y, z;
-  // radius² - |c|² for the centre c; with it, the test of a sphere needs few operations
+  // radius² - |c|² for the centre c, plus an allowance for rounding errors. It saves operations
+  // when many rays are tested against one sphere.
   Floats margin;
   std::array<std::uint32_t, kMaxTested + kRead> number;
 };
@@ -126,8 +127,9 @@ class SpheresInReach {
 // Appends the spheres that rays of the packet touch. Returns false if there are too many. With the
 // vector c from the place to a centre, the vector o to a ray's origin and its direction d:
 //
-//   s = (c - o) d, limited to the ray's length: along;  |c - o - along d|² = |c - o|² - along (2 s -
-//   along)
+//   s = (c - o) d
+//   along = s, limited to the range from 0 to the ray's length
+//   squared distance = |c - o - along d|² = |c - o|² - along (2 s - along)
 __attribute__((target("avx2,fma,popcnt"))) bool TestByAvx2(const PacketRays& rays,
                                                            const TestedSpheres& spheres,
                                                            TouchedSpheres& found) {
@@ -231,7 +233,7 @@ bool SphereGrid::Divide(std::span<const BoundingSphere> spheres) {
   const double wide = high_x - low_x_, tall = high_y - low_y_;
   const double max_cells = kCellsPerSphere * static_cast<double>(spheres.size());
   // The side of a cell. Even for a thin row of spheres, the number of cells is not much more than
-  // allowed.
+  // max_cells.
   const double side =
       std::max({std::sqrt(wide * tall / max_cells), wide / max_cells, tall / max_cells, 1e-3});
   cells_per_metre_ = 1 / side;
@@ -269,7 +271,8 @@ void SphereGrid::Build(std::span<const BoundingSphere> spheres, std::span<const 
   is_suitable_ = large_.size() <= kMaxLarge;
   if (!is_suitable_) return;
 
-  // Each count becomes the end of its cell. When all spheres are inserted, it has become the start.
+  // starts_ has the number of spheres of each cell. The loop over starts_ replaces each number by
+  // the end of the cell's spheres. Each insertion decrements the end, so it becomes the start.
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) start = end += start;
   for (std::vector<float>* each : {&x_, &y_, &z_, &radius_}) each->resize(end + kRead);

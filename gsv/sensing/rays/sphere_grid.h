@@ -81,9 +81,9 @@ class SphereGrid {
     std::uint32_t number;  // as in Build()
   };
 
-  // The column and row of a coordinate, which may be outside of the grid.
+  // The column of an x coordinate. Returns the nearest column if x is outside of the grid.
   int ColumnOf(double x) const { return CellOf((x - low_x_) * cells_per_metre_, columns_); }
-  // The row of a y coordinate, which may be outside of the grid.
+  // The row of a y coordinate. Returns the nearest row if y is outside of the grid.
   int RowOf(double y) const { return CellOf((y - low_y_) * cells_per_metre_, rows_); }
   static int CellOf(double cells, int count) {
     return static_cast<int>(std::clamp(cells, 0.0, count - 1.0));
