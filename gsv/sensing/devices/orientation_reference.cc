@@ -13,8 +13,8 @@ std::string NameOfParameter(const char* name) {
   return std::string("orientation_reference_frame.") + name;
 }
 
-// The rotation from the world to a frame whose z axis is `z`, and whose x axis is the horizontal
-// part of `along_x`. Both are unit vectors at right angles.
+// The rotation from the world to a frame whose x axis is `along_x` and whose z axis is `z`. Both
+// vectors must have length 1 and be at right angles to each other.
 Quaternion QuaternionToFrame(const Vector3& along_x, const Vector3& z) {
   // The shortest rotation from z to (0, 0, 1). If z points straight down, this is half a turn about
   // x.
@@ -77,7 +77,7 @@ Quaternion OrientationReference::ReferenceFromWorld(const model::WorldDescriptio
       return turned(0);
     case Kind::kNwu:
       return turned(-std::numbers::pi / 2);
-    case Kind::kNed:  // x and y are exchanged, and z points down
+    case Kind::kNed:  // x and y of ENU are exchanged, and z points down
       return Quaternion{0, std::sqrt(0.5), std::sqrt(0.5), 0} * turned(0);
     case Kind::kGravityUp:
     case Kind::kGravityDown:

@@ -13,8 +13,8 @@ namespace gsv::sensing {
 // <spherical_coordinates> (default: 0).
 class OrientationReference {
  public:
-  // Parameters orientation_reference_frame.localization (default: the world's frame),
-  // .custom_rpy and .grav_dir_x, both in the world's frame.
+  // Reads the parameters orientation_reference_frame.localization (default: the world's frame),
+  // .custom_rpy and .grav_dir_x. The values of custom_rpy and grav_dir_x are in the world's frame.
   explicit OrientationReference(ParameterReader& reader);
 
   // Whether the reference frame is the world's frame itself.

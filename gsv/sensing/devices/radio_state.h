@@ -26,8 +26,8 @@ struct HeardMessage {
 struct RadioErrors {
   double fading = 0;            // deviation of each message's strength, dB
   double loss_probability = 0;  // probability that a message is lost although it is strong enough
-  // the strength that a message must have above the sum of all other messages of the same step, dB;
-  // 0: radios do not disturb each other
+  // By how much a message must be stronger than the sum of all other robots' messages in the same
+  // step, dB; 0: radios do not disturb each other.
   double capture_ratio = 0;
   bool is_none() const { return fading == 0 && loss_probability == 0 && capture_ratio == 0; }
 };

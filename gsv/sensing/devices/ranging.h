@@ -12,8 +12,8 @@
 //   range_noise (0 m per metre), bias_per_metre (0 m per metre)
 //   wall_delay (0 m per wall), wall_noise (0 m per square root of the number of walls)
 //   max_walls (8)           an anchor behind more walls is not received
-// Readings    readings::Ranging. As a message: sensor_msgs/Range with an infinite range for no
-//             echo.
+// Readings    readings::Ranging. As a message: sensor_msgs/Range. The range is infinite if the
+//             anchor is not received.
 // Errors      an anchor that is not in the world is not received.
 #pragma once
 

@@ -25,8 +25,8 @@ struct Frame {
     place = to;
   }
 
-  // Passes a joint, which is at this point, to the link below the joint. `rate` is along or about
-  // `axis`.
+  // Changes from the link above a joint to the link below it. The point must be at the joint.
+  // `rate` is the joint's velocity along `axis` (m/s) or about `axis` (rad/s).
   void PassJoint(const model::Joint& joint, const Vector3& axis, double rate) {
     if (joint.kind == model::JointKind::kPrismatic) {
       velocity += rate * axis;

@@ -1,9 +1,10 @@
 // Computes the pose, velocity and acceleration of a sensor in the world.
 //
-// Frames  world axes.
-// Exactness  velocities are the velocities of the state, including joints. The acceleration is the
-//            body's mean over the last step. It is transferred to the sensor's position with the
-//            centripetal terms of body and joints. The acceleration of joints is ignored.
+// Frames     world axes.
+// Exactness  velocities are exact at the sampled instant, and include the motion of the joints. The
+//            acceleration is the mean acceleration of the robot's body over the last step. It is
+//            transferred to the sensor's position with the centripetal terms of body and joints.
+//            The acceleration of joints is ignored.
 #pragma once
 
 #include "gsv/sensing/sensor.h"

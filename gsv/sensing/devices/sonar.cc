@@ -121,8 +121,9 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
   const SonarSettings settings_;
   std::optional<SoundCone> cone_;
   std::optional<Beam> beam_;  // set if a reading contains nothing but the value of this beam
-  // For the model of the last robot, caches the indices of the sonars that fire at the same time.
   mutable base::Mutex mutex_;
+  // Cache: the other sonars of the model others_of_ that fire at the same time, each with its index
+  // in the model's sensors.
   mutable std::shared_ptr<const model::Model> others_of_ GSV_GUARDED_BY(mutex_);
   mutable std::vector<std::pair<std::size_t, SoundSettings>> others_ GSV_GUARDED_BY(mutex_);
 };

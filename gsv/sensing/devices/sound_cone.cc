@@ -185,16 +185,16 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
     const Vector3& out = rays[place].direction;
     const Vector3& onward = mirrored[i].direction;
     const double cosine = std::clamp(-Dot(onward, seconds[i]->normal), -1.0, 1.0);
-    // There are two ways back. If the second surface is perpendicular to the sound, the sound
-    // returns along its path, and is reflected twice more. If the two surfaces form a corner, the
-    // sound returns beside its path.
+    // The sound can return in two ways. If the second surface is perpendicular to the sound, the
+    // sound returns along the same path, over the first surface. If the two surfaces form a corner,
+    // the sound goes from the second surface directly to the sensor, beside its outward path.
     const double same_way = once * once * Mirrored(std::acos(cosine));
     const Vector3 home = onward + 2 * cosine * seconds[i]->normal;
     const double corner = once * Mirrored(std::acos(std::clamp(-Dot(home, out), -1.0, 1.0)) / 2);
     const double first = hits[place]->distance, second = seconds[i]->distance;
     const double whole = first + second;
-    // From a corner, the sound returns beside its own path. The last leg goes from the second
-    // surface to the sensor. The distance of the corner's edge is half of the total path.
+    // From a corner, the last leg of the path is from the second surface to the sensor. Half of the
+    // total path is the distance to the edge of the corner.
     const double by_corner = first + second * (1 + Dot(out, onward)) / 2;
     const double strength = beams_[place].strength * std::max(same_way, corner);
     const double distance = same_way >= corner ? whole : by_corner;
