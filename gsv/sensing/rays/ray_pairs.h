@@ -81,8 +81,8 @@ class RayPairs {
 
   std::size_t count_ = 0;                  // number of pairs
   std::array<std::uint8_t, kMax> rays_{};  // for each pair, the index of its ray in the packet
-  // Lanes beyond the last pair keep the values of earlier pairs, because ordinary values are
-  // computed fast.
+  // Cast() also computes the unused lanes after the last pair. They hold zeros or the values of
+  // earlier pairs. So they hold no subnormal numbers, which would slow the computation down.
   alignas(32) Lanes ox_{}, oy_{}, oz_{}, dx_{}, dy_{}, dz_{};  // in the world
   PoseLanes<kMax> parts_, shapes_;                             // part_from_world, shape_from_set
   // The halves of a box's sides. For a cylinder, x is the radius and z is half of the length.

@@ -74,7 +74,7 @@ class RayRow {
   geometry::Vector3 origin_;  // in the world
   double max_distance_;       // length of the rays, m
   std::size_t size_;          // number of rays
-  // after the last ray, the last group is filled with copies of this ray
+  // Unused places in the last group hold copies of the last ray.
   std::unique_ptr<Group[]> groups_;
 };
 

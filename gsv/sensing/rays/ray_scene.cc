@@ -46,8 +46,8 @@ class RaySceneCache::Impl {
   }
 
  private:
-  // The number of recent scenes. So readers that are a few steps late still find the scene of their
-  // step.
+  // The number of scenes that the cache keeps. Readers that are a few steps late still find the
+  // scene of their step.
   static constexpr std::size_t kRecent = 4;
 
   struct Solids {

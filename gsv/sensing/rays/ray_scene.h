@@ -45,13 +45,14 @@ class RayScene : public world::RayCaster {
   // nearest solid first, and computes for each solid which rays may hit it.
   virtual void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const = 0;
 
-  // Gathers the candidate set within `reach` of `place` without `ignored_body`. Several rays from
-  // there are then faster. Returns false if there are too many candidates.
+  // Gathers the candidate set: the solids within `reach` of `place`, without `ignored_body`. With
+  // this set, casting several rays from near `place` is faster. Returns false if there are too many
+  // candidates.
   virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
                       CandidateSet& candidates) const = 0;
 
-  // Sets ranges[i] to the range of ray i of the packet. If the rays start near `place`, this function
-  // is faster than Range().
+  // Sets ranges[i] to the range of ray i of the packet. If the rays start near `place`, this
+  // function is faster than Range().
   virtual void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
                       std::span<double> ranges) const = 0;
 

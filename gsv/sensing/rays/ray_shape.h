@@ -3,8 +3,9 @@
 // Frames   ray and result are in the shape's frame; distances are along the unit direction.
 // Result   the distance to the first crossing of the surface, from outside or inside, within [0,
 //          ray.max_distance]; nothing if there is none. A ray that only touches the surface also
-//          crosses it. The normal is the surface normal at this point, with unit length, against
-//          the ray. It is computed only for a ray that crosses the surface.
+//          counts as crossing it. The normal is the surface normal at the first crossing. It has
+//          unit length and points against the ray. Call the functions that return a normal only for
+//          rays that cross the surface.
 #pragma once
 
 #include <optional>
@@ -24,7 +25,8 @@ std::optional<double> DistanceToTriangle(const Ray& ray, const Triangle& triangl
 // Returns the normal of a triangle that the ray crosses.
 geometry::Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle);
 
-// A Plane is the unbounded surface of a half-space. A Mesh is not allowed.
+// Returns the distance, or nullopt if the ray does not cross the surface. A Plane is the unbounded
+// surface of a half-space. A Mesh is not allowed.
 std::optional<double> DistanceToShape(const Ray& ray, const geometry::Shape& shape);
 // Returns the normal at the first crossing.
 geometry::Vector3 NormalOfShape(const Ray& ray, const geometry::Shape& shape);

@@ -59,8 +59,8 @@ struct Turned {
       : along(ahead_x * x + ahead_y * y), across(ahead_x * y - ahead_y * x) {}
 };
 
-// The smallest and largest tangent of some directions, measured from the direction of the nearest
-// point.
+// The smallest and largest tangent of the azimuths of points. Azimuths are measured from the
+// direction of the box's nearest point.
 struct Tangents {
   double least = 0, most = 0;
 
@@ -127,7 +127,8 @@ void FindSectors(const Fan& fan, BoxBatch& boxes, SectorBatch& sectors) {
     const double bx = half_y * yx, by = half_y * yy, bz = half_y * yz;
     const double dx = half_z * zx, dy = half_z * zy, dz = half_z * zz;
 
-    // From the origin to the far end of the box, the rays go from height 0 to this height.
+    // `height` is the height of the rays above the fan's plane at the far end of the box. At the
+    // fan's origin, the height is 0.
     const double far = std::sqrt(mx * mx + my * my) + std::abs(ax) + std::abs(bx) + std::abs(dx) +
                        std::abs(ay) + std::abs(by) + std::abs(dy);
     const double height = far * slope;

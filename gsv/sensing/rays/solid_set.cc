@@ -179,8 +179,8 @@ void SolidSet::Commit() {
   triangle_tree_->Build(boxes, /*often=*/false);
 }
 
-// Casting a ray at one shape takes most of the time of a crowd's sonars, so all calls in this
-// function are inlined.
+// With many robots that have sonars, casting rays at single shapes takes most of the time. So all
+// calls in this function are inlined.
 [[gnu::flatten]] void SolidSet::CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray,
                                        int ignored_body, Nearest& nearest, const Bearer& bearer) {
   const int body = bearer.body >= 0 ? bearer.body : shape.body;
