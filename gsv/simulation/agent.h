@@ -69,11 +69,12 @@ inline JointReading JointReadingIn(const world::Snapshot& snapshot, int body, in
 
 class MountedSensor;
 
-// Place of the shared memory of a clock, see gsv/exchange/cycle_memory.h.
+// Where a client finds the shared memory of a clock: the clock's CycleSlot and the simulation's
+// Bell, see gsv/exchange/cycle_memory.h.
 struct CycleMemory {
   exchange::FileAddress file;
-  std::uint64_t offset = 0;  // position of the clock's slot
-  std::uint64_t key = 0;     // the bell's key
+  std::uint64_t offset = 0;  // position of the clock's CycleSlot in the file, bytes
+  std::uint64_t key = 0;     // key of the Bell
 };
 
 // The interface through which one robot's behaviour uses the simulation.
@@ -84,8 +85,8 @@ class Agent {
   virtual const std::string& robot() const = 0;
   virtual std::string model() const = 0;
   virtual double footprint_radius() const = 0;  // m
-  // Returns the pose of a link of the robot's model with all joints at zero. `link` is the index of
-  // a link with a sensor.
+  // Returns the pose of a link in the robot's frame, with all joints at zero. `link` is an index in
+  // Model::links; link 0 is the canonical link.
   virtual geometry::Pose RobotFromLink(int link) const = 0;
 
   // Each thread of the behaviour waits for instants of simulated time with its own clock. An open
@@ -148,7 +149,8 @@ class Agent {
   // Sends a command to an actuator, which is one of the sensors. It is applied from this instant
   // on.
   virtual base::Status CommandDevice(const std::string& actuator, world::DeviceCommand command) = 0;
-  // Returns the sensor object, for the turns of a local behaviour.
+  // Returns the sensor object. Only local behaviours use it, during their turns (see
+  // robots/local_behaviour.h).
   virtual base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const = 0;
 };
 

@@ -16,7 +16,8 @@ namespace gsv::simulation {
 struct Edit {
   // kPlace: a body is moved to a pose. kCommand: a command of the command table is applied.
   enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace, kCommand };
-  // When the edit was made, relative to the turns of behaviours between two steps.
+  // Between two steps, each behaviour that wakes has a turn: it reads sensors and sends commands. A
+  // Moment states whether the edit was made before, after or during these turns.
   enum class Moment {
     kBeforeTurns,  // before the turns: behaviours that wake at this instant see the changed world
     kAfterTurns,   // after the turns: only the next step uses the changed world

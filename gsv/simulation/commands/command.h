@@ -22,13 +22,15 @@ namespace gsv::simulation {
 
 class Simulation;
 
-// The types have the order of ArgumentValue's alternatives.
+// The types are in the same order as the alternatives of ArgumentValue: the number of a type is the
+// index() of its values.
 enum class ParameterType { kNumber, kInteger, kFlag, kText };
 using ArgumentValue = std::variant<double, std::int64_t, bool, std::string>;
 
 // Returns "number", "integer", "flag" or "text".
 const char* ToString(ParameterType type);
-// Returns the value as users write it, such as "-1.62" or "true"; also for sba::NameValue.
+// Returns the value as users write it, such as "-1.62" or "true". sba::NameValue contains values in
+// this form.
 std::string ToText(const ArgumentValue& value);
 
 // A parameter of a command.

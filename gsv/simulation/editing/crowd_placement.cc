@@ -16,7 +16,9 @@ namespace {
 using geometry::Vector2;
 
 constexpr double kGap = 0.05;  // minimum gap between two pedestrians, m
-constexpr double kCell = 2;    // cell size, m; larger than two of the largest pedestrians together
+// Cell size, m. The radius of a pedestrian is at most 1 m. So pedestrians that overlap are in the
+// same cell or in neighbouring cells.
+constexpr double kCell = 2;
 constexpr double kOverlap = 1e-3;  // overlap that is tolerated, m
 constexpr std::uint32_t kAttempts = 400;
 constexpr int kRounds = 40;
@@ -33,8 +35,8 @@ class CrowdPlacement {
       do {
         body.name = group->name + "_" + std::to_string(++numbers_[group->name]);
       } while (layout_.Find(body.name) >= 0);
-      // The random streams of sensors are named after a robot and a sensor. So no sensor uses this
-      // stream.
+      // A sensor's random stream has the name ROBOT/SENSOR. This name contains no slash, so no
+      // sensor uses the same stream.
       const std::uint64_t stream = base::StableId("pedestrian " + body.name);
       body.model = looks[stream % looks.size()];
       body.kind = world::BodyKind::kPedestrian;
@@ -134,12 +136,13 @@ class CrowdPlacement {
 
   const world::Layout& layout_;
   const std::uint64_t seed_;
-  std::map<std::string, int> numbers_;  // numbers that names already use, by group
+  // The number in the newest name, such as 3 for "crowd_3". The key is the name of the group.
+  std::map<std::string, int> numbers_;
   std::vector<world::Body> members_;
-  std::vector<std::uint32_t> attempts_;             // number of attempts for each member of
-                                                    // members_
-  std::map<Cell, std::vector<std::size_t>> taken_;  // pedestrians that have a place, by cell; never
-                                                    // iterated
+  // The number of places that were tried for each element of `members_`.
+  std::vector<std::uint32_t> attempts_;
+  // The pedestrians that have a place (indices in `members_`), by cell. The map is never iterated.
+  std::map<Cell, std::vector<std::size_t>> taken_;
 };
 
 }  // namespace

@@ -39,7 +39,7 @@ bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, wo
   for (double distance = kStride; distance <= farthest; distance += kStride) {
     for (int i = 0; i < kDirections; ++i) {
       const double direction = 2 * std::numbers::pi * i / kDirections;
-      // The place must also be free one step further, so that the body can turn away from the wall.
+      // The place two strides farther must also be free, so that the body can turn beside the wall.
       if (is_free_at(distance, direction) && is_free_at(distance + 2 * kStride, direction)) {
         return true;
       }
@@ -48,8 +48,9 @@ bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, wo
   return false;
 }
 
-// Returns, for each body, whether it overlaps no other body. This saves time: in a crowd most
-// bodies do not overlap, and PushOut() moves a body only to a free place.
+// Returns, for each body, whether it overlaps no other body. One such call is faster than one call
+// of FindOverlap() for each robot. The result stays valid for robots that are free, because
+// PushOut() moves other robots only to free places.
 std::vector<bool> StandFree(dynamics::Engine& engine, const world::Layout& layout,
                             const world::State& state) {
   std::vector<bool> stand_free(layout.bodies.size(), true);
@@ -83,10 +84,12 @@ base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
     const int overlapped = FindOverlap(engine, layout, state, index);
     if (overlapped < 0) continue;
     const world::Body& other = layout.bodies[static_cast<std::size_t>(overlapped)];
-    // If two new bodies are at the same place, only the second body is refused.
+    // If the other body comes later in `placed`, this body is kept. The other body is pushed out or
+    // refused in a later iteration.
     if (std::find(name + 1, placed.end(), other.name) != placed.end()) continue;
     const std::string wanted = PlaceText(body.initial_pose);
-    // If the larger part of a robot is outside of a wall, the robot is moved to a place beside the
+    // A robot that overlaps a wall or an object is moved beside it. PushOut() searches only within
+    // the robot's radius. So it finds a place only if a large part of the robot is outside the
     // wall.
     if (body.is_robot() && !other.is_robot() && PushOut(engine, layout, index, state)) {
       const geometry::Pose& now = state.bodies[static_cast<std::size_t>(index)].world_from_model;

@@ -23,8 +23,8 @@ struct PushedOut {
 // Resolves the placement of the bodies named `placed`, which are at their initial poses in `state`.
 // Two bodies overlap if they penetrate each other by more than a millimetre. A robot that overlaps
 // another kind of body is pushed out to the nearest free place, at most its own radius away; this
-// changes `state`. If two placed bodies overlap, the second one is rejected. Fails for the first
-// body for which there is no space.
+// changes `state`. If two placed bodies overlap, the first of them in `placed` stays, and the other
+// one is treated as above. Fails for the first body for which there is no space.
 base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
                                                       const world::Layout& layout,
                                                       const std::vector<std::string>& placed,
