@@ -109,7 +109,8 @@ class MountedSensor {
 
   mutable base::Mutex mutex_;
   std::shared_ptr<Sweeps> sweeps_ GSV_GUARDED_BY(mutex_);  // null if the sensor belongs to no sweep
-  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;   // number of sweeps at Join()
+  // Sweeps::count when Join() was called. Later sweeps are readings of this sensor.
+  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;
   std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;    // step of the newest sample, or -1
   std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;  // Layout::version of the newest sample
   sensing::Reading newest_ GSV_GUARDED_BY(mutex_);           // the newest sample

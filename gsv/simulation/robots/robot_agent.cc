@@ -46,8 +46,10 @@ void RobotAgent::UpdateRunningCount() {
   is_counted_ = holds_up;
   shared_->running += holds_up ? 1 : -1;
   const bool is_waited_for = shared_->mode == Mode::kLockstep;
-  // A client with a channel rings only if all other clients with channels have posted. A client
-  // that waits by a call does not ring, so the stepping thread must look again here.
+  // The stepping thread is woken when the last running agent waits. If there are channels, it is
+  // also woken while other agents run: a client with a channel rings the Bell only if it is the
+  // last one that posts its request. An agent that waits by a call never rings. So this call
+  // replaces a ring.
   if (!is_waited_for || (shared_->running > 0 && shared_->channels.empty())) return;
   if (shared_->is_timed) shared_->held_up_by = robot_;
   shared_->changed.notify_all();
@@ -382,7 +384,7 @@ void RobotAgent::MarkStarted() {
 }
 
 bool RobotAgent::BlocksStep() const {
-  // The time of every local behaviour is managed.
+  // For a local behaviour, time_managed() is always true. It is not called, for speed.
   return started_ && behaviour_ != nullptr && is_alive() && !is_removed_ && clocks_.IsRunning() &&
          (local_ != nullptr || behaviour_->time_managed());
 }

@@ -63,15 +63,16 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
 
   // The result of Wake().
   struct Woken {
-    // whether the wait event must be signalled, preferably without holding a lock
+    // Whether a wait has ended or the agent has died. The caller must then call CollectWoken(), and
+    // signal what it collects, preferably after releasing its locks.
     bool has_passed = false;
-    bool has_died = false;  // whether a death that was reported now takes effect
+    bool has_died = false;  // whether a reported death has taken effect in this call
   };
   // Begins the cycle that the client has posted to the channel, if there is one. If the wait of
   // this cycle is already over, the channel is added to `due`.
   void BeginCycle(const std::shared_ptr<CycleChannel>& channel, EventSignaler::Events& due)
       GSV_REQUIRES(simulation_mutex);
-  // Adds the events and channels that must be opened after Wake() to `due`.
+  // Adds to `due` the wait event and the channels whose clients must be woken after Wake().
   void CollectWoken(const Woken& woken, EventSignaler::Events& due) GSV_REQUIRES(simulation_mutex);
   // Whether the clock of the channel delays the next step.
   bool IsAwaited(const CycleChannel& channel) const GSV_REQUIRES(simulation_mutex) {
@@ -93,7 +94,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const std::shared_ptr<BehaviourPort>& behaviour() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_;
   }
-  // Whether the behaviour runs in this process, in turns. Then no thread of its own waits.
+  // Whether the behaviour runs in this process, in turns. Such a behaviour has no thread of its own
+  // that waits for instants.
   bool is_hosted() const GSV_REQUIRES(simulation_mutex) { return local_ != nullptr; }
   // Records that the behaviour has started.
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
@@ -115,8 +117,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
   // Marks the agent as unresponsive, because it runs and does not wait.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
-  // Reports the behaviour's death. If the agent runs, the death takes effect at once. If the agent
-  // waits, the death takes effect when the agent wakes.
+  // Reports the behaviour's death. If the agent runs or has given up, the death takes effect in the
+  // next Wake(). If the agent waits, the death takes effect when its wait ends.
   void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
   // Whether the behaviour is neither dead nor unresponsive.
   bool is_alive() const GSV_REQUIRES(simulation_mutex) {

@@ -61,7 +61,8 @@ class SensorRack {
   SensorDesigns& designs_;
   mutable base::Mutex mutex_;
   std::vector<Slot> slots_ GSV_GUARDED_BY(mutex_);  // ordered by name
-  // Number of readings of closed sensors, by sensor type.
+  // Number of readings of created sensors that were closed and thus removed. The key is the sensor
+  // type.
   std::map<std::string, std::uint64_t> closed_readings_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -41,7 +41,7 @@ struct SharedState {
   const Mode mode;
   const std::uint64_t seed;  // seed of the noise of all sensors
 
-  // Used by SimulationLock and AgentCallLock.
+  // The queue of calls that want to lock `mutex`, see AgentCallLock.
   base::Mutex line;
   base::Mutex mutex;  // guards the members that are GSV_GUARDED_BY(simulation_mutex)
   // Notifies the stepping thread that the phase changed, that the last running agent waits, or that
@@ -52,8 +52,8 @@ struct SharedState {
   SimTime now GSV_GUARDED_BY(simulation_mutex){0};         // time of the latest step
   MotionHistory motions GSV_GUARDED_BY(simulation_mutex);  // recent motion of all robots
 
-  // Whether the stepping thread takes several steps at once. Requests to the run wait for their end,
-  // so that their results are those of single steps.
+  // Whether the stepping thread takes several steps in a row. Requests that control the run wait
+  // until it has taken these steps. So a request has the same result as between single steps.
   bool takes_many GSV_GUARDED_BY(simulation_mutex) = false;
   // number of threads in AwaitManySteps()
   int waiting_requests GSV_GUARDED_BY(simulation_mutex) = 0;
