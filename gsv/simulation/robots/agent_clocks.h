@@ -26,9 +26,9 @@ class AgentClocks {
   void Close(ClockId clock);
 
   // Makes the clock wait until the first step at or after `until`. Returns true if that step has
-  // already been taken; then the clock does not wait. A repeated call for a wait that has ended or
-  // is pending changes nothing. Only Wake() ends a pending wait. So if the simulation pauses at
-  // that instant, the agent does not run.
+  // already been taken; then the clock does not wait. A repeated call with the same instant changes
+  // nothing, even if a pending wait has reached the instant: only Wake() ends this wait. So if the
+  // simulation pauses at the instant, the agent does not run.
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
 
   bool IsWaiting(ClockId clock) const;

@@ -75,7 +75,8 @@ std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
 void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
   for (const AgentPtr& agent : WithBehaviour()) {
     caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
-      // The clocks stop also if the behaviour fails to handle the pause.
+      // If the call fails, the simulation is paused or resumed nevertheless. So the error is only
+      // recorded as an event.
       if (const auto status = (behaviour.get()->*call)(); !status) {
         events_.Emit(
             "behaviour_silent", agent->robot(),

@@ -1,7 +1,8 @@
 // The agents of all robots of a simulation, by the robot's name. It also calls the robots'
 // behaviours.
 //
-// Threads  any, with SharedState::mutex (simulation_mutex) as declared.
+// Threads  any. A function that is declared with GSV_REQUIRES(simulation_mutex) needs
+//          SharedState::mutex.
 #pragma once
 
 #include <atomic>
@@ -67,8 +68,8 @@ class AgentPopulation {
   // Returns the status of each robot.
   std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot, SimTime stuck_after) const
       GSV_REQUIRES(simulation_mutex);
-  // If the simulation has waited for a robot longer than 0.1 s, returns the first such robot and
-  // the time of the wait. Otherwise empty.
+  // If the simulation has waited for a robot longer than 0.1 s, returns a text with the first such
+  // robot (by name) and the time of the wait. Otherwise returns an empty text.
   std::string WaitingFor() const GSV_REQUIRES(simulation_mutex);
 
  private:

@@ -14,8 +14,8 @@ using exchange::StateOf;
 using exchange::WithState;
 
 // The maximum size of the file, in bytes. A slot is never used twice, because the client of a
-// closed slot may still write to the slot. So a simulation has at most 16,383 slots. Further clocks
-// use calls.
+// closed slot may still write to the slot. So a simulation has at most 16,383 slots. Clocks without
+// a slot use calls instead of shared memory.
 constexpr std::uint64_t kMaxFileSize = 16'384 * exchange::kSlotSize;
 
 }  // namespace

@@ -92,7 +92,7 @@ class CycleChannels {
 
   // Creates the memory if it does not exist yet.
   base::Status Prepare();
-  // The bell of all channels; null before Prepare().
+  // The bell, by which the clients of all channels wake the stepping thread; null before Prepare().
   exchange::Bell* bell() const {
     return bell_ != nullptr ? static_cast<exchange::Bell*>(bell_->data()) : nullptr;
   }

@@ -124,7 +124,7 @@ class LocalBehaviour : public BehaviourPort {
   bool IsDead() final { return false; }
   bool time_managed() const final { return true; }
 
-  // The clock on which the turns wait. Start() opened it.
+  // The clock that the turns use to wait. Start() opens it.
   virtual ClockId clock() const = 0;
   // Loads the data of the next turn into the processor's cache. Called shortly before the turn.
   virtual void PrefetchTurn() const {}

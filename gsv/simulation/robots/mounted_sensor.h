@@ -48,7 +48,7 @@ class SensorDesigns {
  private:
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   base::Mutex mutex_;
-  // Used for look-ups only, never iterated.
+  // Never iterated, because the order of pointers differs between runs.
   std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>> known_
       GSV_GUARDED_BY(mutex_);
 };
@@ -58,8 +58,8 @@ class SensorDesigns {
 struct Sweeps {
   // The number of sweeps. Only the thread of the behaviour's turn writes it.
   std::atomic<std::uint64_t> count{0};
-  // Becomes false if one of the sensors fails, or if another reader needs the same samples. From
-  // then on, sensors are read one by one.
+  // Becomes false when a fault is applied to one of the sensors, or when Watch() or Forget() is
+  // called for one of them. From then on, sensors are read one by one.
   std::atomic<bool> is_allowed{true};
 };
 
