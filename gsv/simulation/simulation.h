@@ -152,8 +152,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // unknown.
   virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
 
-  // Returns a sensor's reading for an observer. The robot's behaviour gets an equal reading at the
-  // latest snapshot. The call does not change the simulation. The call may be slow, for example for
+  // Returns a sensor's reading at the latest snapshot, for an observer. The robot's behaviour would
+  // get an equal reading. The call does not change the simulation. It may be slow, for example for
   // an image. If the stepping thread makes the call, as in Observer::OnSnapshot(), the next step is
   // delayed.
   virtual base::Result<sensing::Reading> Watch(const std::string& robot,

@@ -58,7 +58,8 @@ struct SharedState {
   // number of threads in AwaitManySteps()
   int waiting_requests GSV_GUARDED_BY(simulation_mutex) = 0;
   base::ConditionVariable many_taken;  // notified when takes_many becomes false
-  // Waits until the stepping thread has taken its steps. `lock` is released during the wait.
+  // If the stepping thread takes several steps at once, waits until they are taken. `lock` is
+  // released during the wait.
   void AwaitManySteps(base::MutexLock& lock) GSV_NO_THREAD_SAFETY_ANALYSIS {
     if (!takes_many) return;
     ++waiting_requests;
@@ -66,25 +67,25 @@ struct SharedState {
     --waiting_requests;
   }
 
-  // Agents add themselves to the following lists. A function that removes an agent from the world
-  // must remove its entries.
+  // Agents add themselves to the following counts, lists and queues. A function that removes an
+  // agent from the world must remove it from them.
   //
   // The number of agents that block the next step.
   int running GSV_GUARDED_BY(simulation_mutex) = 0;
-  // The channels of clients that exchange by shared memory.
+  // The channels of clients that exchange control cycles by shared memory.
   CycleChannels channels GSV_GUARDED_BY(simulation_mutex);
   // The agents that wait for an instant.
   TimerQueue<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
   // The agents of local behaviours with one clock that wait for an instant. The thread that
   // executes the turn of such an agent also wakes it.
   TimerQueue<RobotAgent> turn_sleepers GSV_GUARDED_BY(simulation_mutex);
-  // Commands to drives for the next step, from the turns of local behaviours. At most one for each
-  // agent. They apply before the commands of agents in `commanded`.
   // A command for the drive of an agent's robot.
   struct DriveOrder {
     RobotAgent* agent;
     world::DriveCommand command;
   };
+  // Commands to drives for the next step, from the turns of local behaviours. There is at most one
+  // for each agent. They apply before the commands of agents in `commanded`.
   std::vector<DriveOrder> drives GSV_GUARDED_BY(simulation_mutex);
   // Agents with other commands for the next step.
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);

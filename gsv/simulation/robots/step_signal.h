@@ -16,7 +16,7 @@
 
 namespace gsv::simulation {
 
-// Is used like base::ConditionVariable, with one lock.
+// A replacement for base::ConditionVariable. All waits use the same lock.
 class StepSignal {
  public:
   StepSignal() = default;

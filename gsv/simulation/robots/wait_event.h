@@ -11,7 +11,8 @@
 
 namespace gsv::simulation {
 
-// Something that a thread of the simulation opens at the end of an agent's wait.
+// Base class of objects that end an agent's wait. A thread of the simulation calls Open() at the
+// end of the wait.
 class Wakeable {
  public:
   virtual ~Wakeable() = default;

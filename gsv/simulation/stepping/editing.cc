@@ -145,7 +145,7 @@ base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
     if (robot.behaviour == nullptr) continue;
     auto agent = FindAgent(robot.name);
     if (auto ok = robot.behaviour->Init(agent); !ok) {
-      (void)RemoveRobots(names);  // the first error is returned
+      (void)RemoveRobots(names);  // AddRobots() returns the error of Init()
       return base::Fail(ok.error());
     }
     with_behaviour.push_back(std::move(agent));

@@ -1,7 +1,8 @@
 // Carries out the decisions of RunControl: starts and stops behaviours, emits events, schedules
 // real time, and wakes threads that wait for a phase.
 //
-// Threads  any, with SharedState::mutex (simulation_mutex) as declared.
+// Threads  any. A function that is declared with GSV_REQUIRES(simulation_mutex) needs
+//          SharedState::mutex.
 #pragma once
 
 #include <chrono>

@@ -31,7 +31,7 @@ RunControl::Change RunControl::Run(SimTime until, std::int64_t steps) {
   steps_left_ = steps;
   ++run_;
   if (phase_ == Phase::kPaused) return Enter(Phase::kStarting, Change::kResumed);
-  turns_have_begun_ = true;  // behaviours start with their first turn
+  turns_have_begun_ = true;  // every behaviour has a turn at the start
   return Enter(Phase::kStarting, Change::kStarted);
 }
 

@@ -96,8 +96,8 @@ class RunControl {
 
   // How many times the run has started or resumed.
   std::uint64_t run() const { return run_; }
-  // Returns whether an edit that is made now comes before, during or after the turns. `all_wait` is
-  // true if no agent is in its turn.
+  // Returns whether an edit that is made now comes before, during or after the turns at this
+  // instant. `all_wait` is true if no agent is in its turn.
   Edit::Moment MomentOfEdit(bool all_wait) const;
   // Edits of bodies before the first start are part of the setup and do not count as edits of the
   // run.
