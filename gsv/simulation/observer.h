@@ -3,7 +3,7 @@
 //
 // Threads  the stepping thread passes snapshots and holds no lock meanwhile, so const members of
 //          the simulation may be called. Any thread may pass events and holds locks meanwhile, so
-//          no member of the simulation may be called. Both functions must return at once.
+//          no member of the simulation may be called. All functions must return at once.
 #pragma once
 
 #include <chrono>

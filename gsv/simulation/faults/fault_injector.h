@@ -36,7 +36,8 @@ class FaultInjector {
   // Applies a fault. Emits an event even if the fault cannot be applied.
   base::Status Inject(const scenario::Fault& fault) GSV_REQUIRES(world_mutex)
       GSV_EXCLUDES(simulation_mutex);
-  // Moves static bodies back to their poses before the faults, for the next start.
+  // Sets the initial poses of static bodies back to their poses before the faults. The next reset
+  // of the world moves the bodies there.
   base::Status UndoMoves() GSV_REQUIRES(world_mutex);
 
  private:

@@ -72,7 +72,7 @@ class EventLog {
   std::atomic<bool> has_observers_ = false, wants_times_ = false;  // results of UpdateFlags()
 
   mutable base::Mutex mutex_;
-  // Events other than lines of output, and lines of output.
+  // outputs_ holds the lines of output, and events_ all other events.
   BoundedLog events_ GSV_GUARDED_BY(mutex_);
   BoundedLog outputs_ GSV_GUARDED_BY(mutex_);
   std::vector<std::shared_ptr<Observer>> observers_ GSV_GUARDED_BY(mutex_);

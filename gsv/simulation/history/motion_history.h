@@ -30,8 +30,8 @@ class MotionHistory {
   // Returns the first instant after `now` that is sampled.
   static SimTime NextSampling(SimTime now);
 
-  // Returns the motion of a robot, without its contact and `is_stuck`. `body` is its index in
-  // `snapshot`, which may be newer than the last sample.
+  // Returns the motion of a robot, but does not set Motion::contact and Motion::is_stuck. `body` is
+  // the robot's index in `snapshot`, which may be newer than the last sample.
   Motion Of(const world::Snapshot& snapshot, int body) const;
 
  private:

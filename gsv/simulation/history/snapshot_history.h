@@ -59,8 +59,8 @@ class SnapshotHistory {
   // Returns the snapshot that a sensor with this cadence reads. A new cadence starts with the
   // latest snapshot.
   SnapshotPtr At(const Cadence& cadence);
-  // Registers a cadence. Sensors call this when they are mounted, so that later reads by observers
-  // do not change the result.
+  // Registers a cadence. Sensors call this when they are mounted. So a sensor's readings do not
+  // depend on when it is read for the first time, for example by an observer.
   void Use(const Cadence& cadence) { (void)At(cadence); }
   // Fills `frame` with the snapshots that sensors read now.
   void MakeFrame(Frame& frame) const;

@@ -16,8 +16,8 @@ class Pacer {
  public:
   // `factor` is the target real-time factor, > 0.
   Pacer(base::SimTime step, double factor);
-  // Sets the factor from now on, also for the time between the previous step and the next
-  // one.
+  // Sets the target real-time factor. It also applies to the current period, so the time at which
+  // the next step is due changes.
   void SetRealTimeFactor(double factor);
 
   // Starts or restarts the schedule, so that the next step is due now.

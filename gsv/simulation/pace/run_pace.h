@@ -29,7 +29,8 @@ class RunPace {
   double target_real_time_factor() const { return factor_; }
   void SetRealTimeFactor(double factor);
 
-  // Called by the stepping thread. After a start or a resume, the next step is due at once.
+  // Restarts the schedule if the run has started or resumed since the last call. The next step is
+  // then due now. The stepping thread calls this before each step.
   void RestartIfResumed();
   // The time at which the next step is due.
   WallTime due() const { return pacer_.due(); }

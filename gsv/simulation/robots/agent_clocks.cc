@@ -20,7 +20,8 @@ bool AgentClocks::WaitUntil(ClockId id, base::SimTime until, base::SimTime now) 
   Clock* const found = Find(id);
   GSV_CHECK(found != nullptr);
   Clock& clock = *found;
-  // During a pause, the instant may be reached before the agent is woken.
+  // Only Wake() ends a pending wait, even if `now` has reached the instant. If the simulation is
+  // paused at the instant, Wake() is called when it resumes.
   if (clock.waiting && clock.until == until) return false;
   if (until <= now) {
     clock.waiting = false;

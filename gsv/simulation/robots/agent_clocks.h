@@ -1,5 +1,5 @@
 // The clocks of one agent, which determine whether the simulation waits for the agent. The class
-// holds data only, without threads or time.
+// holds only data. It has no threads and reads no clock of the system.
 //
 // An open clock either runs or waits for an instant. An agent runs from its start until all its
 // open clocks wait. It has finished when all its clocks are closed.
