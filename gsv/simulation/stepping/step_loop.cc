@@ -30,7 +30,7 @@ constexpr std::size_t kAgentsAtOnce = 128;
 // kAgentsAhead places later, and of the drive kDrivesAhead places later.
 constexpr std::size_t kAgentsAhead = 8, kDrivesAhead = 4;
 
-// `Bell::wanted` is set this far ahead if no client shall ring.
+// If no client shall ring, Bell::wanted is set to Bell::posted plus this number.
 constexpr std::uint32_t kNever = 1U << 30U;
 
 // In lockstep, the stepping thread looks for requests after this wall-clock time even if no client
@@ -148,8 +148,8 @@ void StepLoop::WakeAgents() {
 
 // Takes the requests that clients have posted to their channels. Also decides which clients ring.
 // In lockstep, the next step waits for some clients, and the last of these clients to post rings.
-// In real time, no client rings, because the next step comes soon. In both modes, a client also
-// rings if its instant has passed.
+// In real time, no client rings, because the next step comes soon. While the run is paused, each
+// client rings. A client also rings if the instant for which its request waits has been reached.
 void StepLoop::TakeCycles() {
   SharedState& shared = *parts_.shared;
   mark_ = shared.changed.mark();
@@ -170,8 +170,8 @@ void StepLoop::TakeCycles() {
     awaited = kNever;
   }
   bell.wanted = posted + awaited;
-  // A client may have posted before this change. It has then compared its request with the previous
-  // number, so it may not have rung.
+  // A client may have posted a request before `wanted` was changed. It has then compared `posted`
+  // with the previous value of `wanted`, so it may not have rung.
   may_have_missed_a_ring_ = awaited > 0 && exchange::HasReached(bell.posted, bell.wanted);
 }
 
@@ -204,7 +204,7 @@ void StepLoop::TakeTurns() {
   instant_.Prepare(*parts_.team);
   usual_ends_.assign(turns_.size(), {});
   outcomes_.assign(turns_.size(), TurnOutcome::kTaken);
-  // Each thread has its own sampling, so that threads do not write to the same counts of references.
+  // Each thread has its own sampling, so that threads do not write to the same reference counts.
   for (TurnThread& thread : turn_threads_) {
     thread.sampling.emplace(instant_.MakeSampling());
     thread.begin = thread.end = 0;
@@ -217,7 +217,7 @@ void StepLoop::TakeTurns() {
                            });
   for (TurnThread& thread : turn_threads_) thread.sampling.reset();
   const SimulationLock lock(shared);
-  parts_.world.lock().SetStuck(false);  // the behaviour has finally returned
+  parts_.world.lock().SetStuck(false);  // all turns have ended, even too long ones
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (std::size_t i = 0; i < turns_.size(); ++i) {
     RobotAgent* const agent = turns_[i];

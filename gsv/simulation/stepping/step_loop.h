@@ -76,8 +76,8 @@ class StepLoop {
   // Any thread may call the next three functions, for different ranges of turns_.
   // Executes the turns from `begin` to `end`.
   void TakePiece(std::size_t begin, std::size_t end, TurnThread& thread);
-  // For the turns of `thread` that ended in a wait: applies them and sets usual_ends_. Then wakes
-  // the agents from `begin` to `end` and sets outcomes_.
+  // Applies the executed turns of `thread` that ended in a wait for a later instant, and sets their
+  // usual_ends_. Then wakes the agents from `begin` to `end` of turns_, and sets their outcomes_.
   void ApplyAndWake(std::size_t begin, std::size_t end, TurnThread& thread);
   // Adds an agent whose turn has ended to the lists of SharedState.
   void Enlist(RobotAgent& agent, const RobotAgent::UsualEnd& end) GSV_REQUIRES(simulation_mutex);
