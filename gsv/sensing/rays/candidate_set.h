@@ -31,7 +31,8 @@ class CandidateSet {
   // Maximum number of solids. Larger sets are slower than the broad phase.
   static constexpr std::size_t kMax = 64;
 
-  // Clears the set. From now on, it is for solids within `reach` of `place`.
+  // Clears the set. The solids that are added after this call must be all the solids within `reach`
+  // (m) of `place`.
   void Begin(const geometry::Vector3& place, double reach);
 
   const geometry::Vector3& place() const { return place_; }
@@ -52,7 +53,7 @@ class CandidateSet {
     z_[count_] = static_cast<float>(centre.z);
     squared_radius_[count_] = static_cast<float>(grown * grown);
     numbers_[count_] = number;
-    // This is branch-free, because `counts` is unpredictable.
+    // There is no branch, because the processor could hardly predict `counts`.
     count_ += counts;
   }
 
@@ -64,8 +65,8 @@ class CandidateSet {
     return Norm(ray.origin - place_) + ray.max_distance <= reach_;
   }
 
-  // Calls visit(number) for every solid that the ray may hit within `length`, which `visit` may
-  // shorten.
+  // Calls visit(number) for every solid that the ray may hit within `length` (m). `visit` may reduce
+  // `length`, for example to the distance of a hit: it is read again after every four solids.
   template <class Visit>
   void Find(const Ray& ray, const double& length, const Visit& visit) const {
     const geometry::Vector3 origin = ray.origin - place_;

@@ -37,11 +37,13 @@ class ColumnGrid {
   // Replaces all boxes. They must lie within ±kMaxCoordinate in x and y.
   void Build(std::span<const geometry::Bounds> boxes);
 
-  // The number of boxes in a column, averaged over boxes.
+  // The mean number of boxes in a column. A column is weighted with its number of boxes, so empty
+  // columns do not count.
   double occupancy() const { return occupancy_; }
 
-  // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
-  // shorten. A box may be visited more than once.
+  // Calls visit(box) for every box that the ray may pass through within `length` (m). A box may be
+  // visited more than once. `length` is read again after each column, so `visit` may reduce it, for
+  // example to the distance of a hit.
   template <class Visit>
   void Walk(const Ray& ray, const double& length, const Visit& visit) const {
     const RayAxis x(ray.origin.x, ray.direction.x), y(ray.origin.y, ray.direction.y);

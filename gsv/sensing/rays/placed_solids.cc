@@ -137,8 +137,8 @@ class CastList {
   std::size_t count_ = 0;
 };
 
-// Casts rays of a packet at cylinders and boxes, several pairs at a time. For a hit, sets only the
-// distance and the body in `nearest`. The body is set to 0 for every hit body.
+// Casts rays of a packet at cylinders and boxes, several pairs at a time. For a hit, sets only two
+// members of `nearest`: the distance, and the body to 0, which means only that something was hit.
 class PacketCaster {
  public:
   PacketCaster(const RayPacket& packet, std::span<Nearest> nearest)
@@ -253,8 +253,8 @@ const BoxIndex& PlacedSolids::index() const {
 }
 
 Bearer PlacedSolids::BearerOf(std::size_t part) const {
-  // The upper bits of a solid's number are the number of the solid's part. So if two distances are
-  // equal, the hit on the part with the lower number is nearer.
+  // The upper bits of a primitive index are the number of the part. Of two hits on a body at equal
+  // distances, the hit with the lower index is kept, whatever the order of the casts.
   return {solids_->moving[part].body, static_cast<int>(part),
           static_cast<std::uint32_t>(parts_[part].part->number) << 24};
 }
@@ -268,8 +268,8 @@ void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& neares
   part->solids.Cast(moved, -1, nearest, BearerOf(index));
 }
 
-// Call this after all other casts, so that the hits found before have shortened the ray. There may
-// be many triangles.
+// Call this after all other casts. Their hits have then shortened the ray, so fewer triangles are
+// tested. There may be many triangles.
 void PlacedSolids::CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
