@@ -11,8 +11,8 @@ namespace {
 
 using geometry::Pose;
 
-// A link with fewer beams casts its rays one by one. To gather a candidate set for so few rays takes
-// longer than the set saves.
+// A link with fewer beams casts its rays one by one. To gather a candidate set for so few rays
+// takes longer than the set saves.
 constexpr std::size_t kMinPacket = 3;
 
 // Computes the rays of the beams. A ray starts at the origin of world_from_sensor = world_from_link

@@ -5,7 +5,8 @@
 //              Readings of destroyed snapshots are removed at the next reading.
 // Threads      any. If a thread needs a reading that another thread is taking, it waits for this
 //              reading.
-// Determinism  a reading is a function of its key.
+// Determinism  a cached reading equals a new one: it depends only on the snapshot, the body, the
+//              seed and the sensor's description, which are its key.
 #pragma once
 
 #include <cstddef>

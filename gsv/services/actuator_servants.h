@@ -20,7 +20,8 @@ class ActuatorServant : public SensorServant<Skeleton> {
   }
 
  protected:
-  // Commands the actuator. Throws the exceptions that `raises` allows.
+  // Commands the actuator. If this fails, throws an exception of `raises` (bits of orb::Raises: the
+  // exceptions that the IDL operation declares).
   void CommandDevice(world::DeviceCommand command, unsigned raises = orb::kAll) {
     orb::ValueOrThrow(this->agent().CommandDevice(this->description().name, std::move(command)),
                       raises);

@@ -29,8 +29,8 @@ sba::NameValues ToIdl(const model::Parameters& parameters);
 void RefuseUnknown(const model::Parameters& options, std::initializer_list<std::string_view> known);
 
 sba::CommandDescription ToIdl(const simulation::Command& command);
-// Returns the texts by name. They are parsed later, as the type of their parameter. If a name
-// occurs twice, the last one applies.
+// Returns the values by name, unparsed: the type of a command's parameter is needed to parse its
+// value. If a name occurs twice, the last value applies.
 std::map<std::string, std::string> TextsOf(const sba::NameValues& values);
 
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
@@ -40,8 +40,8 @@ sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
 // defaults.
 simulation::SimulationStatus FromIdl(const sba::SimulationState& state);
 sba::RobotHealths ToIdl(const health::Report& report);
-// Converts lines of output (simulation::IsOutput()). The lines of one robot or behaviour can be
-// selected.
+// Converts lines of output (simulation::IsOutput()). If `robot` is not empty, returns only the
+// lines of this robot or behaviour.
 sba::OutputLines OutputToIdl(const std::vector<simulation::Event>& lines, std::string_view robot);
 sba::SimulationPhase ToIdl(simulation::Phase phase);
 simulation::Phase FromIdl(sba::SimulationPhase phase);

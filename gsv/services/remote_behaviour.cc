@@ -70,7 +70,8 @@ base::Status RemoteBehaviour::Start() {
 }
 
 base::Status RemoteBehaviour::Stop() {
-  // The limit of the reference overrides the limit of the thread.
+  // Changes the time limit of calls through this reference. A limit of the thread would have no
+  // effect, because omniORB prefers the limit of the reference.
   orb::LimitCalls(behaviour_, stop_timeout_->limit());
   auto stopped = Call("stop", [this] { behaviour_->stop(); });
   orb::LimitCalls(behaviour_, kCallTimeout);

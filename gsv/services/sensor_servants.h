@@ -38,8 +38,8 @@ class SensorServant : public Skeleton {
  protected:
   // Reads the sensor. Throws the exceptions that the IDL declares for sensors.
   sensing::Reading Read() { return orb::ValueOrThrow(agent_->Read(description_.name), kReading); }
-  // Reads the sensor as the struct of its type (gsv/readings/catalogue.h), which may refer to the
-  // reading.
+  // Reads the sensor as the struct of its type (gsv/readings/catalogue.h). The struct may contain
+  // references into the reading, so keep the reading as long as the struct.
   template <typename Values>
   Values In(const sensing::Reading& reading) const {
     return orb::ValueOrThrow(sensing::ValuesOf<Values>(reading, description_.name), kReading);

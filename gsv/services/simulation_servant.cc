@@ -325,7 +325,9 @@ sba::Simulations* SimulationServiceServant::list() {
 }
 
 base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
-  SimulationServant* servant = nullptr;  // released by the thread that removes it from the list
+  // The thread that takes the servant out of the map also stops the simulation and deactivates the
+  // servant. Other threads that call this function at the same time get kNotFound.
+  SimulationServant* servant = nullptr;
   {
     const base::MutexLock lock(mutex_);
     const auto found = servants_.extract(simulation);

@@ -3,8 +3,8 @@
 // avatars with it.
 //
 // Threads  any; SleepUntil() and Exchange() block for at most the given lease.
-// Errors   kNotRunning: the agent waits, and in lockstep a waiting agent may not call. kEnded: the
-//          simulation has stopped or was destroyed.
+// Errors   kNotRunning: in lockstep, a behaviour may command and read only while it runs, and this
+//          one waits for its clocks. kEnded: the simulation has stopped or was destroyed.
 #pragma once
 
 #include <chrono>

@@ -66,7 +66,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   }
 
  private:
-  // Reads the three parameters that an Allan plot shows. They apply to all three axes of `quantity`.
+  // Reads the three parameters that an Allan plot shows. They apply to all three axes of
+  // `quantity`.
   void ReadAllan(ParameterReader& reader, const std::string& quantity, double limit,
                  std::size_t first_channel) {
     // The parameter bias_instability is the lowest value of the Allan deviation. This value is

@@ -65,8 +65,9 @@ class CandidateSet {
     return Norm(ray.origin - place_) + ray.max_distance <= reach_;
   }
 
-  // Calls visit(number) for every solid that the ray may hit within `length` (m). `visit` may reduce
-  // `length`, for example to the distance of a hit: it is read again after every four solids.
+  // Calls visit(number) for every solid that the ray may hit within `length` (m). `visit` may
+  // reduce `length`, for example to the distance of a hit: it is read again after every four
+  // solids.
   template <class Visit>
   void Find(const Ray& ray, const double& length, const Visit& visit) const {
     const geometry::Vector3 origin = ray.origin - place_;

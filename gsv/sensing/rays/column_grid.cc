@@ -8,7 +8,8 @@ namespace {
 using geometry::Bounds;
 
 // The grid has about kColumnsPerBox columns for each box. A box is listed in each column that it
-// covers, in at most kMaxEntriesPerBox columns on average. If necessary, the columns are made larger.
+// covers, in at most kMaxEntriesPerBox columns on average. If necessary, the columns are made
+// larger.
 constexpr double kColumnsPerBox = 2;
 constexpr std::size_t kMaxEntriesPerBox = 8;
 // The maximum number of columns in each direction, because an index has 16 bits.
@@ -66,9 +67,9 @@ void ColumnGrid::Build(std::span<const Bounds> boxes) {
     Divide(cell *= 1.5, width, depth);
   }
 
-  // starts_ contains the number of entries of each column. This loop replaces it by the index of the
-  // end of these entries. The next loop inserts entries backwards, and reduces the index by 1 for
-  // each. At the end, the index is the start of the column's entries.
+  // starts_ contains the number of entries of each column. This loop replaces it by the index of
+  // the end of these entries. The next loop inserts entries backwards, and reduces the index by 1
+  // for each. At the end, the index is the start of the column's entries.
   double squares = 0;
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) {
@@ -98,7 +99,8 @@ bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& 
   const int front = index(place.y - reach - low_y_, rows_);
   const int back = index(place.y + reach - low_y_, rows_);
   // A box may have several entries in the searched columns. The box is added for the first of them
-  // only: if it is in the first searched row, or marked as the box's first row; likewise for columns.
+  // only: if it is in the first searched row, or marked as the box's first row; likewise for
+  // columns.
   std::uint32_t row_mark = 0;
   std::size_t count = found.count;
   for (int row = front; row <= back; ++row, row_mark = kFirstRow) {

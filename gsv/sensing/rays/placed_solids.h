@@ -58,8 +58,8 @@ class PlacedSolids final : public RayScene {
   Nearest Find(const Ray& ray, int ignored_body) const;
   // Returns the surface normal at a hit, in the world.
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
-  // Returns what is stored in a hit on a moving part: the body, the index of the part, and the first
-  // primitive index.
+  // Returns what is stored in a hit on a moving part: the body, the index of the part, and the
+  // first primitive index.
   Bearer BearerOf(std::size_t part) const;
   // Casts a ray at one moving part.
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
