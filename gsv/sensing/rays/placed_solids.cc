@@ -253,8 +253,8 @@ const BoxIndex& PlacedSolids::index() const {
 }
 
 Bearer PlacedSolids::BearerOf(std::size_t part) const {
-  // The upper bits of a primitive index are the number of the part. Of two hits on a body at equal
-  // distances, the hit with the lower index is kept, whatever the order of the casts.
+  // The upper bits of a primitive index are the number of the part. If two hits on a body have
+  // equal distances, the hit with the lower index is kept, whatever the order of the casts.
   return {solids_->moving[part].body, static_cast<int>(part),
           static_cast<std::uint32_t>(parts_[part].part->number) << 24};
 }
