@@ -136,7 +136,7 @@ struct SimulationStatus {
   std::uint64_t outputs = 0;        // number of lines that the programs of behaviours printed
   std::vector<RobotStatus> robots;  // ordered by name, including avatars and stations
 
-  std::size_t CountRobots() const {  // Returns the number of robots without stations.
+  std::size_t CountRobots() const {  // Returns the number of robots, not stations.
     return static_cast<std::size_t>(std::count_if(
         robots.begin(), robots.end(), [](const RobotStatus& each) { return !each.is_station; }));
   }

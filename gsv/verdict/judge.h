@@ -26,7 +26,9 @@ struct MeasuredAtom {
   // range of the values up to the verdict, and the value at the verdict (`last`)
   double lowest = 0, highest = 0, last = 0;
   double lowest_at = 0, highest_at = 0;  // times of the lowest and the highest value, s
-  std::string about;                     // the robot, if the quantity concerns any robot
+  // for Quantity::Kind::kStuck: the robot that is stuck longest, used if the quantity names no
+  // robot
+  std::string about;
 };
 
 // The verdict on one expectation, and its reasons.

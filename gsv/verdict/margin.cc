@@ -27,8 +27,9 @@ const scenario::Formula& FirstAtom(const scenario::Formula& condition) {
   return condition.kind == FormulaKind::kAtom ? condition : FirstAtom(condition.parts.front());
 }
 
-// Returns the signed distance of a condition to its limit; NaN if a value is missing. Sets `next`
-// to the atom after the atoms of `condition`.
+// Returns the signed distance of a condition to its limit; NaN if a value is missing. `values` has
+// one value for each atom. `next` is the index of the condition's first atom. This function
+// increases it by the number of the condition's atoms.
 double Distance(const scenario::Formula& condition,
                 const std::vector<std::optional<double>>& values, std::size_t& next) {
   if (condition.kind == FormulaKind::kAtom) {

@@ -25,8 +25,8 @@ std::span<T> Part(std::vector<T>& of, std::size_t begin, std::size_t end) {
   return std::span(of).subspan(begin, end - begin);
 }
 
-// Completes the steps of the bodies that the engine moves by several steps, as FinishStep() does for
-// single steps.
+// Completes the steps of the bodies that the engine moves by several steps, as FinishStep() does
+// for single steps.
 class StepFinisher final : public dynamics::MotionFollower {
  public:
   StepFinisher(double step_seconds, const world::Layout& layout, world::WheelOdometry& odometry,
@@ -39,10 +39,11 @@ class StepFinisher final : public dynamics::MotionFollower {
 
   void OnMoved(int body, int steps, int steps_left, bool may_touch) override {
     odometry_.AdvanceBody(step_seconds_, body, steps, state_);
-    // The velocities before the last step. If `steps` is above 1, they are the present ones.
+    // Keeps the velocities from before the last step: the last acceleration is computed from them.
+    // If `steps` is above 1, the velocity was constant, so the present velocities are kept.
     if (steps_left == 1 || (steps_left == 0 && steps > 1)) KeepVelocities(body);
     if (steps_left == 0 && may_touch) {
-      may_touch_.push_back(body);  // the closing speed of a contact needs the velocities of before
+      may_touch_.push_back(body);  // FinishContacts() needs its velocities from before the step
     } else if (steps_left == 0) {
       Finish(body);
     }
@@ -81,7 +82,7 @@ class StepFinisher final : public dynamics::MotionFollower {
   world::WheelOdometry& odometry_;
   world::State& state_;
   world::Snapshot& snapshot_;
-  std::vector<int> may_touch_;  // bodies that are not yet completed
+  std::vector<int> may_touch_;  // moved bodies that FinishAll() must complete
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The world of a simulation: its layout, state and engine.
 //
-// Threads  any, with lock() (world_mutex) as declared.
+// Threads  any. Functions with GSV_REQUIRES(world_mutex) may be called only while lock() is locked.
 #pragma once
 
 #include <memory>

@@ -14,8 +14,8 @@
 
 namespace gsv::simulation {
 
-// Represents a world's mutex in the thread-safety analysis. Parts of a simulation have separate
-// references to the mutex.
+// Stands for the mutex of a world in the thread-safety analysis. The parts of a simulation reach
+// the mutex by different references, but the analysis needs one name for all of them.
 class GSV_CAPABILITY("mutex") WorldMutex {};
 inline WorldMutex world_mutex;
 
