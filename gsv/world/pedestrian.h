@@ -1,7 +1,8 @@
 // A pedestrian: its desired speed and its goals.
 //
-// Determinism  every draw is a function of the simulation's seed, the pedestrian's stream (which
-//              follows from its name) and a number. Pedestrians have different streams.
+// Determinism  every draw is a function of the simulation's seed, the pedestrian's stream and the
+//              index of the draw. The stream follows from the pedestrian's name, so each pedestrian
+//              has its own.
 #pragma once
 
 #include <cstdint>

@@ -45,7 +45,8 @@ int ParentJoint(const model::Model& model, int link) {
   return -1;
 }
 
-// `parent_joint` returns the parent joint of a link, or -1.
+// Returns how all joints above a link displace it, in the model's frame. `parent_joint` returns the
+// parent joint of a link, or -1.
 template <class Parent>
 Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions, int link,
                       const Parent& parent_joint) {

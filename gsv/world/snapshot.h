@@ -44,8 +44,8 @@ struct Contact {
   std::vector<ContactPoint> points;
 };
 
-// Returns the contact's points, at least one. If `points` is empty, the point's impulse is along
-// the normal.
+// Returns the contact's points, at least one. If `points` is empty, this is the deepest point, with
+// an impulse along the normal.
 std::vector<ContactPoint> PointsOf(const Contact& contact);
 
 // The acceleration of a model's origin, in world axes: the mean over the last step.
@@ -73,8 +73,10 @@ struct Snapshot {
 // first step.
 geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse);
 
-// Call KeepVelocities() before a step; it stores the velocities. Call the other functions after the
-// step: FinishContacts() computes closing speeds, and FinishAccelerations() computes accelerations.
+// Call KeepVelocities() before a step, and the other functions after the step, in this order.
+// KeepVelocities() stores the velocities in `accelerations` and `joint_accelerations`.
+// FinishContacts() computes closing speeds from these velocities (`kept`). FinishAccelerations()
+// replaces the velocities by the mean accelerations.
 void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations,
                     std::vector<double>& joint_accelerations);
 void FinishContacts(const State& state, const std::vector<Acceleration>& kept,

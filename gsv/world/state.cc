@@ -144,7 +144,8 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
   }
   for (const double q : state.joint_positions) hash.Add(q);
   for (const double qd : state.joint_velocities) hash.Add(qd);
-  // Joints without a command do not affect the hash.
+  // Only commands are added. So a list in which no joint has a command has the hash of an empty
+  // list.
   for (std::size_t i = 0; i < state.joint_commands.size(); ++i) {
     const JointCommand& command = state.joint_commands[i];
     if (command.kind == JointCommand::Kind::kNone) continue;

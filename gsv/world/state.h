@@ -87,7 +87,8 @@ struct State {
   std::vector<BodyState> bodies;  // in the order of Layout::bodies
   // The joints of body b start at Layout::bodies[b].first_joint.
   std::vector<double> joint_positions;
-  // The values of a ball joint are its angular velocity about the three axes of the child.
+  // A ball joint consists of three joints (JointKind::kBall). Their values are the components of
+  // the ball joint's angular velocity about the three axes of the child.
   std::vector<double> joint_velocities;
   // The command of each joint, in the order of joint_positions; empty before the first command.
   std::vector<JointCommand> joint_commands;

@@ -7,7 +7,6 @@
 //               "Introduction to Autonomous Mobile Robots", chapter 5.2.4). As with real encoders,
 //               three effects are not measured: slip, wheels whose size differs from the drive's
 //               parameters, and pushes by other bodies.
-//               pushes from outside.
 // Others        all other drives: the integral of DriveState::actual. For a planar base, this is
 //               the actual motion, including stops at obstacles. For a rigid body, this is the
 //               commanded motion of the wheels, so slip and pushes are not measured either.
@@ -26,7 +25,8 @@ class WheelOdometry {
  public:
   void SetLayout(const Layout& layout);
 
-  // Called before and after each step.
+  // Call KeepWheels() before each step, and Advance() after it. KeepWheels() stores the wheels'
+  // positions. Advance() computes the odometry from the changes of these positions.
   void KeepWheels(const State& state) { before_ = state.joint_positions; }
   void Advance(double step_seconds, State& state) const {
     Advance(step_seconds, 0, state.bodies.size(), state);
@@ -34,9 +34,9 @@ class WheelOdometry {
   // Advances the bodies from `begin` to before `end`. Calls for different bodies may run
   // concurrently.
   void Advance(double step_seconds, std::size_t begin, std::size_t end, State& state) const;
-  // As Advance() and then KeepWheels(), for one body. `steps` is above 1 after several steps in which
-  // its velocity did not change and its wheels did not turn. Calls for different bodies may run
-  // concurrently.
+  // Does the same as Advance() and then KeepWheels(), for one body. `steps` is the number of steps
+  // since the last call. If it is above 1, the body's velocity must not have changed in these
+  // steps, and its wheels must not have turned. Calls for different bodies may run concurrently.
   void AdvanceBody(double step_seconds, int body, int steps, State& state);
 
  private:
