@@ -65,6 +65,7 @@ class ChildProcess {
     bool captures_errors = false;          // whether stderr can be read here
     std::vector<std::string> environment;  // further variables, as NAME=VALUE
   };
+  // Starts a program. `arguments[0]` is its path.
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
                                                            Streams streams);
   ChildProcess(pid_t pid, int input, int output, int errors);

@@ -58,7 +58,7 @@ class OutputReader {
     bool has_ended = false;
   };
 
-  void Run();
+  void Run();  // the function of the reader's thread
   // Returns false if the stream has ended.
   bool Read(Source& source);
   // Reads the output that is left in the pipe after the child has ended.

@@ -29,6 +29,7 @@ std::string CheckFilmName(const std::string& path);
 // A film that is being written.
 class Film {
  public:
+  // Starts to write a film.
   static base::Result<std::unique_ptr<Film>> Start(const FilmOptions& options);
   virtual ~Film() = default;
 

@@ -19,6 +19,7 @@ namespace gsv::app {
 
 class RecordedImages {
  public:
+  // Opens a recording.
   static base::Result<std::unique_ptr<RecordedImages>> Open(const std::string& path);
 
   base::SimTime start() const { return reader_->summary().start; }

@@ -65,7 +65,9 @@ class BehaviourOutput {
     bool has_ended = false;
   };
 
+  // Handles a line that a program has written.
   void OnLine(pid_t pid, OutputReader::Stream stream, const std::string& line);
+  // Handles the end of a program. `ending` says how it has ended.
   void OnEnd(pid_t pid, const std::string& ending);
   // Emits a line as an event, or stores it until a robot has the behaviour.
   void Emit(pid_t pid, Program& program, std::string_view kind, std::string text)

@@ -22,6 +22,7 @@ struct RemoteServer {
   std::string viewer_url;  // empty if it has no viewer
   std::string broker;      // the reference of the broker that offers it
 
+  // Returns the name and the place.
   std::string Describe() const { return name + " (" + place + ")"; }
 };
 

@@ -55,6 +55,7 @@ struct RuntimeOptions {
 // All parts of a gsv process that runs simulations.
 class Runtime {
  public:
+  // Starts the parts that the options request.
   static base::Result<std::unique_ptr<Runtime>> Start(const RuntimeOptions& options);
   ~Runtime();
 
