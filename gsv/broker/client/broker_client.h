@@ -67,7 +67,9 @@ class BrokerClient {
   [[nodiscard]] base::Result<std::vector<std::string>> ServiceTypeNames();
   // Returns the type with all inherited properties.
   [[nodiscard]] base::Result<ServiceType> DescribeServiceType(const std::string& name);
+  // Returns the ids of all offers.
   [[nodiscard]] base::Result<std::vector<std::string>> OfferIds();
+  // Returns the offer with this id.
   [[nodiscard]] base::Result<DescribedOffer> Describe(const std::string& id);
 
  private:

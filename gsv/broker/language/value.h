@@ -67,6 +67,7 @@ class Value {
  public:
   using Sequence = std::vector<ScalarValue>;
 
+  // These functions make a value of the IDL type of this name.
   static Value Boolean(bool value) { return Value(Scalar::kBoolean, value); }
   static Value Short(std::int16_t value) { return Integer(Scalar::kShort, value); }
   static Value UShort(std::uint16_t value) { return Integer(Scalar::kUShort, value); }
@@ -78,8 +79,11 @@ class Value {
   static Value String(std::string_view value) { return Value(Scalar::kString, value); }
   // `content` and `elements` have the alternative that belongs to their scalar, see ScalarValue.
   static Value Of(Scalar scalar, const ScalarValue& content);
+  // Makes a sequence whose elements have this type.
   static Value SequenceOf(Scalar element, Sequence elements);
+  // Makes a sequence of strings.
   static Value Strings(const std::vector<std::string>& elements);
+  // Makes a value of a type that the constraint language does not know.
   static Value Other(OtherValue value);
 
   Value(const Value& other);
@@ -102,6 +106,7 @@ class Value {
 
   // Whether a property declared as `type` may hold this value.
   bool Is(const PropertyType& type) const;
+  // Returns the type of the value.
   PropertyType Type() const;
 
   // An upper bound of the encoded size of the value, in bytes.

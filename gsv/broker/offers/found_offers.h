@@ -63,6 +63,7 @@ class FoundOffers {
   void AddOther(OfferPtr offer);
   // Replaces places(). kept() must contain the offers.
   void SetPlaces(std::vector<const OfferPtr*> places) { places_ = std::move(places); }
+  // Removes the offers after the first `size`.
   void Truncate(std::size_t size);
   // If the offers of this list are only a small part of the views' offers, copies the shared
   // pointers to them and gives up the views, so that other offers can be freed. Then pointers that

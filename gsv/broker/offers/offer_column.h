@@ -66,6 +66,7 @@ class OfferColumn {
   static constexpr std::size_t kChunk = 1024;
 
   std::size_t size() const { return size_; }
+  // Returns a view of the present offers.
   OfferView View() const { return OfferView(chunks_); }
 
   // Returns the offer with this number, or null if there is none.
@@ -86,7 +87,9 @@ class OfferColumn {
   Place PlaceOf(std::uint64_t number) const;
   // Returns the chunk's offers, which the caller may change.
   Offers& Own(std::size_t chunk);
+  // Splits a chunk with more than kChunk offers in two.
   void SplitIfFull(std::size_t chunk);
+  // Removes an empty chunk. Joins a small chunk with the chunk before it if both have space.
   void JoinIfSmall(std::size_t chunk);
 
   OfferView::Chunks chunks_;  // chunks are never empty

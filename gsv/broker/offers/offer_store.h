@@ -36,6 +36,7 @@ class OfferStore {
 
   // Returns the offers of `types`, type by type, and within a type in the order of export.
   std::vector<OfferView> OfTypes(const std::vector<std::string>& types) const;
+  // Returns the number of offers of `types`.
   std::size_t CountOfTypes(const std::vector<std::string>& types) const;
   // Returns all offers in the order of export.
   Offers All() const;
@@ -55,6 +56,7 @@ class OfferStore {
     OfferColumn offers{};
     std::deque<PropertyIndex> indices{};  // in the order in which they were made
 
+    // Returns the index of a property, or null if there is none.
     const PropertyIndex* FindIndex(const std::string& property) const;
   };
 

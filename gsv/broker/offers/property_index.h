@@ -20,7 +20,9 @@ class PropertyIndex {
   explicit PropertyIndex(std::string property) : property_(std::move(property)) {}
 
   const std::string& property() const { return property_; }
+  // Adds an offer to the index.
   void Insert(const OfferPtr& offer);
+  // Removes an offer from the index.
   void Remove(const Offer& offer);
 
   // Returns, in the order of export, the offers whose property is equal to `value`. Also returns

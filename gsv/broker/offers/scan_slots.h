@@ -45,6 +45,7 @@ class ScanSlot {
   void Pause() {
     if (slots_ != nullptr) slots_->Release();
   }
+  // Waits until a slot is free, and takes it.
   void Resume() {
     if (slots_ != nullptr) slots_->Acquire();
   }

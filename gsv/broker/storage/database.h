@@ -44,8 +44,10 @@ class Statement {
 // An open database.
 class Database {
  public:
+  // Opens the file of a database.
   [[nodiscard]] static base::Result<Database> Open(const std::string& path);
 
+  // Prepares one statement.
   [[nodiscard]] base::Result<Statement> Prepare(std::string_view sql);
   // Runs one or more statements and ignores their rows.
   [[nodiscard]] base::Status Run(const std::string& sql);

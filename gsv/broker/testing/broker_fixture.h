@@ -39,6 +39,7 @@ class BrokerFixture : public testing::Test {
                                        Repository::PropertyMode mode);
   // Exports TestService() and returns the offer's id.
   std::string Export(const std::string& type, const std::vector<Property>& properties = {});
+  // Converts properties to the sequence of the broker's interface.
   static CosTrading::PropertySeq Sequence(const std::vector<Property>& properties);
   // Returns a policy for Query().
   static CosTrading::Policy Policy(const char* name, const CORBA::Any& value);

@@ -24,6 +24,7 @@ class TestProcess {
   const std::string& first_line() const { return first_line_; }
   pid_t pid() const { return pid_; }
 
+  // Sends a signal to the process.
   void Send(int signal);
   // Sends SIGSTOP. Returns when the process has stopped.
   void Stop();

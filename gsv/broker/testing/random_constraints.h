@@ -15,6 +15,7 @@ class RandomConstraints {
  public:
   explicit RandomConstraints(std::uint64_t seed) : random_(seed) {}
 
+  // Returns the properties of a random offer.
   PropertyList Offer() {
     PropertyList offer;
     for (const char* name : kNames) {
@@ -35,6 +36,7 @@ class RandomConstraints {
     return offer;
   }
 
+  // Returns a random constraint, which may be empty.
   std::string Constraint() { return Below(20) == 0 ? "" : Truth(4); }
 
  private:
@@ -43,11 +45,13 @@ class RandomConstraints {
   // Returns a random number from 0 to `bound` - 1.
   std::size_t Below(std::size_t bound) { return random_() % bound; }
 
+  // Returns one of the choices.
   template <typename T, std::size_t kSize>
   T Pick(const std::array<T, kSize>& choices) {
     return choices[Below(kSize)];
   }
 
+  // These functions return random parts of a constraint.
   std::string Space() { return Pick(std::array<const char*, 3>{" ", "  ", "\t"}); }
   std::string Name() { return Pick(kNames); }
   std::int64_t SmallInteger() { return static_cast<std::int64_t>(Below(7)) - 3; }

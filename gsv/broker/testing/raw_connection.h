@@ -44,6 +44,7 @@ class RawConnection {
   RawConnection(const RawConnection&) = delete;
   RawConnection& operator=(const RawConnection&) = delete;
 
+  // Sends the bytes as they are.
   void Send(const std::string& bytes) const {
     send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }

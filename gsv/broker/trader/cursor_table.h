@@ -152,6 +152,7 @@ class CursorTable {
     return &found->second;
   }
 
+  // Removes the cursors that were not used for the lifetime of a cursor.
   void RemoveExpired() GSV_REQUIRES(mutex_) {
     const auto now = clock_();
     for (auto cursor = cursors_.begin(); cursor != cursors_.end();) {
@@ -161,12 +162,14 @@ class CursorTable {
     }
   }
 
+  // Returns the cursor that was not used for the longest time.
   typename Cursors::iterator LeastRecentlyUsed() GSV_REQUIRES(mutex_) {
     return std::min_element(cursors_.begin(), cursors_.end(), [](const auto& a, const auto& b) {
       return a.second.used < b.second.used;
     });
   }
 
+  // Removes a cursor with its remaining entries.
   void Remove(typename Cursors::iterator cursor) GSV_REQUIRES(mutex_) {
     held_ -= cursor->second.entries.size();
     cursors_.erase(cursor);

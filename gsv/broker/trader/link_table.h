@@ -31,9 +31,11 @@ class LinkTable {
 
   // Adds a link. `bound` is the trader's max_link_follow_policy.
   TradingResult<void> Add(TraderLink link, FollowOption bound);
+  // Changes the follow rules of a link. `bound` is as in Add().
   TradingResult<void> Modify(const std::string& name, FollowOption def_pass_on,
                              FollowOption limiting, FollowOption bound);
   TradingResult<void> Remove(const std::string& name);
+  // Returns a link by its name.
   TradingResult<TraderLink> Describe(const std::string& name) const;
   // Returns all links, sorted by name.
   std::vector<TraderLink> All() const;

@@ -107,8 +107,11 @@ class Trader {
   // Exports an offer. `type` is the result of TypeForExport().
   TradingResult<std::string> Export(const ServiceType& type, std::string reference,
                                     std::vector<Property> properties);
+  // Withdraws an offer.
   TradingResult<void> Withdraw(const std::string& id);
+  // Returns an offer.
   TradingResult<OfferPtr> Describe(const std::string& id) const;
+  // Changes the properties of an offer.
   TradingResult<void> Modify(const std::string& id, Modification modification);
   // Withdraws the offers that a query without policies finds. Returns their number.
   TradingResult<std::size_t> WithdrawMatching(const std::string& type,
@@ -183,6 +186,7 @@ class Trader {
   // Returns the number in an offer's id. Fails if the text is not an id, or if its stem is that of
   // another trader.
   TradingResult<std::uint64_t> NumberOf(const std::string& id) const;
+  // Returns the id of the offer with this number.
   std::string IdOf(std::uint64_t number) const;
   // Finds an offer or a proxy.
   TradingResult<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
@@ -191,6 +195,7 @@ class Trader {
   TradingResult<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   // Checks the size, sets the offer's number, and stores it.
   TradingResult<std::string> Store(Offer offer);
+  // Removes the offers with these numbers.
   void Remove(std::vector<std::uint64_t> numbers) GSV_REQUIRES(mutex_);
   // Returns an error if an offer with these properties and this reference exceeds the limits.
   TradingResult<void> CheckSize(const PropertyList& properties, const std::string& reference) const;

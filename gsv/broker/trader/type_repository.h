@@ -41,6 +41,7 @@ class TypeRepository {
   TradingResult<ServiceType> Describe(const std::string& name) const;
   // Returns the type with all inherited properties and all its direct and indirect super types.
   TradingResult<ServiceType> FullyDescribe(const std::string& name) const;
+  // Masks a type, so that no more offers of it are exported. Unmask() allows them again.
   TradingResult<void> Mask(const std::string& name);
   TradingResult<void> Unmask(const std::string& name);
 
@@ -60,6 +61,7 @@ class TypeRepository {
   TradingResult<void> CheckInheritedProperties(const ServiceType& type) const;
   // Returns all super types of `type`. The nearest come first, and each occurs once.
   std::vector<const ServiceType*> Ancestors(const ServiceType& type) const;
+  // Whether `ancestor` is a direct or indirect super type of `type`.
   bool DerivesFrom(const ServiceType& type, const std::string& ancestor) const;
 
   TraderLimits limits_;
