@@ -46,6 +46,7 @@ struct TaskCommand {
   std::string jobs = "1";  // how many runs are executed at once
   std::string more;        // more options of `gsv campaign task`
 
+  // Returns the command as a line for a shell.
   std::string Text() const;
 };
 

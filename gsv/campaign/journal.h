@@ -44,6 +44,7 @@ class JournalWriter {
  private:
   JournalWriter(std::filesystem::path file, int descriptor)
       : file_(std::move(file)), descriptor_(descriptor) {}
+  // Appends an object as a line of the journal.
   base::Status Write(const nlohmann::ordered_json& json);
 
   const std::filesystem::path file_;

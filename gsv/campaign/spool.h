@@ -54,6 +54,7 @@ class Spool {
   const Campaign& campaign() const { return campaign_; }
   std::filesystem::path journals() const { return folder_ / "journals"; }
   std::filesystem::path logs() const { return folder_ / "logs"; }
+  // Returns the path of a batch's file.
   std::filesystem::path FileOf(const Batch& batch) const;
   // Returns the file of a task's output. `task` is the task's number, or the queue's placeholder
   // for it.
@@ -62,6 +63,7 @@ class Spool {
   base::Result<std::vector<Batch>> Batches() const;  // Returns the batches, ordered by number.
   // Writes the batch to its file, and overwrites an existing file.
   base::Status Put(const Batch& batch) const;
+  // Removes a batch's file.
   void Remove(const Batch& batch) const;
 
   // Reads what was added to the journals since the last call, and returns these results. If `share`
