@@ -84,6 +84,7 @@ class PushedViews final : public Views, public std::enable_shared_from_this<Push
 
   // Returns the view, or null if it does not exist.
   WatchedPtr Find(const Key& key) const;
+  // Removes a view and cancels its pending request.
   void Remove(const Key& key);
   // Asks for the next image, if the client may get another image now.
   void Continue(const WatchedPtr& watched);

@@ -86,6 +86,7 @@ class ViewDrawer {
   // image is being drawn or the request was answered already.
   bool Withdraw(const Seat& seat);
 
+  // Returns the numbers of different views, of occupied seats and of drawn images.
   metrics::DrawnViews Counts();
 
   // Answers all pending requests with kEnded, and refuses further requests.

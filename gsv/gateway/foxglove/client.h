@@ -44,6 +44,7 @@ class Client {
   // Closes the connection, with this reason.
   virtual void Close(CloseCode code, std::string reason) = 0;
 
+  // Sends a status message.
   void SendStatus(foxglove::StatusLevel level, std::string_view message) {
     SendText(SharedBytes(foxglove::StatusText(level, message)));
   }

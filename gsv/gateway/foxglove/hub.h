@@ -73,6 +73,7 @@ class Hub {
     kAll,
     kEstablished,  // all subscribers except new subscribers
   };
+  // Sends a message to the subscribers of a channel.
   void Publish(foxglove::ChannelId channel, const Message& message,
                Audience audience = Audience::kAll);
   // Sends earlier messages to new subscribers, which then count as established.

@@ -25,6 +25,7 @@ class SharedBytes {
   const char* data() const { return view_.data(); }
 
  private:
+  // Takes ownership of the bytes.
   template <typename Container>
   void Own(Container bytes) {
     auto owner = std::make_shared<const Container>(std::move(bytes));

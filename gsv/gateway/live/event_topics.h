@@ -42,6 +42,7 @@ class EventTopics {
   // Returns the events since the last call.
   static std::vector<simulation::Event> TakeNew(const simulation::Simulation& simulation,
                                                 Source& source);
+  // Publishes the new events of a source on its topics.
   void Publish(const simulation::Simulation& simulation, Source& source);
   // Sends the newest earlier events to new subscribers of the topic.
   void Welcome(const Topic& topic, const std::vector<simulation::Event>& past);

@@ -47,6 +47,7 @@ class StatusTopics {
     Hub::Message latest{};                     // the last message, for new subscribers
   };
   static double RateFor(const Topic& topic, std::size_t size);  // Hz
+  // Publishes the status on a topic if a message is due, or if there are new subscribers.
   void Publish(Topic& topic, const simulation::Simulation& simulation, WallTime now);
 
   const std::shared_ptr<Hub> hub_;

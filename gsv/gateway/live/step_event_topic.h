@@ -76,6 +76,7 @@ class StepEventTopic {
     }
     void OnEvent(const simulation::Event&) override {}
 
+    // Returns the collected events, and removes them.
     std::deque<Moment> Take() {
       const base::MutexLock lock(mutex_);
       return std::exchange(moments_, {});

@@ -41,7 +41,9 @@ class RecordingSwitch {
   virtual ~RecordingSwitch() = default;
   // Starts to record to a new file, whose name the program chooses.
   virtual base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) = 0;
+  // Ends the recording of the simulation with this name.
   virtual base::Status StopRecording(const std::string& simulation) = 0;
+  // Returns the state of the simulation's recording.
   virtual State RecordingOf(const std::string& simulation) = 0;
 
   // Totals of all recordings since this process started.

@@ -108,11 +108,13 @@ class SimulationFactory {
   // Creates a simulation without starting it. If request.record is set, starts a recording.
   virtual FieldResult<std::shared_ptr<simulation::Simulation>> Create(
       const SimulationRequest& request) = 0;
+  // Destroys the simulation with this name.
   virtual base::Status Destroy(const std::string& simulation) = 0;
   // Adds a robot and returns the name of its body.
   virtual FieldResult<std::string> AddRobot(
       const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
       bool is_avatar) = 0;
+  // Adds an object and returns the name of its body.
   virtual FieldResult<std::string> AddObject(
       const std::shared_ptr<simulation::Simulation>& simulation, const ObjectRequest& object) = 0;
   // Returns the texts of a world file and a scenario. `file` is the name of the world file in the

@@ -55,6 +55,7 @@ class RecordedScene {
 
   // Reads an attached scene.
   base::Status Add(const recording::AttachmentIndexRecord& index);
+  // Adds the error to the problems, as a warning.
   void Warn(const base::Error& error);
 
   const recording::McapReader& reader_;

@@ -57,6 +57,7 @@ class ReplayPlayer {
   // Returns a copy of the clock of the replay.
   ReplayClock clock() const;
 
+  // Start(), Pause() and Resume() fail with kNotRunning if the present phase does not allow them.
   base::Status Start();
   base::Status Pause();
   base::Status Resume();

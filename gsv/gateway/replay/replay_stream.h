@@ -90,6 +90,7 @@ class ReplayStream {
   // subscribers.
   void PublishOwn(foxglove::ChannelId channel, bool is_due, base::SimTime time,
                   const std::function<SharedBytes()>& encode);
+  // Sends a warning to all clients, until the maximum number of warnings is reached.
   void Warn(const std::string& sentence);
 
   const recording::McapReader& reader_;

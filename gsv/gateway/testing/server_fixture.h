@@ -35,6 +35,7 @@ class Echo final : public Handler {
   }
 
  private:
+  // Responds with the method, the target and the body of the request.
   static Response Repeat(const Request& request) {
     Response response;
     response.content_type = "text/plain";
@@ -42,6 +43,7 @@ class Echo final : public Handler {
     return response;
   }
 
+  // Returns the hub, or an error if the query contains "none".
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) const {
     if (!target.query.contains("none")) return hub_;
     return base::Fail(base::ErrorCode::kNotFound, "there is no hub");
@@ -76,6 +78,7 @@ class Echo final : public Handler {
 
 class ServerTest : public ::testing::Test {
  protected:
+  // Starts the server.
   void Start(ServerOptions options = {}) {
     auto server = Server::Start(options, echo_);
     ASSERT_TRUE(server) << server.error().Sentence();

@@ -87,6 +87,7 @@ class Viewer {
   // These functions return the close code and reason of the server.
   std::uint16_t close_code() const;
   std::string close_reason() const;
+  // Closes the connection.
   void Close();
 
  private:
