@@ -29,6 +29,7 @@ class NodeSteps {
   // Sets whether a node steps the robot. If `is_open` becomes false, the robot no longer waits for
   // its node.
   void Open(const std::string& robot, bool is_open);
+  // Whether a node steps the robot.
   bool IsOpen(const std::string& robot) const;
 
   // Stores a command that a node has sent with this time stamp.
@@ -79,7 +80,7 @@ class NodeBehaviour final : public simulation::BehaviourPort {
   const std::string& place() const override { return place_; }
 
  private:
-  void Run(simulation::Agent& agent, simulation::ClockId clock);
+  void Run(simulation::Agent& agent, simulation::ClockId clock);  // the function of thread_
 
   const std::shared_ptr<NodeSteps> steps_;
   const base::SimTime period_;  // period of /clock

@@ -39,7 +39,7 @@ class SlowLane {
     Moment moment;
   };
 
-  void Run();
+  void Run();  // the function of thread_
   // Publishes the sources of a job, several at the same time.
   void Do(const Job& job);
 

@@ -40,6 +40,7 @@ class GoalList {
   messages::action_msgs::GoalStatusArray All() const { return {goals_}; }
 
  private:
+  // Returns null if there is no such goal.
   messages::action_msgs::GoalStatus* Find(const Id& id);
   // Removes the oldest finished goals beyond kMaxGoals.
   void ForgetOldest();

@@ -53,6 +53,7 @@ class ServiceHost {
     // is sent as soon as it is, but at the latest after ten seconds. If 1000 replies wait for
     // discovery already, the reply is dropped.
     void Send(messages::Bytes response) const;
+    // Encodes the response, and sends it as Send() does.
     template <typename Response>
     void SendMessage(const Response& response) const {
       messages::Bytes bytes;

@@ -47,6 +47,7 @@ class ServiceWorker {
   }
 
  private:
+  // The function of thread_: executes the jobs in order.
   void Run() {
     base::MutexLock lock(mutex_);
     for (;;) {

@@ -43,7 +43,9 @@ class Spawner {
   };
 
   virtual ~Spawner() = default;
+  // Returns the worlds that clients can load.
   virtual std::vector<World> Worlds() = 0;
+  // Returns the models that clients can add.
   virtual std::vector<Spawnable> Spawnables() = 0;
   // Adds a robot or an object, and returns its name. To add an object, a running simulation is
   // paused, and then resumed. Fails with kNotFound if there is no such model, with kCorrupt if the

@@ -32,11 +32,13 @@ class StepAction {
   // Takes the steps. Returns the number of steps taken and, if this is less than `steps`, the
   // reason.
   Outcome Take(simulation::Simulation& simulation, const GoalList::Id& id, std::uint64_t steps);
+  // Publishes the progress of a goal.
   void SendFeedback(const GoalList::Id& id, std::uint64_t completed, std::uint64_t remaining);
   // Stores the outcome, and sends it to the clients that wait for it.
   void Finish(const GoalList::Id& id, const Outcome& outcome);
   // Publishes the states of all goals.
   void SendStatus() GSV_REQUIRES(mutex_);
+  // Whether a client has cancelled the goal.
   bool IsCanceled(const GoalList::Id& id) const;
 
   ServedSimulation& served_;         // the simulation that takes the steps

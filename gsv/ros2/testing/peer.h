@@ -45,6 +45,7 @@ class Peer {
 
   dds::Participant& participant() { return *participant_; }
 
+  // Subscribes to a topic, and stores the messages for Await() and Count().
   void Listen(const std::string& topic, const std::string& type, const dds::Qos& qos) {
     auto reader =
         participant_->MakeReader({DdsTopicName(topic), DdsTypeName(type), qos, {}},
@@ -72,6 +73,7 @@ class Peer {
     EXPECT_TRUE(message) << message.error().Sentence();
     return message ? *message : Message{};
   }
+  // Returns the number of messages received on a topic.
   std::size_t Count(const std::string& topic) {
     const base::MutexLock lock(mutex_);
     return samples_[topic].size();
