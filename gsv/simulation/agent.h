@@ -141,6 +141,7 @@ class Agent {
   virtual base::Status OpenSensor(const std::string& name) = 0;
   virtual base::Status CreateSensor(model::SensorDescription description) = 0;
   virtual base::Status CloseSensor(const std::string& name) = 0;
+  // Takes a reading of an open sensor.
   virtual base::Result<sensing::Reading> Read(const std::string& sensor) = 0;
   // Sends a message by a radio to the robot `receiver`, or to all robots if `receiver` is empty.
   // The message is sent at this instant and arrives with the next step.

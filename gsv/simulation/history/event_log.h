@@ -59,7 +59,9 @@ class EventLog {
     std::deque<Event> events{};
     std::uint64_t dropped = 0;  // number of events that were removed at the front
 
+    // Appends an event, and removes the oldest one if the list is full.
     void Add(const Event& event);
+    // Returns the kept events from number `first` on.
     std::vector<Event> Since(std::uint64_t first) const;
   };
 

@@ -28,6 +28,7 @@ class SnapshotPool {
   struct Shelf {
     static constexpr std::size_t kMaxIdle = 4;  // number of unused snapshots that are kept
 
+    // Removes an unused snapshot and returns it. Makes a snapshot if there is none.
     std::unique_ptr<world::Snapshot> Take() {
       const base::MutexLock lock(mutex);
       if (idle.empty()) return std::make_unique<world::Snapshot>();
@@ -35,6 +36,7 @@ class SnapshotPool {
       idle.pop_back();
       return snapshot;
     }
+    // Keeps the snapshot for Take(), if there is space.
     void Return(std::unique_ptr<world::Snapshot> snapshot) {
       const base::MutexLock lock(mutex);
       if (idle.size() < kMaxIdle) idle.push_back(std::move(snapshot));

@@ -23,6 +23,7 @@ class AgentClocks {
   // Opens a clock, which then runs.
   ClockId Open();
   bool IsOpen(ClockId clock) const { return Find(clock) != nullptr; }
+  // Closes a clock.
   void Close(ClockId clock);
 
   // Makes the clock wait until the first step at or after `until`. Returns true if that step has
@@ -31,6 +32,7 @@ class AgentClocks {
   // simulation pauses at the instant, the agent does not run.
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
 
+  // Whether the clock waits.
   bool IsWaiting(ClockId clock) const;
   bool IsWaitingUntil(ClockId clock, base::SimTime until) const;
 

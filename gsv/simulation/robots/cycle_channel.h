@@ -101,6 +101,7 @@ class CycleChannels {
     std::shared_ptr<CycleChannel> channel;
     CycleMemory memory;
   };
+  // Adds a channel for a clock of the agent.
   base::Result<Added> Add(RobotAgent& agent, std::weak_ptr<RobotAgent> shared, ClockId clock);
   // Closes the channel of a clock, if it has one.
   void Close(const RobotAgent& agent, ClockId clock);

@@ -29,7 +29,7 @@ class EventSignaler {
   void Open(Events& events);
 
  private:
-  void Run();
+  void Run();  // the function of thread_
 
   base::Mutex mutex_;
   base::ConditionVariable came_;              // notified when waiting_ gets events, or at the end

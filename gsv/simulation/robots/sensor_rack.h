@@ -22,12 +22,14 @@ class SensorRack {
   SensorRack(std::string robot, const std::shared_ptr<const model::Model>& model,
              SensorDesigns& designs);
 
+  // Returns the descriptions of all sensors, open or closed.
   std::vector<model::SensorDescription> Descriptions() const;
   // The sensor types that can be created.
   std::vector<std::string> TypeNames() const { return designs_.types().names(); }
 
   // Creates and opens a sensor. `link_count` is the number of links of the model.
   base::Status Create(model::SensorDescription description, int link_count);
+  // Opens a sensor by its name.
   base::Status Open(const std::string& name);
   // Closes a sensor. A created sensor is removed; a sensor of the model can be opened again.
   base::Status Close(const std::string& name);

@@ -18,6 +18,7 @@ namespace gsv::simulation {
 template <typename Sleeper>
 class TimerQueue {
  public:
+  // Adds a sleeper, which wakes at this instant.
   void Add(base::SimTime instant, Sleeper* sleeper) {
     auto day = entries_.lower_bound(instant);
     if (day == entries_.end() || day->first != instant) {
@@ -27,6 +28,7 @@ class TimerQueue {
     day->second.push_back(sleeper);
   }
 
+  // Whether the instant of a sleeper is reached.
   bool HasDue(base::SimTime now) const {
     return !entries_.empty() && entries_.begin()->first <= now;
   }
@@ -70,6 +72,7 @@ class TimerQueue {
   void Remove(const Sleeper* sleeper) {
     for (auto& [instant, sleepers] : entries_) std::erase(sleepers, sleeper);
   }
+  // Removes all entries.
   void Clear() { entries_.clear(); }
 
  private:

@@ -69,6 +69,7 @@ class GSV_SCOPED_CAPABILITY WorldGuard {
       is_held_ = world_.mutex_.try_lock_for(WorldLock::kPollPeriod);
     }
   }
+  // Unlocks the world's mutex.
   void Unlock() GSV_NO_THREAD_SAFETY_ANALYSIS { world_.mutex_.unlock(); }
 
   WorldLock& world_;
