@@ -22,6 +22,7 @@ struct RecordingDifference {
 
   // Returns at most 60 lines.
   std::string Text() const;
+  // Returns the differences as an object.
   nlohmann::ordered_json Json() const;
 };
 

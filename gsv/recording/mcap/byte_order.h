@@ -66,6 +66,7 @@ class ByteReader {
     return taken;
   }
 
+  // Reads a number.
   template <std::unsigned_integral Number>
   Number Get() {
     Number value = 0;
@@ -81,6 +82,7 @@ class ByteReader {
     return std::chrono::nanoseconds(ok_ ? static_cast<std::int64_t>(value) : 0);
   }
 
+  // Reads the length of a text, and the text.
   std::string GetString() {
     const std::span<const std::byte> bytes = Take(Get<std::uint32_t>());
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());

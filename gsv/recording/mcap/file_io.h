@@ -68,6 +68,7 @@ class FileSink : public ByteSink {
 
 class FileSource : public ByteSource {
  public:
+  // Opens a file for reading.
   [[nodiscard]] static base::Result<std::unique_ptr<FileSource>> Open(std::string path);
 
   std::uint64_t size() const override { return size_; }

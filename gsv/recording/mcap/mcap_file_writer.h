@@ -39,6 +39,7 @@ class McapFileWriter {
   // Writes a message whose complete record has been encoded by Append().
   base::Status WriteEncoded(std::uint16_t channel, base::SimTime log_time,
                             std::span<const std::byte> record);
+  // Writes an attachment.
   base::Status Attach(const AttachmentRecord& attachment);
   base::Status AddMetadata(const MetadataRecord& metadata);
 

@@ -35,6 +35,7 @@ class MessageCursor {
 
   // Opens blocks until no closed block can contain an earlier message than the open blocks.
   base::Status OpenBlocksThatMayBeNext();
+  // Reads a block, and adds it to the open blocks.
   base::Status Open(const MessageBlock& block);
   // Frees the block whose last message was returned.
   void DropExhausted();

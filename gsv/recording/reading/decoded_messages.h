@@ -64,6 +64,7 @@ struct Difference {
   // The content of the message in the first recording. If the message is missing there, its content
   // in the second recording.
   nlohmann::ordered_json message = {};
+  // Returns a sentence for users.
   std::string Sentence() const;
 };
 // Returns an object with the keys time_s, topic, field, first and second.

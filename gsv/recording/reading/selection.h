@@ -17,7 +17,9 @@ struct Selection {
   base::SimTime from = base::SimTime::min();
   base::SimTime to = base::SimTime::max();
 
+  // Whether the time is selected.
   bool Has(base::SimTime time) const { return time >= from && time <= to; }
+  // Whether the topic is selected.
   bool Has(const std::string& topic) const {
     return topics.empty() ||
            std::any_of(topics.begin(), topics.end(), [&](const std::string& each) {

@@ -31,6 +31,7 @@ class TopicWriter {
   // Whether the topic is recorded. If not, the caller need not make messages.
   bool is_wanted() const { return channel_.has_value(); }
 
+  // Writes a message, if the topic is recorded.
   void Write(base::SimTime time, const Message& message) {
     if (!channel_) return;
     bytes_.clear();
