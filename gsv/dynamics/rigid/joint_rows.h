@@ -22,6 +22,7 @@ class JointRows {
   // The bound of an impulse without limit.
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
+  // Removes all rows.
   void Clear() {
     rows_.clear();
     velocities_.clear();

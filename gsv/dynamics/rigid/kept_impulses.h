@@ -31,6 +31,7 @@ class KeptImpulses final : public world::EngineState {
   // Sets the impulses of those contacts that are within a centimetre of a stored contact.
   void StartFrom(const ContactFinder& finder, std::vector<Contact>& contacts, double substep) const;
 
+  // Removes all impulses.
   void Clear() { entries_.clear(); }
   bool is_empty() const { return entries_.empty(); }
 

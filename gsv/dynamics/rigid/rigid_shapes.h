@@ -52,6 +52,7 @@ class RigidShapes {
   void NextLayout();
 
  private:
+  // Makes a shape of type T, which this object owns.
   template <typename T, typename... Arguments>
   T* Own(Arguments&&... arguments);
   // Returns the convex hull of the points.
