@@ -33,6 +33,7 @@ class ShadowBounds {
   struct Range {
     F8 min, max;
   };
+  // Returns the range for look-ups at eight points.
   Range At(F8 x, F8 y) const {
     constexpr float kLast = kShadowSide - 0.5f;
     x = Min(Max(x, Splat(0)), Splat(kLast)) * Splat(1.0f / kBlock);
