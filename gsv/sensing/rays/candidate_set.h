@@ -93,6 +93,7 @@ class CandidateSet {
   // takes a dozen operations.
   static constexpr double kRounding = 4e-6;
 
+  // Returns four copies of the number in single precision.
   static __m128 Four(double x) { return _mm_set1_ps(static_cast<float>(x)); }
 
   geometry::Vector3 place_;  // in the world, m

@@ -52,6 +52,7 @@ class PacketBounds {
   };
   using Spans = std::array<Span, kPairs>;
 
+  // Returns a mask of the rays whose interval overlaps [low, high].
   static __m128d Meet(const Span& span, double low, double high) {
     return _mm_and_pd(_mm_cmple_pd(_mm_set1_pd(low), span.high),
                       _mm_cmple_pd(span.low, _mm_set1_pd(high)));

@@ -26,6 +26,7 @@ struct RayPacket {
     direction_z[count] = ray.direction.z;
     max_distance[count++] = ray.max_distance;
   }
+  // Returns ray i.
   world::Ray At(std::size_t i) const {
     return {{origin_x[i], origin_y[i], origin_z[i]},
             {direction_x[i], direction_y[i], direction_z[i]},

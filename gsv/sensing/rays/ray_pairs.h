@@ -23,6 +23,7 @@ struct PoseLanes {
   using Lanes = std::array<double, kCount>;
   alignas(32) Lanes x{}, y{}, z{}, qw{}, qx{}, qy{}, qz{};
 
+  // Sets pose i.
   void Set(std::size_t i, const geometry::Pose& pose) {
     x[i] = pose.position.x, y[i] = pose.position.y, z[i] = pose.position.z;
     qw[i] = pose.orientation.w, qx[i] = pose.orientation.x;
@@ -41,6 +42,7 @@ class RayPairs {
 
   std::size_t count() const { return count_; }
   bool is_full() const { return count_ == kMax; }
+  // Removes all pairs.
   void Clear() { count_ = 0; }
 
   // Adds ray i of the packet and a shape in a set. `part_from_world` is the pose of the world in

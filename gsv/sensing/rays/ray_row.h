@@ -56,6 +56,7 @@ class RayRow {
     std::array<double, kGroup> range;    // m
   };
 
+  // Returns the direction of ray i.
   geometry::Vector3 Direction(std::size_t i) const {
     const Group& at = groups_[i / kGroup];
     return {at.x[i % kGroup], at.y[i % kGroup], at.z[i % kGroup]};
