@@ -28,6 +28,7 @@ struct ReadingContext {
   const SensorCheck& check_sensor;  // may be empty
   std::filesystem::path source;     // the file being read
 
+  // Adds a warning to the problems.
   void Warn(std::string message, std::string where) const {
     problems.push_back({base::Problem::Severity::kWarning, std::move(message), std::move(where)});
   }

@@ -50,7 +50,9 @@ class LineKeepingPrinter {
  public:
   void Text(const std::string& text);  // markup, unchanged
   void Escaped(const char* text);      // prints a text or an attribute's value on one line
+  // Prints an element with its content.
   void Element(const tinyxml2::XMLElement& element);
+  // Returns the printed text. The printer is empty afterwards.
   std::string Take() { return std::move(out_); }
 
  private:

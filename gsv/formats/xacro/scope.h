@@ -47,6 +47,7 @@ class Scope final : public Names {
 
   // Sets a property. Converts a text that is a number or truth value.
   void Set(const std::string& name, const Value& value, const NodePtr& at, bool is_lazy);
+  // Removes a property of this scope.
   void Remove(const std::string& name) { properties_.erase(name); }
   // Whether this scope or a parent has the property.
   bool Has(const std::string& name) const;

@@ -20,6 +20,7 @@ using Dictionary = std::vector<std::pair<Value, Value>>;  // in the order of ins
 class Names {
  public:
   virtual ~Names() = default;
+  // Returns the value of a name; nullopt if there is none.
   virtual std::optional<Value> Member(const std::string& name) const = 0;
 };
 
