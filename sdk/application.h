@@ -102,6 +102,7 @@ class RemoteSimulation {
   virtual base::Status RunUntil(SimTime until,
                                 std::chrono::seconds timeout = std::chrono::minutes(10),
                                 const std::function<bool()>& keep_waiting = {}) = 0;
+  // Returns the current state of the simulation.
   virtual base::Result<SimulationState> State() = 0;
   // Returns a hash of the simulation's state. Equal runs have equal hashes.
   virtual base::Result<std::string> StateHash() = 0;
@@ -109,6 +110,7 @@ class RemoteSimulation {
   virtual base::Result<std::string> ViewerUrl() = 0;
   // Records to a file on the simulator's machine.
   virtual base::Status StartRecording(const std::string& path) = 0;
+  // Ends the recording and completes its file.
   virtual base::Status StopRecording() = 0;
 };
 

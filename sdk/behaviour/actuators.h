@@ -26,6 +26,7 @@ class Lamp : public Sensor {
   // The colour and brightness that the lamp has now.
   using Glow = readings::Lamp;
 
+  // Sets the colour and the brightness.
   base::Status Set(const Colour& colour, double brightness = 1) {
     return port().CommandDevice({brightness, colour.red, colour.green, colour.blue}, {});
   }
@@ -33,6 +34,7 @@ class Lamp : public Sensor {
   [[deprecated("use Set()")]] base::Status Shine(const Colour& colour, double brightness = 1) {
     return Set(colour, brightness);
   }
+  // Returns the present colour and brightness.
   Glow Read() { return MeasureAs<Glow>(); }
   [[deprecated("use Read()")]] Glow Look() { return Read(); }
 };
@@ -50,6 +52,7 @@ class Gripper : public Sensor {
   base::Status Grasp() { return port().CommandDevice({0}, {}); }
   // Opens the fingers and detaches the body.
   base::Status Open() { return port().CommandDevice({1}, {}); }
+  // Returns the present state of the fingers.
   State Read() { return MeasureAs<State>(); }
   [[deprecated("use Grasp()")]] base::Status Grip() { return Grasp(); }
   [[deprecated("use Open()")]] base::Status LetGo() { return Open(); }
@@ -70,10 +73,13 @@ class Speaker : public Sensor {
                     double volume = 1) {
     return port().CommandDevice({frequency, duration, volume}, sound);
   }
+  // Plays a tone. Frequency in Hz, duration in s.
   base::Status Beep(double frequency = 880, double duration = 0.2) {
     return Play("tone", frequency, duration);
   }
+  // Ends the present sound.
   base::Status Silence() { return Play("tone", 20, 0, 0); }
+  // Returns the sound that is being played.
   Sound Playing() { return MeasureAs<Sound>(); }
 };
 
@@ -85,6 +91,7 @@ class Microphone : public Sensor {
 
   // The loudest sound, and the sound level.
   using Hearing = readings::Microphone;
+  // Returns the loudest sound, and the sound level.
   Hearing Listen() { return MeasureAs<Hearing>(); }
 };
 

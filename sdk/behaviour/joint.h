@@ -46,6 +46,7 @@ class Joint {
   virtual void Apply(double effort) = 0;
   virtual void Release() = 0;
 
+  // Returns the present state of the joint.
   virtual JointState Read() = 0;
 };
 

@@ -83,6 +83,7 @@ class Robot {
   // Commands the base. The command applies until the next one. A velocity that is NaN or infinite
   // is not applied: the call throws std::invalid_argument, and the behaviour may continue.
   virtual void Command(const DriveCommand& command) = 0;
+  // Commands the velocities along x (m/s) and about z (rad/s).
   void Drive(double linear, double angular) { Command({linear, angular}); }
   // Drives a mecanum or omnidirectional base. `lateral` is to the left.
   void DriveSideways(double linear, double lateral, double angular) {
@@ -94,6 +95,7 @@ class Robot {
   // Sleeps until the instant. Returns false after the end of the run. The behaviour must then
   // return.
   virtual bool SleepUntil(SimTime instant) = 0;
+  // Sleeps for this duration, see SleepUntil().
   bool SleepFor(SimTime duration) { return SleepUntil(Now() + duration); }
   // Does one control cycle in one round trip: commands the base, sleeps until `instant`, then reads
   // every open sensor. Returns false after the end of the run.

@@ -153,6 +153,7 @@ class Lidar : public Sensor {
     std::vector<double> ranges;       // in m for each beam; infinite if the beam hit nothing
     std::vector<double> intensities;  // for each beam; empty without the parameter intensity_scale
   };
+  // Takes a scan.
   Scan Read();
   // Returns the distance in m for each beam; infinite if the beam hit nothing. Valid until the next
   // call.
@@ -169,6 +170,7 @@ class Camera : public Sensor {
   static constexpr const char* kWideAngleType = readings::Camera::kWideAngleType;
   using Sensor::Sensor;
 
+  // Whether a sensor of this type is a Camera.
   static bool Is(const std::string& type) { return type == kType || type == kWideAngleType; }
 
   Image TakeImage() { return port().TakeImage(); }
@@ -181,6 +183,7 @@ class PositioningSystem : public Sensor {
   static constexpr const char* kType = readings::Positioning::kType;
   using Sensor::Sensor;
 
+  // Returns the pose of the sensor in the world.
   Placement Locate() { return MeasureAs<readings::Positioning>().world_from_sensor; }
 };
 
@@ -191,6 +194,7 @@ class Imu : public Sensor {
   using Sensor::Sensor;
 
   using Motion = readings::Imu;
+  // Returns angular velocity and specific force.
   Motion Read() { return MeasureAs<Motion>(); }
   [[deprecated("use Read()")]] Motion Feel() { return Read(); }
 };
@@ -202,6 +206,7 @@ class Odometer : public Sensor {
   using Sensor::Sensor;
 
   using Estimate = readings::Odometry;
+  // Returns the estimate.
   Estimate Read() { return MeasureAs<Estimate>(); }
   [[deprecated("use Read()")]] Estimate Reckon() { return Read(); }
 };
@@ -213,6 +218,7 @@ class GnssReceiver : public Sensor {
   using Sensor::Sensor;
 
   using Position = readings::Navsat;
+  // Returns position and velocity.
   Position Fix() { return MeasureAs<Position>(); }
 };
 using SatelliteReceiver [[deprecated("use gsv::GnssReceiver")]] = GnssReceiver;
@@ -223,6 +229,7 @@ class Magnetometer : public Sensor {
   static constexpr const char* kType = readings::Magnetometer::kType;
   using Sensor::Sensor;
 
+  // Returns the magnetic field.
   Vector Field() { return MeasureAs<readings::Magnetometer>().field; }
 };
 
@@ -233,6 +240,7 @@ class Altimeter : public Sensor {
   using Sensor::Sensor;
 
   using Height = readings::Altimeter;
+  // Returns height and vertical speed.
   Height Measured() { return MeasureAs<Height>(); }
 };
 
@@ -243,7 +251,9 @@ class Bumper : public Sensor {
   using Sensor::Sensor;
 
   using Touch = readings::Touch;
+  // Whether there is a contact.
   bool IsPressed() { return !Touches().empty(); }
+  // Returns the present contacts.
   std::vector<Touch> Touches() { return MeasureAs<readings::Contact>().touches; }
 };
 
@@ -254,6 +264,7 @@ class ForceTorque : public Sensor {
   using Sensor::Sensor;
 
   using Wrench = readings::ForceTorque;
+  // Returns force and torque.
   Wrench Read() { return MeasureAs<readings::ForceTorque>(); }
 };
 
@@ -264,6 +275,7 @@ class JointEncoders : public Sensor {
   using Sensor::Sensor;
 
   using Joint = readings::EncodedJoint;
+  // Returns a reading of each joint.
   std::vector<Joint> Joints() { return MeasureAs<readings::JointEncoders>().joints; }
 };
 
@@ -274,6 +286,7 @@ class Battery : public Sensor {
   using Sensor::Sensor;
 
   using Charge = readings::Battery;
+  // Returns the present charge.
   Charge Level() { return MeasureAs<Charge>(); }
 };
 
@@ -285,6 +298,7 @@ class LogicalCamera : public Sensor {
 
   using Sighting = readings::Sighting;
   [[deprecated("use Read()")]] std::vector<Sighting> Look() { return Read(); }
+  // Returns the visible models.
   std::vector<Sighting> Read() { return MeasureAs<readings::LogicalCamera>().sightings; }
 };
 
@@ -343,6 +357,7 @@ class DepthCamera : public Sensor {
     // in m along the view, in rows from the top; infinite for the background
     std::vector<double> depth;
   };
+  // Takes an image of depths.
   Image TakeDepth() {
     const auto image = MeasureAs<readings::DepthImage>();
     return {image.width, image.height, {image.depth.begin(), image.depth.end()}};
@@ -362,6 +377,7 @@ class SegmentationCamera : public Sensor {
     std::vector<std::uint32_t> labels;
     std::vector<std::string> names;
   };
+  // Takes an image of labels.
   Image Segment() {
     const auto image = MeasureAs<readings::SegmentedImage>();
     return {image.width,
@@ -417,6 +433,7 @@ class BoundingBoxCamera : public Sensor {
   using Sensor::Sensor;
 
   using Box = readings::BoundingBox;
+  // Returns the bounding boxes of the visible models.
   std::vector<Box> Detect() { return MeasureAs<readings::BoundingBoxes>().boxes; }
 };
 
