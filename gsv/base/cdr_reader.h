@@ -38,6 +38,7 @@ class CdrReader {
 
   // Skips bytes up to a multiple of `alignment`, a power of two.
   void Align(std::size_t alignment) { Skip((0 - position_) & (alignment - 1)); }
+  // Skips `count` bytes. Fails if fewer remain.
   void Skip(std::size_t count) {
     if (count > remaining()) return Fail();
     position_ += count;
@@ -50,6 +51,7 @@ class CdrReader {
     Skip(count * size);
   }
 
+  // These functions read a number of this IDL type.
   std::uint8_t Octet() { return Number<std::uint8_t>(); }
   std::uint16_t UShort() { return Number<std::uint16_t>(); }
   std::uint32_t ULong() { return Number<std::uint32_t>(); }

@@ -27,6 +27,7 @@ class Hash {
   // Adds the bytes and their number, so that "ab", "c" and "a", "bc" have different hashes.
   void Add(std::string_view bytes);
 
+  // Returns the hash of all values so far.
   std::uint64_t Digest() const;
   // The hash as sixteen lower-case hexadecimal digits.
   std::string Hex() const;

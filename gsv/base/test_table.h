@@ -18,6 +18,7 @@ class Table {
       file_.open(folder + ("/" + name + ".dat"), std::ios::app);
     }
   }
+  // Appends a line with these values.
   void Row(const std::vector<double>& values) {
     if (!file_.is_open()) return;
     for (const double value : values) file_ << std::setprecision(12) << value << ' ';

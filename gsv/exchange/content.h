@@ -18,11 +18,13 @@ class ContentWriter {
  public:
   explicit ContentWriter(std::span<std::byte> buffer) : buffer_(buffer) {}
 
+  // Adds a number of eight bytes.
   template <typename Number>
   void Add(Number number) {
     static_assert(sizeof(Number) == 8);
     AddBytes(&number, 1, sizeof number);
   }
+  // Adds the length and the bytes of the text.
   void Add(std::string_view text) {
     Add(std::uint64_t{text.size()});
     AddBytes(text.data(), text.size(), 1);
@@ -37,6 +39,7 @@ class ContentWriter {
   std::uint32_t size() const { return static_cast<std::uint32_t>(used_); }
 
  private:
+  // Adds `count` elements of `each` bytes, padded with zeros to a multiple of eight bytes.
   void AddBytes(const void* from, std::size_t count, std::size_t each) {
     const std::size_t size = (count * each + 7) / 8 * 8;
     if (size > buffer_.size() - used_) is_ok_ = false;
@@ -58,6 +61,7 @@ class ContentReader {
  public:
   explicit ContentReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
+  // Reads a number of eight bytes.
   template <typename Number>
   Number Take() {
     static_assert(sizeof(Number) == 8);

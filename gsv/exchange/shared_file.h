@@ -55,6 +55,7 @@ class SharedFile {
   // Makes the file larger. New bytes are 0.
   base::Status Grow(std::uint64_t size);
   base::Result<std::uint64_t> size() const;
+  // Maps a part of the file into the memory of this process.
   base::Result<std::unique_ptr<Mapping>> Map(std::uint64_t offset, std::size_t size) const {
     return Mapping::Of(descriptor_, offset, size);
   }

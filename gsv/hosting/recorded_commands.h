@@ -50,6 +50,7 @@ class RecordedCommands final : public simulation::LocalBehaviour {
   void TakeTurn(simulation::Turn& turn) override;
 
  private:
+  // Sends a recorded command in a turn.
   void Apply(const TimedCommand& command, simulation::Turn& turn) const GSV_REQUIRES(mutex_);
 
   const std::string name_, place_;

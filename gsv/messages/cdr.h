@@ -39,9 +39,11 @@ class CdrWriter {
   // `out` must outlive the writer. Its content is kept, and the encapsulation header is appended.
   explicit CdrWriter(Bytes& out);
 
+  // Writes a number.
   template <typename Number>
   requires std::is_arithmetic_v<Number>
   void Write(Number value) { WriteBlock(&value, sizeof value, sizeof value); }
+  // Writes a string.
   void Write(std::string_view text);
   // Writes the number of elements of a sequence.
   void WriteCount(std::size_t count);
@@ -68,6 +70,7 @@ class CdrReader {
   // `bytes` must outlive the reader.
   explicit CdrReader(std::span<const std::byte> bytes);
 
+  // Reads a number.
   template <typename Number>
   requires std::is_arithmetic_v<Number>
   void Read(Number& value) {
@@ -80,6 +83,7 @@ class CdrReader {
       ReadBlock(&value, sizeof value, sizeof value);
     }
   }
+  // Reads a string.
   void Read(std::string& text);
   // Reads the count of a sequence whose elements take at least `element_size` bytes each. Returns 0
   // if the message is too short for this count.

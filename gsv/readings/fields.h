@@ -93,12 +93,14 @@ class Cursor {
   // Whether all values were present, and none is left.
   bool is_exact() const { return !is_bad_ && values_.empty() && labels_.empty(); }
 
+  // Reads the next value; 0 if there is none.
   double Value() {
     if (values_.empty()) return is_bad_ = true, 0;
     const double value = values_.front();
     values_ = values_.subspan(1);
     return value;
   }
+  // Reads the next value and converts it to the type; 0 if the type cannot hold it.
   template <typename Whole>
   Whole WholeValue() {
     const double value = Value();
@@ -107,13 +109,16 @@ class Cursor {
     if (!fits) is_bad_ = true;
     return fits ? static_cast<Whole>(value) : Whole{};
   }
+  // Reads the next label; empty if there is none.
   std::string Label() {
     if (labels_.empty()) return is_bad_ = true, std::string();
     const std::string& label = labels_.front();
     labels_ = labels_.subspan(1);
     return label;
   }
+  // Reads all remaining values.
   std::span<const double> AllValues() { return std::exchange(values_, {}); }
+  // Reads all remaining labels.
   std::span<const std::string> AllLabels() { return std::exchange(labels_, {}); }
 
  private:

@@ -73,6 +73,7 @@ PortableServer::ServantBase* MakeSensorServant(std::shared_ptr<simulation::Agent
 // sba::Sensor, or as sba::Actuator if they accept commands.
 class SensorServants {
  public:
+  // Sets the maker for a sensor type.
   static void Register(const std::string& type, SensorServantMaker maker);
   // Returns the maker for a sensor type. For types without an own interface, `takes_commands`
   // selects between sba::Actuator and sba::Sensor.

@@ -21,6 +21,7 @@ class StopTimeout {
   static constexpr std::chrono::milliseconds kShortened{1'000};
   static constexpr std::chrono::milliseconds kMin{20};  // the minimum limit of a call
 
+  // Starts the shortened limit, see above.
   void Shorten() { until_ = Clock::now() + kShortened; }
   bool is_shortened() const { return until_.load() != Clock::time_point::max(); }
   // Returns the limit for a call that begins now.

@@ -29,6 +29,7 @@ class MessageAssembly {
     char* bytes;
     std::size_t size;
   };
+  // Returns the free part of the buffer.
   Room Next();
   // Call this when `count` bytes were written to the buffer.
   void Take(std::size_t count);

@@ -34,7 +34,9 @@ class TypeCodeCheck {
  public:
   explicit TypeCodeCheck(const TypeCodeLimits& limits = {}) : limits_(limits) {}
 
+  // Reads and checks a TypeCode.
   void TypeCode(CdrReader& in) { ReadTypeCode(in, 0); }
+  // Reads and checks an any: its TypeCode and its value.
   void Any(CdrReader& in) { ReadAny(in, 0); }
 
  private:
