@@ -40,7 +40,7 @@ class Measure {
  private:
   // Returns the state of a body; null if it is not in the world.
   const world::BodyState* StateOf(const std::string& body) const;
-  // Return the value of a quantity of one kind.
+  // The values of Kind::kSensor and Kind::kContact, see Quantity.
   std::optional<double> OfSensor(const scenario::Quantity& quantity) const;
   std::optional<double> OfContact(const scenario::Quantity& quantity) const;
   // Whether the robot's behaviour has finished or died.
@@ -51,9 +51,10 @@ class Measure {
 
   simulation::Simulation& simulation_;
   std::shared_ptr<const world::Snapshot> snapshot_;
-  simulation::MotionHistory motions_;                   // the motion of all robots up to snapshot_
-  std::optional<simulation::SimulationStatus> status_;  // the last status before the end of the run
-  bool is_status_new_ = false;  // whether `status_` belongs to the current snapshot
+  simulation::MotionHistory motions_;  // the motion of all robots up to snapshot_
+  // The newest status that HasEnded() has read while the run was not over.
+  std::optional<simulation::SimulationStatus> status_;
+  bool is_status_new_ = false;  // whether HasEnded() has read the status at the current snapshot
 };
 
 }  // namespace gsv::verdict

@@ -49,15 +49,16 @@ int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   return 0;
 }
 
-// Whether `a` and `b` are windows over the same formula that are open now. If two such windows
-// exist, one of them implies the other.
+// Whether `a` and `b` are both of `kind` (always or eventually), have the same operand, and their
+// windows have begun. Then they differ only in the ends of their windows, so one implies the other.
 bool OpenOverTheSame(const ObligationPtr& a, const ObligationPtr& b, Kind kind, SimTime now) {
   return a->kind == kind && b->kind == kind && a->is_judged && b->is_judged && a->from <= now &&
          b->from <= now && Compare(a->parts[0], b->parts[0]) == 0;
 }
 
-// If several windows are over the same formula, keeps only the tightest for `all`, and only the
-// widest for `any`. So the remaining obligation does not grow with the run.
+// Keeps only one of several parts that differ only in the ends of their windows. For `all`, this is
+// the part that implies the others. For `any`, it is the part that the others imply. So the
+// remaining obligation does not grow with the run.
 void MergeWindows(Kind join, SimTime now, std::vector<ObligationPtr>& parts) {
   for (const Kind kind : {Kind::kEventually, Kind::kAlways}) {
     const bool keep_earlier = (join == Kind::kAll) == (kind == Kind::kEventually);
@@ -185,7 +186,9 @@ class Progression {
   // The rules are, with X for "in the next state":
   //   eventually  F a = a or X F a            until    a U b = b or (a and X (a U b))
   //   always      G a = a and X G a           release  a R b = b and (a or X (a R b))
-  // The part with X counts only inside the window, because there is no next state after the window.
+  // If the next state is after the window, X F a and X (a U b) are false, and X G a and X (a R b)
+  // are true. Before the window, "a" of F and "b" of U are false, and "a" of G and "b" of R are
+  // true.
   ObligationPtr OfWindow(const ObligationPtr& window) const {
     const bool must_come = window->kind == Kind::kEventually || window->kind == Kind::kUntil;
     const bool is_open = window->from <= now_ && now_ <= window->by;

@@ -19,8 +19,9 @@ using geometry::Vector3;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kDefaultFieldOfView = 45;  // degrees
 constexpr double kNear = 0.05, kFar = 5000;
-// Cameras with a field of view (degrees) below kTelephoto see as far as the renderer can. The map of
-// the viewer has a field of view of 1 degree, and is 53 times as far from the world as other views.
+// A camera with a field of view (degrees) below kTelephoto has its far plane at kTelephotoFar. The
+// map of the viewer needs this: its field of view is 1 degree. So its camera is 53 times as far
+// away as a camera that shows the same area in another view.
 constexpr double kTelephoto = 10, kTelephotoFar = 1e6;
 constexpr double kMaxCoordinate = 1e6;
 // The default eye and target for a followed robot, in its level frame, m: the camera is behind the

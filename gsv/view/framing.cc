@@ -16,8 +16,8 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kBoundless = std::numeric_limits<double>::infinity();
-// A body is too far away if its distance exceeds kFarMetres plus kFarRadii times the radius of all
-// nearer bodies. It is then not shown.
+// A body is too far away if its distance from the middle exceeds kFarMetres + kFarRadii * R. R is
+// the radius of the sphere that contains all nearer bodies. Such a body is not shown.
 constexpr double kFarRadii = 20, kFarMetres = 100;
 // A body counts as ground if it is flat and large: its height is at most kFlat times its width, and
 // its area is at least kMuchMore times the area of the other bodies.

@@ -20,8 +20,9 @@ class ActuatorState : public DeviceState {
   void AddToHash(base::Hash& hash) const final;
 
  protected:
-  // The values that a gripper adds to the hash of its command. Other actuator types add the values
-  // of an empty gripper, so that recorded hashes remain valid.
+  // AddToHash() adds the command and then these values. They are the grasp of a gripper. Other
+  // types of actuators add the default values. A type that added nothing would change the hashes of
+  // existing recordings.
   struct GraspForHash {
     double opening_before = 0;  // see GripperState
     Grasp grasp;

@@ -40,9 +40,9 @@ struct FollowedCommand {
   friend bool operator==(const FollowedCommand&, const FollowedCommand&) = default;
 };
 
-// The light of a lamp that is on, along the device's x axis. At intensity 1, a white surface that
-// faces the lamp at a distance of 1 m is fully lit. The light decreases with the square of the
-// distance and ends at `range`.
+// The light of a lamp while it is on. The axis of its cone is the x axis of the device. At
+// intensity 1, a white surface that faces the lamp at a distance of 1 m is fully lit. The light
+// decreases with the square of the distance and ends at `range`.
 struct Glow {
   double brightness = 0;  // in (0, 1]
   model::Colour colour{};

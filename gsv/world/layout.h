@@ -18,7 +18,8 @@ namespace gsv::world {
 // How a body moves.
 enum class BodyKind : std::uint8_t {
   kStatic,  // never moves, such as a wall
-  // not static, but nothing moves it: it has no drive, no collisions and no joint to the world
+  // Not static, but nothing moves it: it has no drive and no collisions. Also, it has no joint to
+  // the world, or none of its joints can move.
   kUnmoved,
   kPlanarBase,  // planar kinematics, by its drive
   kAvatar,      // planar kinematics, driven by a user
@@ -40,7 +41,7 @@ BodyKind KindOf(const model::PlacedModel& placed);
 struct Body {
   std::string name;
   std::shared_ptr<const model::Model> model;
-  geometry::Pose initial_pose;  // world_from_model when the simulation starts
+  geometry::Pose initial_pose;  // world_from_model at the start and after a reset
   BodyKind kind = BodyKind::kUnmoved;
   std::shared_ptr<const Pedestrian> pedestrian;  // set for kPedestrian, else null
 
