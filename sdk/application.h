@@ -47,9 +47,10 @@ struct RobotState {
   std::string name, model, behaviour;
   // state of the behaviour: "running", "waiting", "finished", "unresponsive", "dead", …
   std::string agent;
-  Placement place;               // world_from_robot
-  double distance = 0;           // driven distance, m
-  std::uint64_t collisions = 0;  // number of contacts that have begun
+  Placement place;      // world_from_robot
+  double distance = 0;  // driven distance, m
+  // Number of contacts that have begun. A contact counts once, even if it lasts many steps.
+  std::uint64_t collisions = 0;
 };
 
 // The state of a simulation and its robots at one instant.
@@ -121,9 +122,9 @@ class Application {
   static base::Result<std::unique_ptr<Application>> Connect(const std::string& broker);
   virtual ~Application() = default;
 
-  // Creates a simulation on a simulator whose offer matches `constraint`, which uses the properties
-  // of docs/services.md (empty: any simulator). Simulators are tried in the order of `preference`
-  // ("first", "min load", "random").
+  // Creates a simulation on a simulator whose offer matches `constraint`. If `constraint` is empty,
+  // any simulator matches. docs/services.md lists the properties that a constraint can use.
+  // Simulators are tried in the order of `preference` ("first", "min load", "random").
   virtual base::Result<std::unique_ptr<RemoteSimulation>> Create(
       const SimulationRequest& request, const std::string& constraint = "",
       const std::string& preference = "first") = 0;

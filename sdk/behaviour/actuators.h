@@ -2,8 +2,8 @@
 // sensors (robot.Open<Lamp>("lamp")). The readings of an actuator report its state.
 //
 // Units    metres, seconds, Hz; values without unit lie in [0, 1].
-// Errors   a refused command returns an error and changes nothing, also after the end of the run.
-//          Readings are zero after the end of the run.
+// Errors   a command that is refused returns an error and changes nothing. After the end of the
+//          run, every command is refused, and readings are zero.
 // Time     a command is applied from the instant at which it is given until the next command.
 // Threads  as Robot.
 #pragma once

@@ -27,8 +27,9 @@ struct BehaviourModule {
   int interface_version = kBehaviourInterface;
   std::string name;         // the name of the offer, such as "wander"
   std::string description;  // one line for --help
-  // Adds the behaviour's own options, if it has any. Returns the factory, which uses their values
-  // after parsing.
+  // Adds the behaviour's own options, if it has any, to the parser, and returns the factory. The
+  // factory is called after the command line has been parsed, so it can use the values of these
+  // options.
   std::function<BehaviourFactory(CLI::App&)> configure;
   // Whether the behaviour uses only the robot's clock, so that a simulation may wait for it.
   bool time_managed = true;

@@ -22,8 +22,8 @@ struct RunFailure {
 // Returns the failure of a behaviour that threw this exception.
 RunFailure FailureOf(const std::exception& exception);
 
-// Calls Run() until it returns or throws. If the robot has an error, this error is the cause.
-// Otherwise an exception is the cause.
+// Calls Run(), which ends when it returns or throws. The cause of the failure is Robot::error(). If
+// that is empty, the cause is the exception. If there is neither, the result is empty.
 RunFailure RunToItsEnd(Behaviour& behaviour, Robot& robot);
 
 }  // namespace gsv

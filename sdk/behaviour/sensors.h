@@ -99,9 +99,9 @@ class Sensor {
     Measure();
     return std::exchange(reading_, {});
   }
-  // Decodes the newest reading, or a copy of it. Spans in the struct refer to that reading. Returns
-  // nullopt after the end of the run, and if the reading has the wrong size, which ends the run
-  // with an error.
+  // Decodes `reading`, which must be the newest reading of this sensor or a copy of it. Spans in
+  // the result refer to the data of `reading`. Returns nullopt after the end of the run. If the
+  // reading has the wrong size, returns nullopt and ends the run with an error.
   template <typename Values>
   std::optional<Values> In(const Reading& reading) {
     if (!has_measured_) return std::nullopt;
@@ -233,7 +233,8 @@ class Magnetometer : public Sensor {
   Vector Field() { return MeasureAs<readings::Magnetometer>().field; }
 };
 
-// Measures height above its reference, and vertical speed.
+// Measures the height above a reference height, and the vertical velocity. The reference is the
+// parameter `vertical_reference` (default: the height at the start).
 class Altimeter : public Sensor {
  public:
   static constexpr const char* kType = readings::Altimeter::kType;
