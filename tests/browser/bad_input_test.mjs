@@ -117,8 +117,8 @@ for (const [what, layout, sentence] of [
   test(`a layout ${what}, which the browser kept, is reported, and the page works`, async () => {
     await page.evaluate((text) => addEventListener("pagehide", () => localStorage.setItem("gsv.layout", text)), layout);
     await page.reload();
+    await page.getByText(sentence).waitFor(); // the page shows it for some seconds only
     await waitUntilDrawn(page);
-    await page.getByText(sentence).waitFor();
     await timeGoesOn();
   });
 }
