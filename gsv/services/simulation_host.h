@@ -49,8 +49,8 @@ class SimulationHost {
   formats::ModelLibrary& library() { return *library_; }
 
  private:
-  // Returns `wanted`, or a free name if `wanted` is empty. Fails if the name is taken or invalid, or
-  // if there are too many simulations.
+  // Returns `wanted`, or a free name if `wanted` is empty. Fails if the name is taken or invalid,
+  // or if there are too many simulations.
   base::Result<std::string> FreeName(std::string wanted) const GSV_REQUIRES(mutex_);
 
   const std::shared_ptr<const sensing::SensorRegistry> sensors_;

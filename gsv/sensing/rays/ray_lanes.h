@@ -1,5 +1,5 @@
-// Intersections of four rays at once, for processors with AVX2. Use these functions only in functions
-// with GSV_AVX2, after HasAvx2() returned true.
+// Intersections of four rays at once, for processors with AVX2. Use these functions only in
+// functions with GSV_AVX2, after HasAvx2() returned true.
 //
 // Exactness  the functions compute the same operations in the same order as the functions for one
 //            ray in ray_shape.cc, quaternion.h and vector3.h. So the results are bit-identical. For
