@@ -95,7 +95,8 @@ const std::map<std::string, base::Result<Value> (*)(const List&)>& OfLists() {
   return functions;
 }
 
-base::Result<std::string> Field(const Value& value, const std::string& format) {
+// Returns the text of a value for a replacement field of format(), such as ".2f".
+base::Result<std::string> FormattedField(const Value& value, const std::string& format) {
   if (format.empty()) return ToText(value);
   int decimals = -1, read = 0;
   const bool is_known = std::sscanf(format.c_str(), ".%2df%n", &decimals, &read) == 1 &&
@@ -145,7 +146,7 @@ base::Result<Value> Formatted(const std::string& text, const List& arguments) {
       const std::size_t index = number ? static_cast<std::size_t>(*number) : next++;
       if (index >= arguments.size()) return InvalidList("format() lacks a value");
       const auto value =
-          Field(arguments[index], colon < field.size() ? field.substr(colon + 1) : "");
+          FormattedField(arguments[index], colon < field.size() ? field.substr(colon + 1) : "");
       if (!value) return base::Fail(value.error());
       formatted += *value;
       if (formatted.size() > (1u << 20)) return InvalidList("a string is longer than 1 MiB");
