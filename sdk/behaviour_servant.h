@@ -28,7 +28,7 @@ class BehaviourServant final : public POA_sba::AgentBehaviour {
   void destroy() override;
 
  private:
-  // Ends the run on this side, and waits for the behaviour's thread.
+  // Ends the behaviour's run in this process, and waits for the behaviour's thread.
   void EndRun() GSV_REQUIRES(mutex_);
 
   PortableServer::POA_var poa_;

@@ -1,5 +1,5 @@
-// The client's side of the memory that a simulation on the same host shares with a clock
-// (gsv/exchange/cycle_memory.h).
+// The client's side of the memory by which a behaviour's clock and a simulation on the same host
+// exchange data, without remote calls (gsv/exchange/cycle_memory.h).
 //
 // Threads  Run() from the behaviour's thread, Interrupt() from any.
 #pragma once
@@ -17,15 +17,15 @@ namespace gsv::sdk {
 
 class CycleClient {
  public:
-  // After this wall-clock time, a cycle is repeated by a call, which also detects whether the
-  // simulation still exists.
+  // If the simulation has not answered a cycle after this wall-clock time, the caller repeats the
+  // cycle by a remote call. The remote call fails if the simulation no longer exists.
   static constexpr std::chrono::milliseconds kLease{1000};
 
   // How a cycle has ended.
   enum class Outcome {
     kAnswered,
-    kRepeat,         // repeat the cycle by a call
-    kRepeatApplied,  // repeat the cycle by a call; its command has been applied
+    kRepeat,         // repeat the cycle by a remote call
+    kRepeatApplied,  // repeat the cycle by a remote call; its command has been applied
   };
   // The simulation's answer to a cycle.
   struct Answer {

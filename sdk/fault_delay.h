@@ -27,8 +27,8 @@ std::chrono::nanoseconds NthDelay(const FaultDelay& fault, std::uint64_t n);
 // first remote call.
 void DelayCalls(const FaultDelay& fault);
 
-// Delays the calling thread like a remote call, if calls are delayed. For exchanges by shared
-// memory, which do not use the ORB.
+// Delays the calling thread once, if DelayCalls() was called. Call it when data is exchanged by
+// shared memory, because such an exchange does not use the ORB.
 void DelayOnce();
 
 // Calls DelayCalls() if GSV_FAULT_DELAY is set.

@@ -1,8 +1,8 @@
 // A behaviour that this program offers at a broker during the lifetime of the object.
 // ServeBehaviour() (serve.h) is for programs that do nothing else.
 //
-// Threads  behaviours run on their own threads, their Init(), Paused() and Resumed() on the
-// ORB's.
+// Threads  each behaviour's Run() has its own thread. Threads of the ORB call Init(), Paused() and
+//          Resumed().
 #pragma once
 
 #include <memory>

@@ -65,9 +65,9 @@ class Controller(Behaviour):
 class Offer(_native.Offer):
     """A behaviour that this program offers at a broker, until withdraw() or the end of the `with`.
 
-    `make` is a class of behaviours, or a function that returns one. It is called once for each robot.
-    `time_managed` means that the behaviour uses only the robot's clock, so that a simulation can wait
-    for the behaviour.
+    `make` is a class of behaviours, or a function that returns one. It is called once for each
+    robot. `time_managed` means that the behaviour uses only the robot's clock, so that a simulation
+    can wait for the behaviour.
     """
 
     def __init__(self, broker: str, name: str, make: Callable[[], Any], description: str = "",
@@ -86,12 +86,12 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
           time_managed: bool = True) -> None:
     """Offers a behaviour until the program ends. Call this as the last function of a program.
 
-    Reads the command line (--broker, --name, --help) and serves until SIGINT, SIGTERM or SIGHUP. If a
-    behaviour does not return, a second signal ends the program at once. The exit code is 0, 2 after a
-    usage error, or 5 if the broker cannot be reached.
+    Reads the command line (--broker, --name, --help) and serves until SIGINT, SIGTERM or SIGHUP. If
+    a behaviour does not return, a second signal ends the program at once. The exit code is 0, 2
+    after a usage error, or 5 if the broker cannot be reached.
 
-    If the behaviour has options of its own, pass a `parser` with these options. `make` is then called
-    with the namespace of their values.
+    If the behaviour has options of its own, pass a `parser` with these options. `make` is then
+    called with one argument, the argparse.Namespace of the parsed options.
     """
     doc = (make.__doc__ or name).strip().splitlines()[0]
     wants_options = parser is not None
@@ -114,8 +114,8 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
                                           parser.description or doc, time_managed) as offer:
             print(f"{options.name}: offered at {offer.broker}", flush=True)
             if options.exit_with_parent:
-                # If gsv captures the output, it continues to read stdout. Other parent processes do
-                # not, so stdout is then replaced by a copy of stderr.
+                # gsv reads stdout until the program ends if it captures the output. Other parent
+                # processes stop reading after the line above. For them, the output goes to stderr.
                 if "GSV_OUTPUT_CAPTURED" not in os.environ:
                     os.dup2(2, 1)
                 sys.stdout.reconfigure(line_buffering=True)  # type: ignore[attr-defined]
