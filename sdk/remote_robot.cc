@@ -194,7 +194,7 @@ void RemoteRobot::OpenMemory() {
     }
     return answer;
   }();
-  if (!memory) return;  // without the shared memory, each cycle is a call
+  if (!memory) return;  // without the shared memory, each cycle is a remote call
   auto opened =
       CycleClient::Open({memory->process, memory->descriptor}, memory->offset, memory->key);
   if (opened) cycles_ = *std::move(opened);

@@ -18,8 +18,8 @@ namespace gsv::sdk {
 
 class RemoteRobot final : public Robot, public std::enable_shared_from_this<RemoteRobot> {
  public:
-  // Time limit of each call. The simulation waits up to a minute for an image, and may itself be
-  // delayed by a busy machine or a stopped process.
+  // Time limit of each remote call. The simulation waits up to a minute for an image, and may itself
+  // be delayed by a busy machine or a stopped process.
   static constexpr std::chrono::milliseconds kCallTimeout{70'000};
 
   // Queries the robot's parts. Fails if the hardware does not answer. The robot is shared, because
@@ -30,7 +30,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
 
   // Opens the clock, so that the simulation counts the behaviour as running before start() returns.
   base::Status OpenClock();
-  // Ends the run on this side: waits and calls return at once from now on.
+  // Ends the run in this process. Later waits and calls return at once, and a wait by the shared
+  // memory that is in progress ends.
   void End();
   // Reports that the behaviour has finished. Called once, after the behaviour's last use of the
   // robot.
@@ -91,8 +92,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   // Sleeps like SleepUntil(), and gets the readings of used sensors with the same call.
   bool SleepAndRead(SimTime instant);
   // Runs a cycle by the shared memory. Returns true if it was answered. Otherwise the caller must
-  // repeat the cycle by a call. `is_applied` becomes true if the simulation has applied the
-  // command; then the call must not apply the command again.
+  // repeat the cycle by a remote call. `is_applied` becomes true if the simulation has applied the
+  // command. The remote call must then not contain the command.
   bool RunCycle(const exchange::CycleRequest& request, const std::vector<std::string>& sensors,
                 CycleClient::Answer& answer, bool& is_applied);
 

@@ -55,8 +55,8 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
   // The parent process may wait for this line on stdout.
   std::printf("%s: offered at %s\n", arguments.name.c_str(), (*offered)->broker().c_str());
   std::fflush(stdout);
-  // If gsv started this program, it continues to read the output line by line. Other parent
-  // processes do not read it, so the behaviour's output then goes to stderr.
+  // If gsv captures the output, it reads stdout until the program ends. Other parent processes stop
+  // reading after the line above. For them, the behaviour's output goes to stderr.
   if (arguments.exit_with_parent && !IsCaptured()) dup2(STDERR_FILENO, STDOUT_FILENO);
   int signal = 0;
   sigwait(&signals, &signal);

@@ -4,8 +4,9 @@
 usage: check_circles.py [ROOT]    ROOT: the repository (default: the repository of this script)
 
 C++         no file may include itself, directly or by other files. docs/layers.txt prevents cycles of folders.
-TypeScript  no file may import itself, directly or by other files. Counts import, export … from and import(…),
-            also of types. No folder of web/src may import itself by the imports of its files; tests do not count.
+TypeScript  no file may import itself, directly or by other files. The statements import, export … from and
+            import(…) count as imports, also if they import only types. No cycle of folders in web/src may result
+            from the imports of their files. Imports of tests do not count for folders.
 
 Prints each cycle as FILE:LINE: SENTENCE, where FILE:LINE is one of its includes or imports. Exits with 1 if there
 is a cycle.

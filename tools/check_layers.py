@@ -27,7 +27,8 @@ FORBIDDEN_CODE = {
         r"\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday)\b"
     ),
 }
-# Headers that only the folders excepted by docs/layers.txt may include.
+# Headers that may be included only in folders with a line "except FOLDER NAME" in docs/layers.txt.
+# NAME is the key below.
 WALLED_INCLUDES = {
     "omniorb-internals": re.compile(
         r"^(omniORB4/((giop|tcp|unix)\w+|omniIOR|omniObjRef|omniURI)\.h|tcpSocket\.h"

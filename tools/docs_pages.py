@@ -150,7 +150,8 @@ class Site:
         return navigation
 
     def inputs(self):
-        """Returns the source files of the site, and the folders whose lists of files it shows."""
+        """Returns the paths whose changes change the site: its source files, and the folders of docs/ in
+        which they are."""
         files = [self.root / path for path in self.places]
         return files + sorted({file.parent for file in files if file.is_relative_to(self.root / "docs")})
 

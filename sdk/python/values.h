@@ -35,7 +35,8 @@ T ValueOrRaise(base::Result<T> result) {
 // Raises ValueError if `seconds` is not a valid time. Needs no GIL.
 base::SimTime TimeFrom(double seconds);
 
-// Returns the nearest double, such as 0.15. ToSeconds() may return an adjacent number.
+// Returns the double that is nearest to the time in seconds, such as 0.15. ToSeconds() may return a
+// neighbour of this double.
 inline double SecondsOf(base::SimTime time) { return static_cast<double>(time.count()) / 1e9; }
 
 // A Python object that threads may copy, keep and destroy without holding the GIL.

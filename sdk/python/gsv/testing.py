@@ -95,7 +95,8 @@ class PrivateSimulator:
         self.close()
 
     def _run(self, awaited: str, *command: str) -> str:
-        """Starts a program that ends with this one. Returns its first line that contains `awaited`."""
+        """Starts a program, which is terminated when this process ends. Returns the first line of
+        its stdout that contains `awaited`."""
         environment = dict(os.environ)
         if self._children:
             environment["GSV_BROKER"] = self.broker
