@@ -51,8 +51,8 @@ struct RunOptions {
   double wall_timeout = 0;    // limit of the wall-clock time, s; 0 for none
   std::string failure_image;  // the file for an image of the first violation; may be empty
   bool open_browser = false;  // whether to open the viewer's page
-  bool json = false;
-  bool is_strict = false;  // whether to refuse the run if files have warnings
+  bool json = false;          // whether to print the result as JSON
+  bool is_strict = false;     // whether to refuse the run if files have warnings
 };
 
 // The values of the options as the user wrote them, before they are parsed.

@@ -27,7 +27,7 @@ base::Result<std::vector<TestCase>> FindTestCases(const std::vector<std::string>
 
 // A part of the cases. "2/3" is the second of three parts.
 struct Shard {
-  std::size_t index = 1, count = 1;
+  std::size_t index = 1, count = 1;  // `index` is from 1 to `count`
 };
 base::Result<Shard> ParseShard(const std::string& text);
 // Returns the cases of a shard: every n-th case, so that the shards have about equal sizes.
