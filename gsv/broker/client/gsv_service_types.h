@@ -44,8 +44,8 @@ std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer);
 struct ScenarioServiceOffer {
   std::string name;  // the name of the server
   std::string host;
-  std::int32_t pid = 0;  // id of the server's process
-  std::int32_t slots = 0;
+  std::int32_t pid = 0;    // id of the server's process
+  std::int32_t slots = 0;  // number of scenarios that the server runs at once
   std::int32_t cores = 1;  // number of the machine's processor cores
 };
 std::vector<Property> PropertiesOf(const ScenarioServiceOffer& offer);

@@ -62,14 +62,14 @@ class PropertyColumn {
   static constexpr unsigned BitOf(CellKind kind) { return 1u << static_cast<unsigned>(kind); }
   Operand ToOperand(CellKind kind, std::uint64_t bits) const;
 
-  std::vector<CellKind> kinds_;
-  unsigned present_ = 0;  // the kinds of all cells, one bit for each kind
-  std::vector<std::uint64_t> bits_;
+  std::vector<CellKind> kinds_;      // kind of each cell
+  unsigned present_ = 0;             // the kinds of all cells, one bit for each kind
+  std::vector<std::uint64_t> bits_;  // value of each cell, see bits()
   // The elements of all sequences, one sequence after the other.
   std::vector<CellKind> element_kinds_;
   std::vector<std::uint64_t> element_bits_;
-  std::string short_texts_;  // characters of short texts; long texts stay in the offers
-  std::vector<std::string_view> texts_;
+  std::string short_texts_;              // characters of short texts; long texts stay in the offers
+  std::vector<std::string_view> texts_;  // see texts()
 };
 
 // The property columns of a list of offers that does not change. A column is made at the second

@@ -82,8 +82,8 @@ struct InterfaceMismatch {
 
 // A follow rule that is more permissive than its bound.
 struct FollowConflict {
-  FollowOption rule;
-  FollowOption bound;
+  FollowOption rule;   // the rule that was refused
+  FollowOption bound;  // the most permissive rule that is allowed
 };
 
 // An error of the trader. `refusal` determines which other members are set.

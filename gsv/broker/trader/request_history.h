@@ -34,11 +34,11 @@ class RequestHistory {
   // Forgets the request that was remembered first of all.
   void ForgetOldest() GSV_REQUIRES(mutex_);
 
-  const std::size_t requests_;  // maximum number of remembered requests
-  const std::chrono::nanoseconds lifetime_;
+  const std::size_t requests_;               // maximum number of remembered requests
+  const std::chrono::nanoseconds lifetime_;  // how long an id is remembered
   const Clock clock_;
   base::Mutex mutex_;
-  Remembered ids_ GSV_GUARDED_BY(mutex_);
+  Remembered ids_ GSV_GUARDED_BY(mutex_);  // ids of the remembered requests
   std::deque<std::pair<std::chrono::steady_clock::time_point, Remembered::iterator>> by_age_
       GSV_GUARDED_BY(mutex_);
 };
