@@ -8,7 +8,7 @@ namespace gsv::campaign {
 
 // An estimate, and the bounds of its confidence interval.
 struct Interval {
-  double middle = 0, low = 0, high = 0;
+  double middle = 0, low = 0, high = 0;  // `middle` is the estimate
 };
 
 // Returns the fraction of passed runs with its 95 % interval (E. B. Wilson, 1927). Without runs,
