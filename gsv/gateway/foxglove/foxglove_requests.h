@@ -52,16 +52,16 @@ struct WatchGraph {
 };
 // A call of a service; `call` identifies its response.
 struct ServiceCall {
-  std::uint32_t service = 0;
-  std::uint32_t call = 0;
+  std::uint32_t service = 0;  // number of the advertised service
+  std::uint32_t call = 0;     // number that the client has chosen
   std::string encoding;
   std::string request;  // the bytes of the request, in this encoding
 };
 // A request to play or pause a replay, with a speed and perhaps a time to seek to.
 struct PlaybackControl {
-  bool play = false;  // true for play, false for pause
-  float speed = 1;
-  std::optional<std::uint64_t> seek_ns;
+  bool play = false;                     // true for play, false for pause
+  float speed = 1;                       // recorded seconds per second
+  std::optional<std::uint64_t> seek_ns;  // time to seek to; nullopt: no seek
   std::string request;
 };
 // Requests the images of a view, which the server draws. This is an extension of the protocol

@@ -9,8 +9,8 @@ namespace gsv::gateway::metrics {
 struct ProcessUsage {
   std::uint64_t resident_bytes = 0;
   std::uint64_t allocated_bytes = 0;  // memory allocated by malloc, without its cached memory
-  std::uint64_t threads = 0;
-  std::uint64_t descriptors = 0;
+  std::uint64_t threads = 0;          // number of threads
+  std::uint64_t descriptors = 0;      // number of open file descriptors
   std::uint64_t max_descriptors = 0;  // limit of open file descriptors
   double processor_seconds = 0;       // processor time of all threads
   double start_time = 0;              // start of the process, s since 1970

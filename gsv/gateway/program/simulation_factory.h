@@ -60,7 +60,7 @@ class SimulationFactory {
   // A behaviour that the broker offers, see BehaviourOffer.
   struct BehaviourLine {
     std::string name, description, host;
-    std::int32_t pid = 0;
+    std::int32_t pid = 0;  // id of the process that offers the behaviour
     bool time_managed = true;
   };
   // The answer of FindBehaviours().
