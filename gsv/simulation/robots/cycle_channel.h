@@ -70,8 +70,8 @@ class CycleChannel final : public Wakeable {
   // state, does nothing.
   void Change(std::uint32_t from, exchange::CycleState to);
 
-  const std::unique_ptr<exchange::Mapping> memory_;
-  exchange::CycleSlot& slot_;  // in memory_
+  const std::unique_ptr<exchange::Mapping> memory_;  // the part of the file with the slot
+  exchange::CycleSlot& slot_;                        // in memory_
   const ClockId clock_;
   const std::weak_ptr<RobotAgent> agent_;
   base::Mutex mutex_;
@@ -118,7 +118,7 @@ class CycleChannels {
   void CloseIf(Predicate predicate);
 
   std::unique_ptr<exchange::SharedFile> file_;  // the memory of the bell and of all slots
-  std::unique_ptr<exchange::Mapping> bell_;
+  std::unique_ptr<exchange::Mapping> bell_;     // the part of the file with the bell
   std::uint64_t size_ = 0;  // size of the file in bytes; slots are not used twice
   std::vector<Channel> channels_;
 };

@@ -80,8 +80,8 @@ class RobotCommands {
 
  private:
   std::optional<Drive> drive_;
-  std::vector<std::pair<int, world::JointCommand>> joints_;
-  std::vector<DeviceAction> devices_;
+  std::vector<std::pair<int, world::JointCommand>> joints_;  // by index of the joint in the model
+  std::vector<DeviceAction> devices_;                        // see devices()
 };
 
 }  // namespace gsv::simulation
