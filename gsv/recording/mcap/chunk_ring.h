@@ -47,7 +47,7 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   using Stored = std::shared_ptr<const Bytes>;
   // The bytes of one write, which are whole records.
   struct Piece {
-    std::uint64_t offset = 0;
+    std::uint64_t offset = 0;  // offset in the written file
     Stored bytes;
   };
   // A chunk that the ring keeps, with its message index.
