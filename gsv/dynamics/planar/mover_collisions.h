@@ -133,10 +133,10 @@ class MoverCollisions {
 
   const PlanarScene& scene_;
   base::ThreadTeam& team_;
-  std::vector<Room> rooms_;       // one for each mover
-  BroadPhase finder_;             // finds candidates_
-  std::vector<Vector2> centres_;  // discs of the movers for finder_
-  std::vector<double> radii_;
+  std::vector<Room> rooms_;                   // one for each mover
+  BroadPhase finder_;                         // finds candidates_
+  std::vector<Vector2> centres_;              // discs of the movers for finder_
+  std::vector<double> radii_;                 // radii of these discs, m
   std::vector<BroadPhase::Pair> candidates_;  // pairs that may come close within some steps
   std::vector<BroadPhase::Pair> marked_;      // pairs that the last MarkNear() has found
 

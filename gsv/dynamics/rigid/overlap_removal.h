@@ -65,7 +65,7 @@ class OverlapRemoval {
   void Limit();
 
   std::vector<Body> bodies_;
-  std::vector<Row> rows_;
+  std::vector<Row> rows_;  // one for each contact
 };
 
 }  // namespace gsv::dynamics
