@@ -44,7 +44,7 @@ class ImageRenderer {
   struct Seen {
     // distance of the nearest point (opaque items) or of the centre (transparent items)
     double distance = 0;
-    std::size_t item = 0;
+    std::size_t item = 0;  // index of the item in the render list
     const Level* level = nullptr;
   };
 
