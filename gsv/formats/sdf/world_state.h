@@ -50,7 +50,7 @@ class WorldState {
   // The saved state of a light.
   struct LightState {
     geometry::Pose pose;  // in the world
-    std::string place;
+    std::string place;    // place of the element in the file, for messages
   };
 
   // Reads one <state> element.
