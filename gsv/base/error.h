@@ -29,7 +29,7 @@ enum class ErrorCode {
 struct Error {
   ErrorCode code = ErrorCode::kInvalidArgument;
   std::string message;
-  std::string where;
+  std::string where;  // such as a file with its line, or an address; may be empty
 
   // Returns "where: message", or the message alone if `where` is empty.
   std::string Sentence() const { return where.empty() ? message : where + ": " + message; }
@@ -51,7 +51,7 @@ struct Problem {
   enum class Severity { kWarning, kError };
   Severity severity = Severity::kWarning;
   std::string message;
-  std::string where;
+  std::string where;  // such as a file with its line, or an address; may be empty
 
   std::string Sentence() const { return where.empty() ? message : where + ": " + message; }
 };

@@ -66,9 +66,9 @@ struct Formula {
   std::vector<Formula> parts{};
   // The time window of kAlways, kEventually and kUntil, in s after the instant at which the formula
   // is evaluated. If `by` is nullopt, the window ends with the run.
-  double from = 0;
-  std::optional<double> by{};
-  SourcePlace source{};  // place of the formula in the scenario file
+  double from = 0;             // start of the window
+  std::optional<double> by{};  // end of the window
+  SourcePlace source{};        // place of the formula in the scenario file
 };
 
 // A formula that a run must satisfy.

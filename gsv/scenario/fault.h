@@ -25,7 +25,7 @@ struct Place {
   double y = 0;
   // height of the model's origin; if not set, the model stands on the floor
   std::optional<double> z;
-  double yaw = 0;
+  double yaw = 0;  // rad
 
   geometry::Pose pose() const { return geometry::PlanarPose(x, y, z.value_or(0), yaw); }
   friend bool operator==(const Place&, const Place&) = default;

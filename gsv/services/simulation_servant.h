@@ -123,7 +123,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;
   std::map<std::string, SimulationServant*> servants_
       GSV_GUARDED_BY(mutex_);  // servants by simulation; the POA owns them
-  std::jthread janitor_;
+  std::jthread janitor_;       // executes RunJanitor()
 };
 
 }  // namespace gsv::services

@@ -18,7 +18,7 @@ namespace gsv::tls {
 // The period in which a certificate is valid, relative to now.
 struct Validity {
   std::chrono::seconds begins{-300};  // begins 5 minutes earlier, to tolerate clocks that differ
-  std::chrono::seconds ends{365 * 86'400};
+  std::chrono::seconds ends{365 * 86'400};  // ends after 365 days
 };
 
 // The content of a certificate to make.

@@ -70,8 +70,8 @@ struct Grasp {
 
 // The robot and the name of a device, and where it is mounted.
 struct DeviceMount {
-  std::string robot, device;
-  int link = 0;  // link of the robot's model on which the device is mounted
+  std::string robot, device;  // names of the robot and of the device
+  int link = 0;               // link of the robot's model on which the device is mounted
   geometry::Pose link_from_device;
 };
 
