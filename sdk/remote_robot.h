@@ -18,8 +18,8 @@ namespace gsv::sdk {
 
 class RemoteRobot final : public Robot, public std::enable_shared_from_this<RemoteRobot> {
  public:
-  // Time limit of each remote call. The simulation waits up to a minute for an image, and may itself
-  // be delayed by a busy machine or a stopped process.
+  // Time limit of each remote call. The simulation waits up to a minute for an image, and may
+  // itself be delayed by a busy machine or a stopped process.
   static constexpr std::chrono::milliseconds kCallTimeout{70'000};
 
   // Queries the robot's parts. Fails if the hardware does not answer. The robot is shared, because
