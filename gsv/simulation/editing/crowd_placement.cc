@@ -16,9 +16,9 @@ namespace {
 using geometry::Vector2;
 
 constexpr double kGap = 0.05;  // minimum gap between two pedestrians, m
-// Cell size, m. The radius of a pedestrian is at most 1 m. So pedestrians that overlap are in the
-// same cell or in neighbouring cells.
-constexpr double kCell = 2;
+// Cell size, m. The radius of a pedestrian is at most 1 m. So two pedestrians without the minimum gap
+// are in the same cell or in neighbouring cells.
+constexpr double kCell = 2 + kGap;
 constexpr double kOverlap = 1e-3;  // overlap that is tolerated, m
 constexpr std::uint32_t kAttempts = 400;
 constexpr int kRounds = 40;
