@@ -112,7 +112,7 @@ HELP_CALL = re.compile(
 
 
 def texts_of_help(source):
-    """The descriptions of CLI11 options and commands: the literal that is the last argument of one."""
+    """Returns the descriptions of CLI11 options and commands: the first string literal behind the name."""
     for call in HELP_CALL.finditer(source):
         arguments = arguments_of_call(source, call.end())
         named = 0 if call.group().startswith("CLI::App") else 1
@@ -137,7 +137,9 @@ UI_STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"|`((?:[^`\\]|\\.)*)`')
 
 
 def texts_of_typescript(source):
-    """Returns string literals of at least two words, except those in comments, imports and classes."""
+    """Returns string literals of at least two words that the page may show.
+
+    Comments, CSS classes, and lines that only programmers see (such as imports) are left out."""
     source = re.sub(r"/\*.*?\*/", lambda found: "\n" * found.group().count("\n"), source, flags=re.S)
     for number, line in enumerate(source.splitlines(), start=1):
         line = re.sub(r"(^|\s)//.*", "", line)

@@ -34,7 +34,10 @@ def make(models):
 
 
 def extruded(outline, width):
-    """An outline (x, z), counter-clockwise seen from the right, as wide as that about y = 0."""
+    """Returns the solid with this outline in the plane of x and z, from y = -width / 2 to width / 2.
+
+    The points (x, z) are counter-clockwise as seen from the right of the car.
+    """
     solid = Mesh()
     half = width / 2
     solid.add_face([(x, -half, z) for x, z in outline], [(0, -1, 0)] * len(outline), outline)

@@ -38,7 +38,7 @@ class Mesh:
     def add_lathe(self, profile, segments=32, begin=0.0, end=2 * math.pi):
         """Turns a profile of (radius, z), from bottom to top, about z between two angles.
 
-        Every edge of the profile is flat along z and smooth around it.
+        Normals are constant along each edge of the profile, and turn smoothly about z.
         """
         for (r0, z0), (r1, z1) in zip(profile, profile[1:]):
             slope = unit((z1 - z0, 0, r0 - r1))

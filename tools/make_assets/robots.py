@@ -1,4 +1,4 @@
-"""Meshes of the built-in robots. The origin of each mesh is where its <visual> places it."""
+"""Meshes of the built-in robots. The <visual> of a model places the origin of each mesh."""
 
 import math
 

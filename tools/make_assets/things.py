@@ -28,7 +28,7 @@ def make_plant(folder):
 
 
 def leaf(length, steepness, width):
-    """One leaf along x that rises and bends down again; seen from both sides."""
+    """Returns a leaf along x that rises and bends down again. It is visible from both sides."""
     points = []
     x = z = 0.0
     parts = 4

@@ -158,7 +158,7 @@ def make_hut(folder):
 
 
 def make_fence(folder):
-    """Returns eight metres of fence along x."""
+    """Writes the model of a fence: eight metres along x."""
     boards = Mesh()
     for k in range(40):
         at = -3.9 + 0.2 * k

@@ -27,7 +27,7 @@ SIMPLE = {
 
 
 def types_of(kind):
-    """Returns the signature of one type."""
+    """Returns the signature of a type: a text that encodes the type without its names."""
     kind = kind.unalias()
     if kind.kind() in SIMPLE:
         return SIMPLE[kind.kind()]
@@ -81,7 +81,7 @@ def is_checked(types):
 
 
 class Tables:
-    """Returns {name: signature} for operations and exceptions that need a check."""
+    """The tables {name: signature} of the requests, replies and exceptions that need a check."""
 
     def __init__(self, nodes):
         self.requests, self.replies, self.exceptions = {}, {}, {}
