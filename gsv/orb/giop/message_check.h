@@ -29,7 +29,7 @@ struct Signature {
 };
 
 // The operations that pass an `any` or a TypeCode. Messages of other operations are not checked.
-// tools/omniidl/signatures.py makes this table from IDL.
+// tools/omniidl/message_signatures.py makes this table from IDL.
 struct Signatures {
   std::span<const Signature> requests;
   std::span<const Signature> replies;

@@ -1,5 +1,5 @@
-// Reads parts of JSON documents from untrusted sources. Each function throws an error with the
-// place and the expected type.
+// Reads parts of JSON documents from untrusted sources. Each function throws an error that
+// names the wrong key and the expected type.
 
 export type JsonObject = Record<string, unknown>;
 

@@ -8,7 +8,7 @@ import { parsePedestrians, pedestriansJson } from "./pedestrians";
 import type { Ros2SetUp } from "./ros2";
 import { parseRos2, ros2Json } from "./ros2";
 
-// The start of a robot on the floor.
+// The start pose of a robot on the floor: metres, and yaw in radians.
 export interface Placed {
   x: number;
   y: number;
@@ -96,7 +96,8 @@ export function withChangedRobot(
   };
 }
 
-// Returns the index of the robot with this name.
+// Returns the list that contains the robot with this name, and its index there. Returns null if there
+// is no such robot.
 export function findRobot(scenario: Scenario, name: string): { list: RobotList; index: number } | null {
   for (const list of ["robots", "avatars"] as const) {
     const index = scenario[list].findIndex((robot) => robot.name === name);
@@ -132,8 +133,8 @@ export function robotJson(robot: RobotSetUp): JsonObject {
   };
 }
 
-// Parses a scenario. Throws an error with the place if `value` is not a scenario. `left` lists the
-// keys that the page does not know; they are ignored.
+// Parses a scenario. If `value` is not a scenario, throws an error that names the wrong key. `left`
+// lists the keys that the page does not know; they are ignored.
 export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
   const json = objectAt(value, "the file");
   const { ros2, robots } = parseRos2(json.ros2, parseRobots(json.robots, "robots"));

@@ -1,4 +1,5 @@
-// The status of a simulation. The structure is the same for JSON and for the live stream.
+// The status of a simulation. HTTP responses (JSON) and messages of the live stream are both converted
+// to this structure.
 import type { SimulationStatusMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import type { JsonObject } from "./json";
@@ -28,7 +29,7 @@ export interface SimulationStatus {
   realTimeFactor: number;
   lateSteps: number;
   // The robot that the simulation waits for, such as "robot_3 (wander on host:pid) since 2.1 s";
-  // empty if there is none.
+  // empty if the simulation waits for no robot.
   waitingFor: string;
   // Why the simulation failed; empty if it has not failed. Only HTTP responses report it, and not
   // the live stream.

@@ -7,7 +7,7 @@ export interface ModelVisual {
   shape: Readonly<Record<string, unknown>>;
 }
 
-// A material as inspectors show it.
+// The data of a material that the inspector panel shows.
 export interface MaterialFacts {
   colour: string; // "#rrggbb", sRGB
   opacity: number;
@@ -16,7 +16,7 @@ export interface MaterialFacts {
   maps: readonly string[]; // "colour", "normals", …
 }
 
-// A visual as inspectors show it.
+// The data of a visual that the inspector panel shows.
 export interface VisualFacts extends ModelVisual {
   materials: readonly MaterialFacts[];
 }

@@ -43,7 +43,7 @@ const IMAGES_PANEL = "images";
 const TOPICS_PANEL = "topics";
 const INSPECTOR_PANEL = "inspector";
 
-// The menus that commands of the palette open.
+// The menus that commands of the command palette open.
 export type MenuName = "pace" | "layout" | "viewers" | "notes" | "compare" | "time" | "shape" | "model";
 
 export class App {
@@ -62,7 +62,7 @@ export class App {
   readonly layouts: LayoutControl;
   // Functions that open the menus of the page and focus their first field.
   readonly menus = new Map<MenuName, () => void>();
-  drawBy: (drawer: Drawer) => void = () => {}; // chooses what draws the view
+  drawBy: (drawer: Drawer) => void = () => {}; // chooses whether browser or server draws the view
   askServerAgain: () => void = () => {}; // requests the server's images after the server has refused
   private readonly filming: Filming;
 
@@ -103,7 +103,8 @@ export class App {
   }
 
   // Sends one action. The live stream reports the effects of the action, so the answer may arrive
-  // after later events. If the server refuses the action, its sentence is shown.
+  // after later events. If the server refuses the action, its error message is
+  // shown.
   act(action: Action, count = 1): Promise<void> {
     return this.command(action, (simulation) => this.api.act(simulation, action, count));
   }
@@ -252,8 +253,8 @@ export class App {
     this.panels.open("joints");
   }
 
-  // All images together need a large part of the page. So if their part is small, it is maximised
-  // while they are shown.
+  // The images of all cameras together need much space. So if the panel of images is small, it is
+  // maximised while it shows all cameras.
   showAllCameras(allCameras: boolean): void {
     this.store.set({ allCameras });
     this.panels.open(IMAGES_PANEL);

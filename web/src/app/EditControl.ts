@@ -262,7 +262,7 @@ export class EditControl {
         await this.hasCome(name);
       },
       revert: async () => {
-        place = this.placeOf(name) ?? place; // redo adds the object at the place where it was
+        place = this.placeOf(name) ?? place; // where redo adds the object again
         await this.api.removeObject(simulation, name);
         await this.hasGone(name);
       },
@@ -300,7 +300,7 @@ export class EditControl {
       },
       revert: async () => {
         const stood = this.placeOf(name);
-        place = stood ? upright(stood) : place; // redo adds the robot at the place where it was
+        place = stood ? upright(stood) : place; // where redo adds the robot again
         await this.api.removeRobot(simulation, name);
         await this.hasGone(name);
       },
@@ -398,8 +398,8 @@ export class EditControl {
     });
   }
 
-  // A selected object stays selected. But if it was added while a robot was selected, this robot is
-  // selected again.
+  // Ends editing. A selected object stays selected. But if the object was added while a robot was
+  // selected, this robot is selected again.
   private end(): void {
     const object = this.store.get().editing?.chosen ?? null;
     if (object !== null) this.selectRobotBefore();
