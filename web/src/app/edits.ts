@@ -28,8 +28,8 @@ export function inOrder(name: string, edits: readonly Edit[]): Edit {
   };
 }
 
-// Performs the edits in an order that the server allows. An edit may fail because another body
-// still occupies the place. It is then tried again after the other edits.
+// Performs the edits in an order that the server allows. An edit fails if another body still
+// occupies the new place of its body. A failed edit is tried again after the other edits.
 export function together(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
     const done: Edit[] = [];

@@ -24,7 +24,7 @@ function titleOf({ name, world }: Scenario): string {
   return title.replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
 }
 
-// Reads a scenario file. Throws an error with a sentence if the file is not a scenario.
+// Reads a scenario file. If the file is not a scenario, throws an error with a text for the user.
 export async function readScenario(file: TextFile): Promise<ReturnType<typeof parseScenario>> {
   try {
     if (file.size > LARGEST_BYTES) throw new Error("a scenario file must not be larger than 1 MB");

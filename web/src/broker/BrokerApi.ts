@@ -1,5 +1,5 @@
-// Requests about the server's broker. Every call ends with an answer, an error sentence of the
-// server, or a timeout.
+// Requests about the server's broker. Every call returns an answer, or throws an error: the
+// server's error message, or a timeout.
 import type { JsonServer } from "../api/JsonServer";
 import type { JsonObject } from "../api/json";
 import { listAt, objectAt, textAt, textOr } from "../api/json";
@@ -69,7 +69,7 @@ export class BrokerApi {
   }
 
   async offers(question: Question): Promise<Answer> {
-    // URLSearchParams is not used because the server takes a "+" literally.
+    // URLSearchParams is not used because it writes a space as "+". For the server, "+" is a plus.
     const query = Object.entries(question).map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
     const answer = objectAt(await this.get(`offers?${query.join("&")}`), "offers");
     return {

@@ -92,7 +92,7 @@ export class BrokerPage {
     }
     this.heading.textContent = type.name;
     this.declared.replaceChildren(declaration(type));
-    // The shown offers belong to the previous type.
+    // Removes the shown offers, because they belong to the previously selected type.
     this.answer.replaceChildren();
     await this.find();
   }

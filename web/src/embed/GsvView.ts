@@ -126,8 +126,8 @@ export class GsvView extends HTMLElement {
     this.show("view.mjpeg");
   }
 
-  // While the camera moves, requests single images. The next image is requested when the previous
-  // one has arrived, so that no image is late.
+  // While the camera moves, requests single images. The next image is requested only when the
+  // previous one has arrived. So the requests cannot queue up and delay the images.
   private moved(): void {
     clearTimeout(this.steady);
     this.steady = setTimeout(() => this.refresh(), STEADY_MS);

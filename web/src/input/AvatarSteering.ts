@@ -86,7 +86,7 @@ export class AvatarSteering {
     if (!this.sending) void this.sendAll();
   }
 
-  // Sends one command at a time. While it is pending, only the last new command is kept.
+  // Sends one command at a time. Of the commands that are made meanwhile, only the newest is sent.
   private async sendAll(): Promise<void> {
     this.sending = true;
     while (this.unsent) {

@@ -135,8 +135,9 @@ export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> =
     event.preventDefault();
     command(app);
   });
-  // A button that was clicked with the mouse must not receive Space. In a dialog this is not
-  // needed, because keys are not commands there. Also, a button in a dialog may wait for a key.
+  // A button that was clicked with the mouse loses the focus. Otherwise Space would press the
+  // button again instead of starting or pausing the simulation. Buttons in a dialog keep the focus:
+  // keys are not commands there, and such a button may wait for a key.
   page.addEventListener("click", ({ detail, target }) => {
     if (detail > 0 && target instanceof Element && !target.closest("dialog")) target.closest("button")?.blur();
   });

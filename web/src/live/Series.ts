@@ -1,6 +1,6 @@
 // The values of one curve, ordered by simulated time. Only the newest MOST_SAMPLES values are
-// stored. At one value per second, these are the values of five hours. For poses, they are the
-// values of eleven minutes.
+// stored. At one value per second, these are the values of five hours. At the 30 values per second
+// of poses, they are the values of eleven minutes.
 
 export const MOST_SAMPLES = 20_000;
 const FIRST_CAPACITY = 512;

@@ -1,7 +1,8 @@
 // Expressions over fields: "hypot({/a/odom twist.twist.linear.x}, {a speed}) * 3.6". A reference is
-// written in braces: a topic, a robot or "simulation", then a space and the field or value.
+// written in braces: {OWNER FIELD}. OWNER is a topic, the name of a robot, or "simulation".
 //
-// The length, the depth and the number of references are bounded. Only arithmetic is evaluated.
+// The expression's length, its depth of nesting and its number of references are bounded. Only
+// arithmetic is evaluated.
 
 const MAX_LENGTH = 300;
 const MAX_DEPTH = 50;
