@@ -152,9 +152,11 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
     return () => this.unsubscribe(subscription);
   }
 
-  // The value of a parameter according to the server; null if it does not answer.
+  // Requests the value of a parameter from the server. Resolves to null if the server offers no
+  // parameters, if the connection is lost, or if the same parameter is requested again before the
+  // answer.
   parameter(name: string): Promise<ParameterValue | null> {
-    this.questions.get(name)?.(null); // an older question was not answered
+    this.questions.get(name)?.(null); // ends an older request that is still pending
     if (!this.hasParameters) return Promise.resolve(null);
     return new Promise((resolve) => {
       this.questions.set(name, resolve);

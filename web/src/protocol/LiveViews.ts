@@ -1,7 +1,7 @@
 // The views that the server draws and pushes over the live stream ("Views" in
 // docs/formats/live.md).
 
-const HEADER_BYTES = 20; // after the header of all messages: sequence, number, time
+const HEADER_BYTES = 20; // bytes of sequence (4), number (8) and seen time (8)
 
 // An image that the server has pushed.
 export interface PushedImage {

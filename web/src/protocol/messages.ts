@@ -69,7 +69,7 @@ export interface DiagnosticArrayMessage {
   status: { level: number; name: string; message: string; values: { key: string; value: string }[] }[];
 }
 
-// gsv_msgs/msg/Health. `robots` lists only robots whose state is not just "moving".
+// gsv_msgs/msg/Health. `robots` lists all robots except those in the state "moving".
 export interface HealthMessage {
   stamp: Time;
   step: bigint;
@@ -120,8 +120,8 @@ export interface ExpectationMessage {
   step: bigint;
   detail: string;
   bodies: string[];
-  places: ArrayLike<number>; // x y radius for each
-  boxes: ArrayLike<number>; // x0 x1 y0 y1 for each
+  places: ArrayLike<number>; // x y radius for each place
+  boxes: ArrayLike<number>; // x0 x1 y0 y1 for each box
 }
 
 export const LINE_LIST = 5;

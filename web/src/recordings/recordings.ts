@@ -55,8 +55,8 @@ function parseRecordingLine(json: unknown): RecordingLine {
   };
 }
 
-// Returns the address of a page that replays the recording. The replay belongs to this page only.
-// It starts at a simulated time.
+// Returns the address of a page that replays the recording. The page opens a private replay, which
+// no other page shows. The replay starts at the simulated time `from`, in seconds.
 export function replayUrl(name: string, from: number | null = null): string {
   return `./?recording=${encodeURIComponent(name)}${from === null ? "" : `#t=${from}`}`;
 }

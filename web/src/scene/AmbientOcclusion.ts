@@ -56,8 +56,9 @@ void main() {
   }
   vec3 place = placeAt(at);
   vec2 pixel = 1.0 / size;
-  // Uses the smaller of the differences to both sides, because the larger one may reach across an
-  // edge.
+  // The normal is computed from the differences in depth to the neighbouring pixels: one of left
+  // and right, and one of up and down. The smaller difference is used, because the larger one may
+  // reach across an edge to another surface.
   vec3 right = placeAt(at + vec2(pixel.x, 0.0)) - place;
   vec3 left = place - placeAt(at - vec2(pixel.x, 0.0));
   vec3 up = placeAt(at + vec2(0.0, pixel.y)) - place;

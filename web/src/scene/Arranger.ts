@@ -52,7 +52,8 @@ export class Arranger {
     private readonly events: ArrangerEvents,
   ) {
     const { host } = view;
-    // This listener is registered before the view's own gestures.
+    // These listeners run in the capture phase. So they can stop an event before the camera's
+    // gestures receive it.
     host.addEventListener("pointerdown", (event) => this.grab(event), true);
     host.addEventListener("pointermove", (event) => this.pull(event), true);
     host.addEventListener("pointerup", (event) => this.drop(event), true);
@@ -96,7 +97,8 @@ export class Arranger {
     const body = turns ? this.selected() : (bodies?.pick(this.ray(start)) ?? null);
     const index = body && bodies ? bodies.indexOf(body.name) : -1;
     const before = bodies?.poseOf(index)?.clone();
-    // A body that is fixed to the world can be dragged only after the user has selected it.
+    // A static body that a user has added can be dragged only after it has been selected. A static
+    // body of the world file (isFixed) cannot be dragged.
     if (!body || !before || body.isFixed || (body.isStatic && body.name !== this.view.selection())) return;
     const grip = this.onPlane(start, before.elements[14]!);
     if (!grip) return;

@@ -44,7 +44,8 @@ export class BodyLayer {
     }
   }
 
-  // Sets the level of detail for this distance, in a view with this height in pixels.
+  // Chooses the level of detail of crowds from their distance to the camera. `height` is the height
+  // of the view in pixels.
   chooseDetail(camera: PerspectiveCamera, height: number): void {
     this.detail.choose(camera, height);
   }

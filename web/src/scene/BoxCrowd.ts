@@ -34,7 +34,7 @@ export class BoxCrowd {
     this.positions = new Float32Array(3 * CORNERS * count);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(this.positions, 3).setUsage(DynamicDrawUsage));
-    // Normals are set only because three.js uses them to displace shadows.
+    // The normals do not affect the shading. three.js needs them for the offset of shadows.
     geometry.setAttribute("normal", new BufferAttribute(repeated([0, 0, 1], CORNERS * count, 0), 3));
     geometry.setAttribute("uv", new BufferAttribute(repeated([0, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 0, 1, 1, 1], count, 0), 2));
     geometry.setIndex(new BufferAttribute(Uint32Array.from(repeated(FACES, count, CORNERS)), 1));
