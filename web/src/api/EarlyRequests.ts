@@ -30,7 +30,8 @@ export class EarlyRequests {
       const path = simulationPath(chosen.name);
       this.ask(path).catch(() => {});
       const { bodies } = (await this.ask(`${path}/scene`)) as { bodies: { model: string }[] };
-      // Models are requested only to fill the browser's cache. They never change.
+      // Puts the models into the browser's cache, from which the page gets them later. The server
+      // lets browsers cache models, because a model never changes.
       for (const model of new Set(bodies.map((body) => body.model))) {
         this.fetchPage(this.url(`api/models/${encodeURIComponent(model)}.glb`)).catch(() => {});
       }
@@ -66,7 +67,8 @@ export class EarlyRequests {
   }
 }
 
-// Returns a response whose JSON can be requested several times.
+// Reads the body of a response only once. After that, response.json() can be called several times:
+// by begin() and by the page.
 async function readOnce(response: Response): Promise<Response> {
   const json: Promise<unknown> = response.json();
   json.catch(() => {});

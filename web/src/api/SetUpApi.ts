@@ -61,7 +61,7 @@ export interface NewObject {
 // The start of a simulation that does not exist yet: its scene and its poses.
 export interface Preview {
   scene: SceneDescription;
-  poses: Float64Array; // seven numbers for each entry of the scene's poses
+  poses: Float64Array; // x y z qx qy qz qw (metres) for each entry of scene.poses
   warnings: string[]; // parts of the files that could not be read
 }
 
@@ -127,7 +127,7 @@ export class SetUpApi {
     return parseRos2Support(await this.server.get("api/ros2"));
   }
 
-  // Returns the scene at the start of the simulation.
+  // Returns the start of the simulation that this scenario describes, without creating it.
   async preview(scenario: Scenario): Promise<Preview> {
     const shown = { ...scenarioJson(scenario), name: "", record: false };
     const answer = objectAt(await this.server.post("api/preview", shown, LONG_TIMEOUT_MS), "preview");

@@ -46,7 +46,8 @@ const DIFFERENCE_TIMEOUT_MS = 120_000;
 export class SimulationApi {
   readonly setUp: SetUpApi;
   private readonly server: JsonServer;
-  private readonly root: JsonServer; // requests at the server's root, also during a replay
+  // Sends requests to the server itself, also while `server` sends its requests to a replay.
+  private readonly root: JsonServer;
 
   readonly viewers: ViewersApi;
   readonly metrics: MetricsApi;
@@ -63,7 +64,8 @@ export class SimulationApi {
     this.viewers = new ViewersApi(new JsonServer(base, fetchPage), credentials);
   }
 
-  // Opens a recording for this page only. All further requests are sent to this replay.
+  // Opens a recording as a replay for this page only. All further requests of `server` go to this
+  // replay.
   async openRecording(recording: string): Promise<void> {
     this.server.moveTo("");
     const path = `api/recordings/${encodeURIComponent(recording)}/replay`;
@@ -80,7 +82,8 @@ export class SimulationApi {
     return this.root;
   }
 
-  // Returns the part of a running simulation's past that the server stores; null if there is none.
+  // The server stores the last part of a running simulation's past. Returns the time range of this
+  // part; null if the server stores nothing.
   async kept(name: string): Promise<Kept | null> {
     try {
       return parseKept(await this.root.get(`${simulationPath(name)}/history`));
@@ -91,8 +94,8 @@ export class SimulationApi {
   }
 
   // Opens the stored past as a replay for this page only, and returns its playback state. All
-  // further requests are sent to this replay, until leavePast(). Requests made before the playback
-  // state has arrived are still sent to the running simulation.
+  // further requests of `server` go to this replay, until leavePast(). Requests made before the
+  // playback state has arrived still go to the running simulation.
   async openPast(name: string): Promise<Replay> {
     const answer = objectAt(await this.root.post(`${simulationPath(name)}/history`, {}), "history");
     const base = textAt(answer.base, "history.base");

@@ -10,8 +10,8 @@ export interface Person {
   simulation: string; // the simulation that this viewer sees; empty if there is none
   holds: boolean; // whether this viewer has control of the simulation
   asks: number; // position of this viewer in the queue for control, from 1; 0 if not waiting
-  // Time in s after which the first viewer in the queue gets control, if the viewer who has control
-  // does not answer. Not used for other viewers.
+  // For the first viewer in the queue: time in s until it gets control, if the viewer who has
+  // control does not answer. Other viewers do not use it.
   passesIn: number;
 }
 

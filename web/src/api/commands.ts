@@ -15,7 +15,9 @@ export interface CommandParameter {
   isRequired: boolean;
   minimum: number; // infinite if there is no bound
   maximum: number;
-  otherwise: string; // meaning of an absent argument, as a text; empty if the argument is required
+  // The default as a text. If there is no default, describes what an absent argument means. Empty
+  // if the server gives neither.
+  otherwise: string;
 }
 
 // A command with its parameters.

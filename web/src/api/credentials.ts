@@ -31,8 +31,8 @@ export class Credentials {
     fetch(input, { ...init, headers: { ...(init?.headers as Record<string, string>), ...this.headers } });
 }
 
-// Returns the credentials of this tab. If the address ends in a token (#token=…, which no server or
-// log gets), the token is removed from the address.
+// Returns the credentials of this tab. If the address ends in #token=…, stores this token and
+// removes it from the address. Browsers do not send the part behind "#" to servers.
 export function pageCredentials(window: Window): Credentials {
   const credentials = new Credentials(sessionStorageOf(window));
   const parts = new URLSearchParams(window.location.hash.replace(/^#/, ""));

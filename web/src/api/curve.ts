@@ -12,7 +12,7 @@ export interface CurveOf {
 // The samples of a curve that the server has read so far.
 export interface WholeCurve {
   times: Float64Array; // s, simulated, ascending
-  values: Float64Array; // NaN means a missing echo or a lost value
+  values: Float64Array; // NaN: not finite in the recording, such as a sonar's range without an echo
   // Whether `values` contains every sample. If not, it contains the minimum and the maximum of each
   // of many equal time intervals.
   isWhole: boolean;

@@ -1,5 +1,5 @@
-// Reads parts of JSON documents from untrusted sources. Each function throws an error that
-// names the wrong key and the expected type.
+// Reads parts of JSON documents from untrusted sources. If a value has the wrong type, functions
+// "…At" throw an error with the key and the expected type, and functions "…Or" return a default.
 
 export type JsonObject = Record<string, unknown>;
 

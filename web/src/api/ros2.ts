@@ -6,7 +6,8 @@ import { objectAt, textOr } from "./json";
 // The ROS 2 settings of a simulation that is being set up.
 export interface Ros2SetUp {
   cmd_vel: string; // message type of cmd_vel; empty for the server's default
-  distro: string; // ROS 2 distribution of the other nodes; empty for the server's default
+  // ROS 2 distribution of the nodes that communicate with gsv; empty for the server's default.
+  distro: string;
   range: string; // discovery range; empty for the server's default
   others: Record<string, string>; // namespaces of robots that the scenario does not list
 }
