@@ -51,7 +51,8 @@ export interface TrafficPort {
 export interface ServerPort {
   // The metrics of /metrics (docs/monitoring.md).
   figures(): Promise<ServerFigures>;
-  // A parameter of the live stream; null if the server has no such parameter.
+  // The value of a parameter, such as /gsv/step_size_s, read over the live connection (Foxglove
+  // WebSocket). Null if the server does not answer.
   parameter(name: string): Promise<ParameterValue | null>;
   // The lines of a recording's log.
   log(simulation: string): Promise<RecordedLine[]>;
@@ -79,7 +80,8 @@ export interface ControlPort {
   // Takes control of the simulation, or requests it from the viewer who has it.
   take(): Promise<void>;
   resume(): void; // starts or resumes the simulation
-  // Sets the velocity of an avatar, or of a robot without a behaviour, until the next command.
+  // Sets the velocity of an avatar, or of a robot without a behaviour. The body stops 1 s of
+  // wall-clock time after the last command.
   drive(simulation: string, robot: string, drive: Drive): Promise<void>;
   setDriven(robot: string | null): void; // sets the robot that this page drives by hand
   joints(simulation: string, body: string): Promise<BodyJoints>;
@@ -87,10 +89,10 @@ export interface ControlPort {
   commandJoint(simulation: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void>;
 }
 
-// The shapes of models. Promises reject with a sentence.
+// The shapes of models. If a request fails, its promise rejects with an error sentence.
 export interface ShapesPort {
-  // The visuals of the model with this identifier. If it is the identifier of collision shapes,
-  // returns the collision shapes.
+  // The visuals of a model. `model` is the identifier `model` of a body in the scene. If `model` is
+  // the body's identifier `collisions`, returns the collision shapes.
   visuals(model: string, links: readonly string[]): Promise<readonly VisualFacts[]>;
 }
 
@@ -102,9 +104,10 @@ export interface ReplayPort {
 
 export interface RobotsPort {
   select(robot: string | null): void;
-  // Same as a click on the body: selects a robot, or in edit mode an object.
   inspect(part: WorldPart): void; // selects an object, link, joint or sensor
-  pick(body: string, isAdding?: boolean): void; // `isAdding`: adds to the selection
+  // Has the effect of a click on the body: selects a robot or an object. If `isAdding` is true and
+  // something is selected in edit mode, adds the body to the selection or removes it.
+  pick(body: string, isAdding?: boolean): void;
   filter(change: Partial<RobotFilter>): void; // filters the list and the view
   follow(): void; // the view follows the selected robot; a second call ends this
 }

@@ -13,7 +13,8 @@ export function jointsButton({ control }: Pick<PanelPorts, "control">): HTMLElem
   );
 }
 
-// Whether the body has joints that the panel shows. The joints of static bodies do not move.
+// Whether the body has joints that the panel shows. The scene lists only joints that can move, so
+// static bodies have none.
 export function hasJoints(body: SceneBody | undefined): boolean {
   return body !== undefined && body.joints.length > 0;
 }

@@ -1,5 +1,5 @@
-// Collects diagnostics from start() until the function that it returns is called: /diagnostics of
-// the stream, the server's metrics, and the number of updates dropped for this page.
+// Collects diagnostics: the topic /diagnostics, the server's metrics, and the number of updates
+// dropped for this page. start() begins to collect, and returns a function that ends this.
 import type { DiagnosticArrayMessage } from "../../protocol/messages";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { Store } from "../../state/Store";

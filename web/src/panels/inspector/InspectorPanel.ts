@@ -46,7 +46,8 @@ export function mount(ports: Ports): MountedPanel {
   return { body: element("div", { class: "inspector-body" }, hint, createPoseFields(ports), part.element, createInspector(ports)), whileOpen };
 }
 
-// Returns null for a robot or an avatar itself, because createInspector() shows it.
+// Returns the node that `part` shows. A robot or an avatar itself is not shown there but by
+// createInspector(), so the result is null.
 function objectOf(node: WorldNode | null): WorldNode | null {
   return node?.kind === "body" && (node.body.isRobot || node.body.isAvatar) ? null : node;
 }

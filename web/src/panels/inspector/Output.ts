@@ -69,7 +69,7 @@ class OutputReader {
     try {
       return await this.ports.server.output(simulation, robot);
     } catch {
-      return []; // not needed: a new subscription of the topic delivers the last lines again
+      return []; // a new subscription of the topic also delivers the last lines
     }
   }
 

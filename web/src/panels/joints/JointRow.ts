@@ -6,8 +6,8 @@ import { formatNumber } from "../../ui/format";
 
 const STEPS = 400; // number of steps of the slider
 const USUAL_VELOCITY = 2; // used if the joint has no velocity limit, rad/s or m/s
-// After the user has set a value, the field shows this value for this time, because the server
-// reports it with a delay.
+// After the user has set a value, the row shows this value at least for 600 ms. The server reports
+// it with a delay. Without this time, the row would show the old value in between.
 const HELD_MS = 600;
 
 interface Actions {
@@ -33,7 +33,7 @@ export class JointRow {
   private readonly kind: "position" | "velocity";
   private inDegrees = false;
   private heldUntil = 0; // ms
-  private waiting: number | null = null; // value that the user has set while the simulation is paused
+  private waiting: number | null = null; // value that the user has set; null after `heldUntil`
 
   constructor(joint: Joint, { command, problem }: Actions) {
     const hasLimits = Number.isFinite(joint.minimum) && Number.isFinite(joint.maximum);

@@ -111,7 +111,7 @@ class Rows {
     else this.list.scrollTop = scrollTop;
   }
 
-  // Marks past and future lines, and keeps the newest line visible.
+  // Marks the lines that come after the present instant. Scrolls to the last line before it.
   private place(): void {
     const present = this.until - this.from - 1;
     const rows = [...this.list.children] as HTMLElement[];

@@ -41,7 +41,8 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
     steps.show(costs.longest(MAX_STEPS));
     holdUps.show(costs);
   };
-  // If the server does not have this parameter, it does not answer, and the value stays unknown.
+  // If the server does not answer, for example because it does not have this parameter, the value
+  // stays unknown.
   const ask = async (key: keyof World, parameter: string) => {
     const value = await server.parameter(parameter).catch(() => null);
     if (typeof value !== "number") return;

@@ -73,7 +73,7 @@ export class StepCosts {
     return [...found.values()].sort((a, b) => b.total - a.total);
   }
 
-  // Returns the longest steps, ordered by time.
+  // Returns at most `most` steps: those with the longest busy time, ordered by step number.
   longest(most: number): StepCost[] {
     const all = this.messages.flatMap(({ longest }) => longest);
     const chosen = [...all].sort((a, b) => busyTime(b) - busyTime(a)).slice(0, most);

@@ -98,7 +98,8 @@ export class PlotDrawing {
     this.request();
   }
 
-  // In a recording, a press on the plot goes to that time. Dragging changes the time continuously.
+  // In a recording, a press on the plot goes to the time under the pointer. While the user drags,
+  // the time follows the pointer.
   private hold({ button, pointerId }: PointerEvent, x: number): void {
     const { replay, plots } = this.ports.state.get();
     if (button !== 0 || !replay || plots.against !== null) return;
@@ -193,7 +194,7 @@ export class PlotDrawing {
   }
 }
 
-// Returns the event under the pointer.
+// Returns a text with the events near the pointer; empty if there are none.
 function eventAt(marks: readonly Mark[], pointed: number | null, width: number, span: Range): string {
   if (pointed === null) return "";
   const near = (NEAR_PX / Math.max(1, width)) * (span.max - span.min);

@@ -34,8 +34,8 @@ export class PlotEvents {
     }));
   }
 
-  // A new subscription repeats earlier events, so they are not added again. A reset starts a new
-  // list.
+  // Adds an event, unless it is already in the list, because a new subscription repeats earlier
+  // events. A reset or another simulation starts a new list.
   private take(event: RecordedEvent): void {
     const { simulation } = this.ports.state.get();
     if (simulation !== this.simulation || event.event === "reset") this.live = [];
