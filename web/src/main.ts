@@ -54,8 +54,8 @@ import type { ViewChoice } from "./app/ViewChoice";
 
 // The page's address may contain simulation=NAME (the simulation to join) and recording=NAME (the
 // recording to replay). With quality=high, the view keeps its full resolution even if drawing is
-// slow. With quality=best, it also has reflections, fitted shadows and ambient occlusion. Without
-// this option, these are used only with a graphics card.
+// slow. With quality=best, it also has reflections, fitted shadows and ambient occlusion. With
+// other values, these three are drawn only if the browser uses a graphics card.
 const storage = browserStorage();
 const store = new Store<State>({
   ...initialState,
@@ -133,8 +133,8 @@ function showSelectedPose(): void {
   if (selection === null || !latest) return;
   const pose = selected.update(selection, latest, performance.now());
   if (pose) store.set({ selectedPose: pose });
-  // If the simulation is paused or the replay was moved to this instant, no more poses arrive. Then
-  // a timer shows this pose.
+  // The last update is too recent. A timer shows the pose later, because no more poses may arrive:
+  // for example, if the simulation is paused, or if the user moved a replay to this instant.
   else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 
@@ -153,7 +153,7 @@ async function openWorld(): Promise<void> {
 }
 
 // Resolves when the browser has drawn the present page. So the list of robots is drawn before the
-// 3D view starts. In the background, nothing is drawn.
+// 3D view starts. A page in the background is not drawn, so the wait has a limit.
 function painted(): Promise<void> {
   return new Promise((resolve) => {
     setTimeout(resolve, LONGEST_PAINTING_MS);
@@ -226,8 +226,8 @@ function connectWorld(world: World3D): void {
       health,
       robotFilter,
       scene,
-      // If there is no health report, the states of robots follow from the states of their
-      // behaviours. If there is a filter, the names that match are shown.
+      // The robots' status matters in two cases. Without a health report, the states of robots
+      // follow from the states of their behaviours. With a filter, the robots that match are shown.
       robots: health === null || isFiltering(robotFilter) ? status?.robots : null,
     }),
     () => world.setStates(shownStates(store.get())),

@@ -96,8 +96,8 @@ export function withChangedRobot(
   };
 }
 
-// Returns the list that contains the robot with this name, and its index there. Returns null if there
-// is no such robot.
+// Returns the list that contains the robot with this name, and its index there. Returns null if
+// there is no such robot.
 export function findRobot(scenario: Scenario, name: string): { list: RobotList; index: number } | null {
   for (const list of ["robots", "avatars"] as const) {
     const index = scenario[list].findIndex((robot) => robot.name === name);

@@ -1,5 +1,5 @@
-// The status of a simulation. HTTP responses (JSON) and messages of the live stream are both converted
-// to this structure.
+// The status of a simulation. HTTP responses (JSON) and messages of the live stream are both
+// converted to this structure.
 import type { SimulationStatusMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import type { JsonObject } from "./json";

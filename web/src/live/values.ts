@@ -31,7 +31,8 @@ export function valuesOf(message: unknown, units: Units = {}): LiveValue[] {
   return values.map((value) => ({ ...value, unit: value.unit || unitOf(value.key, units) }));
 }
 
-// Returns the unit of a key. Several paths in `units` may contain the key; the longest path counts.
+// Returns the unit of a key. A path in `units` applies to the field itself and to all fields below
+// it. The longest path that applies determines the unit.
 export function unitOf(key: string, units: Units): string {
   const parts = key.replace(/\[[^\]]*\]/g, "").split(".");
   for (let count = parts.length; count > 0; count--) {

@@ -7,7 +7,7 @@ import { allMarks, spanOf } from "../state/timeline";
 import { element } from "../ui/element";
 import { formatTime } from "../ui/format";
 
-const MARKS_MS = 500; // period of drawing the marks of a run, because they move slowly
+const MARKS_MS = 500; // of a run: minimum time between two drawings of the marks, which move slowly
 
 export function createTimelineTrack(app: App): HTMLElement {
   return element("div", { class: "timeline-track" }, slider(app), marks(app));

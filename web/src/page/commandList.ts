@@ -18,8 +18,8 @@ export function commandsOf(app: App): Command[] {
   return [...controlCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...objectCommands(app), ...topicCommands(app)];
 }
 
-// Returns the entries that contain each word of the text. Entries that begin with the text come
-// first.
+// Returns the entries that contain each word of the text. Entries whose label begins with the first
+// word come first.
 export function findCommands(commands: readonly Command[], text: string): Command[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const fitting = commands.filter(({ group, label }) => {

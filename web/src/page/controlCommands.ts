@@ -1,5 +1,5 @@
-// The commands of the palette for what the toolbar, the panel Edit, the timeline and the menus
-// control. A command whose name ends with "…" opens the menu in which the user continues.
+// The commands of the command palette that are also in the toolbar, the panel Edit, the timeline or
+// the menus. A command whose name ends with "…" opens the menu in which the user continues.
 import type { App } from "../app/App";
 import { canNote } from "../app/NotesControl";
 import { SPEEDS } from "../app/ReplayControl";
@@ -17,7 +17,7 @@ import { controlWish } from "./PeopleMenu";
 export interface Command {
   group: string; // "Panel", "Robot"
   label: string;
-  key?: string; // the key of the command
+  key?: string; // the keyboard shortcut of the command
   run(): void;
 }
 

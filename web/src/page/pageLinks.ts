@@ -19,7 +19,7 @@ const LINKS: Link[] = [
   { ...BROKER, picture: "broker", label: "Broker", isOffered: isLive },
 ];
 
-// Whether the page shows a running simulation. A recording has no broker.
+// Whether the page shows a simulation, and not the replay of a recording, which has no broker.
 function isLive({ replay }: State): boolean {
   return replay === null;
 }

@@ -14,8 +14,8 @@ export class ImagePainter {
   private busy = false;
   private isPainted = false;
   private generation = 0;
-  // This canvas is drawn by the processor, and not by the graphics. Without a graphics card, the
-  // page would otherwise wait for the 3D view, which is drawn by the same graphics.
+  // The CPU draws this canvas. The browser's graphics draw the 3D view. Without a graphics card,
+  // this takes long, and a canvas that uses the same graphics would have to wait for it.
   private readonly context: CanvasRenderingContext2D | null;
 
   // `onProblem` gets a sentence if an image cannot be shown.
