@@ -31,8 +31,8 @@ export class Quality {
     return Math.min(HIGHEST_DEVICE_RATIO, this.deviceRatio) * this.scale;
   }
 
-  // Takes the time between two consecutive frames. Returns true if the quality of the next frame
-  // differs.
+  // Takes the time between two consecutive frames. Returns true if this changes the quality of the
+  // next frame.
   frameTook(milliseconds: number): boolean {
     if (this.fixed) return false;
     this.slow = milliseconds > SLOW_MS ? this.slow + (milliseconds > VERY_SLOW_MS ? 4 : 1) : 0;

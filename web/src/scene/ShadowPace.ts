@@ -1,6 +1,6 @@
 // Selects the frames in which shadows are drawn again. While frames are fast, these are all frames
-// in which something has moved. While frames are slow, only every fourth frame is selected, because
-// the shadows of a thousand robots take as long as the robots.
+// in which something has moved. While frames are slow, only every fourth frame is selected: drawing
+// the shadows of a thousand robots takes as long as drawing the robots.
 
 const SLOW_MS = 90;
 const FRAMES_APART = 4;

@@ -42,8 +42,8 @@ export class ShownPoses {
     return true;
   }
 
-  // Like show(), but with the poses at a simulated time in seconds. This may be the time of a
-  // server's image.
+  // Like show(), but with the poses at a simulated time in seconds. If the server draws the view,
+  // this is the time of its image, so that labels and marks lie at the right places in the image.
   showAt(stamp: number): boolean {
     if (!this.bodies || !this.interpolator.readAt(stamp, this.shown)) return false;
     this.bodies.setPoses(this.shown);
@@ -69,7 +69,8 @@ export class ShownPoses {
     return { pose: matrixOf(latest.poses, 7 * entry), stamp: latest.stamp };
   }
 
-  // Like latestOf(), also for bodies whose pose is only in the scene. A drag does not change it.
+  // Like latestOf(), but also for bodies that have no entry in the poses' messages: returns their
+  // pose in the scene. While the user drags a body, the returned pose does not change.
   reportedOf(body: string): Matrix4 | null {
     const index = this.bodies?.indexOf(body) ?? -1;
     const inScene = this.bodies?.scene.bodies[index]?.pose;

@@ -1,6 +1,7 @@
 // The background. It is darker above and below than at the horizon, as in the robots' cameras
-// (gsv/rendering). But it is hazy below, because the camera looks down over the edge of the ground.
-// The background moves with the camera, so that it is always far away.
+// (gsv/rendering). Below the horizon, it is less dark than in their images, like haze, because the
+// camera often looks down over the edge of the ground. The background moves with the camera, so
+// that it is always far away.
 import type { OrthographicCamera, PerspectiveCamera } from "three";
 import { BackSide, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import type { SceneDescription } from "../api/scene";

@@ -71,8 +71,8 @@ export class Surface {
     this.renderer.shadowMap.needsUpdate = true;
   }
 
-  // Takes the time between two consecutive frames. Returns true if the quality of the next frame
-  // differs.
+  // Takes the time between two consecutive frames. Returns true if this changes the quality of the
+  // next frame.
   frameTook(milliseconds: number): boolean {
     if (this.drawn) return false;
     const hasChanged = this.quality.frameTook(milliseconds);
@@ -93,8 +93,8 @@ export class Surface {
     this.renderer.setSize(this.width, this.height);
   }
 
-  // Draws the scene. If the server draws, draws only the objects in `painted` over its present
-  // image.
+  // Draws the scene. If the server draws the scene, shows the server's image, and draws only the
+  // objects that `painted` returns over it.
   render(scene: Scene, camera: PerspectiveCamera, painted: () => Object3D[]): void {
     if (this.drawn) {
       this.drawn.show(camera, this.width, this.height);

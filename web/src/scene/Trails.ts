@@ -12,7 +12,8 @@ const APART_M = 0.05;
 const JUMP_M = 2;
 const COLOURS = [0x2f81e0, 0xe0701a, 0x2a9d4a, 0xc2399b, 0xd0453e, 0x12938f].map(rgb);
 const ABOVE_FLOOR_M = 0.02;
-// m/s: minimum of the scale's end, so that the noise of a robot at rest does not fill the scale
+// m/s: the colour scale for speeds ends at this speed or higher. Otherwise, the noise of robots at
+// rest would get the colours of high speeds.
 const LEAST_TOP_SPEED = 0.1;
 
 interface Trail {

@@ -170,8 +170,8 @@ export class World3D {
   setPoses(message: PosesMessage): void {
     this.poses.take(message);
     if (!this.surface.isDrawnByServer) return this.loop.request();
-    // The server draws these poses too. When its image arrives, it requests a frame. While the
-    // simulation is paused, the poses may arrive after their image.
+    // The server draws these poses too, and the arrival of its image requests a frame. While the
+    // simulation is paused, the poses may arrive after their image. So a timer requests a frame.
     clearTimeout(this.latePoses);
     this.latePoses = setTimeout(() => this.loop.request(), LATE_POSES_MS);
   }

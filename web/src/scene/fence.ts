@@ -8,7 +8,7 @@ export function fenceOf(gl: WebGL2RenderingContext): Fence {
     sync = null;
   };
   return {
-    // The browser sends the commands to the graphics when the frame ends.
+    // Needs no gl.flush(): the browser sends the commands to the graphics when the frame ends.
     mark: () => {
       drop();
       sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);

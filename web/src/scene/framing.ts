@@ -66,8 +66,8 @@ export function withoutFarAway(places: Vector3[]): Vector3[] {
 }
 
 // Returns an identifier of the world for which the camera is set up. If the identifier does not
-// change, the camera does not move. Different worlds may have one name, such as the previews of a
-// set-up.
+// change, the camera does not move. It contains the name and the static bodies, because different
+// worlds may have the same name, such as the previews of a set-up.
 export function environmentOf({ name, bodies }: SceneDescription): string {
   return JSON.stringify([name, bodies.filter(({ isFixed }) => isFixed).map(({ model, pose }) => [model, pose])]);
 }

@@ -4,12 +4,14 @@ import { drawsInSoftware } from "./software";
 
 const LONGEST_MS = 5000;
 
-// Resolves to whether drawing is in software.
+// Resolves to false if a graphics card draws. Resolves to true if the browser draws in software, or
+// if this is unknown.
 export async function startGraphics(): Promise<boolean> {
   return (await askWorker()) ?? drawsInSoftware(document.createElement("canvas")) ?? true;
 }
 
-// Resolves to null if no worker can determine this. Then the page is blocked while the view starts.
+// Starts the graphics in a worker, and resolves to what the worker reports (see graphicsWorker.ts).
+// Resolves to null if that fails. Then the page is blocked while the view starts.
 function askWorker(): Promise<boolean | null> {
   if (typeof Worker === "undefined" || typeof OffscreenCanvas === "undefined") return Promise.resolve(null);
   let worker: Worker;
