@@ -133,7 +133,7 @@ class Benches:
         return Measured(median_of(9, [self.gsv, *arguments], 0), median_of(9, ["/bin/true"], 0))
 
     def broker(self, figure):
-        """Measures each value over TCP once per run. A run takes a minute."""
+        """Returns one figure of the broker over TCP. A run of the bench takes a minute and measures all figures."""
         if figure not in self.broker_figures:
             offers = "5000" if self.is_quick else "100000"
             self.broker_figures = self.bench("broker", "--offers", offers)[-1]
@@ -153,12 +153,12 @@ class Benches:
         return Measured(1 / (1 + result["median_extra_percent"] / 100))
 
     def load(self, world):
-        """Returns the processor time of a run, minus the processor time of an empty world."""
+        """Returns the processor time of a run, and for comparison that of a run with an empty world."""
         command = [self.gsv, "run", "--headless", "--lockstep", "--duration", "0.01"]
         return Measured(median_of(3, [*command, world], 0), median_of(3, [*command, self.folder / "empty.sdf"], 0))
 
     def house(self):
-        """Returns the world of ROBOTIS's turtlebot3_gazebo, which is not part of GSV."""
+        """Measures the load of a world of ROBOTIS's turtlebot3_gazebo, which is not part of GSV."""
         folder = os.environ.get("GSV_REAL_DIR", "/usr/share/gsv-real")
         world = Path(folder, "turtlebot3/worlds/turtlebot3_house.world")
         assert world.exists(), f"no {world}; GSV_REAL_DIR names the folder"

@@ -26,8 +26,8 @@ struct Ending {
   std::string errors;
 };
 
-// Writes `text` after the capture of standard error has begun, because capturing flushes every
-// stream.
+// Writes `text` after the capture of standard error has begun. The begin of a capture flushes every
+// stream, so that EndOutput() would have no text to flush.
 Ending EndOf(std::FILE* output, const char* text, int exit_code) {
   testing::internal::CaptureStderr();
   std::fputs(text, output);

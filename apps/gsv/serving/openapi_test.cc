@@ -113,7 +113,8 @@ class NoRecordings final : public gateway::RecordingSwitch {
   State RecordingOf(const std::string&) override { return {}; }
 };
 
-// Starts a gateway for each of the three sets of routes, with everything that programs serve.
+// Starts three gateways, because each kind has its own routes: for live simulations, for a replay
+// and for a relay. The routes include those that gsv adds, such as the page of the broker.
 class OpenApiTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -62,10 +62,11 @@ struct TestResult {
   nlohmann::ordered_json report;    // the report of `gsv run` for the last repetition; may be empty
 };
 
-// Runs the case for each repetition, until it fails. Ends the run if `is_cancelled` becomes true.
+// Runs the case `options.repeat` times, or until a run fails. Ends the run if `is_cancelled`
+// becomes true.
 //
-// Threads  any number at once, each for its own case. The calling thread must live until the
-//          function returns.
+// Threads  any number at once, each for its own case. Each calling thread starts its own run
+//          server, which ends with this thread.
 TestResult RunTestCase(const TestCase& test, const TestOptions& options,
                        const std::atomic<bool>& is_cancelled);
 

@@ -39,7 +39,7 @@ std::string FirstLines(const std::string& text) {
   return text.substr(0, end) + fmt::format("\nand {} more, see README.txt", others);
 }
 
-// Omits characters that XML 1.0 does not allow.
+// Escapes a text for XML, and omits characters that XML 1.0 does not allow.
 std::string Escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
