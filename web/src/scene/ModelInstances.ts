@@ -1,7 +1,7 @@
-// Draws the bodies of one model. Several bodies are instances. All parts that move with one frame
-// (the body, or one of its links) share one buffer of matrices, and parts of one material are one
-// draw call. A single body is drawn part by part. So three.js omits the parts outside of the view,
-// and sorts transparent parts.
+// Draws the bodies of one model. Several bodies are drawn as instances: all parts that move with
+// one frame (the body, or one of its links) share one buffer of matrices, and parts of one material
+// are one draw call. A single body is drawn part by part. So three.js omits the parts outside of the
+// view, and sorts transparent parts.
 import type { BufferGeometry } from "three";
 import { DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, Matrix4, Mesh } from "three";
 import { OCCLUDING_LAYER } from "./AmbientOcclusion";
@@ -11,9 +11,9 @@ import type { BodyFrames } from "./BodyFrames";
 import { MATRIX_NUMBERS } from "./BodyFrames";
 import type { ModelPart, ModelTemplate } from "./ModelTemplate";
 
-// Parts that move with one frame of each body.
+// The parts of a model that move with the same frame: the model itself, or one of its links.
 export interface Rig {
-  frames: Int32Array; // the frame of each body
+  frames: Int32Array; // index of this frame for each body
   parts: FramedPart[];
   matrices: InstancedBufferAttribute; // world_from_frame of each body
   isMoving: boolean;

@@ -14,7 +14,8 @@ export class ModelLibrary {
     private readonly headers: () => Record<string, string> = () => ({}),
   ) {}
 
-  // Returns a model. Fails with a sentence; a later call tries again.
+  // Returns a model. If it cannot be fetched, throws an error with a message for the user, and a
+  // later call tries again.
   get(id: string, links: readonly string[]): Promise<ModelTemplate> {
     let template = this.templates.get(id);
     if (!template) {
@@ -30,7 +31,7 @@ export class ModelLibrary {
     for (const { model, links } of bodies) this.get(model, links).catch(() => {});
   }
 
-  // Releases all models that are not in the list.
+  // Releases all models that are not in `ids`.
   keepOnly(ids: ReadonlySet<string>): void {
     for (const [id, template] of [...this.templates]) {
       if (ids.has(id)) continue;

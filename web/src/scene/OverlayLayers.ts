@@ -50,7 +50,8 @@ export class OverlayLayers {
   private readonly radio = new RadioLinks();
   readonly expectations: ExpectationMarks;
   private trailsOf = ""; // name of the scene to which the trails belong
-  // in the sensor's frame, or in the world frame; by topic
+  // By topic. The points are in the sensor's frame; those of CURRENT_CONTACTS_TOPIC are in the
+  // world frame.
   private readonly contacts = new Map<string, TouchPoint[]>();
   private bodies: BodyLayer | null = null;
   private sensors = new Map<string, MountedSensor>(); // by topic

@@ -35,7 +35,7 @@ export class RadioLinks {
     this.links = [];
   }
 
-  // Uses the displayed poses of the robots.
+  // Adds the present lines to `lines`. `worldFromRobot` returns the displayed pose of a robot.
   draw(lines: LineLayer, worldFromRobot: (robot: string) => Matrix4 | null, now: number): void {
     this.links = this.links.filter(({ until }) => until > now);
     for (const { from, to } of this.links) {

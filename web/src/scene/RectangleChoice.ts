@@ -22,7 +22,8 @@ export class RectangleChoice {
     this.mark.className = "choice-rectangle";
     this.mark.hidden = true;
     host.append(this.mark);
-    // This listener is registered before the camera's own gestures.
+    // These listeners see each event first (they capture it). So they can keep the drag of a
+    // rectangle from the camera's gestures.
     host.addEventListener("pointerdown", (event) => this.begin(event), true);
     host.addEventListener("pointermove", (event) => this.draw(event), true);
     host.addEventListener("pointerup", (event) => this.end(event), true);

@@ -53,7 +53,8 @@ export class RenderLoop {
     if (this.resting === undefined) this.schedule();
   }
 
-  // Call this when the user has pressed something.
+  // Delays the next frame if frames are slow, so that the page can react first. Call this when the
+  // user has pressed something.
   holdBack(): void {
     if (this.isSlow || this.beganMs !== null) this.heldUntilMs = performance.now() + ANSWER_MS;
   }

@@ -14,7 +14,7 @@ export class RobotFollower {
 
   constructor(private readonly rig: CameraRig) {}
 
-  // The object that the user can move.
+  // The body with the ring: the object that the user moves, else the selected robot.
   get selection(): string | null {
     return this.object ?? this.robot;
   }
@@ -32,7 +32,7 @@ export class RobotFollower {
   }
 
   select(robot: string | null): void {
-    if (robot !== this.robot) this.rig.follow(null); // the camera flies to the next robot
+    if (robot !== this.robot) this.rig.follow(null); // so that update() flies to the new robot
     this.robot = robot;
     this.update();
   }
