@@ -10,7 +10,7 @@ export interface Delivery {
   worlds: number; // number of worlds among the files, at least one
 }
 
-// Finds the files to send. Throws a sentence for the user.
+// Finds the files to send. Throws an error with a message for the user.
 export function worldsFirst(files: readonly DroppedFile[]): Delivery {
   if (files.length > MOST_FILES) throw new Error(`You chose ${files.length} files; at most ${MOST_FILES} are allowed.`);
   const large = files.find(({ size }) => size > LARGEST_FILE);
@@ -42,8 +42,8 @@ function rankOf(path: string): number {
   return /\.urdf$/i.test(path) ? 3 : NO_WORLD;
 }
 
-// If there is a single file and it is an archive, returns its content. Throws a sentence for the
-// user.
+// If there is a single file and it is an archive, returns its content. If this fails, throws an
+// error with a message for the user.
 export async function unpacked(files: readonly DroppedFile[]): Promise<readonly DroppedFile[]> {
   const [only, ...others] = files;
   if (!only || others.length > 0) return files;

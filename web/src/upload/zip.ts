@@ -29,7 +29,7 @@ export async function isZip(file: Blob): Promise<boolean> {
 }
 
 // Returns the files of an archive, each unpacked when its content is requested. Folders and hidden
-// files are left out. Throws a sentence for the user.
+// files are left out. Throws an error with a message for the user.
 export async function filesInZip(name: string, archive: Blob): Promise<DroppedFile[]> {
   const refuse = (reason: string): never => {
     throw new Error(`${name} cannot be used: ${reason}.`);
@@ -47,7 +47,8 @@ export async function filesInZip(name: string, archive: Blob): Promise<DroppedFi
 }
 
 // Whether the entry is a normal file. It must be neither a folder nor a hidden file of an operating
-// system. A name with ".." does not count as hidden.
+// system. A path that leads out of the archive's folder, for example with "..", is not counted as
+// hidden, so that check() refuses it.
 function isWanted({ filename, directory }: Entry): boolean {
   return !directory && !filename.startsWith("__MACOSX/") && (leadsOut(filename) || !isHidden(filename));
 }

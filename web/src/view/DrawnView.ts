@@ -28,8 +28,9 @@ const MOST_PX = 3840 * 2160; // the server's limit
 const SMALLEST_SIDE_PX = 16;
 const MAX_CAMERAS = 200; // maximum number of stored cameras while no image arrives
 const KEPT_DELAYS = 1000;
-// m: distance from the eye to the target in a request. Requests have 0.1 mm, so a near target would
-// turn a map, whose direction is almost vertical.
+// m: distance from the eye to the target in a request. Requests round both points to 0.1 mm. With a
+// near target, rounding would change the camera's direction, and a map would turn, because it is
+// seen almost straight from above.
 const AHEAD = 1000;
 
 interface DecodedImage {

@@ -34,7 +34,7 @@ export function depthsOf(jpeg: Uint8Array): ImageDepths | null {
 export class ImageDepths {
   private readonly columns: number;
 
-  // `scale`: a number of the grid is scale / depth, 0 for the background.
+  // Each of `numbers` is `scale` / depth (depth in metres), or 0 for the background.
   constructor(
     readonly width: number, // size of the image in pixels
     readonly height: number,

@@ -49,7 +49,8 @@ export class ImageFeed implements Feed {
   private failures = 0;
   private isEnded = false;
   private asked = ""; // the camera of the pending request, as a query
-  // Older servers, of which a relay shows the simulations, know no depths.
+  // False after the server has refused a request for depths. For example, a relay may show the
+  // simulation of an older server, which has no depths.
   private hasDepths = true;
 
   constructor(
@@ -93,13 +94,13 @@ export class ImageFeed implements Feed {
     this.asking = null;
   }
 
-  // Returns the sentence of a problem; null if there is none.
+  // Requests and takes an image. Returns an error message for the user, or null if it succeeds.
   private async take(camera: ServerCamera, query: string, signal: AbortSignal): Promise<string | null> {
     try {
       const response = await this.fetchImage(this.hasDepths ? query : query.replace(/&depth=\d+/, ""), signal);
       if (response.status === 204) return null;
       if (response.status === 400 && this.hasDepths) {
-        this.hasDepths = false; // the next request is without them
+        this.hasDepths = false; // the next request asks for no depths
         return null;
       }
       if (!response.ok) return await sentenceOf(response);

@@ -15,9 +15,10 @@ const MOST = 20_000; // maximum number of segments, points or triangles of one o
 const MOST_INSTANCES = 200;
 const LINE_PX = 1.5;
 const POINT_PX = 3;
-// A line is tested against the depths once in this fraction of the distance between them.
+// Number of tests of a line against the depths, per distance between two samples of the depths.
 const TESTS_PER_SAMPLE = 3;
-// Maximum number of tests in an image. After them, lines are tested in their middle only.
+// Maximum number of tests in an image. When it is reached, each further line is tested only
+// once, in its middle.
 const MAX_TESTS = 200_000;
 
 export class OverlayPainter {

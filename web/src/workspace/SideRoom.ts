@@ -15,8 +15,8 @@ export class SideRoom {
 
   constructor(private readonly api: DockviewApi) {}
 
-  // Joins the lowest parts of the column until each part has the minimum height. The column has
-  // this fraction of its present height. `column` contains its parts, from the top.
+  // Makes space before the column shrinks to `fraction` of its present height. Joins its lowest
+  // parts until each part will have the minimum height. `column` contains its parts, from the top.
   make(column: readonly DockviewGroupPanel[], fraction: number): void {
     const parts = [...column];
     const height = fraction * parts.reduce((sum, part) => sum + part.height, 0);
@@ -42,13 +42,13 @@ export class SideRoom {
       const { group } = panel;
       const front = group.activePanel;
       panel.api.moveTo({ group, position: "bottom" });
-      // The part of the closed panel still exists now, so the height is set afterwards.
+      // Now the part of the closed panel still takes space, so the height is set after its removal.
       queueMicrotask(() => panel.group.api.setSize({ height }));
       if (front && front !== panel) front.api.setActive();
     }
   }
 
-  // The user or a program has chosen another layout.
+  // Discards the stored parts. Call this when another layout is shown.
   forget(): void {
     this.joined = [];
   }

@@ -28,7 +28,8 @@ export function toDockview(layout: Split, space: Space, panels: readonly NamedPa
   };
 }
 
-// `size` is the length along the parent part; `space` is the available length.
+// `size` is the length of the part in the direction in which its parent is split. `space` is the
+// area of the part. Both are in CSS pixels.
 function nodeOf(part: Part, size: number, space: Space, counter: { groups: number }): GridNode {
   if ("tabs" in part) {
     counter.groups += 1;

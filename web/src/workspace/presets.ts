@@ -4,7 +4,7 @@ import type { Part, Split } from "../state/layout";
 import { VIEW } from "../state/layout";
 
 export interface Space {
-  width: number; // width of the side, CSS pixels
+  width: number; // size of the area for the layout, CSS pixels
   height: number;
 }
 
