@@ -51,7 +51,8 @@ export class PedestrianRow {
     this.route.show(routeText(group.route));
   }
 
-  // `input` is the name of the field; empty for the whole group.
+  // Shows an error at the field `input`, which is "count" or "route". For every other `input`, the
+  // error is shown for the whole group.
   refuse(input: string, sentence: string): void {
     this.count.refuse(input === "count" ? sentence : "");
     this.route.refuse(input === "route" ? sentence : "");

@@ -146,7 +146,8 @@ export class RobotRow {
     this.app.setUp.changeRobot(this.list, this.index, change);
   }
 
-  // Takes the name of an offer. If there is no offer with this name, the value is the constraint.
+  // `value` is the name of an offered behaviour, or the present name, or empty. Every other text is
+  // a constraint, with which the behaviour is chosen from the offers.
   private changeBehaviour(value: string): void {
     const offers = this.app.store.get().setUp?.behaviours?.offers ?? [];
     const isName = value === "" || offers.some(({ name }) => name === value) || value === this.robot?.behaviour;

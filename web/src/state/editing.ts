@@ -23,7 +23,7 @@ export interface WallDrawing {
 export interface Editing {
   models: ModelChoice[];
   objects: string[]; // models that are not robots
-  chosen: string | null; // the selected object; null for the selected robot
+  chosen: string | null; // the selected object; null: edits change the selected robot
   more: readonly string[]; // other selected bodies
   tool: GizmoTool;
   wall: WallDrawing | null; // if set, the next clicks on the floor are the wall's ends
@@ -46,7 +46,8 @@ export const FIRST_EDITING: Editing = {
   isBusy: false,
 };
 
-// Returns the names of movable bodies other than robots, with one body for each model.
+// Returns the names of movable bodies of which the user can add copies. There is one name for each
+// model. Robots and avatars are left out.
 export function copiesOf(scene: SceneDescription | null): string[] {
   const names = new Map<string, string>(); // names of bodies, by model
   for (const { name, model, isRobot, isAvatar, isFixed } of scene?.bodies ?? []) {

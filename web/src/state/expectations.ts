@@ -10,8 +10,10 @@ export interface Expectation {
   yaml: string; // the YAML in the scenario, on one line
   where: string; // file:line:column
   verdict: Verdict;
-  // The smallest distance to the limit so far, and its time. If the condition must become true, it is
-  // the largest distance.
+  // Distance of the measured value to the limit, and the simulated time (s) of this distance. If
+  // the condition must stay true, it is the smallest distance so far, and negative after a
+  // violation. If the condition must become true, it is the largest distance so far, and negative
+  // until the condition has been true.
   margin: { value: number; unit: string; time: number } | null;
   time: number; // simulated time of the verdict, s; 0 while it is pending
   detail: string;
@@ -42,7 +44,7 @@ function tuples(numbers: ArrayLike<number>, size: number): number[][] {
   return Array.from({ length: Math.floor(all.length / size) }, (_, i) => all.slice(size * i, size * (i + 1)));
 }
 
-// Returns a text such as "3 of 5 hold" or "2 of 5 violated"; empty if there are no expectations.
+// Returns a text such as "3 of 5 held" or "2 of 5 violated"; empty if there are no expectations.
 export function summaryOf(expectations: readonly Expectation[]): string {
   const count = (verdict: Verdict) => expectations.filter((each) => each.verdict === verdict).length;
   if (expectations.length === 0) return "";

@@ -4,9 +4,9 @@ import type { HealthMessage, RobotHealthMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import { formatNumber } from "../ui/format";
 
-// The states that the server reports, the worst first, and two states of the page. The state `told`
-// means that the robot does not move although it was commanded to move. The state `unknown` means
-// that no state is reported.
+// The states that the server reports, and two states of the page; the worst state is first. `told`
+// means that the robot was commanded to move and does not move, but not yet for so long that the
+// server reports `stuck`. `unknown` means that no state is reported.
 export const SHOWN_STATES = ["dead", "stuck", "contact", "late", "told", "standing", "unknown", "moving"] as const;
 export type ShownState = (typeof SHOWN_STATES)[number];
 
@@ -28,7 +28,7 @@ export interface RobotHealth {
   since: number; // s, simulated
   command: { linear: number; lateral: number; angular: number }; // the last command, m/s and rad/s
   actual: { linear: number; angular: number };
-  // the shortest distance that the robot's sensors measure
+  // the range sensor with the shortest distance below 1 m; null if there is none
   limit: { sensor: string; value: number; unit: string } | null;
   contact: string; // the body that the robot touches
   summary: string; // such as "has not moved"
@@ -38,7 +38,7 @@ export interface RobotHealth {
 export interface Health {
   time: number; // s, simulated
   stuckAfter: number; // s
-  robots: ReadonlyMap<string, RobotHealth>; // robots whose state is not just "moving"
+  robots: ReadonlyMap<string, RobotHealth>; // by name; moving robots are left out
 }
 
 export function healthOf(message: HealthMessage): Health {

@@ -2,8 +2,8 @@
 // of which part.
 //
 // The text of a layout is readable, and short enough for a link. r(…) is a row and c(…) is a
-// column. Commas separate the parts of a row or column. Points separate the tabs of one part, and *
-// marks the visible tab. After ~ is the size of the part, in thousandths of its row or column:
+// column. Commas separate the parts of a row or column. Dots separate the tabs of one part, and *
+// marks the visible tab. The number after ~ is the part's size in thousandths of the row or column:
 //
 //   r(view~740,c(inspector.topics*~600,camera~400)~260)
 export interface Tabs {
@@ -153,7 +153,8 @@ function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   return parts.length === 1 ? parts[0]!.part : { split: part.split, parts };
 }
 
-// Adds the view if it is missing. The outermost part is a row or a column.
+// Adds the view if it is missing. If `part` consists of tabs, puts it into a row, because a layout
+// must be a row or a column.
 function withView(part: Part | null): Split {
   const view = { part: { tabs: [VIEW], front: VIEW }, share: 500 };
   if (!part) return { split: "row", parts: [view] };
