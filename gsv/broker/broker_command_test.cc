@@ -65,7 +65,7 @@ TEST(Broker, RestartsOnTheSamePortWithoutOffersIfItHasNoFile) {
   EXPECT_TRUE(again->ServiceTypeNames()->empty());
 }
 
-// The test reads the broker's stdout, which closes when the broker ends.
+// The test reads the broker's stdout up to its end, which comes only when the broker has ended.
 TEST(Broker, EndsWithItsParent) {
   int out[2];
   ASSERT_EQ(pipe2(out, O_CLOEXEC), 0);

@@ -37,8 +37,8 @@ TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
   EXPECT_TRUE(administration.ListLinks()->empty());
 }
 
-// A service whose calls wait for each other. A call returns only when `others` has counted the
-// expected number of calls in progress.
+// A service whose calls wait for each other. Each call counts `others` down, and returns when
+// `others` is 0. So no call returns if the caller makes one call after the other.
 class ConcurrentEvaluator : public POA_CosTradingDynamic::DynamicPropEval {
  public:
   explicit ConcurrentEvaluator(std::latch& others) : others_(others) {}

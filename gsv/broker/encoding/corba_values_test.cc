@@ -103,7 +103,8 @@ TEST_F(CorbaValuesTest, ReadsSequencesBehindAliases) {
   }
 }
 
-// The content of an Any of this type, as CDR without alignment to earlier data.
+// The value in the Any, without its type, as CDR. The value begins at offset 0, so there is no
+// padding in front of it.
 std::string Content(const CORBA::Any& any) {
   cdrMemoryStream stream;
   any.NP_marshalDataOnly(stream);

@@ -33,7 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& [name, value] : *properties) {
     const Value* read = again->Find(name);
     GSV_CHECK(read != nullptr && read->Type() == value.Type());
-    // NaN is not equal to itself, so such values cannot be compared.
+    // Values of other types are not compared. A value with a NaN cannot be compared, because NaN is
+    // not equal to itself.
     const bool comparable = value.AsOther() == nullptr && value == value;
     GSV_CHECK(!comparable || *read == value);
   }

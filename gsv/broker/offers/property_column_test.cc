@@ -95,7 +95,8 @@ TEST(PropertyColumns, FindTheSameOffersAsAnEvaluationOfEachOffer) {
   for (int round = 0; round < 100; ++round) {
     const std::string text = random.Constraint();
     const std::vector<std::uint64_t> expected = OneByOne(trader, text);
-    // The second query makes the columns.
+    // The first query evaluates each offer, the second one makes the columns, and the third one
+    // uses them. All three must find the same offers.
     for (int i = 0; i < 3; ++i) {
       const auto found = trader.Find({.type = "Robot", .constraint = text});
       ASSERT_TRUE(found) << text;
@@ -142,8 +143,8 @@ TEST(PropertyColumns, OrderLikeAnEvaluationOfEachOffer) {
       ASSERT_TRUE(found);
       EXPECT_EQ(OfferNumbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
     }
-    // Every second round changes the offers. Then only the second query of this property makes its
-    // column.
+    // Every second round adds an offer, so the chunk with this offer has no column. In the next
+    // round, the first query evaluates each offer of this chunk. The second query makes its column.
     if (round % 2 == 1) {
       ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
     }
@@ -171,8 +172,9 @@ TEST(PropertyColumns, OrderDynamicPropertiesAmongTheOthers) {
     DynamicValues values(&five, std::chrono::seconds(1));
     const auto found = trader.Find({.type = "Robot", .preference = "min b"}, values);
     ASSERT_TRUE(found);
-    // Offers 1, 11, … have the number 0. The offers with the numbers 1 to 4 come before the offer
-    // with the dynamic property, whose value is 5.
+    // Offers 1, 11, … have the value 0, so offer 1 is first. Offer 4 has the dynamic property,
+    // whose value is 5. Before it are the offers with the values 0 to 4: 199 with the value 3, and
+    // 200 with each of the other values.
     EXPECT_EQ(found->offers[0]->number, 1u);
     EXPECT_EQ(found->offers[200 + 200 + 200 + 199 + 200]->number, 4u);
   }

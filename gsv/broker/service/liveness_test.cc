@@ -58,8 +58,9 @@ TEST_F(LivenessTest, OfferOfADestroyedObjectIsWithdrawn) {
   EXPECT_TRUE(IsOffered(living.offer_id()));
 }
 
-// A stopped service does not answer, but its offer must stay. Each killed service is withdrawn before
-// the next one starts, so the monitor calls all services several times in the meantime.
+// A stopped service does not answer, but its offer must stay. The test waits three times until the
+// monitor has withdrawn the offer of a killed service. In the meantime, the monitor calls the
+// stopped service several times.
 TEST_F(LivenessTest, OfferOfAStoppedProgramStaysUntilTheMaximumSilence) {
   ServiceProcess still(broker_.reference());
   still.Stop();

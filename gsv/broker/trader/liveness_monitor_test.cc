@@ -18,8 +18,8 @@ class Services {
     ++asked_[reference];
     most_underway_ = std::max(most_underway_, ++underway_);
     changed_.notify_all();
-    // Each call waits until the expected number of calls is in progress. So the test would notice
-    // an additional call.
+    // No call returns before `wait_for_` calls were in progress at the same time. So
+    // `most_underway_` reaches this number, and becomes larger if the monitor makes too many calls.
     changed_.wait(lock, [this] { return most_underway_ >= wait_for_; });
     --underway_;
     const auto found = pulses_.find(reference);

@@ -93,7 +93,7 @@ class HostileFloodTest : public BrokerFixture {
     close(socket);
   }
 
-  // Checks the bystander's answers and the broker's size.
+  // Records the bystander's waits, checks how much memory the broker uses, and connects once more.
   void Judge(Bystander& bystander, const char* what) {
     const double wait_ms = bystander.End();
     std::ifstream statm("/proc/" + std::to_string(broker_.pid()) + "/statm");
