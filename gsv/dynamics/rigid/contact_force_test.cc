@@ -15,7 +15,8 @@ using testing::SolidOf;
 using testing::TestWorld;
 using testing::WorldOnGround;
 
-// The mean force (N) of the contacts of a step on the second bodies.
+// Returns the sum of the forces (N) with which the first bodies of these contacts press the second
+// bodies. Each force is the mean over a step of `step` seconds.
 Vector3 ForceOf(const std::vector<world::Contact>& contacts, double step) {
   Vector3 force;
   for (const world::Contact& contact : contacts) {
@@ -86,11 +87,12 @@ TEST(ContactForce, ImpactTransmitsTheMomentumOfTheStep) {
   EXPECT_WITHIN_PERCENT(-force.z, 2 * 3 / 0.05 + 2 * kG, 0.1);
 }
 
-// The weight is 5 kg g, and each wheel should carry a quarter. A robot at rest may accelerate by up
-// to 0.1 m/s² and 0.1 rad/s², which permits an error. The linear acceleration permits 0.1 m/s² * 5
-// kg / 4 = 0.125 N per wheel. The angular acceleration permits 0.028 N: the moments of inertia are
-// 0.069 kg m² about x and 0.134 kg m² about y, and the wheels are at y = ±0.15 m and x = ±0.2 m.
-// The tolerance is the sum, 0.153 N.
+// The weight is 5 kg g, and each wheel should carry a quarter. The engine treats a robot as at rest
+// if its accelerations are below 0.1 m/s² and 0.1 rad/s² (kResting), so the wheels' forces may
+// differ. The linear acceleration permits a difference of 0.1 m/s² * 5 kg / 4 = 0.125 N per wheel.
+// The angular acceleration permits 0.028 N: the moments of inertia are 0.069 kg m² about x and
+// 0.134 kg m² about y, and the wheels are at y = ±0.15 m and x = ±0.2 m. The tolerance is the sum,
+// 0.153 N.
 TEST(ContactForce, WheelsCarryTheWeightOfTheirRobot) {
   auto model = SolidOf(geometry::Box{{0.4, 0.2, 0.1}}, 3);
   for (const double x : {-0.2, 0.2}) {

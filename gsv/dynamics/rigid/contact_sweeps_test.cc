@@ -1,4 +1,4 @@
-// Tests heaps of contacts against closed forms.
+// Tests ContactSweeps, which solves the contacts of heaps of bodies, against closed forms.
 #include "gsv/dynamics/rigid/contact_sweeps.h"
 
 #include <gtest/gtest.h>

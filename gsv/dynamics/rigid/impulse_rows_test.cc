@@ -68,8 +68,9 @@ TEST(ImpulseRows, SoftRowYields) {
   EXPECT_NEAR(rows.velocities(0, 1)[0], 1.5, 1e-12);
 }
 
-// A body of 1 kg that slides in a plane, on a contact with a normal impulse of 1 N s. Its inertia
-// differs between the two axes, as for a wheel.
+// Returns the velocity (x, y) of a body after friction has acted on it. It slides in a plane, on a
+// contact with a normal impulse of 1 N s. The inverse of its mass is 4 / kg along x and 0.5 / kg
+// along y: a wheel, too, has different inertia along its two axes.
 std::array<double, 2> SlipAfter(double angle, double speed, const ImpulseRows::Axes& axes) {
   ImpulseRows rows;
   const std::array<double, 3> velocity{speed * std::cos(angle), speed * std::sin(angle), -1};
@@ -88,7 +89,8 @@ TEST(ImpulseRows, FrictionOpposesTheSlipForAnyMasses) {
   for (const double angle : {0.0, 0.4, 0.8, 1.2, 1.5}) {
     const auto [x, y] = SlipAfter(angle, 5, {{{1, 0}, {0, 1}}});
     const double speed = std::sqrt(x * x + y * y);
-    // The change of velocity, due to 0.5 N s against the remaining slip.
+    // Friction gives an impulse of 0.5 N s against the remaining slip. The change of velocity is
+    // this impulse times the inverse mass: 4 / kg along x, and 0.5 / kg along y.
     EXPECT_NEAR(x - 5 * std::cos(angle), -4 * 0.5 * x / speed, 1e-9) << angle;
     EXPECT_NEAR(y - 5 * std::sin(angle), -0.5 * 0.5 * y / speed, 1e-9) << angle;
   }

@@ -59,8 +59,8 @@ TEST(JointGains, PositionFollowsTheResponseOfASecondOrderSystem) {
   }
 }
 
-// A body without contacts and friction also moves by a force that is too small for a body at rest
-// on the ground (kResting).
+// A body without contacts and friction never counts as at rest. So even a torque that accelerates
+// it by less than kResting (moving_body.h) moves it.
 TEST(JointGains, SmallTorqueTurnsAFrictionlessHinge) {
   const double torque = 0.01, inertia = 0.182, seconds = 10;  // N m, kg m², s
   auto model = Slider({0, 0, 1});

@@ -199,9 +199,9 @@ Momentum MomentumOf(const Tree& body, const LinkTree& tree, const std::vector<Ve
   return sum;
 }
 
-// Without outer forces, a step of h changes the momenta of a body only by the error of the
-// integration. This error is in proportion to h². Wrong equations would change them in proportion
-// to h.
+// Without external forces, a step of h changes the momenta of a body only by the error of the
+// integration. This error is proportional to h². With wrong equations, the change would be
+// proportional to h.
 TEST(LinkTree, FloatingTreeKeepsItsMomenta) {
   const model::Model model = Satellite();
   std::vector<Vector3> inertias;

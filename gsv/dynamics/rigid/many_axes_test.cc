@@ -148,7 +148,8 @@ TEST(ManyAxes, ScrewJointMovesAlongItsAxisAsItTurns) {
   world.AddRigid("nut", model, At(0, 0, 5));
   ASSERT_TRUE(world.Start());
   world.Run(0.5, 0.001);
-  // A body that falls by `pitch` per radian must also rotate.
+  // The nut moves by `pitch` m per radian, so its weight accelerates its mass (1 kg) and its
+  // inertia. The angular acceleration is -g pitch / (inertia + 1 kg pitch²), here for 0.5 s.
   const double angle = -kG * pitch / (inertia + pitch * pitch) * 0.5 * 0.5 / 2;
   EXPECT_WITHIN_PERCENT(world.joint("nut", 0), angle, 0.5);
   const Pose nut = world::LinkPoses(*model, world.state().joint_positions)[0];

@@ -45,7 +45,7 @@ TEST(Mimic, AJointFollowsItsLeader) {
   EXPECT_NEAR(world.joint("gripper", 2), -1.5 * (0.8 - 0.1) + 0.2, 5e-3);
 }
 
-// The joint must also move at the leader's rate.
+// If the leader moves at a constant rate, its follower moves at this rate times the multiplier (2).
 TEST(Mimic, AJointMovesAtItsLeadersRate) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("gripper", Fingers({1, 2, 0, 0}), At(0, 0, 1));

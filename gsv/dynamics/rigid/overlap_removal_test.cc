@@ -20,8 +20,9 @@ using testing::WorldOnGround;
 
 constexpr double kSubstep = 0.001, kEdge = 0.3;
 constexpr double kTolerated = 1e-4;  // overlap that is not removed, m
-// Returns the overlap beyond kTolerated, in m, that may remain. A body that makes the fraction
-// `part` of the correction then moves more slowly than 0.1 mm/s, and so counts as a body at rest.
+// Returns the overlap beyond kTolerated, in m, that may remain. Each step moves a body by the
+// fraction `part` of the removed overlap. If the overlap is smaller than the result, this motion is
+// slower than 0.1 mm/s, so the body counts as at rest.
 double RestingExcess(double part) { return 1e-4 * kSubstep / OverlapRemoval::kShare / part; }
 
 double DeepestOf(const std::vector<world::Contact>& contacts) {

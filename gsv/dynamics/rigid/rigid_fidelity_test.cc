@@ -217,8 +217,8 @@ TEST(RigidFidelity, BallsAndWheelsRollDownTrianglesAsDownAPlane) {
 }
 
 // A scanned surface: squares of 4 mm, with bumps of 1 µm. A wheel is near hundreds of its
-// triangles. There are 250 edges per metre. Each edge bends the surface by at most 1 mrad, so that
-// a rolling body loses 1e-6 of its energy.
+// triangles. There are 250 edges per metre. At each edge, the surface bends by at most 1 mrad, so
+// that a rolling body loses at most 1e-6 of its energy there.
 TEST(RigidFidelity, BallsAndWheelsRollDownAFineMeshAsDownAPlane) {
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   constexpr std::uint32_t kRows = 300, kColumns = 75;
@@ -302,8 +302,8 @@ TEST(RigidFidelity, StackIsStableForAMinute) {
   }
 }
 
-// The tower has more boxes than the solver solves exactly. Its top box weighs 1 kg or 100 kg. No
-// contact is deeper than 0.1 mm, because deeper overlaps are removed.
+// The tower has more velocities than kMaxHeap, so ContactSweeps solves it. Its top box weighs 1 kg
+// or 100 kg. No contact is deeper than 0.1 mm, because deeper overlaps are removed.
 TEST(RigidFidelity, TowerOfTwelveBoxesStands) {
   constexpr int kBoxes = 12;
   for (const double mass : {1.0, 100.0}) {

@@ -79,8 +79,8 @@ TEST(RigidProperty, BodiesNeverPenetrateTheGroundOrEachOther) {
         ASSERT_GT(world.position("solid" + std::to_string(s)).z, 0.05) << seed << ", step " << i;
       }
     }
-    // A robot touches a body that it collides with, and a falling body may be pressed against a
-    // robot.
+    // Overlaps of up to 2 mm are permitted: a robot touches a body that it collides with, and a
+    // falling body may be pressed against a robot.
     double deepest = 0;
     for (const auto& overlap : world.engine().Overlaps(world.state(), 0)) {
       deepest = std::max(deepest, overlap.depth);
@@ -92,8 +92,8 @@ TEST(RigidProperty, BodiesNeverPenetrateTheGroundOrEachOther) {
 }
 
 TEST(RigidProperty, ResultDoesNotDependOnTheWorldsPosition) {
-  // The distance is a power of two, so that the starts differ only in a few bits, before chaos
-  // amplifies them.
+  // The distances are powers of two, so that the initial positions are rounded almost alike. The
+  // test ends before chaos amplifies the small differences.
   TestWorld here = Heap(4), there = Heap(4, {128, -64, 0});
   here.Run(0.3, 0.01);
   there.Run(0.3, 0.01);

@@ -228,7 +228,8 @@ double Least(const Function& function) {
   return std::min(at_a, at_b);
 }
 
-// The distance from a convex shape is a convex function.
+// Returns the distance between the piece and the mesh. The distance of a point from a convex shape
+// is a convex function of the point, so Least() finds its minimum over each triangle.
 double LeastDistance(const PlacedPiece& piece, const TriangleMesh& mesh) {
   double least = 1;
   for (const auto& [i, j, k] : mesh.triangles) {
