@@ -74,7 +74,8 @@ export class LayoutControl {
     return true;
   }
 
-  // The name of the preset that is shown; null for the standard layout.
+  // The present layout for a link: the name of a preset, or the text of another layout. Null for
+  // the standard layout, and if there is no host.
   get linkText(): string | null {
     const { host } = this;
     if (!host) return null;

@@ -62,7 +62,8 @@ export class LinkControl {
     const { simulations, simulation, replay, time, selection, viewMode, shown, abilities } = this.store.get();
     const url = new URL(page);
     if (simulation !== null && (simulations?.length ?? 0) > 1) url.searchParams.set("simulation", simulation);
-    // Everyone who opens a link to a recording gets a separate replay.
+    // The link contains the recording and not this page's replay. Each page that opens the link
+    // gets its own replay.
     if (replay && abilities.recording !== "") url.searchParams.set("recording", abilities.recording);
     const viewpoint = this.place()?.viewpoint ?? null;
     url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown, layout: this.layouts?.linkText ?? null });

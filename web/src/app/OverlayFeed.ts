@@ -52,8 +52,8 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
     ...(beams === null ? [] : [beams]),
     ...(needsFrames && scene ? [FRAMES_TOPIC] : []),
     ...(mayHaveRadio ? [RADIO_TOPIC] : []),
-    // A recording contains the contacts of bumpers. Of other contacts, it contains only the
-    // beginning, so they cannot be drawn while they last.
+    // The present contacts are drawn for a running simulation only. A recording contains when other
+    // contacts than those of bumpers began, but not when they ended.
     ...(shown.contacts && scene && replay === null ? [CURRENT_CONTACTS_TOPIC] : []),
     ...readings.map(({ topic }) => topic),
   ];

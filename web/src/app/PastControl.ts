@@ -15,8 +15,8 @@ const POLL_MS = 2000;
 // Each request also requests the last second of the previous request again, because the server may
 // have received some events of this second late.
 const OVERLAP_S = 1;
-// A replay of the past that provides curves is used for this time. Then a new replay is opened,
-// because it contains more of the run.
+// The curves of the past come from a separate replay. After this time, the next request opens a new
+// replay, because a new one contains more of the run.
 const READER_MS = 10_000;
 
 type PastApi = Pick<SimulationApi, "kept" | "eventsFrom" | "another">;
@@ -64,7 +64,7 @@ export class PastControl {
     this.session.goLive();
   }
 
-  // Returns a value over the stored past.
+  // Returns the curve of a value in the stored past, with at most `most` samples.
   async curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve> {
     const now = Date.now();
     if (this.reader?.simulation !== simulation || now - this.reader.openedMs > READER_MS) {

@@ -7,8 +7,8 @@ import type { RobotPose } from "../state/State";
 
 export const SHORTEST_UPDATE_MS = 100;
 const SPEED_WINDOW_S = 0.2; // simulated
-// This is longer than the time between updates at ten times real time. If the time between two
-// poses is even longer, the replay has jumped.
+// s, simulated: if more time passes between two poses, the replay has jumped. At ten times real
+// time, only about 1 s passes between two updates.
 const LONGEST_WINDOW_S = 3;
 
 // A reported pose and its simulated time.

@@ -62,7 +62,7 @@ const NOTHING_WATCHED: Partial<State> = {
 const SLOW_PAGE = "This page is slow: the browser is busy, so older updates are left out. Close panels, or let the server draw the view.";
 const NO_COUNTS: ReadonlyMap<string, TopicCount> = new Map();
 
-// The requests in the page's address.
+// What the page's address requests to show. A member is null if the address does not contain it.
 export interface Wanted {
   simulation: string | null;
   recording: string | null; // the recording to replay for this page only
@@ -259,14 +259,15 @@ export class Session implements TopicSource, LiveViewSource {
     }
   }
 
-  // Starts again with a token.
+  // Starts again after the user has entered an access token.
   admit(): void {
     this.store.set({ refusal: "" });
     this.start();
   }
 
-  // Returns false if there is nothing to connect to, because a requested recording may no longer
-  // exist. Throws an error if a later attempt may succeed.
+  // Opens the recording that the page's address requests, if any. Returns false if the server
+  // refuses it, for example because the recording no longer exists. Throws an error if a later
+  // attempt may succeed.
   private async openRecording(): Promise<boolean> {
     const { recording } = this.wanted;
     if (recording === null || this.hasOpened) return true;

@@ -1,8 +1,8 @@
-// Finds out whether this page is too slow for the data that the server sends, or only its
-// connection. The server cannot distinguish the two cases: in both, the browser confirms received
-// data late. If the page is busy, timers run late. Then the page receives many bytes at once,
-// because the browser has stored the messages. Over a slow connection, the browser has no messages
-// to store.
+// Finds out why data arrives late: either this page is too slow for the data that the server sends,
+// or the connection is slow. The server cannot distinguish the two cases: in both, the browser
+// confirms received data late. If the page is busy, timers run late. Then the page receives many
+// bytes at once, because the browser has stored the messages. Over a slow connection, the browser
+// has no messages to store.
 
 const TICK_MS = 100;
 const WINDOW_MS = 8000; // a judgement uses the ticks of this period

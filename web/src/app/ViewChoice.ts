@@ -1,6 +1,6 @@
 // Chooses whether the browser or the server draws the view. By default, the server draws it if the
 // browser has no WebGL or is slow. The user's choice has priority, and is stored. While the browser
-// has lost WebGL, the server draws in any case.
+// has lost WebGL, the server draws even if the user has chosen the browser.
 import type { Store } from "../state/Store";
 import type { Drawer, State } from "../state/State";
 
@@ -33,7 +33,7 @@ export class ViewChoice {
     private readonly store: Store<State>,
     private readonly options: ChoiceOptions,
     private readonly use: (drawer: Drawer) => void,
-    private readonly explain: (sentence: string) => void, // called when the server draws without the user's choice
+    private readonly explain: (sentence: string) => void, // called with the reason if something else than the user decides who draws
   ) {
     this.isByHand = options.chosen === "browser" || options.chosen === "server";
   }
@@ -98,7 +98,7 @@ export class ViewChoice {
     return this.hasGraphics ? "" : "The browser has lost the graphics card, so the server draws the view";
   }
 
-  // If the browser draws without WebGL, the server takes over after some time.
+  // If WebGL is lost while the browser draws the view, the server draws it after LOST_MS.
   private followGraphics(): void {
     clearTimeout(this.lossTimer);
     const isLost = () => !this.hasGraphics && this.store.get().drawnBy === "browser" && !this.serverFails;

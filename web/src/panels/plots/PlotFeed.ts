@@ -26,7 +26,7 @@ type Input = Pick<Curve, "id" | "source" | "key">;
 
 interface Formula {
   id: string; // id of the curve
-  inputs: readonly string[]; // ids, in the order of the references
+  inputs: readonly string[]; // ids of the inputs, in the order in which the expression names them
   evaluate: Expression["evaluate"];
 }
 
@@ -46,7 +46,7 @@ export class PlotFeed {
   private readonly compared = new Map<string, Series>();
   private readonly ends = new Map<string, () => void>(); // functions that end subscriptions, by topic
   private readonly last = new Map<string, PlacedAt>(); // last position, by robot
-  // The collected values: curves, and the fields of expressions.
+  // The values to collect: those of plotted curves, and those that expressions use.
   private inputs: readonly Input[] = [];
   private formulas: readonly Formula[] = [];
   // The newest value of each input that expressions use.
@@ -295,7 +295,8 @@ function formulaOf({ id, source, key }: Curve): Formula[] {
   return [{ id, inputs: references.map((each) => idOf(referredTo(each))), evaluate }];
 }
 
-// Returns the topics of the existing sensors, and the topic of robots' poses.
+// Returns the topics to subscribe to: those of the plotted sensors that exist in the scene, those
+// of plotted fields, and the topic of poses if a robot's value is plotted.
 function topicsOf(curves: readonly Input[], scene: SceneDescription | null): string[] {
   const plotted = new Set(curves.flatMap(({ source }) => (source.kind === "sensor" ? [source.topic] : [])));
   const present = robotsOf(scene).flatMap(({ sensors }) => sensors.map(({ topic }) => topic));

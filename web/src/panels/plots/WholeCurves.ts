@@ -17,11 +17,12 @@ export type WholeCurvePorts = Pick<PanelPorts, "state" | "notices"> & {
   plots: Pick<PanelPorts["plots"], "setSpan">;
 };
 
-// Called with the part of a curve that was read so far.
+// Each function is called repeatedly while the server reads a curve. `curve` is the part that was
+// read so far.
 export interface CurveEvents {
-  onWhole(id: string, curve: WholeCurve): void; // a whole curve of a recording has arrived
-  onPast(id: string, curve: WholeCurve): void; // a curve of a run's stored past has arrived
-  onCompared(id: string, curve: WholeCurve): void; // a curve of the second recording has arrived
+  onWhole(id: string, curve: WholeCurve): void; // a curve of the recording
+  onPast(id: string, curve: WholeCurve): void; // a curve of a run's stored past
+  onCompared(id: string, curve: WholeCurve): void; // a curve of the second recording of a comparison
 }
 
 export class WholeCurves {
@@ -99,8 +100,8 @@ export class WholeCurves {
     }
   }
 
-  // Requests the value until it is read completely. If it cannot be read and `isMissed` is true,
-  // reports this.
+  // Requests the curve repeatedly until the server has read it completely. If the server cannot
+  // read it and `isMissed` is true, informs the user.
   private async read(
     plotted: Curve,
     get: (of: CurveOf) => Promise<WholeCurve | null>,

@@ -36,7 +36,7 @@ export class Driver {
     return this.timer !== undefined;
   }
 
-  // Selects the robot to drive, and stops the previous one.
+  // Selects the robot to drive. Call stop() first: this function does not stop the previous robot.
   setRobot(robot: string | null): void {
     this.robot = robot;
   }

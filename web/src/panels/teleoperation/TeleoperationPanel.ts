@@ -33,8 +33,9 @@ export function mount({ state, control }: Ports): MountedPanel {
   const speeds = element("div", { class: "teleoperation-speeds" }, linear.element, angular.element);
   const wishes = { pad: STILL, gamepad: STILL };
   let robot: string | null = null;
-  // The stick was pushed when the robot was stopped. It must return to its centre before it drives
-  // again: a hidden page gets its last position for ever.
+  // Whether the gamepad's stick is ignored until it returns to its centre. It is ignored if it was
+  // pushed when the robot was stopped, because the browser reports the stick's last position while
+  // the page is hidden.
   let isStickIgnored = false;
 
   const driver = new Driver(

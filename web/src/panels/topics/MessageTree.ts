@@ -163,7 +163,8 @@ function textOf(value: unknown): string {
   return String(value);
 }
 
-// JSON, with all kinds of numbers written as JSON numbers.
+// Returns the value as JSON. Numbers that JSON cannot represent are written as strings: NaN,
+// infinities, and integers that are too large to be exact.
 export function jsonOf(value: unknown): string {
   const plain = (_: string, each: unknown): unknown => {
     if (typeof each === "bigint") return Number.isSafeInteger(Number(each)) ? Number(each) : String(each);

@@ -79,7 +79,8 @@ export class RobotList {
     this.rows.show(this.entries);
   }
 
-  // A computed height is valid until the rows may move.
+  // Returns the height of a robot's row, px. While the order of the rows is held, the heights are
+  // held, too.
   private heightOf(robot: ListedRobot): number {
     if (this.entries.length > MAX_WRAPPED) return ROW_PX;
     const known = this.heights.get(robot.status.name);

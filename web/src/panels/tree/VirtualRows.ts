@@ -65,8 +65,8 @@ export class VirtualRows<Entry> {
     this.look();
   }
 
-  // The scroll position. It is read only after scrolling, because reading it makes the browser lay
-  // out the page.
+  // Reads the scroll position and draws the rows. The position is read only here, because reading
+  // it makes the browser lay out the page.
   private look(): void {
     this.scrollTop = this.scroller.scrollTop;
     this.height = this.scroller.clientHeight || HEIGHT_WITHOUT_LAYOUT_PX;
@@ -88,7 +88,8 @@ export class VirtualRows<Entry> {
     inSight.forEach((entry, i) => this.place(entry, first + i, i));
   }
 
-  // `nth` is the index of the row among the existing rows.
+  // Shows an entry in a row. `index` is the entry's index in the list, `nth` its index among the
+  // entries that have rows.
   private place(entry: Entry, index: number, nth: number): void {
     const key = this.kinds.keyOf(entry);
     const row = this.rows.get(key) ?? this.take(this.kinds.kindOf(entry));
@@ -114,7 +115,7 @@ export class VirtualRows<Entry> {
     return { element: row.element, write: (entry) => row.write(entry), kind, top: -1 };
   }
 
-  // Returns the last entry whose top is at or above that height.
+  // Returns the index of the last entry whose top is at or above `height` (px from the list's top).
   private indexAt(height: number): number {
     let [low, high] = [0, Math.max(0, this.entries.length - 1)];
     while (low < high) {

@@ -64,8 +64,9 @@ export function kindOf(body: SceneBody): string {
   return body.isStatic ? "static" : "dynamic";
 }
 
-// Returns the bodies with `text` in their name, or in the name of a link, joint or sensor. Robots
-// come first, then moving bodies, then static bodies; each group is ordered by name.
+// Returns the bodies with `text` in their name, or in the name of a link, joint or sensor. They
+// are ordered by kind (robots, avatars, sensor stations, dynamic bodies, static bodies), then by
+// name.
 export function bodiesOf(scene: SceneDescription | null, text: string): SceneBody[] {
   const order = ["robot", "avatar", "station", "dynamic", "static"];
   const wanted = text.trim().toLowerCase();

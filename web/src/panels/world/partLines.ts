@@ -10,7 +10,7 @@ import { kindOf } from "./nodes";
 export type Line = [name: string, value: string];
 
 const DEGREES = 180 / Math.PI;
-const MAX_ENTRIES = 8; // shapes or materials in one line
+const MAX_ENTRIES = 8; // maximum number of shapes or materials that are listed
 
 export function positionText(position: readonly number[]): string {
   return `${position.map((value) => formatNumber(value, 3)).join(", ")} m`;
