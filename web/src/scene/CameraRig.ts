@@ -1,6 +1,6 @@
 // The camera of the view: orbits, flies to views, follows a robot, or shows a robot's view. The
-// world's z is up. If a wall hides the robot that the camera follows, the camera moves nearer to
-// the robot.
+// world's z is up. If the camera follows behind a robot and a wall hides the robot, the camera
+// moves nearer to it.
 import type { Box3 } from "three";
 import { MOUSE, MathUtils, Matrix4, PerspectiveCamera, TOUCH, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -66,7 +66,7 @@ export class CameraRig {
   private readonly stand = this.camera.clone();
   private free = Infinity; // m: free distance from the followed robot towards the camera
   private looked = -Infinity; // ms
-  private drawn = Infinity; // m: distance from the followed robot at which the image is drawn
+  private drawn = Infinity; // m: distance of `camera` from its target in the last image
   private drawnMs = 0;
   private flight: Flight | null = null;
   private subject: Subject | null = null;
@@ -107,7 +107,7 @@ export class CameraRig {
   }
 
   // The position and target of the camera. During a flight, the position and target at the end of
-  // the flight.
+  // the flight. While a robot's view is shown, the position and target to which the camera returns.
   get viewpoint(): Viewpoint {
     const { position, target } = this.flight?.to ??
       this.beforeEye ?? { position: this.stand.position, target: this.controls.target };
@@ -225,7 +225,8 @@ export class CameraRig {
     this.camera.updateMatrixWorld();
   }
 
-  // Whether the camera still moves by itself after this frame.
+  // Moves the camera for the next frame. Returns whether it will move by itself after this frame,
+  // too.
   update(nowMs: number): boolean {
     if (this.beforeEye) return false;
     if (this.flight) this.advanceFlight(this.flight, nowMs);
@@ -239,8 +240,9 @@ export class CameraRig {
     if (!this.beforeEye) this.stand.position.copy(this.camera.position);
   }
 
-  // Draws from the camera's position. If a wall is between robot and camera, draws from a place in
-  // front of the wall. Returns whether there is space to move back.
+  // Places `camera`, from which the image is drawn, at `stand`. If `stand` follows behind a robot
+  // and a wall is between them, places `camera` in front of the wall. Returns whether `camera`
+  // still has to move back towards `stand`.
   private draw(nowMs: number): boolean {
     this.camera.position.copy(this.stand.position);
     this.camera.quaternion.copy(this.stand.quaternion);
@@ -282,8 +284,8 @@ export class CameraRig {
     this.fly(beforeEye);
   }
 
-  // Sets the field of view. In a robot's view, this is the field of view of the robot's camera.
-  // Otherwise it is the usual field of view.
+  // Sets the field of view: that of the robot's camera in a robot's view, a narrow one in a map,
+  // and FIELD_OF_VIEW_DEG otherwise.
   private widen(): void {
     const { camera, eyeView } = this;
     const ownFov = this.beforeMap ? MAP_FIELD_OF_VIEW_DEG : FIELD_OF_VIEW_DEG;

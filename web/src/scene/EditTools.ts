@@ -37,7 +37,9 @@ export interface EditToolsEvents {
   onPlacePoint(point: Point): void;
   // Called with the pose of the first selected body while it is dragged.
   onDrag(pose: BodyPose): void;
-  // Resolves to true if all bodies have their pose now.
+  // Called with the new poses of the dragged bodies when the user releases them. Must resolve to
+  // true if all bodies have these poses now. Otherwise the bodies return to their poses before the
+  // drag.
   onPose(poses: readonly BodyPose[]): Promise<boolean>;
 }
 

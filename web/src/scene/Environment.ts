@@ -17,7 +17,7 @@ const WINDOW_RADIANCE = 3; // as a multiple of the sky's radiance
 // A window reaches from this z coordinate of the unit direction up to HIGHEST_WINDOW.
 const LOWEST_WINDOW = 0.25;
 const HIGHEST_WINDOW = 0.75;
-const SAMPLES = 64; // samples around the horizon; half as many from bottom to top
+const SAMPLES = 64; // samples around a hemisphere; half as many from its rim to its pole
 
 export class Environment {
   private target: WebGLRenderTarget | null = null;

@@ -42,9 +42,9 @@ export class FrameDrawer {
 
   constructor(private readonly layers: DrawnLayers) {}
 
-  // The camera of the image on the screen. If the server has drawn this image, its camera is an
-  // earlier one. If the view's size has changed since then, the image is as high as the view, and
-  // its sides are cut off or empty.
+  // The camera of the image on the screen. If the server has drawn the image, this is the camera at
+  // the time of the request. If the aspect ratio of the view has changed since the request, the
+  // image is as high as the view, and its sides are cut off or empty.
   get shownCamera(): PerspectiveCamera {
     const { surface, rig } = this.layers;
     const camera = surface.drawnImage?.camera;

@@ -41,8 +41,8 @@ export class GhostLayer {
     }
   }
 
-  // Takes poses in the order of the list of the second recording's scene. Poses of another layout
-  // are ignored.
+  // Takes the poses of the second recording: 7 numbers per pose, in the order of its scene's list
+  // of poses. Poses of another layout are ignored.
   setPoses(layoutVersion: number, poses: Float64Array): void {
     if (!this.shown || this.shown.layoutVersion !== layoutVersion) return;
     const { bodies, entries } = this.shown;

@@ -57,7 +57,7 @@ export class SelectionRing {
     this.mesh.raycast = () => {};
   }
 
-  // Shows the disc around `position`, the robot's origin on the floor. `radius` is in metres.
+  // Shows the ring around `position`, the robot's origin on the floor. `radius` is in metres.
   place(position: Vector3, radius: number): void {
     this.mesh.visible = true;
     this.mesh.position.set(position.x, position.y, position.z + 2 * HIGHEST_FLOOR);
