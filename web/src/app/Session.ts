@@ -62,7 +62,7 @@ const NOTHING_WATCHED: Partial<State> = {
 const SLOW_PAGE = "This page is slow: the browser is busy, so older updates are left out. Close panels, or let the server draw the view.";
 const NO_COUNTS: ReadonlyMap<string, TopicCount> = new Map();
 
-// What the page's address requests to show. A member is null if the address does not contain it.
+// The simulation or recording that the page's address asks for; null if the address names none.
 export interface Wanted {
   simulation: string | null;
   recording: string | null; // the recording to replay for this page only

@@ -1,6 +1,6 @@
 // The shadow map of a sun. It covers a sphere around the visible part of the world. If the camera
-// is near a robot, the texels are small enough for the shadow of a wheel. The sphere moves and grows
-// in steps, so that shadows are seldom drawn again and their edges do not flicker.
+// is near a robot, the texels are small enough for the shadow of a wheel. The sphere moves and
+// grows in steps, so that shadows are seldom drawn again and their edges do not flicker.
 import type { DirectionalLight, Sphere, Vector3 } from "three";
 
 const SMALL_MAP = 1024; // texels; sufficient for a room

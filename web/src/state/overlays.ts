@@ -60,7 +60,7 @@ export const FIRST_SHOWN: Shown = {
   sound: false,
 };
 
-// The meaning of the colours of points and trails.
+// The quantities that the colours of points and trails can show, each with its label in the page.
 export const POINT_COLOURS = { range: "distance", height: "height", intensity: "intensity" } as const;
 export const TRAIL_COLOURS = { robot: "robot", speed: "speed" } as const;
 export type PointColour = keyof typeof POINT_COLOURS;

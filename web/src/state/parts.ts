@@ -14,8 +14,8 @@ export function shownPart({ part, editing, selection }: Pick<State, "part" | "ed
   return body === null ? null : bodyPart(body);
 }
 
-// The object that the view marks. This is the edited object. If there is none, it is the object in
-// the inspector.
+// The object that the view marks. In edit mode, this is the edited object. Otherwise, it is the
+// body of the selected part, unless this body is the selected robot. Null if there is none.
 export function markedObject({ part, editing, selection }: State): string | null {
   if (editing) return editing.chosen;
   return part === null || part.body === selection ? null : part.body;

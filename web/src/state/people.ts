@@ -23,8 +23,8 @@ export function mayAct(people: People): boolean {
   return holder === null || holder.number === people.you;
 }
 
-// Returns the reason why this viewer must take control before driving a body. Another viewer has
-// control, or could drive the body too. Empty if control is not needed.
+// Returns the reason why this viewer must take control before driving a body: another viewer has
+// control, or other viewers could drive the body at the same time. Empty if it may drive now.
 export function needsControl(people: People): string {
   const holder = holderOf(people);
   if (holder !== null) return holder.number === people.you ? "" : `${holder.name} has control.`;

@@ -21,7 +21,7 @@ export interface Curve {
 // The plotted curves and the axes.
 export interface Plots {
   curves: Curve[];
-  span: number | null; // if set, only the newest seconds are shown; null for all
+  span: number | null; // the newest seconds that are shown (number of seconds); null for all
   against: string | null; // id of the curve on the horizontal axis; null for simulated time
   events: boolean; // whether events are marked
 }

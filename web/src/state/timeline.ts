@@ -7,10 +7,10 @@ import type { State } from "./State";
 // A mark on the timeline, for one or several events.
 export interface Mark {
   time: number; // simulated time of the first event, s
-  share: number; // position in the recording's time range, 0 to 1
+  share: number; // position in the timeline's time range, 0 to 1
   isBad: boolean; // whether something died or failed
   kind: "event" | "note" | "difference"; // the most important kind of its events
-  text: string; // a line for each event
+  text: string; // one line per event, at most MOST_LINES, and the number of further events
 }
 
 // The minimum distance of two marks, as a fraction of the span.
@@ -42,8 +42,8 @@ function keyOf({ time, event, robot, detail }: RecordedEvent): string {
   return JSON.stringify([time, event, robot, detail]);
 }
 
-// Returns the marks of notes of the recording, and of the first difference from another
-// recording.
+// Returns the notes of the recording and its first difference from another recording as events, so
+// that they get marks.
 export function noteAndDifferenceEvents(notes: readonly RecordingNote[], difference: Difference | null): RecordedEvent[] {
   const events = notes.map(({ time, text }) => ({ time, event: NOTE, robot: "", detail: text }));
   if (difference?.time == null) return events;
@@ -105,8 +105,8 @@ export function allMarks({ replay, kept, time, events, notes, comparison }: Mark
   return marksOf(all, span);
 }
 
-// Returns the time of the next mark after `time`, or of the last mark before it; null if there is
-// none.
+// Returns the time of the first mark after `time` (direction 1), or of the last mark before it
+// (direction -1); null if there is none.
 export function markBeside(marks: Mark[], time: number, direction: 1 | -1): number | null {
   const CLOSE = 1e-6;
   const found =
