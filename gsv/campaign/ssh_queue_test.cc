@@ -160,8 +160,8 @@ TEST_F(SshQueueTest, TasksOfAHostThatCannotBeReachedGoToAnother) {
   session(1).End("exit code 0");
   EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING", "2:PENDING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n2");
-  // After the pause, the host gets one task. When that task has begun, all slots of the host get
-  // tasks.
+  // The host n1 is paused for 5 s. After that, it gets one task. When that task has begun, all
+  // slots of the host get tasks.
   now_ += seconds(5);
   EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING", "2:RUNNING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n1");
@@ -180,7 +180,7 @@ TEST_F(SshQueueTest, FailingHostIsPausedLongerEachTime) {
   MakeQueue("{hosts: [n1, n2]}");
   Submit(2);
   QueryTasks();
-  session(0).Begin();  // the host n1 is still in use
+  session(0).Begin();  // n1 executes this task throughout, so the other task goes to n2
   for (const int rest : {5, 10, 20, 40, 60}) {
     ASSERT_EQ(Hosts().back(), "n2");
     ssh_.sessions.back()->End("exit code 127", "sh: 1: exec: /usr/bin/gsv: not found\n");

@@ -19,7 +19,8 @@ std::shared_ptr<model::Model> GraspedCrate() {
   return testing::SolidOf(geometry::Box{{kCrateSide, kCrateSide, kCrateSide}}, 1);
 }
 
-// A disc of 0.2 m radius before a wall whose near side is at x = 1, and a crate in front of it.
+// A disc robot of 0.2 m radius at the origin, a crate between it and a wall whose near side is at
+// x = 1, and another crate beside this line.
 TestWorld GraspScene() {
   TestWorld world = testing::WorldOnGround();
   world.AddBox("wall", {0.2, 4, 1}, 1.1, 0);

@@ -25,7 +25,8 @@ constexpr std::uint32_t kException = 22;
 
 RawCdr Named() { return RawCdr().Octet(1).String("IDL:T:1.0").String("T"); }
 
-// Returns TypeCodes that declare members which do not follow.
+// Returns TypeCodes whose data ends too early: the members that they declare are missing, or even
+// the number of members.
 std::vector<std::string> BadTypeCodes() {
   std::vector<std::string> all;
   for (const std::uint32_t kind : {kStruct, kException, kEnum}) {

@@ -69,7 +69,8 @@ TEST(PoseOnTrajectory, IsLinearAndStopsAtWaypointsAtFullTension) {
 }
 
 TEST(PoseOnTrajectory, IsSmoothAtTheEndOfAClosedTrajectory) {
-  // The path is a square. At its first corner, the tangent is (next - last but one) / 2 = (1, -1).
+  // The path is a square. Its first waypoint is also its last one. There, the tangent is half of
+  // the second waypoint minus the fourth: (1, -1).
   const auto square = TrajectoryOf({{0, PlanarPose(0, 0, 0, 0)},
                                     {1, PlanarPose(2, 0, 0, 0)},
                                     {2, PlanarPose(2, 2, 0, 0)},

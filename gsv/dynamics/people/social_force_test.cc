@@ -53,7 +53,8 @@ TEST(SocialForce, OfAPedestrianBehindIsHalved) {
   const Vector2 from_ahead{-1, 0}, from_behind{1, 0};
   EXPECT_EQ(AsSeen(from_ahead, {1, 0}), from_ahead);
   EXPECT_EQ(AsSeen(from_behind, {1, 0}), (Vector2{0.5, 0}));
-  // One pedestrian is at 99 degrees to the direction of motion, and one at 101 degrees.
+  // The limit is 100 degrees from the direction of motion. One pedestrian is at 99 degrees, and one
+  // at 101 degrees.
   const auto from = [](double degrees) {
     const double a = degrees * 3.14159265358979323846 / 180;
     return Vector2{-std::cos(a), -std::sin(a)};

@@ -17,7 +17,8 @@ using testing::TestWorld;
 using geometry::kPi;
 constexpr double kSide = 10, kSeparation = 0.3, kRadius = 0.1;
 
-// A disc with two wheels, whose true radii have the ratio `left` : `right`.
+// A disc with two wheels. Their true radii are the nominal radius times `left_scale` and
+// `right_scale`.
 std::shared_ptr<model::Model> TwoWheeled(double left_scale, double right_scale) {
   auto robot = testing::DiscRobot(0.2);
   for (const double side : {1.0, -1.0}) {
@@ -156,9 +157,9 @@ TEST(PlanarFidelity, SlippingRobotDriftsOutOfItsArc) {
                 2 * kPi / rate * (speed + rate * kSeparation / 2), 1e-6, "m");
 }
 
-// The drift is the same as in SlippingRobotDriftsOutOfItsArc. The wheels of Gazebo's WheelSlip have
-// a constant load instead of their share of the weight. So the compliances are divided by the ratio
-// of both loads.
+// The drift is computed as in SlippingRobotDriftsOutOfItsArc. But Gazebo's WheelSlip gives each
+// wheel a constant load instead of its share of the weight. So the compliance is divided by
+// `load_ratio`, the constant load divided by the share of the weight.
 TEST(PlanarFidelity, WheelsOfGazebosWheelSlipDriftByTheirOwnCompliance) {
   const double speed = 1.5, rate = 0.8, lateral = 2, mass = 12, load_ratio = 1.25;
   auto robot = TwoWheeled(1, 1);

@@ -74,7 +74,8 @@ TEST(PlanarMoverCrowd, CachesDoNotChangeTheResult) {
     world::State copy = crowd.world().state();
     const auto fresh = MakeWorldEngine();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(crowd.world().layout())));
-    // Before every third step, all movers are placed elsewhere, near or far.
+    // Before every third step, the engine steps a copy of the state in which all robots are
+    // elsewhere (0.1 m or 30 m away). This changes its caches.
     if (i % 3 == 0) {
       world::State elsewhere = copy;
       for (const std::size_t robot : crowd.robots()) {
@@ -213,7 +214,8 @@ TEST(PlanarMoverCrowd, RobotsMeetWithinManySteps) {
   }
   StepCounter counter(state.bodies.size(), 8);
   ASSERT_TRUE(world.engine().StepMany(base::FromSeconds(0.01), 8, state, contacts, counter));
-  // Each of the two robots moves by 25 mm, and then half of the time of a step is left.
+  // The gap between the two robots is 50 mm, so each of them moves by 25 mm. This takes two and a
+  // half of the eight steps.
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_EQ(state.bodies[world.layout().Find("robot0")].collisions, 1u);
   EXPECT_NEAR(state.bodies[world.layout().Find("robot0")].world_from_model.position.x, 0.025, 1e-5);
