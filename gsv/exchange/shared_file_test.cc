@@ -10,8 +10,8 @@
 namespace gsv::exchange {
 namespace {
 
-// The child process starts before the file exists. It opens the file by its address, and wakes this
-// process.
+// The child process starts before the file exists. It receives the file's address through a pipe,
+// opens and maps the file, and rings the bell in it. This process sleeps until the bell rings.
 TEST(SharedFile, AnotherProcessOpensAndMapsIt) {
   int pipe_ends[2];
   ASSERT_EQ(pipe(pipe_ends), 0);

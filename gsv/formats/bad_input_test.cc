@@ -99,7 +99,7 @@ TEST_F(BadInputTest, SkipsTheIncludeThatClosesACycle) {
                     HasSubstr("a/model.sdf → "), HasSubstr("b/model.sdf → ")));
 }
 
-// These models have no links of their own, so nothing is left without the include.
+// These models have no links of their own. Without the include, which is left out, they are empty.
 TEST_F(BadInputTest, NamesTheCycleOfModelsThatContainOnlyEachOther) {
   const auto including = [](const std::string& other) {
     return "<sdf version='1.9'><model name='m'><include><uri>model://" + other +

@@ -213,14 +213,16 @@ TEST_F(FlawTest, PrincipalMomentIsAtMostTheSumOfTheOthers) {
   EXPECT_NEAR(Find(flat, "m")->links[0].inertial.izz, 0.2, 1e-12);
   EXPECT_NEAR(Find(flat, "m")->links[0].inertial.ixx, 0.1, 1e-12);
   EXPECT_THAT(Messages(), ElementsAre(HasSubstr("no body has this inertia")));
-  // The same inertia, rotated by 45° about the z axis: the moments 0.9, 0.1 and 0.1.
+  // The same kind of inertia, with the principal moments 0.9, 0.1 and 0.1. The principal axes are
+  // rotated by 45° about z.
   const auto turned = World(link("<ixx>0.5</ixx><iyy>0.5</iyy><izz>0.1</izz><ixy>-0.4</ixy>"));
   const model::Inertial& inertial = Find(turned, "m")->links[0].inertial;
   EXPECT_NEAR(inertial.ixx, 0.15, 1e-12);
   EXPECT_NEAR(inertial.iyy, 0.15, 1e-12);
   EXPECT_NEAR(inertial.ixy, -0.05, 1e-12);
   EXPECT_THAT(Messages(), ElementsAre(HasSubstr("no body has this inertia")));
-  // Real files violate the inequality by rounding. Such an inertia is used unchanged.
+  // In real files, a rounded moment may be slightly larger than the sum of the others. Such an
+  // inertia is used unchanged.
   const auto rounded = World(link("<ixx>0.1</ixx><iyy>0.1</iyy><izz>0.201</izz>"));
   EXPECT_EQ(Find(rounded, "m")->links[0].inertial.izz, 0.201);
   EXPECT_THAT(Messages(), IsEmpty());

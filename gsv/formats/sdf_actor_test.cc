@@ -60,7 +60,7 @@ TEST_F(SdfActor, ReadsTheScriptInTheOrderOfItsTrajectories) {
   ASSERT_EQ(script->trajectories.size(), 2u);
   const auto& first = script->trajectories[0];
   EXPECT_EQ(first.tension, 0.6);
-  // The first pose applies from the beginning of the script.
+  // The earliest waypoint is at 0.5 s. The reader adds a waypoint with the same pose at 0 s.
   ASSERT_EQ(first.waypoints.size(), 3u);
   EXPECT_EQ(first.waypoints[0].time.count(), 0);
   EXPECT_EQ(first.waypoints[0].pose, first.waypoints[1].pose);

@@ -97,7 +97,8 @@ TEST_F(SdfJointTest, ABallJointBecomesThreeJoints) {
 }
 
 TEST_F(SdfJointTest, AScrewHasItsPitchInMetresPerRadian) {
-  // The older element is in rad/m and of a left-handed thread, so 4 means -1/4 m/rad.
+  // <thread_pitch>, the older element, is in rad/m, and positive for a left-handed thread. So 4
+  // means -1/4 m/rad.
   const auto old =
       ReadJoint("screw", "<thread_pitch>4</thread_pitch><axis><xyz>0 0 1</xyz></axis>");
   EXPECT_EQ(old->joints.at(0).kind, JointKind::kScrew);
@@ -111,7 +112,7 @@ TEST_F(SdfJointTest, AScrewHasItsPitchInMetresPerRadian) {
 }
 
 // SDFormat defines: seen from the reference body, the child rotates by -ratio times the angle of
-// the parent. An output shaft about the opposite axis rotates by the opposite angle.
+// the parent. If the axis of the child's joint is reversed, its angle has the opposite sign.
 TEST_F(SdfJointTest, GearboxCouplesTheJointsOfItsTwoLinks) {
   const auto shaft = [](const std::string& name, const std::string& parent,
                         const std::string& child, const std::string& axis) {

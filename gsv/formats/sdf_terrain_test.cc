@@ -59,7 +59,7 @@ TEST_F(SdfTerrain, IsDrawnWithItsTexture) {
   EXPECT_EQ(material.base_colour, (model::Colour{1, 1, 1, 1}));
 }
 
-// The height of 3 m is halfway in the fading distance above the height at which snow begins.
+// Snow begins at a height of 2 m and fades in over 2 m. So at 3 m, sand and snow are mixed equally.
 TEST_F(SdfTerrain, BlendsTexturesByHeight) {
   const auto material = MaterialOf(
       "<texture><diffuse>sand.tga</diffuse><size>2</size></texture>"

@@ -98,8 +98,9 @@ double TurnOf(const model::Slip& slip) {
   return world.body("rover").angular_velocity.z;
 }
 
-// Each wheel slips along its rolling direction by (1 - w) B / 2 and sideways by w L / 2. The
-// torques of both slips are in balance.
+// The wheels turn as for 1 rad/s, and the rover turns at w rad/s. B is its track, and L its
+// wheelbase. Each wheel slips along its rolling direction by (1 - w) B / 2 and sideways by w L / 2.
+// The torques of the two slip forces cancel: (1 - w) B² / along = w L² / across.
 TEST(WheelSlip, SkidSteeredRobotTurnsMoreSlowlyThanItsWheels) {
   for (const auto& [along, across] : {std::pair{2.0, 2.0}, {2.0, 6.0}, {3.0, 1.5}}) {
     const double b2 = kTrack * kTrack, l2 = kWheelbase * kWheelbase;
@@ -108,7 +109,8 @@ TEST(WheelSlip, SkidSteeredRobotTurnsMoreSlowlyThanItsWheels) {
   }
 }
 
-// With <slip1> of a surface, the velocity does not depend on how many points share the force.
+// A surface with <slip1> lets the box slide at slip * force. The velocity does not depend on the
+// number of contact points among which the force is divided.
 TEST(WheelSlip, BoxOnASlipperySurfaceCreepsInProportionToItsWeight) {
   const double angle = 0.2, slip = 0.02;
   const geometry::Quaternion turn = geometry::FromAxisAngle({0, 1, 0}, angle);

@@ -23,7 +23,7 @@ TEST(Separate, OfDiscsIsTheGapBetweenThem) {
   EXPECT_NEAR(s.distance, 2, 1e-15);
   EXPECT_NEAR(s.normal.x, 0.6, 1e-15);
   EXPECT_NEAR(s.normal.y, 0.8, 1e-15);
-  EXPECT_NEAR(s.point.x, 0.6 * 2, 1e-15);  // the point is halfway between 1 and 3 along the line
+  EXPECT_NEAR(s.point.x, 0.6 * 2, 1e-15);  // halfway between the discs' edges, 1 and 3
   EXPECT_NEAR(Separate(Disc({0, 0}, 1), Disc({1, 0}, 1)).distance, -1, 1e-15);
 }
 

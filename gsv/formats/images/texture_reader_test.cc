@@ -41,7 +41,8 @@ TEST(TextureReader, ReadsAPngWithAnEmptyChunk) {
     return std::string(3, '\0') + static_cast<char>(data.size()) + type + data + "sum?";
   };
   const std::string header("\0\0\0\2\0\0\0\1\x8\2\0\0\0", 13);
-  // zlib with one stored block: the row's filter, none, and its six bytes.
+  // A zlib stream with one stored block. The block contains a row: the byte 0 (no filter), and the
+  // six bytes of two pixels.
   const std::string stored("\x78\1\1\7\0\xf8\xff\0\1\2\3\4\5\6", 14);
   const base::testing::TestFolder folder;
   const auto path =
