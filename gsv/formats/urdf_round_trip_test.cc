@@ -247,7 +247,8 @@ TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
         "gazebo_models/pioneer2dx", "gazebo_models/pioneer3at"}) {
     const ModelPointer model = Read((RealFolder() / name).string(), problems_);
     const ModelPointer read = WrittenAndRead(*model);
-    // The links inside a ball joint have no mass, and the reader gives them a mass.
+    // The reader of SDFormat replaces a ball joint with three joints. The two links between them
+    // have no mass, but they get one when the robot is read again from URDF.
     const bool has_balls =
         std::any_of(model->joints.begin(), model->joints.end(),
                     [](const model::Joint& joint) { return joint.kind == JointKind::kBall; });

@@ -190,7 +190,8 @@ TEST_F(ExpanderTest, SkipsCallsOfMacrosInAMissingFile) {
               HasSubstr("robot.xacro:2: the include of absent.xacro is ignored: cannot find"));
   EXPECT_THAT(problems_[1].Sentence(),
               HasSubstr("robot.xacro:3: the call of the macro \"lidar\" is ignored"));
-  // A missing value is an error, even where the element could be left out.
+  // An undefined property is an error, even if a missing file may define it. Only calls of macros
+  // are left out.
   EXPECT_THAT(Expanded("<xacro:include filename='absent.xacro'/><a b='${height}'/>"),
               HasSubstr("(absent.xacro is missing)"));
 }

@@ -134,7 +134,8 @@ TEST(ScenarioJson, ARobotMayHaveAPoseOrNone) {
   EXPECT_EQ(ParseRobotRequest(R"({"model": ""})").error().field, "model");
 }
 
-// The hash of a state depends on the signs of zeros.
+// The components x and y of the orientation must be +0 and not -0, because the hash of a state
+// depends on the signs of zeros.
 TEST(ScenarioJson, ClockwisePosesHaveTheBitsOfPosesInWorldFiles) {
   const auto place = ParsePlace(R"({"x": 1, "y": 2, "yaw": -0.3})");
   ASSERT_TRUE(place.has_value());

@@ -173,7 +173,7 @@ TEST_F(ClientRequestsTest, ParametersAreReadSetAndWatched) {
 TEST_F(ClientRequestsTest, AChangeBackToThePublishedValueIsSentToALaterWatcher) {
   hub_.PublishChanges();  // with speed 1
   operations_->speed = 2;
-  const auto watcher = Join();  // is sent the playback state with speed 2
+  const auto watcher = Join();  // the hub sends it the playback state with speed 2
   Send(*watcher, {{"op", "subscribeParameterUpdates"}, {"parameterNames", {"/speed"}}});
   const std::size_t states = watcher->answers().size();
   operations_->speed = 1;
@@ -234,7 +234,7 @@ TEST_F(ClientRequestsTest, TheConnectionGraphListsPublishersSubscribersAndServic
   Send(*watcher, {{"op", "unsubscribeConnectionGraph"}});
   hub_.Unadvertise(std::vector{channels[0]});
   hub_.PublishChanges();
-  EXPECT_EQ(watcher->texts().size(), told + 1);  // "unadvertise", and no graph update
+  EXPECT_EQ(watcher->texts().size(), told + 1);  // only "unadvertise" was sent, no graph update
 }
 
 // Tests commands by name, and the conversion of requests to their services.

@@ -168,8 +168,8 @@ TEST_F(LiveStreamTest, ImagesAreSentAtMostFiveTimesPerSecond) {
       simulation_->Advance(milliseconds(10));
       Round(milliseconds(10));
     }
-    // If a reading becomes due during the previous reading, a later call of Round() starts it.
-    // After a slow reading, this call comes even later.
+    // If a reading becomes due during the previous reading, a later call of Round() starts it. So
+    // the test calls Round() until the image has arrived.
     RoundUntil(1, fifth);
   }
   workers_.Stop();

@@ -165,7 +165,7 @@ TEST_F(MetricsTest, CountViewersAndSentBytes) {
   Start();
   EXPECT_EQ(Value("gsv_viewers"), 0);
   const double sent = Value("gsv_sent_bytes_total");
-  EXPECT_GT(sent, 0);  // the responses to the requests before
+  EXPECT_GT(sent, 0);  // the bytes of the responses to earlier requests
   const double refused = Value("gsv_http_answers_total", "{status=\"4xx\"}");
   EXPECT_EQ(Ask("/nothing").status, 404);
   EXPECT_EQ(Value("gsv_http_answers_total", "{status=\"4xx\"}"), refused + 1);
