@@ -86,7 +86,8 @@ TEST_F(ReplayGatewayTest, ReturnsAValueOverTheWholeRecording) {
   ASSERT_EQ(times.size(), places.size());
   ASSERT_GT(times.size(), 30u);
   EXPECT_EQ(times.back(), 2.0);
-  // The robot drives at 0.5 m/s, beginning with the first or second step.
+  // The robot drives at 0.5 m/s. It may start one or two steps of 10 ms late, so its position may
+  // be 0.01 m behind.
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(places[i], 0.5 * times[i], 0.011);
   const json speed = WholeCurve(port(), "robot=robot&key=speed&most=4");
   EXPECT_EQ(speed["is_whole"], false);
@@ -161,7 +162,8 @@ TEST_F(ReplayGatewayTest, HasItsOwnServicesAndParameters) {
   EXPECT_EQ(values["parameters"][0]["value"], 4.0);
   EXPECT_EQ(values["parameters"][1]["value"], false);
   Post("replay", R"({"loop":true})");
-  // The change of `loop` may come together with the change of speed.
+  // The server also sends the change of the speed, in the same message or in an earlier one. So the
+  // test reads messages until one contains `loop`.
   json loop;
   while (loop.is_null()) {
     values = viewer.ReceiveText("parameterValues");

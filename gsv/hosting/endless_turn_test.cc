@@ -36,7 +36,8 @@ void Wait(gsv::Robot& robot) {
   }
 }
 
-// A simulation with one robot whose turn ends when the test decides.
+// A simulation with 40 robots, of which robot_20 runs the test's behaviour. The other robots only
+// wait. The test decides when a turn of robot_20 ends.
 class EndlessTurn : public ::testing::TestWithParam<Mode> {
  public:
   EndlessTurn() {
@@ -60,7 +61,8 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
       const std::string name = "robot_" + std::to_string(i);
       const int column = i % 10, row = i / 10;
       auto behaviour = HostedEndless("patient", Wait);
-      // The simulation owns the behaviour.
+      // The behaviour holds the token. The fixture's destructor uses the token to check that the
+      // behaviour is destroyed.
       if (i == 20)
         behaviour = HostedEndless("endless", [body, held = token_](auto& r) { body(r); });
       ASSERT_TRUE(

@@ -54,7 +54,7 @@ TEST(SendQueue, DropsTheOldestDataBeyondTheirSize) {
   SendQueue queue({.control_bytes = 100, .data_bytes = 3 * (kHeader + 10), .data_messages = 99});
   for (const char name : {'a', 'b', 'c'}) PushData(queue, name, 10);
   EXPECT_EQ(queue.dropped(), 0u);
-  PushData(queue, 'd', 11);  // this exceeds the limit by one byte, so two messages must be dropped
+  PushData(queue, 'd', 11);  // b, c and d exceed the limit by one byte, so a and b are dropped
   EXPECT_EQ(queue.dropped(), 2u);
   EXPECT_EQ(Order(queue), "cd");
 }

@@ -72,7 +72,8 @@ class TlsTest : public testing::ServerTest {
     beast::flat_buffer buffer;
     http::response<http::string_body> response;
     http::read(client.stream, buffer, response);
-    // TLS announces the end of the data. So an attacker cannot truncate a response unnoticed.
+    // The server must end the TLS stream with a close_notify alert. If an attacker truncates a
+    // response, the alert is missing, and the client reads another error than eof.
     error_code error;
     char byte = 0;
     client.stream.read_some(asio::buffer(&byte, 1), error);

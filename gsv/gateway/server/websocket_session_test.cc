@@ -115,7 +115,8 @@ TEST_F(ServerTest, AStalledClientLosesOldDataAndDoesNotDelayOthers) {
   constexpr std::uint64_t kMessages = 400;
   const std::string ballast(64 << 10, 'x');
   for (std::uint64_t i = 0; i < kMessages; ++i) {
-    // Both clients must be subscribed before the first message.
+    // Both clients must be subscribed before the first message is sent. The request with an unknown
+    // ID is answered with a warning, after the server has processed the earlier Subscribe().
     if (i == 0) {
       healthy.SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
       stalled.SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
@@ -177,7 +178,8 @@ TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {
     others.push_back(std::make_unique<Viewer>(port()));
     others.back()->Subscribe(1, "/numbers");
     others.back()->SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
-    // The answer comes after the subscription, so the client gets all messages from now on.
+    // The answer to this request, a warning, comes after the subscription. So the client gets all
+    // messages from now on.
     others.back()->ReceiveText("status");
   }
   constexpr std::uint64_t kMessages = 60;

@@ -39,7 +39,7 @@ TEST(WorkerPool, StopWaitsForRunningJobsAndDropsTheRest) {
   begun.get_future().wait();
   ASSERT_TRUE(pool.Submit([&] { done += 100; }));
   std::thread stopper([&] { pool.Stop(); });
-  // Once the queue was dropped, no job is accepted.
+  // Waits until Stop() has dropped the queued jobs. From then on, the pool accepts no job.
   while (pool.Submit([&] { done += 100; })) std::this_thread::yield();
   release.set_value();
   stopper.join();

@@ -190,7 +190,8 @@ void ScriptedSimulation::SetDriveState(const std::string& robot, const world::Dr
   PublishSnapshot();
 }
 
-// Makes a snapshot with a contact that begins and a contact that lasts, and passes it to observers.
+// The snapshot of this step has two contacts of the bodies at the same point: one that begins, and
+// one that began in an earlier step.
 void ScriptedSimulation::Meet(const std::string& first, const std::string& second) {
   Advance(specification_.world->max_step_size);
   const std::lock_guard lock(mutex_);

@@ -30,7 +30,8 @@ class HttpConnection {
   // Receives the next response; nullopt at the connection's end. `has_body`: false for a HEAD
   // request.
   std::optional<HttpReply> Receive(bool has_body = true);
-  bool IsClosed();  // waits for data (false) or for the connection's end (true)
+  // Waits until data arrive or the connection ends. Returns whether it ended.
+  bool IsClosed();
 
  private:
   struct Impl;
