@@ -95,8 +95,8 @@ enum class JointKind {
   kRevolute,
   kContinuous,
   kPrismatic,
-  // One of three consecutive joints that together form a ball joint, see SplitJoint() in
-  // gsv/formats.
+  // One of three consecutive joints that together form a ball joint, see AddJoint() in
+  // gsv/formats/sdf/sdf_joint.cc.
   kBall,
   kScrew,  // rotates, and slides by thread_pitch times the rotation
 };
