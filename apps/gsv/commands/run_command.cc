@@ -51,9 +51,9 @@ bool WasStopped(const Simulation& simulation) {
 // Waits until the run is over or a signal interrupts it. Returns the exit code, which the
 // results of behaviours and expectations may still change.
 int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, Signals& signals) {
-  using Clock = std::chrono::steady_clock;
-  const auto give_up = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                          std::chrono::duration<double>(options.wall_timeout));
+  using WaitClock = std::chrono::steady_clock;
+  const auto give_up = WaitClock::now() + std::chrono::duration_cast<WaitClock::duration>(
+                                              std::chrono::duration<double>(options.wall_timeout));
   // If there is a viewer, a user may stop the run, reset it and start it again.
   const bool ends_when_stopped = !options.runtime.viewer;
   for (;;) {
@@ -67,7 +67,7 @@ int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, S
       (void)simulation.Stop();
       return kInterrupted;
     }
-    if (options.wall_timeout > 0 && Clock::now() > give_up) {
+    if (options.wall_timeout > 0 && WaitClock::now() > give_up) {
       std::fprintf(stderr, "gsv: aborted after %g s of wall-clock time (--wall-timeout)\n",
                    options.wall_timeout);
       runtime.EndSoon();

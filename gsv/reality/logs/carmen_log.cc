@@ -193,7 +193,7 @@ class CarmenReader {
   // echoes do not repeat one distance so often.
   void FindMaximum() {
     constexpr double kShare = 0.001, kShortestMaximum = 2;  // m
-    constexpr std::size_t kMinCount = 20;
+    constexpr std::size_t kMinRepetitions = 20;
     double largest = 0;
     std::size_t count = 0, readings = 0;
     for (const RangeScan& scan : log_.scans) {
@@ -204,7 +204,7 @@ class CarmenReader {
         if (range == largest) ++count;
       }
     }
-    if (largest < kShortestMaximum || count < kMinCount ||
+    if (largest < kShortestMaximum || count < kMinRepetitions ||
         static_cast<double>(count) < kShare * static_cast<double>(readings)) {
       return;
     }
