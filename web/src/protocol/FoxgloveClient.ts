@@ -129,7 +129,7 @@ export class FoxgloveClient implements TopicSource, LiveViewSource {
   }
 
   // Subscribes to a topic. Returns the function that ends the subscription. With `newestOnly` or a
-  // form, messages are skipped, so that decoding takes at most a fifth of the page's time.
+  // form, this client skips messages, so that decoding takes at most a fifth of the page's time.
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,

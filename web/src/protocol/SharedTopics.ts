@@ -10,8 +10,8 @@ export interface TopicOptions {
   // If messages arrive faster than the page can decode them, only the newest message is decoded.
   // This option has an effect on a topic only while all its readers set it.
   newestOnly?: boolean;
-  // The form in which the reader gets the messages (default: the message itself). In other forms, it
-  // gets only the newest messages, because large ones are decoded in a worker.
+  // The form in which the reader gets the messages (default: the message itself). In other forms,
+  // older messages are skipped as with `newestOnly`, because a worker decodes large messages.
   form?: Form;
   // The topic to read if the server does not offer the topic itself.
   orElse?: string;

@@ -1,6 +1,6 @@
-// The forms in which readers get messages. A form other than the message itself contains only what
-// the page draws, in typed arrays. So a worker can compute it and pass it to the page without copies
-// (WorkerDecoder).
+// The forms in which readers get messages: the message itself, or a reduced version of it. A reduced
+// version contains only the data that the page draws, in typed arrays. So a worker can compute it and
+// pass it to the page without copies (WorkerDecoder).
 import type { PointCloud, Points } from "../live/clouds";
 import { cloudOf } from "../live/clouds";
 import { valuesOfGreyPng } from "../live/greyPng";
