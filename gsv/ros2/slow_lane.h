@@ -49,7 +49,7 @@ class SlowLane {
   bool is_working_ GSV_GUARDED_BY(mutex_) = false;    // whether a job is being executed
   std::uint64_t skipped_ GSV_GUARDED_BY(mutex_) = 0;  // number of skipped snapshots
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::unique_ptr<base::ThreadTeam> team_;  // used by the thread `thread_` only
+  std::unique_ptr<base::ThreadTeam> team_;  // publishes sources; used by `thread_` only
   std::thread thread_;                      // executes Run()
 };
 

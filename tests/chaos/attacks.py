@@ -1,9 +1,12 @@
 """The disturbances that chaos.py causes, one class each.
 
 An attack has `refusal`, the reason why it is not possible on this machine (None: it is possible),
-strike(), which takes at most two seconds, and end(), which removes all of its effects. If the server
-refuses a request with a sentence, it keeps its promise. A request without a response is a broken
-promise.
+strike(), which takes at most two seconds, and end(), which removes all of its effects.
+
+The server promises to respond to every HTTP request (chaos.py lists all promises). A refusal, which is
+a response with a status of 400 or more, also counts as a response. If a request gets no response within
+TIMEOUT_S (laboratory.py), the test ends with an error. Only requests of the attack Flood may remain
+without a response.
 """
 
 import base64

@@ -16,7 +16,7 @@ The program checks these promises:
 
 Afterwards, a new behaviour must be able to move a new robot. After SIGKILL of the server, a new
 server must list the recording that was in progress, of which at most the last second may be
-missing. For each broken promise, the program prints a sentence, and it exits with 1.
+missing. For each promise that is not kept, the program prints a sentence, and it exits with 1.
 """
 
 import argparse

@@ -14,8 +14,8 @@ versions are modified, as the seed determines. The program checks these promises
 - A lockstep simulation in the same server has the same result each time.
 - All programs end normally on request. A build with AddressSanitizer then reports leaks.
 
-If a program dies, the last messages before that are stored in FOLDER. For each broken promise, the
-program prints a sentence, and it exits with 1.
+If a program dies, the last messages before that are stored in FOLDER. For each promise that is not
+kept, the program prints a sentence, and it exits with 1.
 """
 
 import argparse

@@ -89,7 +89,8 @@ class OfferColumn {
   Offers& Own(std::size_t chunk);
   // Splits a chunk with more than kChunk offers in two.
   void SplitIfFull(std::size_t chunk);
-  // Removes an empty chunk. Joins a small chunk with the chunk before it if both have space.
+  // Removes the chunk if it is empty. If it has at most kChunk / 4 offers, moves them to the chunk
+  // before it, but only if that chunk then has at most kChunk / 2 offers.
   void JoinIfSmall(std::size_t chunk);
 
   OfferView::Chunks chunks_;  // chunks are never empty

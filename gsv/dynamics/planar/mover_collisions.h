@@ -90,7 +90,9 @@ class MoverCollisions {
     std::uint32_t first, second;           // movers
     std::uint32_t begin_piece, end_piece;  // range of the pair's entries in pieces_
   };
-  // The space of a mover that the last FindCandidates() covered, see HasRoom().
+  // A circle around a mover. While the origin of each mover stays in its circle, the candidates
+  // contain all pairs that may touch. FindCandidates() sets the circles of all movers. They are
+  // valid until its next call or Reset(). See HasRoom().
   struct Room {
     Vector2 centre;      // the mover's origin at the search
     double radius = -1;  // m; negative before the first search
@@ -133,7 +135,7 @@ class MoverCollisions {
 
   const PlanarScene& scene_;
   base::ThreadTeam& team_;
-  std::vector<Room> rooms_;                   // one for each mover
+  std::vector<Room> rooms_;                   // one for each mover, from the last FindCandidates()
   BroadPhase finder_;                         // finds candidates_
   std::vector<Vector2> centres_;              // discs of the movers for finder_
   std::vector<double> radii_;                 // radii of these discs, m

@@ -90,7 +90,7 @@ class NearObstacles {
                 double within, double look, bool dynamic) const;
 
   const PlanarScene& scene_;
-  std::vector<Clearance> clearances_;  // one for each mover
+  std::vector<Clearance> clearances_;  // one for each mover, from its last search
   std::vector<Chunk> chunks_;
 };
 

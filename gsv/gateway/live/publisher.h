@@ -66,7 +66,7 @@ class Publisher {
   std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);
   bool is_woken_ GSV_GUARDED_BY(mutex_) = false;  // whether a round was requested, see Wake()
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  Pacing directory_pacing_;  // used by thread_ only
+  Pacing directory_pacing_;  // limits the rate of DropEnded(); used by thread_ only
   std::thread thread_;       // executes Run()
 };
 

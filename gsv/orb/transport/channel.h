@@ -52,7 +52,9 @@ class PlainChannel final : public Channel {
   int SleepForBytes(void* buffer, std::size_t size, const omni_time_t& deadline);
 
   const int socket_;
-  bool last_wait_was_short_ = false;  // used by the receiving thread
+  // Whether the previous Receive() took less than 50 µs. If so, the next one polls before it sleeps.
+  // Only the receiving thread uses this flag.
+  bool last_wait_was_short_ = false;
 };
 
 // Waits until poll() reports `events`. Returns 1 if poll() reports them, or after a signal; 0 after

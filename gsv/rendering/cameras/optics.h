@@ -54,15 +54,16 @@ class Optics {
       const geometry::Pose& world_from_camera) const;
 
  private:
-  // A lens map that several cameras share. It is made on first use.
+  // The lens map of all cameras with equal parameters. The first of them that needs the map makes
+  // it.
   struct Joining {
     std::once_flag made;                 // set when `map` is made
     std::unique_ptr<const LensMap> map;  // made for the first image
   };
 
   Optics(const CameraParameters& camera, Lens lens, double horizontal_fov);
-  // Returns the map of a lens. Cameras with equal parameters, such as those of all robots of one
-  // model, share one map.
+  // Returns the map of a lens; null for a plain lens. Cameras with equal parameters, such as those
+  // of all robots of one model, share one map.
   static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
   // Returns the lens map, and makes it on first use.
   const LensMap& Map() const;
@@ -70,7 +71,9 @@ class Optics {
   CameraParameters camera_;
   Lens lens_;
   sensing::Frustum frustum_;
-  std::shared_ptr<Joining> joining_;  // the lens map; null for a plain lens
+  // The map from the pixels of the image to the pixels of the rendered pinhole images. Null for a
+  // plain lens (Lens::is_plain()), which needs no map: the renderer draws its image directly.
+  std::shared_ptr<Joining> joining_;
 };
 
 }  // namespace gsv::rendering

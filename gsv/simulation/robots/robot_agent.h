@@ -117,8 +117,10 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
   // Marks the agent as unresponsive, because it runs and does not wait.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
-  // Reports the behaviour's death. If the agent runs or has given up, the death takes effect in the
-  // next Wake(). If the agent waits, the death takes effect when its wait ends.
+  // Reports the behaviour's death. From now on, is_alive() is false, and the agent does not block
+  // the next step. The robot stops when the death takes effect. If the agent runs or has given up,
+  // the death takes effect in the next Wake(). If the agent waits, the death takes effect when its
+  // wait ends.
   void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
   // Whether the behaviour is neither dead nor unresponsive.
   bool is_alive() const GSV_REQUIRES(simulation_mutex) {
@@ -262,7 +264,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool started_ GSV_GUARDED_BY(simulation_mutex) = false;  // whether the behaviour has started
   bool is_removed_ GSV_GUARDED_BY(simulation_mutex) = false;
-  // Whether ReportDeath() was called. The death may not have taken effect yet.
+  // Whether ReportDeath() was called. The death has taken effect if `fate_` is kDead.
   bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
   // Whether the behaviour has reported its own death. Its later calls are ignored.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;

@@ -95,7 +95,9 @@ struct SharedState {
   // in `running`.
   std::vector<RobotAgent*> due GSV_GUARDED_BY(simulation_mutex);
   bool has_turns() const GSV_REQUIRES(simulation_mutex) { return !ready.empty() || !due.empty(); }
-  // Whether deaths of agents were reported. The dead agents may still count as running.
+  // Whether deaths of agents were reported since the stepping thread last woke agents. Such an agent
+  // no longer counts in `running`. But its death takes effect only in RobotAgent::Wake(). So in
+  // lockstep, no step begins before the stepping thread has woken all agents.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
   // Whether steps are timed, and the last robot for whose behaviour the step waited (empty if there
   // is none).
