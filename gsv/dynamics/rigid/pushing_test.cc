@@ -59,7 +59,7 @@ TEST(Pushing, AHeavyBoxStopsARobot) {
 TEST(Pushing, ABoxAgainstAWallStopsARobot) {
   // The contact of two boxes is detected once they overlap, by at most the distance of one substep.
   // The robot then stays in contact behind the box.
-  constexpr double kSpeed = 0.5, kSubstep = 1e-3;  // m/s, s
+  constexpr double kSpeed = 0.5, kSolverStep = 1e-3;  // m/s, s
   for (const double wall : {0.85, 0.8501, 0.8503, 0.852, 0.8575}) {
     TestWorld world = WorldOnGround();
     world.AddRobot("robot", Robot(), At(0, 0, 0));
@@ -69,7 +69,7 @@ TEST(Pushing, ABoxAgainstAWallStopsARobot) {
     world.Command("robot", {kSpeed, 0, 0});
     world.Run(2, 0.01);
     EXPECT_GT(world.position("box").x, wall - 1e-5) << wall;
-    EXPECT_LT(world.position("box").x, wall + kSpeed * kSubstep) << wall;
+    EXPECT_LT(world.position("box").x, wall + kSpeed * kSolverStep) << wall;
     EXPECT_NEAR(world.position("robot").x + 0.35, world.position("box").x, 1e-5) << wall;
   }
 }
