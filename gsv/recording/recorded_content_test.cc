@@ -52,8 +52,8 @@ TEST_F(SimulationRecorderTest, SensorsOfSeveralRatesKeepTheirInstants) {
   auto recorder = Start(simulation);
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
-  // The first steps of 10 ms at or after the multiples of 1/3 s and of 1/7 s. The sensors are
-  // created after the instant 0.
+  // The first steps of 10 ms at or after the multiples of 1/3 s and of 1/7 s. There is no reading
+  // at 0 s, because the sensors are created later.
   const std::map<std::string, std::vector<unsigned>> expected{
       {"/robot/at_3", {340, 670, 1000}}, {"/robot/at_7", {150, 290, 430, 580, 720, 860}}};
   for (const auto& [topic, instants_ms] : expected) {

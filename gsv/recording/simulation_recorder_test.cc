@@ -126,8 +126,8 @@ TEST_F(SimulationRecorderTest, AddedRobotGetsANewScene) {
   EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with the robot that was added
 }
 
-// `gsv replay --resimulate --commands` repeats the recorded commands. So a robot that is added
-// again must not have a recorded command of its earlier run.
+// `gsv replay --resimulate --commands` repeats the recorded commands. If a robot is removed and
+// added again, the recorder must not record a command of the removed robot for the new one.
 TEST_F(SimulationRecorderTest, RobotThatIsAddedAgainStartsWithoutACommand) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);
@@ -222,7 +222,7 @@ TEST_F(SimulationRecorderTest, DestroyedSimulationLeavesACompleteFile) {
   EXPECT_EQ(info.end, 200ms);
 }
 
-// The expectation becomes violated at 0.33 s.
+// Reports one expectation of a scenario. Its verdict becomes "violated" at 0.33 s.
 class ViolatedOnce final : public simulation::ExpectationSource {
  public:
   explicit ViolatedOnce(std::weak_ptr<simulation::Simulation> simulation)

@@ -76,8 +76,8 @@ TEST_F(IMAGE_SUITE, ShowsAPointWhereThePinholeModelPutsIt) {
   const double f = 160 / std::tan(1.047 / 2);
   for (const Vector3& p :
        {Vector3{3, 0, 0}, Vector3{4, 1.2, 0.8}, Vector3{6, -2.5, -1.5}, Vector3{2, 0.5, -0.6}}) {
-    // The image of the ball has a radius of only three pixels, so the error of its centre is less
-    // than 0.01 pixels.
+    // The centre of the ball's image is not exactly the image of the ball's centre. For a radius of
+    // three pixels, they are less than 0.01 pixels apart.
     scene_.Add("ball", geometry::Sphere{3 * p.x / f}, {view.world_from_camera * p, {}},
                Glowing(1, 0, 0));
     const Blob ball = FindBlob(*Take(view), 0, 10);
@@ -372,8 +372,8 @@ TEST_F(IMAGE_SUITE, GroundBeyondTheShadowMapIsLit) {
   scene_.description().lights = {sun};
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("post", Box{{0.2, 0.2, 1}}, {{-3, -3, 0.5}, {}}, Matt(0.7, 0.7, 0.7), true);
-  // The camera faces in the direction of the light. The ground in its view is farther from the sun
-  // than the foot of the post.
+  // The camera looks away from the sun. So the ground in the image is farther from the sun than the
+  // post, which is behind the camera.
   const auto image = Take({{{0, 0, 2}, {}}, {160, 120, 1, 0.1, 200}});
   const int near = Brightness(*image, 80, 115), far = Brightness(*image, 80, 65);
   EXPECT_NEAR(near, far, 30);
@@ -398,7 +398,8 @@ TEST_F(IMAGE_SUITE, WorldLightReachesObjectsWithinItsRange) {
   const Blob lit = FindBlob(*image, 0, 20);
   EXPECT_NEAR(lit.u, 50, 1);
   EXPECT_NEAR(lit.v, 50, 1);
-  // The lamp lights a disc of at most its range, 3 m or 15 pixels, with an area of pi 15².
+  // The radius of the lit disc is at most the lamp's range, 3 m or 15 pixels. So the disc has at
+  // most pi 15² = 707 pixels.
   EXPECT_GT(lit.pixels, 50);
   EXPECT_LT(lit.pixels, 710);
 }

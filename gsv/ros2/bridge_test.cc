@@ -27,8 +27,8 @@ namespace {
 
 using testing::Peer;
 
-// Publishes a robot "robot", which starts at the origin in real time, to another participant
-// `peer_`.
+// Publishes a simulation in real time to another participant, `peer_`. The robot "robot" starts at
+// the origin.
 class BridgeTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -72,8 +72,8 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
   EXPECT_EQ(range.header.frame_id, "robot/front");
 }
 
-// Creates and destroys 40 participants. Discovery looks for fewer participants on one machine.
-// Participants that are created later must still find each other.
+// Creates and destroys 40 participants. On one machine, discovery searches only for participants
+// with the lowest 32 indices. Participants that are created later must still find each other.
 TEST(Participant, IsFoundAfterManyOthers) {
   for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
   Peer one, other;
@@ -204,7 +204,8 @@ TEST_F(BridgeTest, TakesNoCommandsForARobotWithABehaviour) {
   ASSERT_TRUE(simulation_->Start());
   peer_->Listen("/driven/odom", "nav_msgs/msg/Odometry", kDefaultQos);
   (void)peer_->Await<messages::nav_msgs::Odometry>("/driven/odom");
-  // A second publisher of the same topic.
+  // Waits until the peer has discovered a reader of commands: that of the robot without a
+  // behaviour.
   (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");
   for (const dds::Endpoint& endpoint : peer_->participant().endpoints()) {
     EXPECT_NE(endpoint.topic.name, "rt/driven/cmd_vel");

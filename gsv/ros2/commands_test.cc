@@ -77,7 +77,7 @@ TEST(CommandInput, KeepsOnlyTheLatestOfManyCommands) {
   EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);
 }
 
-// A robot with two prismatic joints at 0 m, which planar kinematics moves at 1 m/s.
+// A robot with two prismatic joints at 0 m. Planar kinematics moves each joint at up to 1 m/s.
 simulation::RobotSpecification TwoSliders() {
   auto model = std::make_shared<model::Model>();
   model->links.resize(3);

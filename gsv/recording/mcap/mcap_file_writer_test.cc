@@ -41,7 +41,7 @@ TEST(Crc32, EqualsTheCrcOfZipAndPng) {
   EXPECT_EQ(Crc32({}, 5), 5U);
 }
 
-// Long pieces are computed in another way than single bytes.
+// For 64 bytes or more, Crc32() uses a faster algorithm if the processor supports it.
 TEST(Crc32, OfLongPiecesEqualsThatOfTheirBytes) {
   Bytes bytes;
   for (unsigned i = 0; i < 400; ++i) bytes.push_back(static_cast<std::byte>(i * i * 31 + (i >> 3)));

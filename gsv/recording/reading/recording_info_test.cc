@@ -70,8 +70,8 @@ class RecordingInfoTest : public testing::Test {
   const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
-// The time of a user's action is not the end of the steps: a stop may arrive during a step, so that
-// one run takes one step more than another run.
+// A user may act at any time, for example stop the run during a step. So the time of a user's
+// action does not show at which step the run ended.
 TEST(EndOfSteps, IgnoresUserActionsAndWallClockTopics) {
   Bytes bytes;
   MemorySink sink(bytes);

@@ -374,10 +374,10 @@ TEST_F(NormalsCameraTest, ReturnsTheNormalsOfASphereAndNanForTheSky) {
         continue;
       }
       const Vector3 expected = Vector3{0.3, 0, 1} + d * RayOf(x, y) - centre;
-      // The tolerance for the angle between the measured and the exact normal, in rad. The sphere
-      // consists of facets, which are 0.1 rad wide. The normal is computed from adjacent pixels.
-      // Their distance of 0.07 m is 0.07 rad of the sphere. Half of the sum of both, 0.085 rad, is
-      // the maximum error about each of two axes. The error about both axes together is 0.12 rad.
+      // The tolerance, 0.12 rad, is for the angle between the measured and the exact normal. The
+      // sphere consists of facets, which are 0.1 rad wide. The normal is computed from adjacent
+      // pixels, which are 0.07 m or 0.07 rad of the sphere apart. The maximum error about one axis
+      // is (0.1 + 0.07) / 2 = 0.085 rad. For two axes, it is sqrt(2) times as large: 0.12 rad.
       if (expected.x > -0.75) continue;
       EXPECT_LT(Norm(normal - expected), 0.12) << x << " " << y;
       ++seen;

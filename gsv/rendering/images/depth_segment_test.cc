@@ -10,7 +10,7 @@
 namespace gsv::rendering {
 namespace {
 
-// A decoder of its own: returns the inverse depths of a segment.
+// Returns the inverse depths of a segment. This decoder shares no code with the encoder.
 std::vector<float> Decode(const std::vector<std::uint8_t>& bytes, std::size_t columns,
                           std::size_t samples) {
   std::size_t at = sizeof kDepthIdentifier + 6;
@@ -74,7 +74,8 @@ TEST(DepthSegment, HasTheDepthsWithinHalfANumber) {
   for (std::size_t i = 0; i < inverse.size(); ++i) {
     EXPECT_NEAR(inverse[i], grid.inverse_depth[i], 0.5 * 0.5 / 65535 * 1.01) << i;
   }
-  // Most codes are a single group of four bits, because planes are predicted.
+  // The inverse depth of a plane equals its prediction, except for rounding. So most codes are a
+  // single group of four bits.
   EXPECT_LT(bytes.size(), grid.inverse_depth.size());
 }
 

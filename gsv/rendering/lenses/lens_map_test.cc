@@ -124,8 +124,8 @@ Blob Covered(const model::Image& image, const model::Image& without) {
   return blob;
 }
 
-// The position of an edge is only known to a pixel, so the test averages over balls of several
-// sizes.
+// The measured position of a ball's edge has an error of up to a pixel. So the test averages over
+// balls of several sizes.
 TEST_P(LensImage, ShowsObjectsWhereTheEquationsPutThem) {
   const Optics optics = Read();
   const auto is_inside = [](const Vector2& at) {
@@ -239,7 +239,7 @@ TEST(LensMap, RendersOnlyTheFacesThatTheLensSees) {
   EXPECT_EQ(LensMap(Lens(CameraParameters{}), {}).Views({}).size(), 1u);
   const auto half = Lens::Wide({}, *WideViewNamed("equidistant"), kPi);
   ASSERT_TRUE(half);
-  // The map uses all faces except the one behind the camera.
+  // The map uses all faces of the cube except the face behind the camera.
   EXPECT_EQ(LensMap(*half, {}).Views({}).size(), 5u);
 }
 

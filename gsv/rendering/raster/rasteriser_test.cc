@@ -60,7 +60,8 @@ TEST(Rasteriser, LeavesNoGapsBetweenTriangles) {
   }
 }
 
-// The wall beside the camera begins behind the camera and nearer than the near plane.
+// The wall beside the camera extends from behind the camera, through the near plane, to beyond the
+// far plane.
 TEST(Rasteriser, DrawsTrianglesThatReachBehindTheCamera) {
   TestScene scene;
   scene.Add("wall", geometry::Box{{400, 0.1, 2}}, {{0, -1, 0}, {}}, Glowing(0, 1, 0));
@@ -68,8 +69,9 @@ TEST(Rasteriser, DrawsTrianglesThatReachBehindTheCamera) {
   const auto image = renderer->Draw(
       scene.Snapshot(), CameraView{{}, {200, 100, std::numbers::pi / 2, 0.1, 150}}, kDrawTimeout);
   ASSERT_TRUE(image);
-  // The focal length f is 100 pixels. The wall 0.95 m to the right ends at 150 m, 0.6 pixels right
-  // of the middle. At pixel u, its upper and lower edges are (u - 100) / 0.95 from the middle row.
+  // The focal length is 100 pixels. The wall is 0.95 m to the right. At the far plane, 150 m away,
+  // it is 0.6 pixels to the right of the middle column. In column u, its upper and lower edges are
+  // (u - 100) / 0.95 pixels from the middle row.
   for (int u = 105; u < 200; ++u) {
     const double half = (u + 0.5 - 100) / 0.95;
     int green = 0;
@@ -103,8 +105,9 @@ TEST(RasterMesh, CoarserLevelsDisplaceVerticesByAtMostTheirCell) {
     for (std::uint32_t i = 0; i < levels[l].vertex_count; ++i) {
       const std::uint32_t v = levels[l].first_vertex + i;
       const double radius = std::hypot(raster_mesh.x[v], raster_mesh.y[v], raster_mesh.z[v]);
-      // The displacements of all finer levels add up. The cells of a level are 1.5 times as large
-      // as those of the finer level.
+      // Each level is made from the next finer level, so the displacements of a vertex add up. The
+      // cells of a level are at least 1.5 times as large as those of the next finer level. So the
+      // sum is at most three diagonals of a cell.
       EXPECT_NEAR(radius, 1, std::sqrt(3.0) * 3 * levels[l].cell);
     }
   }
@@ -151,7 +154,7 @@ TEST(BackEnds, DrawSimilarImages) {
   EXPECT_LT(far_off, static_cast<int>((*ours)->pixels.size() / 100));
 }
 
-// Rows of 203 pixels end within a vector of eight pixels.
+// The renderer draws eight pixels at a time. A row of 203 pixels is not a multiple of eight.
 TEST(RasterBatchRenderer, DrawsEqualImagesByOneAndBySeveralThreads) {
   TestScene scene;
   scene.Add("floor", geometry::Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.9, 0.8, 0.7), true);

@@ -103,7 +103,7 @@ TEST(ShadowBounds, FollowChangesOfAPart) {
   }
 }
 
-// Without slopes, the bound of a tilted surface would be far above the surface itself.
+// The upper bound of a block has a slope. A constant bound would be far above a tilted surface.
 TEST(ShadowBounds, AreTightForTiltedSurfaces) {
   if (!CanRasterise()) GTEST_SKIP() << "needs AVX2";
   Map map;

@@ -41,7 +41,7 @@ TEST(Antialiasing, BlendsEdgePixelsByTheirCoveredArea) {
     double error = 0, unsmoothed = 0;
     for (int y = 10; y < 50; ++y) {
       for (int x = 10; x < 50; ++x) {
-        double inside = 0;  // the exact fraction, by sampling
+        double inside = 0;  // fraction of the pixel that is white, from 400 samples
         for (int s = 0; s < 400; ++s) {
           const int column = s % 20, row = s / 20;
           inside += y + (row + 0.5) / 20 > height(x + (column + 0.5) / 20);

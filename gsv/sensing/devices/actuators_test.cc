@@ -34,7 +34,7 @@ std::unique_ptr<Sensor> MakeDevice(const SensorType& type, model::Parameters par
   return made ? *std::move(made) : nullptr;
 }
 
-// Returns the state of a device from `since` on.
+// Applies a command to a device at the time `since`. Returns the new state of the device.
 world::DeviceStatePtr Commanded(const Sensor& device, const std::string& robot,
                                 const world::DeviceCommand& command,
                                 const world::DeviceStatePtr& before = nullptr,

@@ -167,9 +167,10 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
     }
   }
   // The expected number of mixed ranges. There are two edges. Each edge is between two beams, so
-  // four beams are beside an edge. In half of the scans, a beam looks towards the edge beside it.
-  // The beam then covers the edge with the probability divergence / step = 0.6. Of the mixed
-  // ranges, the fraction 0.8 is between 2.2 and 3.8 m, where the test counts them.
+  // four beams are beside an edge. In each scan, the lidar compares a beam with one of its two
+  // neighbours, at random. In half of the scans, this is the neighbour across the edge. The beam
+  // then covers the edge with the probability divergence / step = 0.6. Of the mixed ranges, the
+  // fraction 0.8 is between 2.2 and 3.8 m, where the test counts them.
   const double expected = 4 * 0.5 * 0.6 * 0.8 * scans;
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }
@@ -402,7 +403,7 @@ TEST_F(DeviceErrors, RangingNoiseGrowsWithDistance) {
     sum += off, squares += off * off;
   }
   EXPECT_WITHIN(sum / kReadings, 0, 0.005, "m");
-  // the standard deviation of two errors with the standard deviations 0.03 and 0.04
+  // the standard deviation of the sum of two errors with the standard deviations 0.03 and 0.04
   EXPECT_WITHIN(std::sqrt(squares / kReadings), 0.05, 0.003, "m");
 }
 

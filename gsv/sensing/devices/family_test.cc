@@ -162,7 +162,8 @@ TEST_F(SensorTypesTest, ImuReadsItsOrientationInTheGivenFrame) {
   for (const Case& expected :
        {Case{"ENU", {c, s, 0}, {0, 0, 1}}, Case{"NED", {s, c, 0}, {0, 0, -1}},
         Case{"NWU", {s, -c, 0}, {0, 0, 1}},
-        // The robot's forward axis is up, and up points to the right of the world's x.
+        // Gravity acts along the world's -y, and the robot faces y. So the robot's x axis points
+        // up. Its z axis is horizontal: in the frame GRAV_UP, it is -y.
         Case{"GRAV_UP", {0, 0, 1}, {0, -1, 0}}, Case{"GRAV_DOWN", {0, 0, -1}, {0, 1, 0}},
         // This reference frame has the orientation of the robot.
         Case{"CUSTOM", {1, 0, 0}, {0, 0, 1}}}) {
@@ -238,8 +239,8 @@ TEST_F(SensorTypesTest, OdometerReadsTheWheelOdometry) {
 TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   EXPECT_TRUE(Sample(DescriptionOf("bumper")).values.empty());
   const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
-  // There are three contacts: with the other robot, whose index is lower, straight ahead; with the
-  // floor; and with a body behind.
+  // There are three contacts: with the other robot straight ahead, with the floor below, and with a
+  // vertical face of the floor's body behind. In the first contact, this robot is the second body.
   snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}, 0.01, true, 0.4},
                          {body_, floor, {1, 0, 0}, {0, 0, -1}, 0.001},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}, 0.02}};
@@ -393,7 +394,8 @@ TEST_F(SensorTypesTest, BatteryDischargesWithTimeAndDistance) {
 TEST_F(SensorTypesTest, LogicalCameraListsTheModelsInView) {
   auto wide = DescriptionOf("logical_camera", {{"horizontal_fov", 2.0}});
   const Reading reading = Sample(wide);
-  // The box to the right is in view, the robot behind it is hidden, and the floor has no centre.
+  // The box to the right is in view and hides the robot behind it. The floor is not listed, because
+  // a plane has no centre.
   EXPECT_EQ(*reading.labels, (std::vector<std::string>{"box", "other"}));
   // From (1, 0.2, 0.3) and facing y, the other robot at (1, 3, 0.3) is 2.8 m ahead and turned to
   // the right.

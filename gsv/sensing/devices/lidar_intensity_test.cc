@@ -31,7 +31,7 @@ std::shared_ptr<model::Model> Coloured(const geometry::Shape& shape, double r, d
   return model;
 }
 
-// Returns the face of a white tetrahedron as a mesh: a large triangle across the x axis.
+// Returns a mesh that is one large triangle across the x axis.
 geometry::Mesh LargeTriangle() {
   auto triangles = std::make_shared<geometry::TriangleMesh>();
   triangles->positions = {{0, -9, -9}, {0, 9, -9}, {0, 0, 9}};
@@ -103,8 +103,8 @@ TEST_F(LidarIntensity, OfABallFollowsFromItsNormal) {
       Sample(ball, geometry::PlanarPose(5, 0.5, 0, 0), Beams({{"intensity_scale", 1.0}}));
   for (std::size_t i = 0; i < 3; ++i) {
     const double azimuth = -0.3 + 0.3 * static_cast<double>(i);
-    // The distance of the beam from the sphere's centre is d, so the sine of the angle of incidence
-    // is d / 2.
+    // The radius of the sphere is 2 m. The beam's line passes the centre at the distance d, so the
+    // sine of the angle of incidence is d / 2.
     const double d = std::abs(0.5 * std::cos(azimuth) - 5 * std::sin(azimuth));
     EXPECT_WITHIN(reading.values[3 + i], std::sqrt(1 - d * d / 4), 1e-6, "") << i;
   }

@@ -28,7 +28,8 @@ struct Reply {
   dds::SampleIdentity request;
 };
 
-// A participant whose messages the test reads and writes. All clients count as discovered.
+// A participant whose messages the test reads and writes. All clients count as discovered while
+// `knows_clients` is true.
 class FakeParticipant final : public dds::Participant {
  public:
   using OnRequest = std::function<void(std::span<const std::byte>, const dds::Request&)>;
