@@ -104,7 +104,7 @@ TEST(Simulation, ExchangeReturnsReadingsAtItsInstantAndCommandsOnce) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(ranges[i], 2.85 - 0.05 * i, 1e-9);
 }
 
-// A behaviour that waits only once, for the instant one hour later.
+// A behaviour that only waits, for one hour of simulated time in each call.
 std::shared_ptr<ThreadBehaviour> Sleeps() {
   return std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     while (SleepFor(agent, clock, 1h)) {
@@ -164,8 +164,9 @@ TEST(Simulation, AfterTheEndOfTheRunAgentsCallsEnd) {
   EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
 }
 
-// Regression: a wait must be repeated after its lease. When a wait for the instant of a pause was
-// repeated during the pause, it ended at once, and this changed the state hash.
+// Regression: a behaviour must repeat its wait when the lease of the wait ends. If the wait was for
+// the instant of a pause and was repeated during this pause, it ended at once. This changed the
+// state hash.
 TEST(Simulation, AWaitForTheInstantOfAPauseEndsWithTheResume) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<int> leases = 0;
@@ -214,7 +215,8 @@ TEST(Simulation, PauseStopsTheClockAndNotifiesTheBehaviours) {
   ASSERT_TRUE(simulation->Pause());
   (void)simulation->state_hash();  // waits until the step in progress has ended
   const std::int64_t step = simulation->status().step;
-  // while the simulation runs, each step ends a wait
+  // During the pause, each wait ends with its lease. If the simulation still ran, its steps would
+  // end the waits, and the number of steps would change.
   for (int i = 0; i < 5; ++i) waits.wait(waits);
   EXPECT_EQ(simulation->status().step, step);
   ASSERT_TRUE(simulation->Step(7));

@@ -169,7 +169,8 @@ TEST(Monitor, AgreesWithTheDefinitionOfTheOperators) {
     }
     const MonitorVerdict judged = RunMonitor(formula, trace);
     ASSERT_EQ(judged.holds, Means(formula, trace, 0)) << "formula " << i;
-    // If the verdict is early, every continuation of the run must lead to the same verdict.
+    // The verdict was certain at the step `judged.at`. So every part of the trace from its start to
+    // this step or a later step must have the same verdict.
     for (std::size_t length = judged.at + 1; length < trace.size(); ++length) {
       const Trace shorter(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(length));
       ASSERT_EQ(Means(formula, shorter, 0), judged.holds) << "formula " << i;

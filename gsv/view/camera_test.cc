@@ -12,8 +12,8 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// The robot "pebble" is at (10, 20, 0), faces along y and is slightly tilted. Its camera "eye" is 0.5 m
-// along the robot's z axis.
+// The robot "pebble" is at (10, 20, 0), faces along y and is slightly tilted. Its camera "eye" is
+// at (10, 20, 0.5) in the world.
 SceneLookup Pebble() {
   const Pose pebble{{10, 20, 0}, geometry::FromRollPitchYaw({0.1, 0.2, std::numbers::pi / 2})};
   return {[pebble](const std::string& body) {
@@ -67,7 +67,7 @@ TEST(ViewCamera, TheFieldOfViewIsVertical) {
   camera.width = 300, camera.height = 100;
   camera.field_of_view = 90;
   // The image is three times as wide as high. The tangent of half the vertical angle is tan(45°) =
-  // 1, so the horizontal one is 3.
+  // 1. So the tangent of half the horizontal angle is 3.
   EXPECT_NEAR(std::tan(Placed(camera).parameters.horizontal_fov / 2), 3, 1e-12);
 }
 
@@ -104,7 +104,7 @@ TEST(ViewCamera, ShowsTheViewOfARobotsCamera) {
 
 TEST(ViewCamera, ShowsEverythingByDefault) {
   const auto view = Placed({});
-  // The camera looks at the middle of the corners.
+  // The camera looks roughly at the centre between the scene's corners.
   const Vector3 middle = geometry::Inverse(view.world_from_camera) * Vector3{0, 0, 0.5};
   EXPECT_GT(middle.x, 1);
   EXPECT_LT(std::hypot(middle.y, middle.z), 0.3 * middle.x);

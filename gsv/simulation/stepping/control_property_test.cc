@@ -155,7 +155,7 @@ Request RandomRequest(Dice& dice, std::int64_t step) {
                                          Action::kStart,    Action::kReset, Action::kStop};
   const Action action = kFrequent[dice.Below(std::size(kFrequent))];
   if (action == Action::kStep) return {action, dice.Below(12)};
-  // A few of the instants are in the past.
+  // A quarter of the requests kRunUntil are for the instant 0, which is usually past.
   if (action == Action::kRunUntil && dice.Below(4) == 0) return {action, 0};
   if (action == Action::kRunUntil) return {action, step + 1 + dice.Below(40)};
   return {action, 0};

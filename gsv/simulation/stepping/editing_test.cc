@@ -203,8 +203,8 @@ TEST(Editing, RecordsWhetherAllBehavioursHadTheirTurnBeforeTheEdit) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-// Returns the hash of a run with two edits: one during a pause before the turns, and one after the
-// turns.
+// Returns the hash of a run with edits during two pauses. At the instant `first`, the agents have
+// not had their turns yet. At the instant `second`, they have had them.
 std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   auto simulation = Make(Room(1s));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.3))));

@@ -47,14 +47,15 @@ class ObservedEngine final : public dynamics::Engine {
   const std::unique_ptr<dynamics::Engine> engine_ = dynamics::MakeWorldEngine();
 };
 
-// Needs each snapshot, and does nothing with it.
+// An observer that does nothing. With an observer, the simulation takes single steps.
 class IdleObserver final : public Observer {
  public:
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& /*snapshot*/) override {}
   void OnEvent(const Event& /*event*/) override {}
 };
 
-// The result of a run of eight robots that wake every 50 ms. The first one drives against a ninth.
+// The result of a run of nine robots. Eight robots drive, and their behaviours wake every 50 ms.
+// The first of them collides with the ninth robot, which stands still.
 struct RunResult {
   std::string hash;
   std::vector<int> at_once;
@@ -98,7 +99,7 @@ TEST(SteppingSimulation, TakesManyStepsAtOnceWithoutObservers) {
   const RunResult observed = RunEightRobots(3s, std::make_shared<IdleObserver>());
   EXPECT_TRUE(observed.at_once.empty());
   EXPECT_EQ(observed.steps, 300);
-  EXPECT_EQ(alone.steps, 1);  // the first step finds the obstacles
+  EXPECT_EQ(alone.steps, 1);  // this step prepares the obstacles for StepMany()
   std::vector<int> until_they_wake(60, 5);
   until_they_wake.front() = 4;
   EXPECT_EQ(alone.at_once, until_they_wake);
@@ -107,8 +108,8 @@ TEST(SteppingSimulation, TakesManyStepsAtOnceWithoutObservers) {
   EXPECT_EQ(alone.collisions, observed.collisions);
 }
 
-// All robots start in the first step of the run. At its end, their accelerations are those of the
-// last step, not the mean over all steps.
+// All robots start to move in the first step of the run. At the end of the run, their accelerations
+// must be those of the last step, not the mean over all steps.
 TEST(SteppingSimulation, AccelerationsOfManyStepsAreThoseOfTheLastStep) {
   for (const SimTime duration : {10ms, 20ms, 50ms}) {
     EXPECT_EQ(RunEightRobots(duration, nullptr).accelerations,
@@ -117,7 +118,8 @@ TEST(SteppingSimulation, AccelerationsOfManyStepsAreThoseOfTheLastStep) {
   }
 }
 
-// The run pauses exactly where it is asked to, although nobody wakes before.
+// The robot has no behaviour, so no agent wakes and limits the number of steps at once.
+// Nevertheless, the run must pause at the requested step.
 TEST(SteppingSimulation, ManyStepsEndAtTheRequestedInstant) {
   const auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));

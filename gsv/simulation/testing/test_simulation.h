@@ -18,7 +18,7 @@ namespace gsv::simulation {
 using namespace std::chrono_literals;
 using geometry::PlanarPose;
 
-inline constexpr auto kLease = 200ms;  // lease of each wait of a behaviour
+inline constexpr auto kLease = 200ms;  // maximum wall-clock time of one wait call, see Wait
 inline constexpr auto kTimeout = 20s;  // wall-clock time limit of every expected change
 
 // The current pose of a body.
