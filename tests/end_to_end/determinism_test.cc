@@ -156,7 +156,8 @@ TEST(Determinism, HashDoesNotDependOnASlowNetwork) {
   }
 }
 
-// The behaviour waits for an answer all the time, as it does for an image on a busy machine.
+// While gsv is stopped, the behaviour waits for an answer, as it waits for an image on a busy
+// machine.
 TEST(Determinism, HashDoesNotDependOnAStopOfTwelveSeconds) {
   const auto hash_of = [](bool is_stopped) {
     Running run("gsv", {"run", "playground", "--robot", "b21r@0,1", "--behaviour", "follow-wall",

@@ -47,8 +47,8 @@ class Faults : public Served {
     return hash;
   }
   app::ChildProcess& FirstProgram() { return fleet_->program(0).process(); }
-  // Stops the first program, and waits until it has stopped. A signal takes effect only when the process runs
-  // again; until then the program continues.
+  // Stops the first program. Waits until it has stopped, because a signal may take effect some time
+  // after Signal() has returned.
   void StopFirstProgram() {
     FirstProgram().Signal(SIGSTOP);
     siginfo_t info;
@@ -145,7 +145,7 @@ TEST_F(Faults, KilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
       AwaitState(simulation,
                  [](const auto& state) { return CountOf(state, sba::AGENT_DEAD) == 1; });
       const std::chrono::duration<double> after = std::chrono::steady_clock::now() - killed;
-      std::cout << "reported after " << after.count() << " s\n";  // the limit is 2 s
+      std::cout << "reported after " << after.count() << " s\n";  // promised: within 2 s
       // Everything else is unchanged, because the clock has stopped.
       EXPECT_EQ(sba::SimulationState_var(simulation->state())->time_ns, kHalfway * 1e9);
     }

@@ -52,7 +52,8 @@ class Isolation : public Served {
     flooded->start();
     return flooded._retn();
   }
-  // The flood shows that the program is alive, because a dead program sends no calls.
+  // Expects that the program of the flood still runs, and that none of its behaviours has died or
+  // finished.
   void ExpectFloodContinues(sba::Simulation_ptr flooded) {
     const sba::SimulationState_var state = flooded->state();
     EXPECT_EQ(CountOf(state.in(), sba::AGENT_DEAD) + CountOf(state.in(), sba::AGENT_FINISHED), 0);
@@ -140,7 +141,8 @@ TEST_F(HashBesideAnotherSimulation, IsUnchangedInAFloodOfCalls) {
 }
 
 TEST_F(HashBesideAnotherSimulation, IsUnchangedIfSimulationsAreDestroyedDuringAStep) {
-  // These simulations have behaviours of the same programs.
+  // The other simulations have behaviours of the same programs as the simulation whose hash is
+  // compared.
   const Repeatedly destroying(2, [&] {
     sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
     AddPebble(other, -1, "wander");

@@ -61,7 +61,8 @@ class CrashReports : public ::testing::Test {
     ASSERT_EQ(Ask("POST", "/api/simulations", scenario.dump()).status, 201);
   }
   fs::path notes() const { return folder_.path() / "state/gsv/servers"; }
-  // Waits until a note of a server fulfils the condition.
+  // A server describes its simulations in a file, its note. Waits until a note fulfils the
+  // condition.
   template <typename Condition>
   void AwaitNoted(Condition holds) const {
     const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
@@ -136,7 +137,7 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   EXPECT_EQ(lost[0]["replay"], fs::path(file).filename().string());
   EXPECT_EQ(lost[1]["name"], "maze");
   EXPECT_EQ(lost[1]["recording"], "");
-  while (!lost[0].contains("whole_until_s")) lost = LostReports();  // the recording is being read
+  while (!lost[0].contains("whole_until_s")) lost = LostReports();  // waits for the server
   const std::string mended = folder_.path() / "mended.mcap";
   ASSERT_EQ(RunProgram("gsv", {"rec", "recover", file, "-o", mended}).ending, "exit code 0");
   const json info = json::parse(RunProgram("gsv", {"rec", "info", "--json", mended}).out);

@@ -107,13 +107,13 @@ TEST_F(Resimulation, NamesTheFirstDifference) {
   EXPECT_EQ(again.ending, "exit code 1") << again.err;
   const auto report = again.LastLine();
   EXPECT_EQ(report["equal"], false);
-  // This is the first topic by name that depends on the wall.
+  // Of the topics that depend on the wall, this topic is the first in alphabetical order.
   EXPECT_EQ(report["first_difference"]["time_s"], 0);
   EXPECT_EQ(report["first_difference"]["topic"], "/gsv/beams");
 }
 
-// In real time the instants of a behaviour depend on the wall clock. The recording keeps the
-// instants of its commands.
+// In real time, the instants at which a behaviour sends its commands depend on the wall clock. The
+// recording contains these instants.
 TEST_F(Resimulation, RealTimeRunIsRepeatedFromItsCommands) {
   const Outcome recorded = Record();
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;

@@ -210,7 +210,7 @@ TEST(Servers, SimulationOfADeadServerIsReportedAsLost) {
   ASSERT_TRUE(state);
   EXPECT_EQ(state->phase, "lost");
   EXPECT_THAT(state->failure, HasSubstr("no program accepts connections at this address any more"));
-  ASSERT_EQ(state->robots.size(), 1u);  // the state is that of the last query
+  ASSERT_EQ(state->robots.size(), 1u);  // the last state that the server returned
   EXPECT_EQ(state->robots[0].place.x, 1);
   // The application continues with another server.
   const auto another = Serve(broker.reference(), "lives", {});

@@ -297,14 +297,15 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
   const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   ASSERT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
   simulation->stop();
-  // The same behaviour runs again, because its thread has returned from its wait.
+  // The request has ended the behaviour's wait, so its thread has returned. The same behaviour can
+  // run again.
   simulation->reset();
   EXPECT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
 }
 
 // The following tests call the same services through the SDK.
 TEST_F(Services, ApplicationNeedsNoCorbaCode) {
-  // A process has one ORB, so the SDK uses the ORB of this test.
+  // This program uses only the SDK.
   EXPECT_EQ(RunProgram("example-test-wandering",
                        {"--broker", broker_->reference(), "--world", "playground", "--places", "-1",
                         "0", "1", "0", "--seconds", "10"})

@@ -198,7 +198,7 @@ TEST(Log, WritesOneJsonObjectPerLineWithoutTokens) {
   EXPECT_GE(refusals, 5) << log;
 }
 
-// Returns the report of `gsv doctor --security` about a process, by the protocols of its sockets.
+// Returns the sockets of a process, as `gsv doctor --security` reports them, by their protocols.
 std::map<std::string, std::vector<json>> ExposureOf(pid_t pid) {
   std::map<std::string, std::vector<json>> sockets;
   std::istringstream lines(RunProgram("gsv", {"doctor", "--security", "--json"}).out);
@@ -247,7 +247,7 @@ TEST(Exposure, CertificateAndTokenGiveNoWarning) {
   EXPECT_TRUE(socket["watching_takes_token"]);
   EXPECT_TRUE(socket["acting_takes_token"]);
   EXPECT_EQ(socket["complaint"], "");
-  // A client without TLS gets no other information.
+  // A client without TLS gets only an error, which names https://.
   const HttpReply plain = server.Ask("GET", "/api/server");
   EXPECT_EQ(plain.status, 400);
   EXPECT_NE(plain.body.find("https://"), std::string::npos);

@@ -130,8 +130,8 @@ TEST_F(SlurmCampaign, LostRunsAreSubmittedAgain) {
   {
     Running driver("gsv", arguments);
     AwaitDone(1, driver);
-    // An array has at most three tasks, so there are three jobs. A user who cancels the jobs wants
-    // the jobs to end.
+    // An array has at most three tasks, so there are three jobs. If a user cancels jobs, the driver
+    // must not submit them again.
     EXPECT_EQ(Files("c.runs", ".json"), 4u);  // three batches and the plan
     SlurmCluster::Ask({"scancel", "--state=PENDING", "--me"});
     const Outcome cancelled = AwaitEnd(driver);
