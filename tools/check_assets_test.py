@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Tests assets/: the worlds and robots of GSV have no errors, and the default robots start without contacts.
 
-Reads the SDFormat files by itself, so that a mistake in the simulator's reader does not hide one
-in the files. Collisions are boxes, cylinders and spheres that stand upright, seen from above.
+Reads the SDFormat files with its own code, so that an error in the simulator's reader cannot hide
+an error in the files. All collisions must be upright boxes, cylinders and spheres. The tests
+compare their outlines as seen from above.
 """
 
 import math

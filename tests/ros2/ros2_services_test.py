@@ -81,7 +81,7 @@ POSTS = """<sdf version="1.9"><world name="posts">
 
 
 def result_of(reply):
-    """The number in a reply, which some services have inside a further result."""
+    """Returns the result number of a reply. Some services return it inside an object, which is also named "result"."""
     result = reply["result"]
     return result["result"] if isinstance(result, dict) else result
 

@@ -18,8 +18,8 @@ import unittest
 from xml.etree import ElementTree
 
 GSV, PEER = sys.argv[1:3]
-# Fast DDS 2.9 deletes objects through a type of another size, for which AddressSanitizer would end
-# the program.
+# Fast DDS 2.9 deletes objects through a type of another size. Without this option, AddressSanitizer
+# would end the program because of that.
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
 DOMAIN = 60 + os.getpid() % 40  # a domain that no other test on this machine uses
 PUBLISHED = {  # type hashes that ROS 2's packages contain
@@ -157,7 +157,7 @@ class ForeignPeer(unittest.TestCase):
         self.assertEqual(by_topic["/pebble/sonar_00"][0]["header"]["frame_id"], "pebble/sonar_00")
 
     def step(self, speed):
-        """Runs a robot in lockstep that a node steps. Returns the report of the run."""
+        """Runs a robot in lockstep: each step waits for a ROS 2 node. Returns the report of the run."""
         gsv = subprocess.Popen(
             [GSV, "run", "office", "--robot", "pebble@0,0", "--behaviour", "ros2", "--ros2", "--ros2-cmd-vel",
              "twist_stamped", "--lockstep", "--duration", "1", "--headless", "--json"],
@@ -205,7 +205,7 @@ class ForeignPeer(unittest.TestCase):
         self.assertIn("ROS_DOMAIN_ID: must be a number from 0 to 232, found '233'", done.stderr)
 
     def topics_alone(self, script="", domain=DOMAIN):
-        """Runs `gsv ros2 topics` in its own network namespace, after a script."""
+        """Runs a shell script and then `gsv ros2 topics`, both in a new network namespace."""
         done = subprocess.run(["unshare", "--map-root-user", "--net", "sh", "-c",
                                f'{script}\nexec "$1" ros2 topics --seconds 0.5', "sh", GSV],
                               env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
@@ -308,7 +308,7 @@ class ForeignPeer(unittest.TestCase):
         fields = ["ip.src", "ip.dst", "rtps.param.topicName", "rtps.param.typeName", "rtps.reliability_kind"]
         with captured(*fields) as rows, running_gsv():
             peer("listen", "nav_msgs/msg/Odometry:/pebble/odom")
-        # All packets have this source address, and Linux sends no packet with it to a network.
+        # Linux sends no packet with a loopback source address to another machine.
         self.assertEqual({row[0] for row in rows}, {"127.0.0.1"})
         self.assertLessEqual({row[1] for row in rows}, {"127.0.0.1", "239.255.0.1"})
         # One packet may announce several endpoints: tshark then separates their values by commas.

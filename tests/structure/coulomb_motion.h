@@ -6,17 +6,20 @@
 //         lost to friction is minimal. This power is the sum of friction × load × slip (Peshkin and
 //         Sanderson, "Minimization of energy in quasi-static manipulation", IEEE Trans. Robotics
 //         and Automation 5 (1989)).
-// Loads   the load of a contact point is a linear function of its position, such that the loads carry
-//         the weight at the centre of mass. Equal springs under the points would have these loads.
+// Loads   the load of a contact point is a linear function of its position, such that the loads
+//         carry the weight at the centre of mass. Equal springs under the points would have these
+//         loads.
 //         If all points are on one line, as with a robot that rocks on its two wheels, the function
 //         is linear along this line.
-// Wheels  a stiff wheel of width w stands on its two edges, which may share its load in any
-//         way. The edge with more load rolls, the other slips. Two wheels at a distance B thus turn
-//         a robot at B / (B + w) to B / (B - w) of the rate of thin wheels: outer or inner edges
-//         roll. If the left edges roll, or the right ones, its middle moves by w / 2 times the
-//         rate. The loads follow the edges: if the left wheels stand on their outer edges and the
-//         right wheels on their inner ones, moments about the centre of mass are in balance only if
-//         the right wheels carry more. Four wheels then turn the robot about a point on their side.
+// Wheels  a stiff wheel of width w touches the ground with its two edges, which may share its load
+//         in any way. The edge with more load rolls, and the other edge slips. If two wheels have
+//         the distance B and their outer edges roll, the robot turns at B / (B + w) of the rate of
+//         thin wheels. If their inner edges roll, this factor is B / (B - w). If both left edges or
+//         both right edges roll, the middle of the robot moves at w / 2 times the rate of the turn.
+//         The loads depend on which edges carry. For example, the left wheels stand on their outer
+//         edges, and the right wheels on their inner edges. Then the moments about the centre of
+//         mass are in balance only if the right wheels carry more load. With four wheels, the robot
+//         then turns about a point on the side of the right wheels.
 // Balls   a ball in a ball joint rolls in each direction: it carries load without friction.
 // Frame   the heading frame H: at the model's origin, x along its heading, z up.
 #pragma once

@@ -106,7 +106,7 @@ void TurnHead(model::Movement movement) {
   EXPECT_NEAR(reached[0], kPan, 5e-3);
   EXPECT_NEAR(reached[1], kTilt, 5e-3);
 
-  // The rover stands level on its wheels, except for their penetration.
+  // The rover stands level, except that its wheels penetrate the ground a little.
   const auto snapshot = (*simulation)->snapshot();
   const int body = snapshot->layout->Find("rover");
   for (const model::SensorDescription& sensor : (*simulation)->sensors("rover")) {

@@ -148,8 +148,8 @@ TEST_P(PlainRobotsTest, DriveTheCommandedDistance) {
 TEST_P(PlainRobotsTest, TurnOnTheSpotOrAlongAnArc) {
   const geometry::Pose two = After2s(TwoWheelsAndABall(), {0, 0, 0.5});
   EXPECT_NEAR(geometry::Yaw(two.orientation), 1, is_planar() ? 1e-9 : 0.05);
-  // A car follows an arc of radius v / ω about a point on the axis of its rear axle, whose centre
-  // is its origin.
+  // The origin of the car is the centre of its rear axle. The car follows an arc of radius v / ω
+  // about a point on the line of this axle.
   const geometry::Pose car = After2s(Racecar(), {0.5, 0, 0.25});
   const double yaw = is_planar() ? 0.5 : geometry::Yaw(car.orientation);
   EXPECT_NEAR(geometry::Yaw(car.orientation), 0.5, is_planar() ? 1e-9 : 0.06);

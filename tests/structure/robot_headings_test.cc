@@ -32,8 +32,8 @@ constexpr int kLawEvery = 5;  // steps between evaluations of the law
 
 // Tolerance in m and rad for planar kinematics and for robots that move exactly as commanded.
 constexpr double kExact = 2e-3;
-// Tolerance as a fraction of the command, for robots that roll, about Coulomb's law
-// (coulomb_motion.h).
+// For robots that roll: the maximum deviation from the motion by Coulomb's law (coulomb_motion.h),
+// as a fraction of the command.
 constexpr double kCoulomb = 0.05;
 // The maximum angle in rad by which a robot on its wheels leans.
 constexpr double kLeans = 0.25;

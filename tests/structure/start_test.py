@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that gsv starts without the libraries that it loads late, and shares their regular expressions.
+"""Tests that gsv starts without the libraries that it loads late, and that it replaces functions of libraries.
 
 usage: start_test.py GSV
 """

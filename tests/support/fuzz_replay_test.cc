@@ -1,6 +1,6 @@
 // Runs a fuzz target on each file of its corpus, and then for five seconds on random changes of
-// them. It uses the compiler and the checks of every test. `make fuzz` selects changes that lead to
-// new code, but requires clang.
+// these files. The target is compiled like all other tests. `make fuzz` selects changes that lead
+// to new code, but requires clang.
 #include <fcntl.h>
 #include <unistd.h>
 

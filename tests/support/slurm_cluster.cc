@@ -105,7 +105,8 @@ void SlurmCluster::WriteConfiguration(const Options& options) const {
   const std::vector<int> ports = FreePorts(options.nodes + 1);
   fs::create_directory(folder_.path() / "state");
   std::ofstream file(configuration_);
-  // The lifetime of credentials (cred_expire) is short, because a requeued task waits for its end.
+  // A requeued task starts only after its credentials have expired. So their lifetime (cred_expire)
+  // is short.
   file << "ClusterName=test\nSlurmctldHost=" << host << "(127.0.0.1)\n"
        << "SlurmctldPort=" << ports[0] << "\n"
        << "AuthType=auth/munge\nCredType=cred/munge\nAuthInfo=socket=" << folder
