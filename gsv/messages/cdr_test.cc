@@ -41,7 +41,8 @@ TEST(Cdr, WritesTheLengthAndTheNulOfAString) {
 }
 
 TEST(Cdr, AlignsAFieldToItsSizeCountedFromTheHeadersEnd) {
-  // The string ends at byte 25; 0.5 = 0x3fe0000000000000 starts at 32.
+  // Counted from the end of the header, the string occupies bytes 20 to 24. The next field, 0.5 =
+  // 0x3fe0000000000000, begins at byte 32, the next multiple of eight.
   gsv_msgs::Command command;
   command.stamp = {1, 2};
   command.step = 3;

@@ -133,7 +133,8 @@ constexpr PanelTest kPanels[] = {{.17, -24, 26},  {.32, -23, 27},  {.46, -23, 30
                                  {1.37, -31, 35}, {1.52, -19, 28}, {1.68, -35, 32}, {1.83, -29, 29},
                                  {1.98, -29, 29}, {2.11, -31, 17}, {2.26, -15, 18}, {2.41, -23, 21},
                                  {2.57, -27, 21}};
-// Maximum distances, in m, at which the sonar detects the rule and the sheet.
+// Maximum distances, in m, at which the real sonar detected a steel rule (25 mm wide) and a sheet
+// of 33 by 38 mm.
 constexpr double kRule = 2.45, kSheet = 1.68;
 
 // Returns the errors of the half angle, in degrees, for every second entry of kPanels, beginning
@@ -221,8 +222,8 @@ TEST_F(RealLog, OdometryDriftEqualsThatOfARobotThatWasNotFitted) {
     const bool is_met = std::abs(row.simulated / row.real - 1) <= 0.1;
     AddResult(row.what + " (within 10 %)", row.unit, row.real, row.simulated, row.confidence,
               is_met);
-    // Robots of the same type differ by about 10 %, so a value may deviate that much plus its
-    // interval.
+    // Robots of the same type differ by about 10 %. So a value may deviate by 10 % plus its
+    // confidence interval.
     EXPECT_NEAR(row.simulated, row.real, 0.1 * row.real + row.confidence) << row.what;
   }
   // The preset must have the values of this fit.
@@ -467,7 +468,7 @@ TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   const auto path =
       Driven(Arena(folder_ / "arena" / "robot_arena_landmarks.txt"), log, distance, start);
   ASSERT_FALSE(path.empty());
-  // The path in the simulation equals the arcs in closed form.
+  // The simulated path must agree with `reckoned`, which was computed with exact arcs.
   double apart = 0;
   for (const TimedPose& place : reckoned) apart = std::max(apart, ErrorAt(path, place));
   EXPECT_LT(apart, 0.01);
@@ -484,7 +485,7 @@ TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   row("distance at the end", 0.084, errors.end);
 }
 
-// Scans in the same arena. The bias of the laser is fitted to the even blocks.
+// Scans in the same arena. The bias of the laser is fitted to the log's even blocks (world_fit.h).
 TEST_F(RealLog, ALaserScansTheArena) {
   const Log log = Read(folder_ / "arena" / "robot4_scan.txt", "arena");
   CompareOptions options;

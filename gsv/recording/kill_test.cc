@@ -214,7 +214,8 @@ TEST(Promise, KillingLosesAtMostASecondOfARecording) {
   ASSERT_TRUE(folder);
   Killing killing(folder->path());
   killing.Run();
-  // An attempt lasts up to 2.5 s, so most programs had recorded messages that must survive.
+  // A program runs for 0 to 2.5 s. Most programs run for more than a second, and have recorded
+  // messages that must survive.
   EXPECT_GT(killing.with_a_promise(), kMoments / 4);
 }
 

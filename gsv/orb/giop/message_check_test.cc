@@ -20,7 +20,7 @@ struct Case {
 
 RawCdr LongLong(RawCdr before) { return before.Align(8).ULong(1).ULong(2); }
 
-// Messages that have exactly the values of their types.
+// Each case has the values that its types require, and no more bytes.
 const Case kCases[] = {
     {"numbers of each size", "1248", LongLong(RawCdr().Octet(1).UShort(2).ULong(3))},
     {"a string", "s", RawCdr().String("text")},

@@ -65,7 +65,8 @@ TEST(TypeCodeCheckTest, RejectsMissingMembers) {
   EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kStruct).ULong(100)));
 }
 
-// A broker would store an offer with this type, but could not read it again.
+// If a type had a NUL inside its repository id, the broker would store an offer with the type, but
+// could not read the offer again.
 TEST(TypeCodeCheckTest, RejectsNamesWithAnEmbeddedZero) {
   const auto named = [](RawCdr id) { return With({}, kAlias, id.String("T").ULong(kLong)); };
   EXPECT_TRUE(IsTypeCode(named(Parameters().Octets("IDL:T:1.0\0"s))));

@@ -30,7 +30,8 @@ class PlainChannelTest : public ::testing::Test {
   }
 
  protected:
-  // Receives bytes that are already there, so that the next Receive() polls before it sleeps.
+  // Receives bytes that have already arrived, so that each Receive() is short. After a short
+  // Receive(), the next one polls the socket before it sleeps.
   void MakeLastWaitShort() {
     for (int i = 0; i < 100; ++i) {
       peer_.Send("x", 1, {});

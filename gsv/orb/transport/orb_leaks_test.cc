@@ -18,8 +18,8 @@ void PutOctets(cdrStream& stream, const std::string& octets) {
                          static_cast<int>(octets.size()));
 }
 
-// Returns how much more memory is in use after calling `Do`. AddressSanitizer finds leaks
-// itself.
+// Returns by how many bytes the memory in use grows during kTimes calls of `repeat`. With
+// AddressSanitizer, the sanitizer itself reports leaks.
 template <typename Do>
 std::size_t BytesKeptBy(Do repeat) {
   repeat();
@@ -58,8 +58,8 @@ TEST(RawStrings, InvalidStringsAreRejectedAsByTheOrb) {
   EXPECT_EQ(MinorOf(too_short), CORBA::ULong(omni::MARSHAL_PassEndOfMessage));
 }
 
-// omniORB 4.2.5 would leak all of this memory. (HostileFloodTest checks that calls inside omniORB
-// use the replacement.)
+// omniORB's own function, of version 4.2.5, would leak the memory of each of these strings. GSV
+// replaces this function. HostileFloodTest checks that omniORB's own calls use the replacement.
 TEST(RawStrings, UnterminatedStringsLeakNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;

@@ -29,7 +29,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A factory whose calls block until the test opens its door.
+// A factory whose calls block until the test calls Open().
 class BlockingFactory final : public POA_sba::AgentBehaviourFactory {
  public:
   sba::AgentBehaviour_ptr create() override {
@@ -268,7 +268,7 @@ TEST_F(MessageTransportTest, MessageIsReadUpToItsLength) {
   EXPECT_EQ(Answer(connection), 1u);
   Send(connection, RawMessage(MessageType::kRequest, Call(2, 10'001 - around)));
   EXPECT_EQ(Answer(connection), std::nullopt);
-  // The time limit of a message does not become shorter with each fragment.
+  // max_message_bytes limits the whole message, also if it is sent in fragments.
   const int another = Connect();
   const std::string call = Call(3, 10'001 - around);
   Send(another, RawMessage(MessageType::kRequest, call.substr(0, 5000), true) +

@@ -146,8 +146,8 @@ TEST_F(LogReaderTest, ReportsTimeThatGoesBackAndAClockThatJumps) {
   EXPECT_THAT(Problem(1), HasSubstr("a.log:23: the clock jumps from 19 to 500 s"));
 }
 
-// Reads a log whose rows have these times. Returns its odometry, and the problems about skipped
-// rows.
+// A log with one row at each of `times`. The reader must return the rows at the times `read`, and
+// skip `left_out` rows.
 struct Dated {
   std::vector<double> times;
   std::vector<double> read;
@@ -188,7 +188,7 @@ TEST_F(LogReaderTest, SkipsOnlyTheRowsWhoseTimeIsWrong) {
     EXPECT_EQ(log.commands.size(), of.read.size());
     EXPECT_THAT(problems_, SizeIs(of.left_out));
   }
-  // Two rows are swapped. The reader leaves out the later one in the file.
+  // Two neighbouring rows are swapped. The reader skips the second of them, as its time goes back.
   std::vector<double> swapped = whole;
   std::swap(swapped[20], swapped[21]);
   std::string text;

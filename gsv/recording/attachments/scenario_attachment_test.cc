@@ -12,7 +12,7 @@
 namespace gsv::recording {
 namespace {
 
-// A world with a robot at (1, -2), with a yaw of 90 degrees, and an avatar.
+// A world with a robot at (1, -2), with a yaw of 1.5 rad, and an avatar.
 std::shared_ptr<simulation::Simulation> Room() {
   simulation::Specification specification = simulation::Lockstep(3s);
   specification.seed = 9;
