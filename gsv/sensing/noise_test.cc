@@ -48,9 +48,9 @@ TEST(Drift, HasVarianceOneAtEveryInstant) {
 }
 
 TEST(Drift, CorrelationFallsWithTheCorrelationTime) {
-  // The correlation of two values at a distance of t is exp(-t / correlation time). This must also
-  // be true if the two values are in different blocks (border at 640 s) or in different halves of a
-  // block (border at 320 s).
+  // If the times of two values differ by t, their correlation is exp(-t / correlation time). This
+  // must also be true if the two values are in different blocks (border at 640 s) or in different
+  // halves of a block (border at 320 s).
   for (const double lag : {0.5, 5.0, 10.0, 20.0}) {
     for (const double middle : {55.0, 320.0, 640.0}) {
       double sum = 0;

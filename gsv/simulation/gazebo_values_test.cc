@@ -37,7 +37,7 @@ std::string Moments(const std::string& x, const std::string& y, const std::strin
 
 class GazeboValues : public ::testing::Test {
  protected:
-  // Creates and starts a world at rest, and pauses it at its beginning.
+  // Creates a simulation of a world with this content. It does not run before RunUntil().
   void Start(const std::string& content, const std::string& settings = "") {
     const auto file = folder_.Write(
         "w.sdf",
@@ -116,7 +116,7 @@ TEST_F(GazeboValues, SphereFallsAndComesToRest) {
 }
 
 TEST_F(GazeboValues, BoxesSlideDownAnInclineAccordingToTheirFriction) {
-  // The inclined plane goes down by 30 degrees along -y.
+  // The plane is inclined by 30 degrees and goes down along +y.
   std::string content =
       "<model name='slope'><static>1</static><pose>0 0 0 -0.52359878 0 0</pose><link name='l'>"
       "<collision name='c'><geometry><plane><normal>0 0 1</normal><size>100 100</size></plane>"
@@ -483,8 +483,8 @@ TEST_F(GazeboValues, ForceTorqueSensorReadsTheWeightOnAScale) {
     Start(std::string(kGround) + scale(type) + weight);
     RunUntil(2s);
     const std::vector<double> wrench = Read("scale", "s");
-    // Bodies count as at rest at accelerations below 0.1 m/s². The expected value allows for such
-    // an acceleration.
+    // The engine keeps the pose of a body whose acceleration is at most 0.1 m/s². So forces may be
+    // wrong by the force for this acceleration.
     const double force = 0.1 * 10.2, arm = 0.15;
     EXPECT_WITHIN(wrench[0], 0, force, "N") << type;
     EXPECT_WITHIN(wrench[1], 0, force, "N") << type;

@@ -34,7 +34,7 @@ std::shared_ptr<Simulation> WithPosts(SimTime duration, std::vector<model::Place
   return Make(specification);
 }
 
-// A disc of 0.2 m radius, with a gripper in front of it that opens to 0.08 m.
+// A disc of 0.2 m radius, with a gripper in front of it that opens to 0.1 m.
 RobotSpecification RobotWithGripper(std::string name, double x, double y,
                                     std::shared_ptr<BehaviourPort> behaviour = nullptr,
                                     double yaw = 0) {
@@ -121,7 +121,7 @@ TEST(Grippers, GraspedBodyMovesWithTheRobotUntilTheFingersOpen) {
   const SimTime at_rest = 2s + base::FromSeconds(RockingTime());
   RunTo(*simulation, at_rest);
   const geometry::Pose left = PoseOf(*simulation, "post");
-  RunTo(*simulation, at_rest + 500ms);  // then the robot drives away, and the post stays here
+  RunTo(*simulation, at_rest + 500ms);  // meanwhile the robot drives away, and the post stays
   EXPECT_WITHIN(Norm(PoseOf(*simulation, "post").position - left.position), 0, 1e-5, "m");
   EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
 }
@@ -132,7 +132,7 @@ TEST(Grippers, CloseWithoutGraspingIfThereIsNoDynamicBody) {
   ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("robots", 0, 2, Fetches({}, false))));
   ASSERT_TRUE(simulation->AddRobot(Robot("other", 0.41, 2.2)));
   RunTo(*simulation, 200ms);
-  // the fingers are half closed
+  // the opening has decreased from 0.1 m to 0.06 m
   EXPECT_NEAR(simulation->Watch("at_wall", "gripper")->values[0], 0.06, 1e-9);
   RunTo(*simulation, 1s);
   for (const char* name : {"at_wall", "robots"}) {
@@ -220,9 +220,9 @@ TEST(Grippers, ReleaseTheBodyOnRemovalAndOnReset) {
   EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
   ASSERT_TRUE(simulation->RemoveRobot("robot"));
   EXPECT_TRUE(simulation->snapshot()->state.devices->empty());
-  // The post is released at 0.2 m/s. It rocks and stops within its own width. If the robot still
-  // carried the post, the post would move by 0.1 m. If the post were fixed in place, it would not
-  // move.
+  // The post is released at 0.2 m/s. It rocks and stops within half of its width. If the robot
+  // still carried the post, the post would move by 0.1 m. If the post were fixed in place, it would
+  // not move.
   const geometry::Pose left = PoseOf(*simulation, "post");
   RunTo(*simulation, 2s);
   const double moved = Norm(PoseOf(*simulation, "post").position - left.position);

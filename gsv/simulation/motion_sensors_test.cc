@@ -84,9 +84,10 @@ std::vector<Leg> AroundTheSquare() {
 }
 
 TEST(MotionSensors, OdometerIgnoresUnequalWheels) {
-  // The test is the square of planar_fidelity_test.cc, with sides of 2 m. If E is the ratio of the
-  // wheels' radii, the distance between the robot's start and its end is 2 L beta, with beta = L /
-  // (b/2 (E + 1) / (E - 1)). The odometry does not show this error.
+  // The robot drives around a square, as in planar_fidelity_test.cc, which names the source. The
+  // sides have L = 2 m, the distance of the wheels is b, and E is the right radius divided by the
+  // left one. The end differs from the start by 2 L beta along both axes, with beta = L / (b/2 (E +
+  // 1) / (E - 1)). The odometry does not show this error.
   const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
   const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
   ASSERT_EQ(driven.values.size(), 6u);

@@ -48,7 +48,7 @@ TEST(Placing, OccupiedPlaceIsRejectedAndNothingMoves) {
   EXPECT_NE(into_another.error().Sentence().find("\"first\""), std::string::npos);
   EXPECT_FALSE(simulation->PlaceBody("second", PlanarPose(3, 0, 0, 0), true));
   EXPECT_EQ(PositionOf(*simulation, "second"), (geometry::Vector3{1, 0, 0}));
-  // A body may be placed again where it already is.
+  // The new pose may overlap the old pose of the same body.
   EXPECT_TRUE(simulation->PlaceBody("second", PlanarPose(1.05, 0, 0, 0), true));
 }
 

@@ -217,8 +217,8 @@ TEST(Radio, HashIncludesReceivedMessages) {
   state.AddToHash(hash);
   expected.Add(std::string_view("robot"));
   expected.Add(std::string_view("radio"));
-  expected.Add(std::uint64_t{1});  // the number of received messages
-  expected.Add(std::uint64_t{1});  // the number of the message in the inbox
+  expected.Add(std::uint64_t{1});  // how many messages were received
+  expected.Add(std::uint64_t{1});  // the sequence number of the message in the inbox
   expected.Add(-41.5);
   expected.Add(message->digest);
   EXPECT_EQ(hash.Digest(), expected.Digest());

@@ -48,7 +48,8 @@ const geometry::Sphere kSphere{0.8};
 const geometry::Cylinder kCylinder{0.6, 1.5};
 const geometry::Box kBox{{1, 2, 0.5}};
 
-// The distance is (p - o) n / (d n).
+// In the equations below, the line has the origin o and the direction d. Here, p is a point of the
+// plane and n is its normal, so the distance is (p - o) n / (d n).
 double ToPlane(const Line& line, const Pose& pose) {
   const Vector3 normal = pose.orientation * kPlane.normal;
   Nearest nearest;
@@ -56,7 +57,7 @@ double ToPlane(const Line& line, const Pose& pose) {
   return nearest.distance();
 }
 
-// The distance t solves |o - c + t d| = r.
+// The distance t solves |o - c + t d| = r, where c is the centre and r is the radius.
 double ToSphere(const Line& line, const Pose& pose) {
   const Vector3 from_centre = line.origin - pose.position;
   const double b = Dot(line.direction, from_centre);
@@ -68,8 +69,8 @@ double ToSphere(const Line& line, const Pose& pose) {
   return nearest.distance();
 }
 
-// The curved surface satisfies |m + t e| = r, where m and e are the components of o - c and d
-// perpendicular to the axis. The end faces are planes.
+// On the curved surface, the distance t solves |m + t e| = r. The vectors m and e are the parts of
+// o - c and of d that are perpendicular to the axis. The end faces are planes.
 double ToCylinder(const Line& line, const Pose& pose) {
   const double radius = kCylinder.radius, half = kCylinder.length / 2;
   const Vector3 axis = pose.orientation * Vector3{0, 0, 1};

@@ -109,7 +109,7 @@ TEST(Fan, EqualsSingleRays) {
   EXPECT_GT(hits, 2000);
 }
 
-// If there are more solids than can be gathered, each ray is tested separately.
+// If the reach of a fan contains too many solids for its list, each ray is cast separately.
 TEST(Fan, EqualsSingleRaysAmongManySolids) {
   Random random(6);
   const auto snapshot = Clutter(random, 700);

@@ -86,7 +86,8 @@ TEST(RayPairs, DistancesToBoxesEqualThoseOfSingleRays) {
   ExpectDistancesOfSingleRays<Box, true>(any, random);
 }
 
-// Whether the box from a to b touches `box`, one axis after the other.
+// Whether the box with the opposite corners a and b touches `box`. Compares the intervals of both
+// boxes along each axis.
 bool Touch(const Vector3& a, const Vector3& b, const geometry::Bounds& box) {
   const auto meet = [](double from, double to, double low, double high) {
     return std::max(from, to) >= low && std::min(from, to) <= high;

@@ -40,7 +40,8 @@ inline geometry::Mesh RandomMesh(Random& random, int triangles, double size) {
   return {mesh, {1.5, 1, 0.5}};
 }
 
-// Returns the distance to a triangle by an independent method (areas); -1 without a hit.
+// Returns the distance to a triangle; -1 without a hit. Unlike the code that is tested, it compares
+// areas: the point is in the triangle if the three parts around it are together no larger.
 inline double ByAreas(const Ray& ray, const geometry::Vector3& a, const geometry::Vector3& b,
                       const geometry::Vector3& c) {
   const geometry::Vector3 normal = Cross(b - a, c - a);
