@@ -26,7 +26,7 @@ exchange::CycleRequest Exchange(std::uint64_t cycle, double linear, SimTime unti
   return {cycle, until.count(), linear, 0, 0, 1, 0};
 }
 
-// Runs a robot that drives at 1 m/s, and returns its ranges and the hash.
+// What a run of a robot that drives at 1 m/s results in: its sonar ranges and the state hash.
 struct Course {
   std::vector<double> ranges;
   std::string hash;
@@ -120,7 +120,7 @@ TEST(CycleClient, ARefusedCycleIsRepeatedByACallThatReportsTheError) {
     const auto client = OpenMemory(agent, clock);
     ASSERT_NE(client, nullptr);
     CycleClient::Answer answer;
-    // a cycle number that does not follow, and a command that is not finite
+    // The first cycle must have the number 1, and a command must be finite.
     EXPECT_EQ(client->Run(Exchange(7, 1, 50ms), {}, answer), Outcome::kRepeat);
     EXPECT_EQ(client->Run(Exchange(1, std::nan(""), 50ms), {}, answer), Outcome::kRepeat);
     const auto refused =

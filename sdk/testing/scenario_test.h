@@ -1,6 +1,7 @@
 // Support for GoogleTest: scenarios as tests (docs/testing.md), and a simulator for a test program.
 //
-// Both start the program gsv. Its path is in GSV_PROGRAM; otherwise it is searched on the PATH.
+// ExpectPasses() and SimulatorTest start the program gsv. Its path is in GSV_PROGRAM; otherwise it
+// is searched on the PATH.
 #pragma once
 
 #include <string>

@@ -35,7 +35,7 @@ class Patience:
 
 
 class Refused(Exception):
-    """A refusal by the server, with its sentence."""
+    """The server answered a request with an error. The text contains its error message."""
 
 
 class Laboratory:
@@ -104,7 +104,7 @@ class Laboratory:
     # The server, by its HTTP API
 
     def request(self, method, path, body=None, timeout=TIMEOUT_S):
-        """Returns the JSON of the response. Raises Refused with the server's sentence."""
+        """Returns the JSON of the response. Raises Refused with the server's error message."""
         status, text = self.answer(method, path, body, timeout)
         answer = json.loads(text) if text else {}
         if status >= 400:

@@ -1,5 +1,5 @@
-// Every error from outside must give one clear sentence and the right exit code, and nothing may
-// hang.
+// Invalid input, failed programs and missing resources must lead to one clear sentence and the
+// right exit code. No command may hang.
 #include <csignal>
 
 #include <arpa/inet.h>

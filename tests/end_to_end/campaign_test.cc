@@ -84,8 +84,8 @@ TEST_F(CampaignCommand, SingleRunCanBeExecuted) {
 TEST_F(CampaignCommand, SharesOfAnotherQueueAreCollectedAndContinued) {
   EXPECT_EQ(Campaign("run", {"--shard", "1/3", "--jobs", "1"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 3);
-  // The share is executed again, as by a queue that considers the share lost. No run of the share
-  // is left to do.
+  // A batch queue may execute a share again, if it believes that the share was lost. In this case,
+  // all runs of the share are already done.
   EXPECT_EQ(Campaign("run", {"--shard", "1/3"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("run", {"--shard", "3/3", "--jobs", "1"}).ending, "exit code 0");
   const Outcome report = Campaign("report", {"--by", "robots[0].x"});

@@ -83,7 +83,7 @@ TEST_F(Control, RecordsARunningSimulation) {
   Json({"step", "100"});
   const Outcome stopped = Gsv({"rec", "stop"});
   EXPECT_EQ(stopped.ending, "exit code 0") << stopped.err;
-  EXPECT_EQ(Json({"ps"})["step"], from + 100);  // the run continues after the command has ended
+  EXPECT_EQ(Json({"ps"})["step"], from + 100);  // `rec stop` does not end the run
   const auto info = Json({"rec", "info", path});
   EXPECT_TRUE(info["indexed"]);
   EXPECT_GE(info["duration_s"], 0.1);
@@ -93,7 +93,7 @@ TEST_F(Control, RecordsARunningSimulation) {
 TEST_F(Control, PausesStepsResumesAndStops) {
   const auto run = StartRun();
   EXPECT_EQ(Json({"pause"})["phase"], "paused");
-  const int step = Json({"step"})["step"];  // the step that was in progress during the pause
+  const int step = Json({"step"})["step"];  // takes one step and returns its number
   EXPECT_EQ(Json({"step", "7"})["step"], step + 7);
   EXPECT_EQ(Json({"ps"})["step"], step + 7);
   EXPECT_EQ(Json({"resume"})["phase"], "running");

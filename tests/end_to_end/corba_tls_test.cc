@@ -60,7 +60,7 @@ class Peer {
   int socket_;
 };
 
-// Waits until the program prints an error of a handshake.
+// Waits until the error output of the program contains `text`. Returns the error output.
 std::string AwaitErrors(const Running& program, const std::string& text) {
   const auto deadline = std::chrono::steady_clock::now() + kProgramTimeout;
   while (program.errors().find(text) == std::string::npos &&
@@ -195,7 +195,8 @@ TEST_F(CorbaTls, PlainClientOfATlsServiceGetsAnExplanation) {
   EXPECT_THAT(refused.err, HasSubstr("the server requires TLS and a certificate"));
 }
 
-// A program with a certificate must not call services without one on other machines.
+// If a service on another machine has no certificate, a program with a certificate must not call
+// it.
 TEST_F(CorbaTls, PlainServicesAreCalledOnThisMachineOnly) {
   OtherHost host(1);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
@@ -309,8 +310,8 @@ TEST_F(CorbaTls, GarbageEndsOnlyItsOwnConnection) {
     for (const int port : {broker.port(), service}) {
       const Peer peer(port);
       peer.Send(bytes);
-      // In the other rounds, some messages are shorter than a record, and the server keeps their
-      // connections open.
+      // In the other rounds, the bytes may look like the start of a longer TLS record. The server
+      // waits for the rest of this record, and does not close the connection.
       if (round % 3 == 0) (void)peer.AwaitEnd();
     }
   }

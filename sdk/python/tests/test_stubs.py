@@ -17,7 +17,8 @@ def declared_in(body):
             names[node.name] = None
         elif isinstance(node, ast.AnnAssign):
             annotation = ast.unparse(node.annotation)
-            # The old name of a class has the same members as the class.
+            # `OLD: type[NEW]` declares an old name of the class NEW. The module must have the same
+            # members under both names.
             old_name_of = annotation.startswith("type[") and annotation[5:-1].split(".")[-1]
             names[node.target.id] = names[old_name_of] if old_name_of else None
     return {name: within for name, within in names.items() if not name.startswith("_")}
