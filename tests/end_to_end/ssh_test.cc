@@ -46,7 +46,8 @@ class SshCampaign : public ::testing::Test {
   std::vector<int> Tasks() const {
     return ProcessesWith("campaign task " + (folder_.path() / "c.runs").string());
   }
-  // A task checks about twice a second whether its connection still exists.
+  // Waits until all tasks on this machine have ended. A task without a connection ends soon: it
+  // checks its connection about twice a second.
   void ExpectTasksEnd() const {
     const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     while (!Tasks().empty() && std::chrono::steady_clock::now() < give_up) {

@@ -84,7 +84,7 @@ TEST_F(TestCommand, FailureKeepsItsFiles) {
   EXPECT_NEAR(listed["violation_s"].get<double>(), failed, 1e-3);
   EXPECT_EQ(listed["world"], "playground");
   EXPECT_EQ(listed["robots"], 1);
-  // The command in the report must fail at the same instant.
+  // `gsv run` of the same scenario must fail at the same step.
   const Outcome again = RunProgram("gsv", {"run", file, "--lockstep", "--headless", "--json"});
   EXPECT_EQ(again.ending, "exit code 1");
   EXPECT_EQ(again.LastLine()["expectations"][0]["step"],

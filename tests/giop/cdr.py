@@ -56,7 +56,10 @@ class Writer:
         self.octets((value if isinstance(value, bytes) else value.encode()) + b"\0")
 
     def encapsulation(self, write):
-        """Writes an encapsulation that `write` fills. Its lengths count as lengths of this Writer."""
+        """Writes an encapsulation that `write` fills.
+
+        `self.lengths` also gets the positions of the lengths inside the encapsulation.
+        """
         inner = Writer(self.little, bytearray([self.little]))
         write(inner)
         self.length(len(inner.bytes))

@@ -3,10 +3,11 @@
 
 usage: tests/giop/mutate.py BUILD [--seconds 60] [--seed 1] [--found FOLDER] [--prove]
 
-First, a valid request of each operation of each interface in idl/ and of the Trading Service is
-sent, and its response is checked (--prove does only this). Then, in rounds, requests are sent whose
-values, lengths, counts, TypeCodes, object keys, service contexts, fragments, byte orders and
-versions are modified, as the seed determines. The program checks these promises:
+First, the program sends a valid request of each operation of each interface in idl/ and of the
+Trading Service, and checks the response (--prove does only this). Then, in rounds, it sends
+mutated requests: it changes values, lengths, counts, TypeCodes, object keys, service contexts,
+fragments, byte orders and versions. The seed determines these changes. The program checks these
+promises:
 
 - The programs continue to run, and each responds to a valid request after each round.
 - At the end, every operation gives the same response as at the start, and memory, threads and

@@ -120,7 +120,11 @@ class World:
         self.remove_types([name for name in types if name not in self.types])
 
     def remove_types(self, names):
-        """Removes service types, each before its super types, also if mutations have renamed it."""
+        """Removes service types.
+
+        The trader refuses to remove a type that still has sub types. So this function repeats its calls
+        until all types are removed. Raises Refused if it cannot remove any of the types that are left.
+        """
         while names:
             left, refused = [], None
             for name in names:
@@ -273,7 +277,10 @@ class World:
 
 
 def missing(world):
-    """Returns a sentence for each interface that no object has, neither directly nor by a derived interface."""
+    """Returns a sentence for each interface without an object. Objects of derived interfaces count as well.
+
+    Returns only one sentence if trading.idl lacks an operation of the standard.
+    """
     for interface, names in contracts.standard_trading_operations().items():
         found = [each.name for each in world.contracts.operations(interface)]
         for name in names:

@@ -13,7 +13,7 @@ BUILD = Path(os.environ["GSV_BUILD_DIR"])
 
 
 def hash_of(gsv, *options, **environment):
-    """Returns the distance driven in ten seconds by the first behaviour."""
+    """Returns the state hash after ten seconds in which the behaviour "first" drives a robot."""
     out = run(gsv, "run", "playground", "--robot", "pebble@0,0", "--behaviour", "first",
               "--lockstep", "--duration", "10", "--seed", "1", "--headless", "--json", *options,
               **environment)

@@ -174,7 +174,7 @@ constexpr auto kEntity = [](auto& request, const Words& words) {
   entity = Word(words, 0);
   request.entity = Text(entity);
 };
-// Sets an empty text where a pointer must not be null.
+// Sets the filter. Without an argument, sets an empty text, because the pointer must not be null.
 constexpr auto kFilter = [](auto& request, const Words& words) {
   static std::string filter;
   filter = Word(words, 0);

@@ -18,8 +18,8 @@ namespace gsv::ros2_peer {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-// `receive_buffer` is the size in bytes that its sockets request; 0 means the default of Cyclone
-// DDS.
+// Returns a configuration of Cyclone DDS that uses only the loopback device. `receive_buffer` is
+// the size in bytes that each socket requests for its buffer; 0 means the default of Cyclone DDS.
 inline std::string Loopback(int receive_buffer) {
   const std::string bytes = std::to_string(receive_buffer) + " B";
   const std::string buffers = receive_buffer == 0

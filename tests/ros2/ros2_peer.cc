@@ -446,7 +446,7 @@ int Malformed(const Arguments& arguments) {
        "simulation_interfaces::srv::dds_::GetEntityState_Request_"},
       {"rq/gsv/set_parametersRequest", "rcl_interfaces::srv::dds_::SetParameters_Request_"}};
   Participant participant(arguments);
-  Participant second(arguments, participant);  // a topic has one type in a participant
+  Participant second(arguments, participant);  // in one participant, a topic has only one type
   const dds_entity_t odometry =
       participant.Reader(TypeNamed("nav_msgs/msg/Odometry"), arguments.words.front() + "/odom");
   participant.Watch(odometry);

@@ -3,8 +3,9 @@
 
   ros2_security_test.py GSV ROS2_PEER ROS2_FAST_CLIENT PLUGIN_FOLDER
 
-openssl makes the keystore, in the form of `ros2 security create_keystore` and `create_enclave`. ROS2_FAST_CLIENT is on
-Fast DDS and takes the same variables. ROS2_PEER is on Cyclone DDS, without keys: Debian has no plug-ins for its security.
+openssl makes the keystore, in the form of `ros2 security create_keystore` and `create_enclave`. ROS2_FAST_CLIENT uses
+Fast DDS and takes the same ROS_SECURITY variables as GSV. ROS2_PEER uses Cyclone DDS, without keys: Debian has no
+plug-ins for its security.
 """
 import json
 import os
