@@ -29,7 +29,8 @@ module m {
 };
 """
 
-# The form that combat(n), "Interface Repository", and str.tcl require.
+# The expected output of the back end, in the syntax that combat(n), "Interface Repository", and
+# str.tcl require.
 TOLD = """combat::ir add {
 {module {IDL:acme/m:1.0 m 1.0} {\
 {const {IDL:acme/m/limit:1.0 limit 1.0} {unsigned short} 7} \

@@ -21,7 +21,7 @@ describe("window.gsv.ready", () => {
     const store = new Store<State>({ ...initialState, view: "open" });
     let isReady = false;
     exposeForTests(store, () => world as World3D);
-    // Behaves like the view, which receives a scene later than the page's handle.
+    // Behaves like the view: it watches the scene too, but receives it after window.gsv does.
     store.watch(
       ({ scene }) => scene,
       (scene) => scene && store.set({ modelsMissing: 1 }),

@@ -85,7 +85,7 @@ test("the past of a run is not asked for its recording", async () => {
   await vi.advanceTimersByTimeAsync(1500);
   let respond = (_: typeof OFF) => {};
   api.recording.mockReturnValueOnce(new Promise((resolve) => (respond = resolve)));
-  await vi.advanceTimersByTimeAsync(1500); // a request is under way when the page enters the past
+  await vi.advanceTimersByTimeAsync(1500); // a request is under way when the replay begins
   store.set({ replay: { start: 0, end: 1, speed: 1, loop: false } });
   api.recording.mockClear();
   respond(OFF);

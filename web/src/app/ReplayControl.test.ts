@@ -142,7 +142,7 @@ test("it finds the events before and after the present instant", () => {
   const { control, calls, store } = new Fixture({ events, time: 4 });
   control.toEvent(1);
   expect(calls).toEqual(["seek 6"]);
-  control.toEvent(-1); // counted from the requested time
+  control.toEvent(-1); // finds the event before the requested time 6, not before the shown time 4
   expect(store.get().wishedTime).toBe(2);
 });
 

@@ -22,7 +22,7 @@ test("each robot whose subscribed sensors have no topics is requested once", () 
   const { requests, listTopics } = fixture(["/a/sonar", "/a/camera", "/gsv/beams"]);
   requests.lookSoon();
   requests.lookSoon();
-  expect(listTopics).not.toHaveBeenCalled(); // the topics may be listed at any moment
+  expect(listTopics).not.toHaveBeenCalled(); // the server may still list them itself
   vi.runAllTimers();
   expect(listTopics.mock.calls).toEqual([["s", "a"]]);
 });

@@ -40,8 +40,8 @@ const STATES: Record<string, Partial<State>> = {
   },
 };
 
-// Buttons whose command has another name in the palette: a prefix of its name. Null: a part of a
-// menu that another command opens, or of the palette itself.
+// Buttons whose command has another name in the palette. The value is this name. Null: the button
+// needs no command of its own. It belongs to a menu that another command opens, or to the palette.
 const OTHER_NAMES: Record<string, string | null> = {
   Step: "Take one step",
   "Speed and steps": "Set another speed…",
@@ -49,7 +49,7 @@ const OTHER_NAMES: Record<string, string | null> = {
   Find: null,
   Robots: null, // opens the list of robots, whose entries are in the palette
   Layout: "Save the layout…",
-  Save: null, // of the menu of layouts, and the menu of Edit
+  Save: null, // this button is in the menu of layouts and in the panel Edit
   "Import layout": "Import layout…",
   Share: null,
   Help: "Keys and gestures",
@@ -95,8 +95,8 @@ async function page(app: App): Promise<HTMLElement> {
   return place;
 }
 
-// The names of the buttons and links that can be pressed, also those in closed menus. Buttons of what
-// is on already are left out.
+// The names of the buttons and links that can be pressed, also those in closed menus. Buttons that
+// are already on (aria-pressed) are left out.
 function offered(place: HTMLElement): string[] {
   const isHidden = (each: HTMLElement) => {
     const hidden = each.closest("[hidden]");
@@ -106,14 +106,14 @@ function offered(place: HTMLElement): string[] {
   return [...place.querySelectorAll<HTMLElement>("button, a")]
     .filter((each) => !(each as HTMLButtonElement).disabled && each.getAttribute("aria-pressed") !== "true" && !isHidden(each) && !sheetIsHidden(each))
     .map(nameOf)
-    .filter((name) => !name.startsWith("Add at ") && !/^\d+:\d\d/.test(name)); // the form of the menu Notes, and marks of the timeline
+    .filter((name) => !name.startsWith("Add at ") && !/^\d+:\d\d/.test(name)); // no form of the menu Notes, no marks of the timeline
 }
 
 // Toggles of overlays are commands that show or hide them.
 function isInPalette(name: string, labels: readonly string[]): boolean {
   const other = name in OTHER_NAMES ? OTHER_NAMES[name]! : name;
   if (other === null) return true;
-  if (/^[\d.]+×$/.test(other)) return labels.some((label) => label.startsWith("Set the speed to ")); // the present one is left out
+  if (/^[\d.]+×$/.test(other)) return labels.some((label) => label.startsWith("Set the speed to ")); // but not to the present speed
   const wanted = [other, `Show ${other}`, `Hide ${other}`].map((each) => each.toLowerCase());
   return labels.some((label) => wanted.includes(label.toLowerCase()));
 }

@@ -21,7 +21,8 @@ test("windows are brighter than the sky beside them, and black worlds are lit to
     const angle = (degrees * Math.PI) / 180;
     return radiance(new Vector3(0.8 * Math.cos(angle), 0.8 * Math.sin(angle), 0.6), new Color()).g;
   };
-  // There are five windows. The centre of the first one is at a quarter of a fifth of a turn.
+  // There are five windows, 72° apart. The centre of the first one is at 18°. At 54° is the sky
+  // between two windows.
   expect(at(18) / at(54)).toBeCloseTo(3, 2);
   expect(at(54)).toBeGreaterThan(0.15);
 });

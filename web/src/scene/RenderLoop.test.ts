@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { RenderLoop } from "./RenderLoop";
 
-// The test runs the browser's frames one at a time, at the times given here.
+// The callbacks that were passed to requestAnimationFrame(). frameAt() calls them.
 let asked: FrameRequestCallback[] = [];
 
 beforeEach(() => {
@@ -115,7 +115,7 @@ test("if frames are slow, the next one begins after the page has reacted to a cl
     return [during, loop.frames];
   };
   expect(drawnAfterPress(80)).toEqual([1, 2]);
-  expect(drawnAfterPress(20)[0]).toBe(2); // the next frame is too fast to be noticed
+  expect(drawnAfterPress(20)[0]).toBe(2); // frames of 20 ms are not slow: no delay
 });
 
 test("while new content is awaited nothing is drawn, until hurry() is called", () => {

@@ -30,7 +30,7 @@ test("single keys are on in a browser without storage", () => {
 test("a changed key runs its command, the former key runs none, and two commands never share a key", () => {
   const changed = withChangedKey({}, "P", "z");
   expect(keyOf("p", changed)).toBe("z");
-  // No command has the key Z.
+  // By default, no command has the key Z. So after the change, no command has the key P.
   expect([originalKey("Z", changed), originalKey("p", changed), originalKey("g", changed)]).toEqual(["p", "z", "g"]);
   const swapped = withChangedKey(changed, "g", "z");
   expect([keyOf("g", swapped), keyOf("p", swapped)]).toEqual(["z", "g"]);

@@ -32,7 +32,8 @@ function zipped(...entries: Made[]): Uint8Array {
 const file = (bytes: Uint8Array) => new File([bytes as BlobPart], "my.zip");
 const read = (bytes: Uint8Array) => filesInZip("my.zip", file(bytes));
 
-// Modifies each entry of the directory at the end.
+// Sets a field in each entry of the archive's central directory. `offset` is the position of the
+// field in the entry.
 function patched(bytes: Uint8Array, offset: number, value: number, size: 2 | 4 = 4): Uint8Array {
   const view = new DataView(bytes.buffer, bytes.byteOffset);
   for (let at = 0; at + 46 < bytes.length; ++at) {
