@@ -26,7 +26,7 @@ exchange::CycleRequest Exchange(std::uint64_t cycle, double linear, SimTime unti
   return {cycle, until.count(), linear, 0, 0, 1, 0};
 }
 
-// What a run of a robot that drives at 1 m/s results in: its sonar ranges and the state hash.
+// The results of a run in which a robot drives at 1 m/s: its sonar ranges and the state hash.
 struct Course {
   std::vector<double> ranges;
   std::string hash;
