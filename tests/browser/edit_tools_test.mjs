@@ -310,6 +310,31 @@ async function pressMap() {
   }, "a view at rest");
 }
 
+test("a shape is put at a typed position, and an occupied one is refused", async () => {
+  const [x, y] = await place("box");
+  await press("Shape");
+  await shape().getByLabel("At x (m)").fill(String(x));
+  await shape().getByLabel("At y (m)").fill(String(y));
+  await press("Add shape");
+  await page.getByText(/there is no room at .* it would overlap "box"; choose another place/).waitFor();
+  await until(() => faults.length > 0, "the refused request");
+  assert.match(faults.splice(0).join(), /422/);
+  await shape().getByLabel("At y (m)").fill(String(y + 0.7));
+  await press("Add shape");
+  await page.waitForFunction(() => window.gsv.chosen[0] !== "box");
+  await shape().waitFor({ state: "hidden" }); // after the refusal, the form was still open
+  const [added] = await chosen();
+  assert.deepEqual((await place(added)).slice(0, 2).map((value) => Math.round(1e6 * value)), [x, y + 0.7].map((value) => Math.round(1e6 * value)));
+  await press("Shape");
+  await shape().getByLabel("At x (m)").fill("");
+  await shape().getByLabel("At y (m)").fill("");
+  await press("Shape");
+  await shape().waitFor({ state: "hidden" });
+  await ready();
+  await page.keyboard.press("Control+z");
+  await until(async () => (await body(added)) === undefined, "the shape is gone");
+});
+
 test("a wall of a given thickness and height is drawn by two clicks", async () => {
   await page.keyboard.press("r");
   await pressMap();

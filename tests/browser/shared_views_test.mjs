@@ -133,7 +133,7 @@ test("beyond the limit of views, a page shows the reason and works, and Try agai
     refused = await open("#view=5,0,3,0,0,0.5&show=&layout=view");
     const card = refused.locator(".overlay .message");
     await card.getByRole("heading", { name: "The server does not draw the view" }).waitFor();
-    await card.getByText(`the server already draws ${MAX_VIEWS} views, which is the limit; close one of them, or use the same camera as another one`).waitFor();
+    await card.getByText(`the server already draws ${MAX_VIEWS} views, which is the limit; close one of them, or request a view that is already drawn`).waitFor();
     // The page shows the simulation's state.
     const { time_s: time } = await ask(refused, "");
     await ask(refused, "/step", { count: 1 });

@@ -41,16 +41,18 @@ export class EditActions {
     return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
   }
 
-  // Adds a shape in front of the selected robot. If no robot is selected, adds it at the point at
-  // which the camera looks. If this place is occupied, the shape gets the first free place.
-  async addShape(shape: Shape): Promise<boolean> {
+  // Adds a shape at the given position. Without a position, adds it in front of the selected robot, or
+  // at the point at which the camera looks if no robot is selected. The server refuses a place that
+  // is occupied.
+  async addShape(shape: Shape, at: { x: number | null; y: number | null } = { x: null, y: null }): Promise<boolean> {
     const { selection, editing } = this.store.get();
     const robot = editing?.chosen == null && selection !== null ? this.placeOf(selection) : null;
     const ahead = BEFORE_ROBOT_M + footprintOf(shape);
     const centre = this.lookedAt();
-    const place = robot
+    const automatic = robot
       ? { x: robot.x + ahead * Math.cos(robot.yaw), y: robot.y + ahead * Math.sin(robot.yaw), yaw: robot.yaw }
       : centre && { ...centre, yaw: 0 };
+    const place = at.x !== null && at.y !== null ? { x: at.x, y: at.y, yaw: 0 } : automatic;
     return this.edits.addObject({ name: "", model: modelOf(shape), place }, shape.kind);
   }
 

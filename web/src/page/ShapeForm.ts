@@ -10,7 +10,7 @@ import { element, setText } from "../ui/element";
 const LABELS: Record<LengthName, string> = { length: "Length x (m)", width: "Width y (m)", height: "Height z (m)", radius: "Radius (m)" };
 const FIRST_WALL: Partial<Shape> = { length: 2, width: 0.1, height: 2, isStatic: true, colour: "b4b4b4" };
 
-// `onAdd` is called when the user adds a shape or begins to draw a wall.
+// `onAdd` is called when a shape was added, or the user begins to draw a wall.
 export function createShapeForm(app: App, onAdd: () => void): HTMLElement {
   let shape: Shape = FIRST_SHAPE;
   const change = (change: Partial<Shape>) => {
@@ -35,16 +35,22 @@ export function createShapeForm(app: App, onAdd: () => void): HTMLElement {
   const mass = numberField("Mass (kg)", null, (value) => change({ mass: value ?? NaN }), { least: "0.000001" });
   const isStatic = checkField("Static", (value) => change({ isStatic: value }));
   const colour = colourField("Colour", (value) => change({ colour: value }));
+  const at: { x: number | null; y: number | null } = { x: null, y: null };
+  const atFields = (["x", "y"] as const).map((axis) => numberField(`At ${axis} (m)`, null, (value) => (at[axis] = value)));
+  const hint = element(
+    "p",
+    { class: "hint" },
+    "Without a position, the shape is added in front of the selected robot, or in the middle of the view if no robot is selected.",
+  );
   const fault = element("p", { class: "field-error", role: "alert" });
-  const addShape = () => {
-    onAdd();
-    void app.editActions.addShape(shape);
+  const addShape = async () => {
+    if (await app.editActions.addShape(shape, at)) onAdd();
   };
   const drawWall = () => {
     onAdd();
     toggleWall(app, shape);
   };
-  const add = element("button", { class: "button", type: "button", onclick: addShape }, "Add shape");
+  const add = element("button", { class: "button", type: "button", onclick: () => void addShape() }, "Add shape");
   const draw = element(
     "button",
     { class: "button", type: "button", title: "Draw the wall by two clicks on the floor", onclick: drawWall },
@@ -83,6 +89,8 @@ export function createShapeForm(app: App, onAdd: () => void): HTMLElement {
     element("div", { class: "field-pair" }, kind.element, colour.element),
     element("div", { class: "field-pair" }, ...[...lengths.values()].map(({ element }) => element)),
     element("div", { class: "field-pair" }, mass.element, isStatic.element),
+    element("div", { class: "field-pair" }, ...atFields.map(({ element }) => element)),
+    hint,
     fault,
     element("div", { class: "edit-buttons" }, add, draw),
   );
