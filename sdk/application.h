@@ -22,7 +22,7 @@ namespace gsv {
 struct SimulationRequest {
   std::string world;  // a file or model that the server finds; empty for the server's default
   bool lockstep = true;
-  double factor = 1;  // the target real-time factor; ignored in lockstep
+  double factor = 1;  // the target real-time factor, 0 for the world's own; ignored in lockstep
   SimTime step{0};    // 0 for the world's own step
   std::uint64_t seed = 0;
   std::string name;  // empty if the server chooses it

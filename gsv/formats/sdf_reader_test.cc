@@ -2,6 +2,7 @@
 #include <numbers>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "gsv/formats/testing/sdf_reader_fixture.h"
@@ -33,6 +34,17 @@ TEST_F(SdfReaderTest, ReadsTheLocationOfAWorldOnTheEarth) {
   EXPECT_NEAR(world.origin->longitude, -std::numbers::pi / 2, 1e-12);
   EXPECT_EQ(world.origin->elevation, 12);
   EXPECT_NEAR(world.origin->heading, std::numbers::pi, 1e-12);
+}
+
+TEST_F(SdfReaderTest, WarnsOfARealTimeFactorThatCannotBeUsed) {
+  for (const char* factor : {"0", "-1", "2e6"}) {
+    const auto world = World(fmt::format(
+        "<world name='yard'><physics type='ode'><real_time_factor>{}</real_time_factor></physics>"
+        "</world>",
+        factor));
+    EXPECT_EQ(world.real_time_factor, 1);
+    EXPECT_THAT(Sentences(), ::testing::Contains(HasSubstr("<real_time_factor> must lie above 0")));
+  }
 }
 
 TEST_F(SdfReaderTest, ReadsPhysicsSceneAndLights) {

@@ -33,6 +33,17 @@ TEST(RealTimeFactor, SlowRunCanBeAccelerated) {
   EXPECT_EQ(simulation->real_time_factor(), 1000);
 }
 
+TEST(RealTimeFactor, IsThatOfTheWorldIfNoneIsGiven) {
+  Specification specification = Slow();
+  auto world = std::make_shared<model::WorldDescription>(*specification.world);
+  world->real_time_factor = 2.5;
+  specification.world = world;
+  specification.factor = 0;
+  EXPECT_EQ(Make(specification)->status().target_factor, 2.5);
+  specification.factor = 3;
+  EXPECT_EQ(Make(specification)->status().target_factor, 3);
+}
+
 TEST(RealTimeFactor, RejectsInvalidFactors) {
   const auto simulation = Make(Slow());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

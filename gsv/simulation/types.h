@@ -48,7 +48,7 @@ struct Specification {
   std::string name = "simulation";
   std::shared_ptr<const model::WorldDescription> world;  // never null
   Mode mode = Mode::kRealTime;
-  double factor = 1;       // the target real-time factor for kRealTime, > 0
+  double factor = 1;       // the target real-time factor for kRealTime; 0 for the world's
   SimTime step{0};         // 0 for the world's max_step_size
   std::uint64_t seed = 0;  // seed of all random numbers of the simulation
   SimTime duration{0};     // if 0, the run ends only when it is stopped

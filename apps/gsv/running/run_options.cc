@@ -132,8 +132,8 @@ void AddTimeOptions(CLI::App& command, RunArguments& a) {
   command
       .add_option("--real-time-factor,--factor", a.factor,
                   "simulated seconds per wall-clock second\n"
+                  "(default: <real_time_factor> of the world file, else 1).\n"
                   "--factor is the former name of this option.")
-      ->default_str("1")
       ->type_name("F")
       ->group(kGroup);
   command.add_option("--duration", a.duration, "simulated time of the run (default: until Ctrl-C)")
@@ -418,7 +418,7 @@ void SetSpecification(const RunArguments& a, const scenario::Scenario& scenario,
   specification.name = scenario.name.empty() ? "simulation" : scenario.name;
   specification.mode =
       scenario.lockstep.value_or(false) ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
-  specification.factor = scenario.factor.value_or(1);
+  specification.factor = scenario.factor.value_or(0);  // 0: the factor of the world file
   specification.seed = scenario.seed.value_or(0);
   specification.on_failure = scenario.fails_with_behaviour.value_or(false)
                                  ? simulation::FailurePolicy::kFail

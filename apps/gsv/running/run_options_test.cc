@@ -43,7 +43,7 @@ TEST(RunOptions, RunTheDefaultScenarioInRealTimeByDefault) {
   EXPECT_EQ(options->scenario, scenario::DefaultScenario());
   EXPECT_EQ(options->specification.name, "simulation");
   EXPECT_EQ(options->specification.mode, simulation::Mode::kRealTime);
-  EXPECT_EQ(options->specification.factor, 1);
+  EXPECT_EQ(options->specification.factor, 0);  // that of the world
   EXPECT_EQ(options->specification.seed, 0u);
   EXPECT_EQ(options->specification.duration, base::SimTime(0));
   EXPECT_EQ(options->specification.deadline, std::chrono::seconds(10));

@@ -38,7 +38,7 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
   specification.name = scenario.name;
   specification.mode =
       scenario.lockstep.value_or(false) ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
-  specification.factor = scenario.factor.value_or(1);
+  specification.factor = scenario.factor.value_or(0);  // 0: the factor of the world file
   specification.step = base::FromSeconds(scenario.step.value_or(0));
   specification.duration = base::FromSeconds(scenario.duration.value_or(0));
   specification.seed = scenario.seed.value_or(0);

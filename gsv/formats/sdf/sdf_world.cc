@@ -40,9 +40,16 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   } else {
     context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is used", place);
   }
-  // In Gazebo, a factor that is not positive means "as fast as possible". Here it is ignored, so
-  // the field keeps its default.
-  if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
+  const double factor = physics.RealTimeFactor();
+  if (factor > 0 && factor <= 1e6) {
+    world.real_time_factor = factor;
+  } else {
+    // In Gazebo, a factor that is not positive means "as fast as possible".
+    context.Warn(
+        "<real_time_factor> must lie above 0 and not above 1e6; 1 is used. To run as fast as "
+        "possible, use lockstep (gsv run --lockstep)",
+        place);
+  }
 }
 
 void ReadOrigin(const ignition::math::SphericalCoordinates& coordinates,

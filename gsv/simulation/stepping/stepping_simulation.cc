@@ -76,6 +76,7 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
     Specification specification, std::shared_ptr<const sensing::SensorRegistry> sensors) {
   GSV_CHECK(specification.world != nullptr && sensors != nullptr);
   if (specification.step.count() == 0) specification.step = specification.world->max_step_size;
+  if (specification.factor == 0) specification.factor = specification.world->real_time_factor;
   if (auto ok = Check(specification); !ok) return base::Fail(ok.error());
   auto team = std::make_shared<base::ThreadTeam>(ThreadsFor(specification));
   auto engine = dynamics::MakeWorldEngine(team);

@@ -33,7 +33,7 @@ export interface Scenario {
   name: string; // if empty: the server chooses a name
   world: string;
   mode: "real_time" | "lockstep";
-  real_time_factor: number;
+  real_time_factor: number; // 0 means the factor of the world file
   step: number; // 0 means the world's own step
   duration: number; // 0 means until the simulation is stopped
   seed: number;
@@ -50,7 +50,7 @@ export const EMPTY_SCENARIO: Scenario = {
   name: "",
   world: "",
   mode: "real_time",
-  real_time_factor: 1,
+  real_time_factor: 0,
   step: 0,
   duration: 0,
   seed: 0,
@@ -142,7 +142,7 @@ export function parseScenario(value: unknown): { scenario: Scenario; left: strin
     name: textOr(json.name, ""),
     world: textOr(json.world, ""),
     mode: json.mode === "lockstep" ? "lockstep" : "real_time",
-    real_time_factor: numberOr(json.real_time_factor ?? json[FORMER_FACTOR], 1),
+    real_time_factor: numberOr(json.real_time_factor ?? json[FORMER_FACTOR], 0),
     step: numberOr(json.step, 0),
     duration: numberOr(json.duration, 0),
     seed: numberOr(json.seed, 0),

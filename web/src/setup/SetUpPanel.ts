@@ -215,7 +215,7 @@ function parameterFields(app: App) {
   return new Map<keyof Scenario, { element: HTMLElement; show(value: never): void; refuse(sentence: string): void }>([
     ["name", textField("Name", "chosen automatically", take("name"))],
     ["mode", mode],
-    ["real_time_factor", numberField("Real-time factor (simulated seconds per second)", 1, take("real_time_factor"), { least: "0" })],
+    ["real_time_factor", numberField("Real-time factor (simulated seconds per second), 0 for the factor of the world file", 0, take("real_time_factor"), { least: "0" })],
     ["duration", numberField("Duration in s (0: until stopped)", 0, take("duration"), { least: "0" })],
     ["step", numberField("Step (s), 0 for the step of the world file", 0, take("step"), { least: "0" })],
     ["seed", numberField("Random seed", 0, take("seed"), { step: "1", least: "0" })],
