@@ -435,6 +435,9 @@ base::Result<RunOptions> ParseArguments(const RunArguments& a) {
   RunOptions options;
   auto scenario = ScenarioToStartFrom(a, options.problems);
   if (!scenario) return base::Fail(scenario.error());
+  if (a.factor && !(*a.factor > 0)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "must be above 0", "--real-time-factor");
+  }
   options.scenario = *std::move(scenario);
   Override(options.scenario, a);
   for (base::Problem& problem : CheckOptions(a, options.scenario)) {

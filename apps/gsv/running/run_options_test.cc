@@ -93,6 +93,10 @@ TEST(RunOptions, FormerNameOfTheRealTimeFactorIsAccepted) {
   EXPECT_EQ(options->specification.factor, 2.5);
 }
 
+TEST(RunOptions, ARealTimeFactorOfZeroIsRefused) {
+  EXPECT_EQ(Refusal({"maze", "--real-time-factor", "0"}), "--real-time-factor: must be above 0");
+}
+
 TEST(RunOptions, RecordingOptionsSetTopicsRatesAndFormat) {
   const auto options = Parse({"maze", "--record", "x.mcap", "--record-topics", "/gsv/poses,/scout/",
                               "--record-rate", "poses=10,beams=0.5", "--record-pictures", "png"});

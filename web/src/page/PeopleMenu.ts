@@ -97,8 +97,8 @@ function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {
   return asks ? "Cancel request" : "Ask for control";
 }
 
-// Asks the viewer who has control whether another viewer, who requested control, may have it. If
-// there is no answer in time, the other viewer gets control.
+// Shows a question to the viewer with control when another viewer requests control: allow or refuse?
+// Without an answer in time, the other viewer gets control.
 export function createControlQuestion(app: App): HTMLElement {
   const sentence = element("p", {});
   const button = (label: string, grants: boolean, primary: boolean) =>
