@@ -132,8 +132,8 @@ void AddTimeOptions(CLI::App& command, RunArguments& a) {
   command
       .add_option("--real-time-factor,--factor", a.factor,
                   "simulated seconds per wall-clock second\n"
-                  "(default: <real_time_factor> of the world file, else 1).\n"
                   "--factor is the former name of this option.")
+      ->default_str("from the world")
       ->type_name("F")
       ->group(kGroup);
   command.add_option("--duration", a.duration, "simulated time of the run (default: until Ctrl-C)")
