@@ -48,8 +48,8 @@ export class PlotDrawing {
     place.addEventListener("pointerdown", (event) => this.hold(event, left(event)));
     for (const end of ["pointerup", "pointercancel"]) place.addEventListener(end, () => this.letGo());
     ports.state.watch(
-      ({ replay }) => replay !== null,
-      (isReplay) => (place.title = isReplay ? "Click or drag to go to a time" : ""),
+      ({ replay, plots }) => replay !== null && plots.against === null,
+      (canSeek) => (place.title = canSeek ? "Click or drag to go to a time" : ""),
     );
     if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.request()).observe(place);
   }
@@ -98,8 +98,8 @@ export class PlotDrawing {
     this.request();
   }
 
-  // In a recording, a press on the plot goes to the time under the pointer. While the user drags,
-  // the time follows the pointer.
+  // In a recording, if the horizontal axis is the time, a press on the plot goes to the time under
+  // the pointer. While the user drags, the time follows the pointer.
   private hold({ button, pointerId }: PointerEvent, x: number): void {
     const { replay, plots } = this.ports.state.get();
     if (button !== 0 || !replay || plots.against !== null) return;
