@@ -114,8 +114,8 @@ std::vector<Preset> MakePresets() {
       {"sonar",
        "mb1010",
        "MaxBotix' data sheet of the LV-MaxSonar-EZ1: 42 kHz, 6 to 254 inches in steps of one inch, "
-       "transducer of 16.4 mm; its beam patterns are drawings without numbers, so threshold "
-       "and gain_range are those of hc_sr04",
+       "transducer of 16.4 mm; its beam patterns are drawings without numbers, so threshold, "
+       "gain_range and specular_width are those of hc_sr04",
        {{"beam", std::string("cone")},
         {"min", 0.1524},
         {"max", 6.45},

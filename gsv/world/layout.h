@@ -1,5 +1,5 @@
-// The bodies of a simulated world in canonical order. Snapshots share one Layout until a body is
-// added or removed.
+// The bodies of a simulated world in canonical order. Snapshots share one Layout until it changes:
+// until a body is added or removed, or an initial pose or the gravity is changed.
 //
 // Determinism  bodies are ordered by name, so that loops over them do not depend on the order of
 //              insertion.

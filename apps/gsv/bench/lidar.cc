@@ -214,7 +214,8 @@ void AddLidarBench(const CommandLine& bench) {
       ->type_name("MODEL")
       ->capture_default_str();
   command->add_flag("--meshes", arguments->scene.collide_with_visuals,
-                    "intersect rays with visual meshes instead of collision shapes");
+                    "intersect rays with visuals of static bodies instead of collision shapes\n"
+                    "This option has no effect with --world square.");
   command
       ->add_option("--threads", arguments->threads, "threads for the scans; 0: one per processor")
       ->type_name("N")

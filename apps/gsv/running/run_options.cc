@@ -52,8 +52,9 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
   command
       .add_option("--movement", a.movements,
                   "rigid-body dynamics, or 2D kinematics on level ground (default: by the model)\n"
-                  "If the model file does not set the movement, the robot is planar. ROBOT is the "
-                  "name of a robot, or a model of --robot.")
+                  "If the model file does not set the movement, a robot with a drive is planar. A "
+                  "robot without a drive is never planar. ROBOT is the name of a robot, or a model "
+                  "of --robot.")
       ->type_name("ROBOT=rigid|planar")
       ->group(kGroup);
   command

@@ -19,7 +19,7 @@ struct MovingSceneOptions {
   int robots = 50;             // number of robots
   simulation::Mode mode = simulation::Mode::kRealTime;
   // Whether static bodies collide with their visuals, mesh by mesh, and not with their simpler
-  // collision shapes.
+  // collision shapes. No effect in the world "square".
   bool collide_with_visuals = false;
 };
 

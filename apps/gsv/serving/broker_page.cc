@@ -140,7 +140,7 @@ std::vector<gateway::Route> BrokerRoutes(CORBA::ORB_ptr orb, const std::string& 
        "List the service types of the broker with their properties"},
       {"GET", "/api/broker/offers", kWatch, false, kReaders,
        [page](const gateway::Request& request) { return page->Offers(request.target); },
-       "List offers of a service type that match a constraint"},
+       "List the offers of a service type, and show which of them match a constraint"},
       {"GET", "/api/broker/links", kWatch, false, kReaders,
        [page](const gateway::Request&) { return page->Links(); },
        "List the links of the broker, and whether their targets respond"},

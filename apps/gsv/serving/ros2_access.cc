@@ -27,7 +27,8 @@ void AddRange(CLI::App& command, Ros2Arguments& arguments) {
   command
       .add_option("--ros2-range", arguments.range,
                   "range of discovery (default: localhost)\n"
-                  "Without this option, ROS_AUTOMATIC_DISCOVERY_RANGE applies if it is set.")
+                  "Without this option, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE and "
+                  "ROS_STATIC_PEERS apply. With subnet, ROS_STATIC_PEERS applies too.")
       ->type_name("localhost|subnet")
       ->group(kRos2Group);
 }

@@ -1,9 +1,9 @@
 // Attaches the scene (bodies, sensors and models) to a recording as JSON, and each model as a GLB
 // file. A replay then needs no other files.
 //
-// Attachments  `scene.json`, written at each change of bodies or sensors. If several scenes have
-//              the same layout_version, the last one is valid. `models/ID.glb` with the ID that the
-//              scene uses.
+// Attachments  `scene.json`, written at each change of the layout or the sensors. If several scenes
+//              have the same layout_version, the last one is valid. `models/ID.glb` with the ID
+//              that the scene uses.
 #pragma once
 
 #include <functional>
