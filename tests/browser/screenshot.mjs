@@ -1,10 +1,10 @@
 // Takes a screenshot of a viewer, as for the documentation.
 //
 //   node screenshot.mjs URL FILE.png [--size 1280x800] [--view default|top|robot] [--select ROBOT]
-//                       [--theme light|dark] [--after SECONDS] [--only-view]
+//                       [--theme light|dark] [--after SIMULATED_SECONDS] [--only-view]
 //
 // --view robot follows the selected robot (or the first). --after waits until the simulated time is
-// SECONDS. --only-view omits the panels around the 3D view.
+// at least SIMULATED_SECONDS. --only-view omits the panels around the 3D view.
 import process from "node:process";
 import { parseArgs } from "node:util";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
@@ -26,7 +26,7 @@ const [url, file] = positionals;
 const [width, height] = values.size.split("x").map(Number);
 if (!url || !file || !(width > 0 && height > 0) || !["default", "top", "robot"].includes(values.view)) {
   console.error(
-    "usage: screenshot.mjs URL FILE.png [--size WxH] [--view default|top|robot] [--select ROBOT] [--theme light|dark] [--after SECONDS] [--only-view]",
+    "usage: screenshot.mjs URL FILE.png [--size WxH] [--view default|top|robot] [--select ROBOT] [--theme light|dark] [--after SIMULATED_SECONDS] [--only-view]",
   );
   process.exit(2);
 }

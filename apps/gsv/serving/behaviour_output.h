@@ -4,7 +4,8 @@
 // A line belongs to the robot that the program serves, or, if it serves several robots, to its
 // behaviour. Lines are stored until a robot has the behaviour.
 //
-// Bounded  200 lines per second and program, of 2000 bytes each; further lines are only counted.
+// Bounded  events: 200 lines per second and program, of 2000 bytes each. Further lines are printed
+//          on stderr, but as events they are only counted.
 // Threads  created, used and destroyed on the main thread.
 #pragma once
 
