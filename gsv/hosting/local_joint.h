@@ -1,6 +1,6 @@
 // Implements a robot's joint for a behaviour in this process.
 //
-// Threads  the thread of the behaviour's turn.
+// Threads  only the thread that executes the behaviour's turn.
 #pragma once
 
 #include <memory>

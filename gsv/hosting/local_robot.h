@@ -1,6 +1,6 @@
 // Implements the class Robot (sdk/behaviour/robot.h) for a behaviour that runs in this process.
 //
-// Threads  the thread of the behaviour's turn.
+// Threads  only the thread that executes the behaviour's turn.
 #pragma once
 
 #include <atomic>

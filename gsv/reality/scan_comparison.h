@@ -34,10 +34,13 @@ std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real)
 // divided by the square root of two. The standard deviation of these values equals the standard
 // deviation of one reading.
 std::vector<double> RestDifferences(const std::vector<RangeScan>& scans);
-// Returns the differences of the simulated readings. `pairs` must be ordered by time.
+// Returns the same differences for the simulated readings. All pairs must have the same pose,
+// because this function does not check whether the robot is at rest. `pairs` must be ordered by
+// time.
 std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs);
 
-// Returns, for each scan, the median difference between real and simulated ranges.
+// Returns the median of the absolute differences between real and simulated ranges, for each scan
+// in which at least one beam has both a real and a simulated echo.
 std::vector<double> MedianDifferences(const std::vector<ScanPair>& pairs);
 
 }  // namespace gsv::reality

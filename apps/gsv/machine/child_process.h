@@ -48,7 +48,8 @@ class ChildProcess {
   // or closed its stdin.
   base::Status Write(std::string_view text);
   // Returns the next line of the child's stdout, without the newline. Returns nullopt at the end of
-  // stdout, or after the time limit.
+  // stdout, after the time limit, or if a line is longer than about 64 KiB. Never returns a last line
+  // that does not end with a newline: this line stays in the buffer (TakeBuffer()).
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
   // Returns how the child ended, such as "exit code 5" or "signal 11". Empty while it runs.
   std::string Ending();

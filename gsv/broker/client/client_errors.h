@@ -16,11 +16,16 @@ namespace gsv::broker {
 // the broker's address.
 base::Error ErrorOfCurrentException(const std::string& where);
 
-// The number of calls that this process has made, and the number of failed ones. Any thread.
+// Counts the calls to brokers that this process makes through Guarded() and GuardedRepeatable().
+// Other calls are not counted.
+//
+// Threads  any.
 struct CallCounts {
-  std::atomic<std::uint64_t> made{0}, failed{0};  // `made` includes the failed calls
+  // The number of calls, and the number of calls that returned an error. `made` includes the failed
+  // calls. A call that GuardedRepeatable() repeats adds 2 to `made`.
+  std::atomic<std::uint64_t> made{0}, failed{0};
 };
-// The counts of this process, which Guarded() and GuardedRepeatable() increase.
+// Returns the counts of this process.
 CallCounts& ProcessCallCounts();
 
 // Calls `call` and converts an exception to an error. Returns the errors of `call` unchanged.

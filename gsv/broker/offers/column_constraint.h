@@ -44,7 +44,8 @@ class ColumnConstraint {
     std::vector<std::size_t> properties{};  // indices in properties_
   };
 
-  // Adds the terms that `and` joins below the node `root`.
+  // Adds the operands of the `and` at the node `root` as terms. An operand that is an `and` is
+  // replaced by its own operands. If `root` is no `and`, adds `root` as the only term.
   void AddTerms(std::size_t root);
   // Adds the indices of the properties that are used at or below the node `root`.
   void AddProperties(std::size_t root, std::vector<std::size_t>& properties) const;

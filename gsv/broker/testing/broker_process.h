@@ -10,12 +10,14 @@
 
 namespace gsv::broker {
 
+// A child process that a test starts. Stores the first line that the process prints. The destructor
+// kills the process.
 class TestProcess {
  public:
   // Starts `program`, which is in the folder of the tests. Returns when the process has printed a
   // line, or has ended.
   TestProcess(const std::string& program, std::vector<std::string> arguments);
-  // Ends the process.
+  // Sends SIGKILL, unless Wait() was called.
   ~TestProcess();
   TestProcess(const TestProcess&) = delete;
   TestProcess& operator=(const TestProcess&) = delete;

@@ -44,18 +44,21 @@ class ScriptedSimulation final : public simulation::Simulation {
   // Returns the joint that was commanded last, and its command.
   std::pair<int, world::JointCommand> joint_command() const;
 
+  // The functions from AddRobots() to CommandJoint() always return kInvalidArgument, because this
+  // simulation does not support these changes.
   base::Result<std::vector<std::string>> AddRobots(
       std::vector<simulation::RobotSpecification> robots) override;
   base::Status RemoveRobot(const std::string& name) override;
   base::Result<std::string> AddObject(simulation::ObjectSpecification object) override;
   base::Status RemoveObject(const std::string& name) override;
-  bool was_edited() const override { return false; }
   base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
                          bool on_ground) override;
   base::Status SetBehaviour(const std::string& robot,
                             std::shared_ptr<simulation::BehaviourPort> behaviour) override;
   base::Status CommandJoint(const std::string& body, const std::string& joint,
                             const world::JointCommand& command) override;
+
+  bool was_edited() const override { return false; }
   base::Status Start() override;
   base::Status Pause() override;
   base::Status Resume() override;

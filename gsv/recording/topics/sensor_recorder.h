@@ -107,7 +107,7 @@ class SensorRecorder {
   const SensorRecorderOptions options_;
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // samples slow sensors; null if there are none
-  Sensors sensors_;
+  Sensors sensors_;                         // the recorded sensors, by topic
   // No reading is due at times t with none_due_from_ <= t < next_due_.
   base::SimTime none_due_from_{0}, next_due_{0};
   // The layout whose body indices Sensor::body and robot_beams_ use; null after SetSensors().

@@ -37,7 +37,9 @@ struct Qos {
 
 // A topic and its type, by their DDS names.
 struct Topic {
-  std::string name;  // "rt/pebble/scan"
+  // "rt/pebble/scan" for a topic of ROS 2. Names such as "rq/gsv/spawn_entityRequest" and
+  // "rr/gsv/spawn_entityReply" for a service. "ros_discovery_info" for the list of nodes.
+  std::string name;
   std::string type;  // "sensor_msgs::msg::dds_::LaserScan_"
   Qos qos;
   std::string user_data;  // USER_DATA of the endpoint; may be empty

@@ -47,8 +47,9 @@ struct SoundSettings {
   // Standard deviation of a smooth surface's slopes, rad. The echo falls to 61 % if the angle
   // between the sound and the surface's normal has this value.
   double specular_width = 0.035;
-  double roughness = 0;             // fraction of the sound that is scattered in all directions
-  double gain_range = 0;            // m; 0: the amplifier compensates every distance
+  double roughness = 0;  // fraction of the sound that is scattered in all directions
+  // The amplifier compensates attenuation up to this distance, in m; 0: at every distance.
+  double gain_range = 0;
   bool target_size = false;         // whether small targets reflect less sound
   bool second_reflections = false;  // whether sound may return from a second surface
   int firing_slot = 0;              // 0: the sonar fires alone

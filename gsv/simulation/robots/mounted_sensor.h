@@ -56,7 +56,7 @@ class SensorDesigns {
 // Counts the sweeps of a robot. In a sweep, the behaviour reads several sensors of its robot
 // together. This one count replaces a count of readings for each of these sensors.
 struct Sweeps {
-  // The number of sweeps. Only the thread of the behaviour's turn writes it.
+  // The number of sweeps. Only the thread that executes the behaviour's turn writes it.
   std::atomic<std::uint64_t> count{0};
   // Becomes false when a fault is applied to one of the sensors, or when Watch() or Forget() is
   // called for one of them. From then on, sensors are read one by one.

@@ -2,7 +2,9 @@
 import type { LabelLayer } from "./LabelLayer";
 
 export class LabelHover {
-  private pointer: { x: number; y: number } | null = null; // CSS pixels of the view; null: elsewhere
+  // Position of the pointer, in CSS pixels of the view. Null if the pointer is elsewhere, if it is a
+  // touch, or while a button is pressed.
+  private pointer: { x: number; y: number } | null = null;
 
   // `canvas` receives the pointer and covers the view.
   constructor(

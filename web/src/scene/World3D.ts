@@ -47,8 +47,8 @@ import type { DrawnView } from "../view/DrawnView";
 // Without a card, more beams would take longer than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
-// If the server draws the view and no image arrives within this time after new poses, the page
-// draws its own part of the view, such as the labels, without a new image.
+// If the server draws the view, the page draws its own part of the view, such as the labels, this
+// long after the last poses. It does so even if no new image has arrived.
 const LATE_POSES_MS = 150;
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditToolsEvents, "onPlacePoint"> {
