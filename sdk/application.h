@@ -20,7 +20,7 @@ namespace gsv {
 
 // The options of a simulation to create.
 struct SimulationRequest {
-  std::string world;  // a file or model that the server finds; empty for the server's default
+  std::string world;  // a file, built-in world or model; empty for the server's default
   bool lockstep = true;
   double factor = 1;  // the target real-time factor, 0 for the world's own; ignored in lockstep
   SimTime step{0};    // 0 for the world's own step

@@ -5,9 +5,10 @@
 
 namespace gsv {
 
-// Reads the command line (--broker REF, --name NAME, --help), offers a factory of behaviours, and
-// serves until SIGINT, SIGTERM or SIGHUP. A second signal ends the process at once. Returns the
-// exit code: 0, 2 for a usage error, 5 if the broker cannot be reached.
+// Reads the command line (--broker REF, --name NAME, --help, and the behaviour's options), offers a
+// factory of behaviours, and serves until SIGINT, SIGTERM or SIGHUP. A second signal ends the
+// process at once. Returns the exit code: 0, 2 for a usage error, 5 if the broker cannot be
+// reached.
 int ServeBehaviour(int argc, char** argv, const BehaviourModule& module);
 
 }  // namespace gsv

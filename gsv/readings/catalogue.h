@@ -61,7 +61,7 @@ struct Sonar {
 // The scan of a lidar.
 struct Lidar {
   static constexpr const char* kType = "lidar";
-  std::span<const double> ranges;  // one per beam; infinite if the beam hit nothing
+  std::span<const double> ranges;  // one per beam; see docs/sensors.md for infinite values
   // One per beam; empty if the lidar does not measure intensities. In a reading, intensities follow
   // the ranges. The layout cannot distinguish the two, so Decode() puts all values into `ranges`.
   std::span<const double> intensities;

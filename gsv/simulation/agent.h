@@ -125,7 +125,8 @@ class Agent {
                                                base::SimTime until, std::chrono::milliseconds lease,
                                                const std::set<std::string>& sensors) = 0;
 
-  // Commands the base from this instant until the next command.
+  // Commands the base from this instant until the next command, or until the drive's command
+  // timeout.
   virtual base::Status Command(const world::DriveCommand& command) = 0;
 
   // Joints, by their index in the robot's model. A command is applied from this instant until the

@@ -46,8 +46,8 @@ base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::str
 base::Result<double> ParseFieldOfView(std::string_view text);
 // Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
 base::Status SetSide(const std::string& name, std::string_view text, OverviewSide& side);
-// Fails if there is an eye without a target, unless the camera follows a robot. Also fails if there
-// is a camera sensor together with an eye, a target or a followed robot.
+// Fails if there is only one of eye and target, unless the camera follows a robot. Also fails if
+// there is a camera sensor together with an eye, a target, a followed robot or a field of view.
 base::Status Check(const Camera& camera);
 
 // The view of a camera sensor at an instant.

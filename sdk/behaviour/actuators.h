@@ -83,7 +83,7 @@ class Speaker : public Sensor {
   Sound Playing() { return MeasureAs<Sound>(); }
 };
 
-// Measures the loudest sound at its place.
+// Measures the sound level at its place, and the loudest sound.
 class Microphone : public Sensor {
  public:
   static constexpr const char* kType = readings::Microphone::kType;

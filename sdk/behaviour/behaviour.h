@@ -16,8 +16,9 @@ class Behaviour {
  public:
   virtual ~Behaviour() = default;
 
-  // Called before simulated time advances. Open sensors here. If it returns an error, the
-  // simulation does not add the robot, or does not give this behaviour to an existing robot.
+  // Called before Run(), when the behaviour gets its robot. Open sensors here. If it returns an
+  // error, the simulation does not add the robot, or does not give this behaviour to an existing
+  // robot.
   virtual base::Status Init(Robot& /*robot*/) { return {}; }
   // Runs until robot.SleepFor() or another wait returns false, or until the work is done.
   virtual void Run(Robot& robot) = 0;

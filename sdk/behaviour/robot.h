@@ -80,8 +80,9 @@ class Robot {
   virtual std::vector<JointTraits> Joints() = 0;
   virtual base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) = 0;
 
-  // Commands the base. The command applies until the next one. A velocity that is NaN or infinite
-  // is not applied: the call throws std::invalid_argument, and the behaviour may continue.
+  // Commands the base. The command applies until the next one, or until the drive's command timeout
+  // (<command_timeout> in the model file). A velocity that is NaN or infinite is not applied: the
+  // call throws std::invalid_argument, and the behaviour may continue.
   virtual void Command(const DriveCommand& command) = 0;
   // Commands the velocities along x (m/s) and about z (rad/s).
   void Drive(double linear, double angular) { Command({linear, angular}); }

@@ -150,13 +150,13 @@ class Lidar : public Sensor {
 
   // One scan. Beams are in rows, from the lowest row; within a row, from the smallest azimuth.
   struct Scan {
-    std::vector<double> ranges;       // in m for each beam; infinite if the beam hit nothing
+    std::vector<double> ranges;       // in m for each beam, see Ranges()
     std::vector<double> intensities;  // for each beam; empty without the parameter intensity_scale
   };
   // Takes a scan.
   Scan Read();
-  // Returns the distance in m for each beam; infinite if the beam hit nothing. Valid until the next
-  // call.
+  // Returns the distance in m for each beam; infinite if the beam hit nothing, and -infinity if it
+  // hit something nearer than the minimum range. Valid until the next call.
   const std::vector<double>& Ranges();
 
  private:

@@ -39,7 +39,8 @@ class SonarRing {
   std::vector<Mounted> sonars_;
 };
 
-// Returns the distance of the nearest echo within `half_angle` of `bearing`; infinite if none.
+// Returns the smallest distance of the echoes within `half_angle` of `bearing`, including those out
+// of reach; infinite if there are none.
 double Nearest(const std::vector<SonarRing::Echo>& echoes, double bearing, double half_angle);
 
 }  // namespace gsv

@@ -94,10 +94,9 @@ void BindRing(py::module_& module) {
            "Reads all sonars, one after the other, and returns their echoes.")
       .def("from_readings", &EchoesFrom, py::arg("readings"),
            "Returns the echoes of this ring's sonars in the readings of Robot.exchange().");
-  module.def(
-      "nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
-      "Returns the distance in m of the nearest echo within half_angle of bearing (rad); inf if "
-      "there is none.");
+  module.def("nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
+             "Returns the smallest distance in m of the echoes within half_angle of bearing (rad), "
+             "including those out of reach; inf if there are none.");
 }
 
 void BindJoints(py::module_& module) {
@@ -165,7 +164,8 @@ void BindRobot(py::module_& module) {
           },
           py::arg("linear"), py::arg("angular"), py::arg("lateral") = 0.0, LetOthersRun(),
           "Commands the velocity of the base in m/s and rad/s. The command applies until the next "
-          "command. `lateral` is the velocity to the left, for bases that can move sideways.")
+          "command, or until the drive's command timeout. `lateral` is the velocity to the left, "
+          "for bases that can move sideways.")
       .def(
           "now", [](RemoteRobot& robot) { return SecondsOf(robot.Now()); }, LetOthersRun(),
           "Returns the time of the robot's clock in simulated seconds.")

@@ -138,7 +138,8 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
   BindKind<Lidar>(module, "Lidar", sensor, "A laser scanner, with one or more rows of beams.")
       .def(
           "ranges", [](Lidar& lidar) -> py::object { return ReadLidar(lidar)[0]; },
-          "Returns the range of each beam in m (numpy.float64); inf if the beam hit nothing.")
+          "Returns the range of each beam in m (numpy.float64); inf if the beam hit nothing, "
+          "-inf if it hit something nearer than the minimum range.")
       .def("read", &ReadLidar,
            "Returns (ranges, intensities) of one scan. intensities is empty without the parameter "
            "intensity_scale.");

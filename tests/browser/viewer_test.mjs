@@ -159,7 +159,7 @@ test("a menu sets the number of steps and the real-time factor", async () => {
   const before = await ask("");
   await press("Speed and steps");
   const sheet = page.getByRole("group", { name: "Speed and steps" });
-  await sheet.getByLabel("Number of steps to take while paused").fill("25");
+  await sheet.getByLabel("Number of steps to take").fill("25");
   await press("Take steps");
   await until(async () => (await ask("")).step === before.step + 25, "the steps");
   await phaseIs("paused");

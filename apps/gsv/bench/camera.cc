@@ -28,7 +28,7 @@ struct CameraArguments {
   int robots = 50;
   std::string world = "office", model = "b21r";
   bool overview = false;
-  double duration = 10;  // simulated time, s
+  double duration = 10;  // wall-clock time, s
   std::string save;
   bool opengl = false, json = false;
 };

@@ -16,7 +16,8 @@ namespace gsv::app {
 // The options of `gsv campaign run`.
 struct EngineOptions {
   campaign::Engine engine;  // this machine, or the kind of job queue
-  // number of concurrent runs; 0: one per processor or, with servers, as many as the servers accept
+  // number of concurrent runs; 0: one per processor or, with servers, as many as the servers accept,
+  // up to 64
   int jobs = 0;
   double timeout = 300;  // wall-clock time limit of a run, s
   double poll = 0;       // time between queries of the queue, s; 0 for the engine's default

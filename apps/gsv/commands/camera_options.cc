@@ -39,7 +39,8 @@ void AddCameraOptions(CLI::App& command, view::Camera& camera) {
           [&camera](const std::string& text) {
             camera.eye = OrInvalidOption(view::ParsePoint(text, "the eye"), "--eye");
           },
-          "position of the camera in metres; with --follow, in the robot's frame")
+          "position of the camera in metres; with --follow, in the robot's frame\n"
+          "Without --follow, give both --eye and --target.")
       ->type_name("X,Y,Z");
   command
       .add_option_function<std::string>(
@@ -47,7 +48,9 @@ void AddCameraOptions(CLI::App& command, view::Camera& camera) {
           [&camera](const std::string& text) {
             camera.target = OrInvalidOption(view::ParsePoint(text, "the target"), "--target");
           },
-          "point in the middle of the image, in metres (default: the whole world is shown)")
+          "point at the image centre (default: ahead of the followed robot, or the whole "
+          "world)\n"
+          "The point has the unit and the frame of --eye.")
       ->type_name("X,Y,Z");
   command.add_option("--follow", camera.follow, "robot that the camera follows")
       ->type_name("ROBOT");

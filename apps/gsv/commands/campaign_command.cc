@@ -213,9 +213,9 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
 
 void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine& line) {
   EngineOptions& options = arguments->options;
-  run->add_option(
-         "-j,--jobs", options.jobs,
-         "runs in parallel (default: one per processor; with --broker: all that servers accept)")
+  run->add_option("-j,--jobs", options.jobs,
+                  "runs in parallel (default: one per processor; with --broker: up to 64)\n"
+                  "A job queue ignores this option.")
       ->check(Between(0, 256))
       ->type_name("N");
   run->add_option("--timeout", options.timeout, "limit of the wall-clock time of a run")

@@ -293,6 +293,7 @@ void AddControlCommands(const CommandLine& line) {
   CLI::App* output = line.app.add_subcommand("output", "Print the last output lines of behaviours");
   output->group(kControlGroup);
   auto of_output = AddSelection(*output);
+  output->get_option("--json")->description("print one JSON object per output line");
   output->add_option("--robot", of_output->robot, "only the output of this robot's behaviour")
       ->type_name("ROBOT");
   AddSimulationName(*output, of_output->selection);
@@ -310,7 +311,7 @@ void AddControlCommands(const CommandLine& line) {
                 }
               });
   AddSteering(
-      line, "step", "Advance a paused simulation by a number of steps",
+      line, "step", "Advance a simulation that is paused or not started by a number of steps",
       [](sba::Simulation_ptr simulation, const Arguments& given) { simulation->step(given.steps); },
       &AddStepCount, true);
   AddSteering(
@@ -320,7 +321,7 @@ void AddControlCommands(const CommandLine& line) {
       },
       &AddFactor);
   line.app.get_subcommand("real-time-factor")->alias("factor");
-  AddSteering(line, "stop", "Stop a simulation permanently",
+  AddSteering(line, "stop", "Stop a simulation; then only a reset is possible",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->stop(); });
   AddSteering(line, "reset", "Reset a simulation to its start; `gsv resume` starts it again",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->reset(); });

@@ -373,14 +373,14 @@ void AddReplayCommand(const CommandLine& line) {
       ->needs(at);
   command->add_flag("--open", arguments->open, "open the viewer in a browser");
   command->add_flag("--loop", arguments->options.loop, "start again at the end");
-  command->add_flag("--paused", arguments->paused,
-                    "wait at the beginning until a viewer starts the replay");
+  command->add_flag("--paused", arguments->paused, "wait until a viewer starts the replay");
   command->add_flag("--headless", arguments->headless,
                     "check the whole recording, without a viewer");
   CLI::Option* resimulate = command->add_flag(
       "--resimulate", arguments->resimulate,
       "run the simulation again and print where the result first differs (exit code 1)\n"
-      "The simulation runs in lockstep, with live behaviours and without a viewer.");
+      "The simulation runs in lockstep, without a viewer. Without --commands, it has live "
+      "behaviours.");
   command
       ->add_option("--broker", arguments->broker,
                    "broker that offers the behaviours; only with --resimulate")
@@ -450,7 +450,9 @@ void AddRecordingCommands(const CommandLine& line) {
         add("export", "Write a topic as a table (CSV), or images as a video", Export);
     add_selection(*command, *arguments);
     command->get_option("--topic")->required()->expected(1);
-    command->add_option("-o,--output", arguments->output, "file to write (default: stdout)")
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "file to write (default: stdout; required with --video)")
         ->type_name("FILE");
     CLI::Option* video = command->add_flag("--video", arguments->video,
                                            "write the images of the topic as a video, with ffmpeg");

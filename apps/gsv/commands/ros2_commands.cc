@@ -293,8 +293,10 @@ void AddRos2Commands(const CommandLine& line) {
   AddOne(*ros2, line, arguments, "topics", "List topics, their types and endpoints", false,
          &Topics);
   AddOne(*ros2, line, arguments, "nodes", "List nodes", false, &Nodes);
-  AddOne(*ros2, line, arguments, "echo", "Print the messages of a topic as JSON", true, &Echo)
-      ->add_option("--count", arguments->count,
+  CLI::App* const echo =
+      AddOne(*ros2, line, arguments, "echo", "Print the messages of a topic as JSON", true, &Echo);
+  echo->get_option("--seconds")->description("maximum wall-clock time of the search for the topic");
+  echo->add_option("--count", arguments->count,
                    "number of messages to print (default: print until Ctrl-C)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

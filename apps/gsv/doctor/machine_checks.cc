@@ -163,11 +163,10 @@ bool CheckMachine() {
   CheckPriority();
   CheckPort(8080, "default port of the viewer", "gsv uses another free port, or the one of --port");
   CheckLibrary("libEGL.so.1", "EGL", "libegl1 libgl1-mesa-dri");
-  std::printf(
-      "video: %s\n",
-      !FindOnPath("ffmpeg").empty()
-          ? "ok, ffmpeg is installed"
-          : "ffmpeg is not installed; `gsv rec export --video` needs it: apt-get install ffmpeg");
+  std::printf("video: %s\n", !FindOnPath("ffmpeg").empty()
+                                 ? "ok, ffmpeg is installed"
+                                 : "ffmpeg is not installed; `gsv film` (.mp4, .webm) and `gsv rec "
+                                   "export --video` need it: apt-get install ffmpeg");
   CheckPython();
   const bool folder = CheckUserFolder();
   const bool room = CheckRoom();

@@ -84,11 +84,13 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
 void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
   constexpr const char* kGroup = "Behaviours";
   command
-      .add_option("--behaviour", a.behaviours,
-                  "behaviour of all robots, or of one robot\n"
-                  "Options of the behaviour may follow its name, such as 'goto "
-                  "--goal-x 3'. "
-                  "NAME is a behaviour that the broker offers, or a program gsv-NAME to start.")
+      .add_option(
+          "--behaviour", a.behaviours,
+          "behaviour of all robots, or of one robot\n"
+          "Options of the behaviour may follow its name, such as 'goto "
+          "--goal-x 3'. "
+          "NAME is a behaviour that the broker offers, or a program gsv-NAME to start. With "
+          "--ros2, NAME may also be ros2: ROS 2 nodes drive the robot.")
       ->type_name("[ROBOT=]NAME")
       ->group(kGroup);
   command
@@ -145,9 +147,9 @@ void AddTimeOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--threads", a.threads,
-                  "threads for physics and behaviours (default: auto)\n"
-                  "Auto, or 0, means one per processor in lockstep, else one. Only in-process "
-                  "behaviours use these threads. The number does not change the results.")
+                  "threads for physics and behaviours (default: 0)\n"
+                  "0 means one per processor in lockstep, else one. Of the behaviours, only those "
+                  "with --in-process use these threads. The number does not change the results.")
       ->check(Between(0, 256))
       ->type_name("N")
       ->group(kGroup);

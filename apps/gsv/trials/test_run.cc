@@ -186,10 +186,10 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
   const std::vector<double> violations = ViolationTimes(outcome.report);
   result.failed_at = violations.front();
   result.about = RobotIn(outcome.report, result.message);
-  std::string text =
-      result.message + "\n\nState hash: " + outcome.report.value("state_hash", "none") +
-      "\nscenario.yaml is a copy of the scenario and contains the seed.\n\nTo repeat the run:\n  " +
-      result.command + "\n";
+  std::string text = result.message +
+                     "\n\nState hash: " + outcome.report.value("state_hash", "none") +
+                     "\nscenario.yaml is a copy of the scenario.\n\nTo repeat the run:\n  " +
+                     result.command + "\n";
   if (!result.health.empty()) text += "\nAt the end:\n" + result.health + "\n";
   if (fs::exists(folder / "run.mcap", ignored)) {
     text += KeepClips(folder / "run.mcap", kept, options, violations, result.about);

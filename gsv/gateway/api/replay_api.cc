@@ -61,7 +61,7 @@ constexpr ReplayCommand kReplayCommands[]{
      [](ReplayPlayer& player, const std::string&) { return player.Pause(); }},
     {"resume", "Resume a paused simulation",
      [](ReplayPlayer& player, const std::string&) { return player.Resume(); }},
-    {"stop", "Stop a simulation permanently", &Rewind},
+    {"stop", "Stop a simulation; then only a reset is possible", &Rewind},
     {"reset", "Reset a simulation to its start", &Rewind},
     {"step", "Take some steps, then pause", &StepBy},
     {"seek", "Go to a time of the recording (replays only)", &SeekTo},

@@ -22,7 +22,7 @@ std::span<const Command> Commands() {
        {},
        [](Simulation& s, const Arguments&) { return s.Resume(); }},
       {"stop",
-       "Stop a simulation permanently",
+       "Stop a simulation; then only a reset is possible",
        {},
        [](Simulation& s, const Arguments&) { return s.Stop(); }},
       {"reset",

@@ -49,8 +49,8 @@ class Application(_native.Application):
         """Creates a simulation of `world` on a server whose offer matches `constraint` (with the
         properties in docs/services.md). If several match, `preference` ("first", "min load",
         "random") decides. In lockstep, the simulation is reproducible and as fast as possible;
-        otherwise it runs with the target real-time factor `factor`. `step` is in seconds; 0 means the
-        step of the world. `options` are those of sba::SimulationSpecification: "on_failure", "deadline_s",
+        otherwise it runs with the target real-time factor `factor`; 0 means that of the world. `step`
+        is in seconds; 0 means the step of the world. `options` are those of sba::SimulationSpecification: "on_failure", "deadline_s",
         "abandoned_after_s"."""
         simulation = Simulation(self, world, constraint, preference, lockstep, factor, step, seed,
                                 name, dict(options))

@@ -24,7 +24,7 @@ class Behaviour:
     """
 
     def init(self, robot: _native.Robot) -> None:
-        """Called once, before simulated time starts. Open sensors here. An exception means that the
+        """Called once, before run(). Open sensors here. An exception means that the
         behaviour refuses the robot."""
 
     def run(self, robot: _native.Robot) -> None:

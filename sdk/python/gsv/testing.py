@@ -122,7 +122,7 @@ class ScenarioResult:
     scenario: str
     status: str  # "passed", "failed", "error" or "interrupted"
     message: str  # the reason why the scenario has not passed; empty if it has passed
-    folder: str  # the folder with the recording of a failure; empty if there is no recording
+    folder: str  # the folder with the files of a failure; empty if there is none
     state_hashes: list[str]  # final state hash of each repetition
     report: dict[str, Any]  # the report of `gsv run --json`; empty if the run has no report
 

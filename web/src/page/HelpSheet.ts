@@ -16,7 +16,7 @@ const KEYS: [heading: string, lines: Line[]][] = [
     "Run",
     [
       [["Space"], "Start, pause or resume"],
-      [["N"], "Take one step while paused (in a recording: go to the next recorded instant)"],
+      [["N"], "Take one step, before the start or while paused (in a recording: go to the next recorded instant)"],
       [["W", "A", "S", "D"], "Drive the avatar, a person whom you control. The arrow keys also work. Q and E move sideways; with Shift, the avatar is faster"],
     ],
   ],

@@ -53,11 +53,11 @@ function stepsPart(app: App): HTMLElement {
   let count = FIRST_STEPS;
   const take = element(
     "button",
-    { class: "button", type: "button", title: "Take this number of steps, then pause again", onclick: () => void app.act("step", count) },
+    { class: "button", type: "button", title: "Take this number of steps, then pause", onclick: () => void app.act("step", count) },
     "Take steps",
   );
   const field = numberField(
-    "Number of steps to take while paused",
+    "Number of steps to take",
     null,
     (value) => {
       count = Math.max(1, Math.round(value ?? FIRST_STEPS));

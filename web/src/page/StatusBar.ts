@@ -25,7 +25,7 @@ export function createStatusBar(app: App): HTMLElement {
   const late = element("span", {
     class: "number late",
     "data-testid": "late",
-    title: "Late steps: they started more than one step size after they were due",
+    title: "Late steps: they started later than the next step was due",
   });
   const waiting = element("span", { class: "waiting", role: "status", "data-testid": "waiting" });
   const connection = element("span", { class: "connection", role: "status", "data-testid": "connection" });

@@ -135,7 +135,7 @@ function typedTime(app: App): HTMLElement {
     class: "typed-time number",
     "aria-label": "Go to time",
     placeholder: "go to…",
-    title: "Seconds or minutes:seconds; press Enter to go there",
+    title: "Seconds, minutes:seconds or hours:minutes:seconds; press Enter to go there",
     autocomplete: "off",
     spellcheck: "false",
   });

@@ -69,7 +69,7 @@ export const PANELS: readonly Panel[] = [
   {
     id: "plots",
     title: "Plots",
-    hint: "Plots against simulated time",
+    hint: "Plots against simulated time, or against another value",
     picture: "plot",
     group: "Data",
     key: "P",

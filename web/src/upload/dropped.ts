@@ -19,7 +19,7 @@ export function worldsFirst(files: readonly DroppedFile[]): Delivery {
   }
   if (files.length === 1) return { files: [...files], worlds: 1 };
   const candidates = files.filter(({ path }) => rankOf(path) < NO_WORLD).sort(byLikelihood);
-  if (candidates.length === 0) throw new Error("These files contain no world. Add a file whose name ends in .world or .sdf.");
+  if (candidates.length === 0) throw new Error("These files contain no world. Add a file whose name ends in .world, .sdf or .urdf.");
   // If there are world files, models are parts of these worlds. So the user cannot choose a model.
   const worlds = candidates.filter(({ path }) => rankOf(path) < A_MODEL);
   const front = new Set(worlds.length > 0 ? worlds : candidates.slice(0, 1));
