@@ -50,8 +50,7 @@ void AddViewCommand(const CommandLine& line) {
     ViewerOptions web;
   };
   constexpr const char* kOtherGroup = "The other instance";
-  CLI::App* command = line.app.add_subcommand(
-      "view", "Relay another running gsv to many viewers over one connection");
+  CLI::App* command = line.app.add_subcommand("view", "Relay another running gsv to many viewers");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("instance", arguments->instance,
                       "viewer address http(s)://HOST:PORT/, name, PID or HOST:PID (default: your "

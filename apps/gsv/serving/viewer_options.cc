@@ -52,8 +52,8 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
   command
       .add_option_function<std::string>(
           "--watch-token", TakeToken(options.tokens.watch),
-          "token that allows watching (default: everybody on this machine can watch)\nFrom other "
-          "machines, watching always requires this token or the control token.")
+          "token that allows watching (default: everybody on this machine can watch)\nOn addresses "
+          "other than loopback, watching always requires this token or the control token.")
       ->type_name("TOKEN")
       ->envname("GSV_WATCH_TOKEN")
       ->group(kNetworkGroup);

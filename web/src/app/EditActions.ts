@@ -97,7 +97,7 @@ export class EditActions {
     else if (!setUp) void this.edits.remove(selection);
   }
 
-  // Rotates the selected bodies counter-clockwise, in radians. Only in edit mode.
+  // Rotates the first selected body counter-clockwise, in radians. Only in edit mode.
   turn(angle: number): void {
     const body = chosenOf(this.store.get());
     if (this.store.get().editing && body !== null) void this.edits.turn(body, angle);
