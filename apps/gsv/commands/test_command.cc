@@ -215,7 +215,8 @@ void AddTestCommand(const CommandLine& line) {
       "test", "Run scenarios as tests; exit code 1 if an expectation is not met");
   auto arguments = std::make_shared<TestArguments>();
   command
-      ->add_option("scenarios", arguments->scenarios, "scenario files, or folders of *.yaml files")
+      ->add_option("scenarios", arguments->scenarios,
+                   "scenario files, or folders of *.yaml and *.yml files")
       ->required();
   command
       ->add_option("-j,--jobs", arguments->jobs,

@@ -23,7 +23,8 @@ base::Result<std::vector<std::string>> FilesOf(const std::string& name) {
   }
   std::sort(files.begin(), files.end());
   if (!files.empty()) return files;
-  return base::Fail(base::ErrorCode::kNotFound, "the folder has no scenario files (*.yaml)", name);
+  return base::Fail(base::ErrorCode::kNotFound, "the folder has no scenario files (*.yaml, *.yml)",
+                    name);
 }
 
 void Check(const std::string& file, base::Problems& problems) {

@@ -19,8 +19,8 @@ struct TestCase {
   std::string name;  // the path of the file without its extension
 };
 
-// Returns the scenarios of files and folders. A folder stands for all *.yaml files in it, ordered
-// by name. Adds the problems of the files to `problems`. Returns kNotFound if a name matches
+// Returns the scenarios of files and folders. A folder stands for all *.yaml and *.yml files in it,
+// ordered by name. Adds the problems of the files to `problems`. Returns kNotFound if a name matches
 // nothing.
 base::Result<std::vector<TestCase>> FindTestCases(const std::vector<std::string>& names,
                                                   base::Problems& problems);

@@ -50,7 +50,8 @@ TEST_F(TestCasesTest, MissingFileIsAnError) {
   EXPECT_THAT(
       Names({path() + "/none.yaml"}),
       ElementsAre(HasSubstr("none.yaml: there is no scenario file or folder of this name")));
-  EXPECT_THAT(Names({path()}), ElementsAre(HasSubstr("the folder has no scenario files (*.yaml)")));
+  EXPECT_THAT(Names({path()}),
+              ElementsAre(HasSubstr("the folder has no scenario files (*.yaml, *.yml)")));
 }
 
 TEST_F(TestCasesTest, EveryProblemOfEveryFileIsReported) {
