@@ -269,7 +269,11 @@ CLI::App* AddOne(CLI::App& parent, const CommandLine& line,
                    "Without this option, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE and "
                    "ROS_STATIC_PEERS apply. With subnet, ROS_STATIC_PEERS applies too.")
       ->type_name("localhost|subnet");
-  command->add_option("--seconds", arguments->seconds, "wall-clock time of the observation")
+  const bool echoes = std::string(name) == "echo";
+  command
+      ->add_option("--seconds", arguments->seconds,
+                   echoes ? "wall-clock time limit for finding the topic"
+                          : "wall-clock time of the observation")
       ->type_name("SECONDS")
       ->check(Between(0.1, 3600.0))
       ->capture_default_str();
