@@ -49,7 +49,7 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
   scenario.pedestrians = specification.pedestrians;
   scenario.fails_with_behaviour = specification.on_failure == simulation::FailurePolicy::kFail;
 
-  // The behaviour of each robot, with its options.
+  // The name of each robot's behaviour.
   std::map<std::string, std::string> behaviours;
   for (const auto& robot : simulation.status().robots) behaviours[robot.name] = robot.behaviour;
   for (const world::Body& body : simulation.snapshot()->layout->bodies) {
