@@ -15,7 +15,7 @@
 #   make chaos     disturbs a running server for CHAOS_SECONDS (3600), see tests/chaos/chaos.py
 #   make fuzz      runs each fuzz target with random input for FUZZ_SECONDS (60), which needs clang,
 #                  and sends mutated requests to all servants for the same time (FUZZ_SEED: seed)
-#   make asan, make tsan, make ubsan   run all tests under a sanitizer
+#   make asan, make tsan, make ubsan   run the tests under a sanitizer
 #   make coverage  reports the percentage of the lines of gsv/ that the tests execute; needs gcovr
 # PRESET=dev selects another preset of CMakePresets.json.
 PRESET ?= release
