@@ -146,7 +146,7 @@ struct Altimeter {
 
 // One contact of a bumper, in the sensor's frame. The normal points from the robot to the other
 // body. The force acts on the robot: the mean over the last step. With planar kinematics, the force
-// is zero.
+// is zero except in contacts with rigid bodies.
 struct Touch {
   std::string other;  // name of the other body
   Vector point, normal;

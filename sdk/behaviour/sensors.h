@@ -5,8 +5,8 @@
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.
 // Errors   a reading of the wrong size and a failing sensor end the run with an error. After the
-//          end of the run a reading has no values: structs are zero, and a sonar returns its
-//          maximum range.
+//          end of the run a reading has no values: structs have their default values, and a sonar
+//          returns its maximum range.
 // Threads  as Robot.
 #pragma once
 

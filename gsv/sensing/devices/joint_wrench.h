@@ -6,7 +6,8 @@
 //            friction of the joints below are internal forces. Motor and friction of this joint are
 //            a part of the result.
 // Contacts   a contact force acts on the link whose collision is nearest to the contact point.
-//            Planar kinematics computes no contact forces, so they are missing for planar robots.
+//            Planar kinematics computes no forces between planar robots and static or planar
+//            bodies, so these forces are missing.
 // Left out   wind, fluids, and a joint that closes a loop of links below this joint.
 // Frames     world axes.
 #pragma once

@@ -8,7 +8,7 @@
 //             reads -infinity, and a beam without a hit within range.max reads +infinity.
 // Parameters  the elements of SDFormat's <lidar> as paths (with their default values)
 //   scan.horizontal.samples (360), .resolution (1)   their product is the number of beams
-//   scan.horizontal.min_angle (-pi), .max_angle (pi minus the width of one beam)
+//   scan.horizontal.min_angle (-pi), .max_angle (179 degrees)
 //   scan.vertical.*         the same parameters for the rows (1 sample at 0); if there is only one
 //                           row, it is at min_angle
 //   range.min (0.08 m), range.max (10 m); range.resolution has no effect, as in Gazebo
