@@ -141,7 +141,7 @@ surface:surface + 1.4-
 [surface]
 bounce + 1.4-
 bounce/restitution_coefficient + 1.4- =0
-bounce/threshold - 1.4- =100000 ; a body bounces at any speed
+bounce/threshold - 1.4- =100000 ; bodies bounce at 5 cm/s or faster
 contact + 1.4-
 contact/bullet - 1.4- ; contacts are hard: their stiffness and damping are not used
 contact/bullet/kd - 1.4- =1.0
