@@ -90,7 +90,7 @@ void BindState(py::module_& module) {
       .def_readonly("real_time_factor", &SimulationState::real_time_factor)
       .def_readonly("late_steps", &SimulationState::late_steps)
       .def_readonly("waiting_for", &SimulationState::waiting_for,
-                    "the behaviours that delay the step")
+                    "the behaviour that the simulation waits for; empty if there is none")
       .def_readonly("failure", &SimulationState::failure)
       .def_property_readonly(
           "robots",

@@ -88,7 +88,7 @@ void AddSaveCommand(const CommandLine& line) {
       "save", "Save the current world of a running simulation as SDFormat");
   auto arguments = std::make_shared<SaveArguments>();
   command->add_option("simulation", arguments->selection.simulation,
-                      "running simulation (default: your newest)");
+                      "running simulation (default: that of your newest instance)");
   command->add_option("-o,--output", arguments->output, "world file to write")
       ->type_name("FILE")
       ->required();

@@ -17,7 +17,7 @@ void AddInstanceOptions(CLI::App& command, Selection& selection) {
 
 void AddSimulationName(CLI::App& command, Selection& selection) {
   command.add_option("simulation", selection.simulation,
-                     "name of the simulation (default: the newest)");
+                     "name of the simulation (default: that of your newest instance)");
 }
 
 }  // namespace gsv::app

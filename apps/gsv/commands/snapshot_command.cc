@@ -122,7 +122,7 @@ void AddSnapshotCommand(const CommandLine& line) {
   auto arguments = std::make_shared<SnapshotArguments>();
   command->add_option(
       "source", arguments->selection.simulation,
-      "recording (NAME.mcap or folder), or running simulation (default: your newest)");
+      "recording (NAME.mcap or folder), or simulation (default: that of your newest instance)");
   command->add_option("-o,--output", arguments->output, "image to write, .jpg, .jpeg or .png")
       ->type_name("FILE")
       ->required()

@@ -260,14 +260,14 @@ void AddTestCommand(const CommandLine& line) {
       ->group(kResultGroup);
   command
       ->add_option("--keep", arguments->options.kept_seconds,
-                   "simulated time to record before the first violation")
+                   "simulated time to keep in the recording before a violation")
       ->check(Between(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS")
       ->group(kResultGroup);
   command
       ->add_option("--keep-after", arguments->options.kept_after,
-                   "simulated time to record after the last violation")
+                   "simulated time to keep in the recording after a violation")
       ->check(Between(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS")

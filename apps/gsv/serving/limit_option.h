@@ -1,4 +1,4 @@
-// The option --limit of all commands that read worlds and models.
+// The option --limit of commands that read worlds and models.
 #pragma once
 
 #include "apps/gsv/serving/server_limits.h"

@@ -130,8 +130,9 @@ base::Error NoSuchSimulation(const Selection& selection) {
     std::vector<std::string> names;
     for (const FoundSimulation& each : *there) names.push_back(each.status.name);
     return {base::ErrorCode::kInvalidArgument,
-            "there is no simulation of this name; there are: " + NamesOf(*there) +
-                base::DidYouMean(selection.simulation, names),
+            std::string("there is no simulation ") +
+                (selection.simulation.empty() ? "on this server" : "of this name") +
+                "; there are: " + NamesOf(*there) + base::DidYouMean(selection.simulation, names),
             selection.simulation.empty() ? where : selection.simulation};
   }
   if (!silent.empty()) return {base::ErrorCode::kUnavailable, silent.front(), where};

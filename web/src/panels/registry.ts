@@ -5,7 +5,7 @@ export const PANELS: readonly Panel[] = [
   {
     id: "inspector",
     title: "Inspector",
-    hint: "Selected robot: pose, behaviour and sensors",
+    hint: "Selected robot or object: pose, behaviour, shapes and sensors",
     picture: "inspect",
     group: "Look",
     place: "side",
