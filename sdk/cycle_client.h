@@ -51,7 +51,8 @@ class CycleClient {
   CycleClient(std::unique_ptr<exchange::Mapping> bell, std::unique_ptr<exchange::Mapping> slot);
   // Writes the request to the slot. Returns false if that is not possible now.
   bool Post(exchange::CycleRequest request, const std::vector<std::string>& sensors);
-  // Waits until the simulation has answered. Gives up after kLease.
+  // Waits until the simulation has answered. Gives up after kLease, or after twice this time if the
+  // simulation has taken the request.
   exchange::CycleState Await();
   // Reads the answer from the slot. Returns false if it is invalid.
   bool Read(Answer& answer);
