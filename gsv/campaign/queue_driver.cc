@@ -86,8 +86,13 @@ class Drive {
     auto tasks = settings_.queue.TasksOf(open);
     if (!tasks) {
       // The content of the queue is unknown, so nothing can be submitted. Running tasks continue.
-      if (!has_queried_ || tasks.error().code == base::ErrorCode::kNotFound)
-        return base::Fail(tasks.error());
+      base::Error error = tasks.error();
+      if (error.code == base::ErrorCode::kNotFound) {
+        // The command line would report kNotFound with the exit code of a missing file.
+        error.code = base::ErrorCode::kUnavailable;
+        return base::Fail(error);
+      }
+      if (!has_queried_) return base::Fail(error);
       if (!std::exchange(is_queue_silent_, true))
         settings_.say(tasks.error().Sentence() +
                       "; gsv will query the queue again, and running tasks continue");

@@ -253,6 +253,7 @@ TEST_F(QueueDriverTest, PermanentlyMissingQueueEndsTheDriver) {
   const auto ended = Drive();
   ASSERT_FALSE(ended);
   EXPECT_EQ(ended.error().Sentence(), "ssh: no host");
+  EXPECT_EQ(ended.error().code, base::ErrorCode::kUnavailable);
 }
 
 TEST_F(QueueDriverTest, DriverThatDoesNotWaitEndsAfterSubmitting) {
